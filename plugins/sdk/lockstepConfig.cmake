@@ -21,4 +21,21 @@ include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstepTargets.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstepRuntimeTargets.cmake OPTIONAL)
+# The functions of the headers for BehaviorTree.CPP, compiled, where all of lockstep is installed: for
+# plugins, which do not need the runtime, and with it. A debug mode of the standard library has other
+# classes, so the headers do not use them then.
+set(_lockstep_functions ${CMAKE_CURRENT_LIST_DIR}/../../liblockstep-btcpp.a)
+if(TARGET lockstep::runtime AND EXISTS ${_lockstep_functions} AND NOT TARGET lockstep::btcpp_functions)
+  add_library(lockstep::btcpp_functions STATIC IMPORTED)
+  add_library(lockstep::btcpp_program_functions STATIC IMPORTED)
+  set_target_properties(lockstep::btcpp_functions lockstep::btcpp_program_functions PROPERTIES
+    IMPORTED_LOCATION ${_lockstep_functions})
+  set_target_properties(lockstep::btcpp_program_functions PROPERTIES
+    INTERFACE_LINK_LIBRARIES lockstep::runtime)
+  set_property(TARGET lockstep::btcpp APPEND PROPERTY
+    INTERFACE_COMPILE_DEFINITIONS LOCKSTEP_BTCPP_LIBRARY)
+  set_property(TARGET lockstep::btcpp APPEND PROPERTY INTERFACE_LINK_LIBRARIES
+    $<IF:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>,lockstep::btcpp_program_functions,lockstep::btcpp_functions>)
+endif()
+unset(_lockstep_functions)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstep_add_plugin.cmake)

@@ -1,5 +1,5 @@
 # Builds the plugin templates as a stranger would: copied elsewhere, against the installed SDK only.
-#   cmake -DBUILD=… -DSANITIZED=… -DWORK=… -DNM=… -DCXX_COMPILER=… -DC_COMPILER=… -P run.cmake
+#   cmake -DBUILD=… -DSANITIZED=… -DWORK=… -DNM=… -DREADELF=… -DCXX_COMPILER=… -DC_COMPILER=… -P run.cmake
 # When the build has the program, each template's tree must also run to Success.
 cmake_minimum_required(VERSION 3.20)
 
@@ -124,5 +124,19 @@ if(EXISTS ${BUILD}/liblockstep-runtime.so AND NOT SANITIZED)
          "SUCCESS at 2\ncounter halted\nrefused\n")
   if(NOT output STREQUAL expected)
     message(FATAL_ERROR "the program for BehaviorTree.CPP printed:\n${output}")
+  endif()
+  # Its functions come from liblockstep-btcpp.a: a source compiles few of the headers.
+  file(GLOB object ${WORK}/btcpp/build/CMakeFiles/robot.dir/main.cpp.o)
+  run(${NM} ${object})
+  string(REGEX MATCHALL " W " functions "${output}")
+  list(LENGTH functions count)
+  if(count GREATER 1500)
+    message(FATAL_ERROR "a program for BehaviorTree.CPP compiles ${count} functions of headers in one source: which "
+                        "can be in plugins/sdk/btcpp/compiled instead? tests/btcpp/compile_times.py has the time")
+  endif()
+  # The plugin does not need the runtime.
+  run(${READELF} -d ${WORK}/btcpp/build/librobot_nodes.so)
+  if(output MATCHES "lockstep-runtime")
+    message(FATAL_ERROR "a plugin with nodes for BehaviorTree.CPP needs liblockstep-runtime.so:\n${output}")
   endif()
 endif()

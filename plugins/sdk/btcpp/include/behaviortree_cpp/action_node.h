@@ -11,38 +11,29 @@ namespace BT {
 
 class ActionNodeBase : public LeafNode {
  public:
-  ActionNodeBase(const std::string& name, const NodeConfig& config) : LeafNode(name, config) {}
+  ActionNodeBase(const std::string& name, const NodeConfig& config);
+  ~ActionNodeBase() override;
   NodeType type() const final { return NodeType::ACTION; }
 };
 
 // Done in one tick.
 class SyncActionNode : public ActionNodeBase {
  public:
-  SyncActionNode(const std::string& name, const NodeConfig& config)
-      : ActionNodeBase(name, config) {}
+  SyncActionNode(const std::string& name, const NodeConfig& config);
+  ~SyncActionNode() override;
 
-  NodeStatus executeTick() override {
-    const NodeStatus status = lockstep_tick_as([this] { return tick(); });
-    if (status == NodeStatus::RUNNING) {
-      lockstep_refuse(
-          "is a SyncActionNode and has returned RUNNING; derive it from StatefulActionNode");
-    }
-    return status;
-  }
+  NodeStatus executeTick() override;
   void halt() final { resetStatus(); }
 };
 
 class SimpleActionNode : public SyncActionNode {
  public:
   using TickFunctor = std::function<NodeStatus(TreeNode&)>;
-  SimpleActionNode(const std::string& name, TickFunctor function, const NodeConfig& config)
-      : SyncActionNode(name, config), lockstep_function_(std::move(function)) {}
+  SimpleActionNode(const std::string& name, TickFunctor function, const NodeConfig& config);
+  ~SimpleActionNode() override;
 
  protected:
-  NodeStatus tick() final {
-    if (status() == NodeStatus::IDLE) setStatus(NodeStatus::RUNNING);
-    return lockstep_function_(*this);
-  }
+  NodeStatus tick() final;
 
  private:
   TickFunctor lockstep_function_;
@@ -51,8 +42,8 @@ class SimpleActionNode : public SyncActionNode {
 // Takes several ticks.
 class StatefulActionNode : public ActionNodeBase {
  public:
-  StatefulActionNode(const std::string& name, const NodeConfig& config)
-      : ActionNodeBase(name, config) {}
+  StatefulActionNode(const std::string& name, const NodeConfig& config);
+  ~StatefulActionNode() override;
 
   // The first tick of an activation.
   virtual NodeStatus onStart() = 0;
@@ -65,16 +56,8 @@ class StatefulActionNode : public ActionNodeBase {
   bool isHaltRequested() const { return lockstep_is_halt_requested_; }
 
  protected:
-  NodeStatus tick() final {
-    const NodeStatus before = status();
-    if (isStatusCompleted(before)) return before;
-    return before == NodeStatus::RUNNING ? onRunning() : onStart();
-  }
-  void halt() final {
-    lockstep_is_halt_requested_ = true;
-    if (status() == NodeStatus::RUNNING) onHalted();
-    resetStatus();
-  }
+  NodeStatus tick() final;
+  void halt() final;
 
  private:
   std::atomic<bool> lockstep_is_halt_requested_{false};
@@ -84,3 +67,7 @@ class StatefulActionNode : public ActionNodeBase {
 
 #include "behaviortree_cpp/coro_action.h"      // IWYU pragma: export
 #include "behaviortree_cpp/threaded_action.h"  // IWYU pragma: export
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/action_node.h"  // IWYU pragma: export
+#endif

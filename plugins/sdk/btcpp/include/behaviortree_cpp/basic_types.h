@@ -16,6 +16,7 @@
 
 #include "behaviortree_cpp/contrib/expected.hpp"
 #include "behaviortree_cpp/exceptions.h"
+#include "behaviortree_cpp/lockstep/inline.h"
 #include "behaviortree_cpp/lockstep/json_functions.h"
 #include "behaviortree_cpp/lockstep/standard.h"
 #include "behaviortree_cpp/utils/demangle_util.h"
@@ -64,33 +65,14 @@ inline bool StartWith(StringView text, char prefix) {
 }
 
 // The parts between the separators; one at the end gives no part.
-inline std::vector<StringView> splitString(const StringView& text, char separator) {
-  std::vector<StringView> parts;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(separator, at), text.size());
-    parts.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return parts;
-}
+std::vector<StringView> splitString(const StringView& text, char separator);
 
 // A value as "json:…"; an error when its type has no text in JSON.
-inline Expected<std::string> toJsonString(const Any& value) {
-  if (value.isNumber() || value.isString()) return "json:" + lockstep_detail::plain_json(value);
-  const lockstep_detail::JsonFunctions* const functions =
-      lockstep_detail::find_json(value.castedType());
-  if (functions == nullptr || !functions->write) {
-    return nonstd::make_unexpected(StrCat(
-        "values of type ", lockstep_detail::readable(value.type()), " have no text in JSON"));
-  }
-  return "json:" + functions->write(value.lockstep_object());
-}
+Expected<std::string> toJsonString(const Any& value);
 
 namespace lockstep_detail {
 
-[[noreturn]] inline void refuse_text(StringView text, const std::string& wanted) {
-  throw RuntimeError("'", text, "' is not ", wanted);
-}
+[[noreturn]] void refuse_text(StringView text, const std::string& wanted);
 
 // What a text begins with; the rest is ignored.
 template <class T>
@@ -137,9 +119,7 @@ struct TextReader {
   }
 };
 template <>
-inline const char* TextReader<const char*>::read(StringView text) {
-  return text.data();
-}
+const char* TextReader<const char*>::read(StringView text);
 
 }  // namespace lockstep_detail
 
@@ -150,15 +130,7 @@ inline T convertFromString(StringView text) {
 }
 
 // A text in JSON as a value of a type that is registered for it.
-[[nodiscard]] inline Any convertFromJSON(StringView text, std::type_index type) {
-  Any value;
-  if (!lockstep_detail::read_json(type, text, value)) {
-    throw RuntimeError("the JSON '", text, "' is no value of type ",
-                       lockstep_detail::readable(type),
-                       ", or that type is not registered with BT::RegisterJsonDefinition");
-  }
-  return value;
-}
+[[nodiscard]] Any convertFromJSON(StringView text, std::type_index type);
 template <typename T>
 [[nodiscard]] T convertFromJSON(StringView text) {
   return convertFromJSON(text, typeid(T)).cast<T>();
@@ -199,24 +171,11 @@ inline constexpr const char* kDirectionNames[] = {"Input", "Output", "InOut"};
 }  // namespace lockstep_detail
 
 template <>
-inline NodeStatus convertFromString<NodeStatus>(StringView text) {
-  return lockstep_detail::named_value<NodeStatus>(text, lockstep_detail::kStatusNames);
-}
+NodeStatus convertFromString<NodeStatus>(StringView text);
 template <>
-inline NodeType convertFromString<NodeType>(StringView text) {
-  return lockstep_detail::named_value<NodeType>(text, lockstep_detail::kTypeNames);
-}
+NodeType convertFromString<NodeType>(StringView text);
 template <>
-inline PortDirection convertFromString<PortDirection>(StringView text) {
-  for (const StringView word : {"Input", "INPUT", "Output", "OUTPUT", "InOut", "INOUT"}) {
-    if (text == word) {
-      return word.front() == 'O'                           ? PortDirection::OUTPUT
-             : word.size() == 5 && (word[2] & 0x5f) == 'P' ? PortDirection::INPUT
-                                                           : PortDirection::INOUT;
-    }
-  }
-  lockstep_detail::refuse_text(text, "a direction");
-}
+PortDirection convertFromString<PortDirection>(StringView text);
 
 template <class T>
 constexpr bool IsConvertibleToString() {
@@ -245,24 +204,18 @@ template <typename T>
   }
 }
 // With colors for a terminal.
-[[nodiscard]] inline std::string toStr(NodeStatus status, bool colored) {
-  if (!colored) return toStr(status);
-  constexpr const char* kColors[] = {"36", "33", "32", "31", "34"};
-  return StrCat("\x1b[", kColors[static_cast<int>(status)], "m", toStr(status), "\x1b[0m");
-}
+[[nodiscard]] std::string toStr(NodeStatus status, bool colored);
 
-inline std::ostream& operator<<(std::ostream& out, const NodeStatus& status) {
-  return out << toStr(status);
-}
-inline std::ostream& operator<<(std::ostream& out, const NodeType& type) {
-  return out << toStr(type);
-}
-inline std::ostream& operator<<(std::ostream& out, const PortDirection& direction) {
-  return out << toStr(direction);
-}
+std::ostream& operator<<(std::ostream& out, const NodeStatus& status);
+std::ostream& operator<<(std::ostream& out, const NodeType& type);
+std::ostream& operator<<(std::ostream& out, const PortDirection& direction);
 
 using StringConverter = std::function<Any(StringView)>;
 
 }  // namespace BT
 
 #include "behaviortree_cpp/lockstep/ports.h"  // IWYU pragma: export
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/basic_types.h"  // IWYU pragma: export
+#endif

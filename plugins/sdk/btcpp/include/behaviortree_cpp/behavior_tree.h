@@ -34,34 +34,21 @@ constexpr NodeType getType() {
 namespace lockstep_detail {
 
 // The node and all below it, in order.
-inline void visit_all(TreeNode& first, const NodeTree::Visitor& visitor) {
-  if (const NodeTree* const tree = first.lockstep_tree()) return tree->visit(first, visitor);
-  first.lockstep_visit(visitor, 0);
-}
+void visit_all(TreeNode& first, const NodeTree::Visitor& visitor);
 
 }  // namespace lockstep_detail
 
 // Calls the visitor for the node and all below it: of nodes that a program has made by hand, or of
 // the rootNode() of a BT::Tree.
-inline void applyRecursiveVisitor(TreeNode* root, const std::function<void(TreeNode*)>& visitor) {
-  if (root == nullptr) throw LogicError("applyRecursiveVisitor: the node is a null pointer");
-  lockstep_detail::visit_all(*root, [&visitor](TreeNode* node, std::size_t) { visitor(node); });
-}
-inline void applyRecursiveVisitor(const TreeNode* root,
-                                  const std::function<void(const TreeNode*)>& visitor) {
-  auto* const node = const_cast<TreeNode*>(root);  // NOLINT: the visitor gets it as it was given
-  applyRecursiveVisitor(node, [&visitor](TreeNode* it) { visitor(it); });
-}
+void applyRecursiveVisitor(TreeNode* root, const std::function<void(TreeNode*)>& visitor);
+void applyRecursiveVisitor(const TreeNode* root,
+                           const std::function<void(const TreeNode*)>& visitor);
 
 // The names of the node and all below it, each below its parent.
-inline void printTreeRecursively(const TreeNode* root, std::ostream& out = std::cout) {
-  if (root == nullptr) throw LogicError("printTreeRecursively: the node is a null pointer");
-  out << "----------------" << std::endl;
-  auto* const node = const_cast<TreeNode*>(root);  // NOLINT: it is only read
-  lockstep_detail::visit_all(*node, [&out](const TreeNode* it, std::size_t depth) {
-    out << std::string(3 * depth, ' ') << it->name() << std::endl;
-  });
-  out << "----------------" << std::endl;
-}
+void printTreeRecursively(const TreeNode* root, std::ostream& out = std::cout);
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/behavior_tree.h"  // IWYU pragma: export
+#endif

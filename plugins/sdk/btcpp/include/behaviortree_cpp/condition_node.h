@@ -11,7 +11,8 @@ namespace BT {
 
 class ConditionNode : public LeafNode {
  public:
-  ConditionNode(const std::string& name, const NodeConfig& config) : LeafNode(name, config) {}
+  ConditionNode(const std::string& name, const NodeConfig& config);
+  ~ConditionNode() override;
   NodeType type() const final { return NodeType::CONDITION; }
   void halt() final { resetStatus(); }
 };
@@ -19,14 +20,18 @@ class ConditionNode : public LeafNode {
 class SimpleConditionNode : public ConditionNode {
  public:
   using TickFunctor = std::function<NodeStatus(TreeNode&)>;
-  SimpleConditionNode(const std::string& name, TickFunctor function, const NodeConfig& config)
-      : ConditionNode(name, config), lockstep_function_(std::move(function)) {}
+  SimpleConditionNode(const std::string& name, TickFunctor function, const NodeConfig& config);
+  ~SimpleConditionNode() override;
 
  protected:
-  NodeStatus tick() override { return lockstep_function_(*this); }
+  NodeStatus tick() override;
 
  private:
   TickFunctor lockstep_function_;
 };
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/condition_node.h"  // IWYU pragma: export
+#endif

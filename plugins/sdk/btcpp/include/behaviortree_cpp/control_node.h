@@ -14,7 +14,8 @@ namespace BT {
 
 class ControlNode : public TreeNode {
  public:
-  ControlNode(const std::string& name, const NodeConfig& config) : TreeNode(name, config) {}
+  ControlNode(const std::string& name, const NodeConfig& config);
+  ~ControlNode() override;
 
   // It is not owned, and lives longer than the last tick and halt of this node.
   void addChild(TreeNode* child) {
@@ -47,27 +48,22 @@ class ControlNode : public TreeNode {
   NodeType type() const final { return NodeType::CONTROL; }
 
   void lockstep_visit(const std::function<void(TreeNode*, std::size_t)>& visitor,
-                      std::size_t depth) override {
-    visitor(this, depth);
-    for (TreeNode* const child : children_nodes_) child->lockstep_visit(visitor, depth + 1);
-  }
+                      std::size_t depth) override;
 
  protected:
   // Throws; `wanted` goes on after "has 2 children".
-  [[noreturn]] void lockstep_refuse_children(const std::string& wanted) const {
-    throw LogicError(registrationName() + " '" + name() + "' has " +
-                     std::to_string(childrenCount()) + " children" + wanted);
-  }
+  [[noreturn]] void lockstep_refuse_children(const std::string& wanted) const;
 
   std::vector<TreeNode*> children_nodes_;
 
  private:
-  void lockstep_find_children(lockstep_detail::Place& place) override {
-    lockstep_owned_ = lockstep_detail::children_at(place);
-    for (const auto& child : lockstep_owned_) children_nodes_.push_back(child.get());
-  }
+  void lockstep_find_children(lockstep_detail::Place& place) override;
 
   std::vector<std::unique_ptr<TreeNode>> lockstep_owned_;
 };
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/control_node.h"  // IWYU pragma: export
+#endif

@@ -14,17 +14,11 @@ namespace BT {
 
 class DecoratorNode : public TreeNode {
  public:
-  DecoratorNode(const std::string& name, const NodeConfig& config) : TreeNode(name, config) {}
+  DecoratorNode(const std::string& name, const NodeConfig& config);
+  ~DecoratorNode() override;
 
   // It is not owned, and lives longer than the last tick and halt of this node.
-  void setChild(TreeNode* child) {
-    lockstep_detail::check_child(*this, child);
-    if (child_node_ != nullptr) {
-      throw LogicError("setChild: the decorator '" + name() + "' has a child, '" +
-                       child_node_->name() + "'; a control node may have several");
-    }
-    child_node_ = child;
-  }
+  void setChild(TreeNode* child);
 
   const TreeNode* child() const { return child_node_; }
   TreeNode* child() { return child_node_; }
@@ -42,40 +36,24 @@ class DecoratorNode : public TreeNode {
   }
 
   // A child that has completed in it begins again.
-  NodeStatus executeTick() override {
-    const NodeStatus status = TreeNode::executeTick();
-    if (child_node_ != nullptr && isStatusCompleted(child_node_->status()) &&
-        child_node_->lockstep_is_told()) {
-      child_node_->resetStatus();
-    }
-    return status;
-  }
+  NodeStatus executeTick() override;
 
   NodeType type() const override { return NodeType::DECORATOR; }
 
   void lockstep_visit(const std::function<void(TreeNode*, std::size_t)>& visitor,
-                      std::size_t depth) override {
-    visitor(this, depth);
-    if (child_node_ != nullptr) child_node_->lockstep_visit(visitor, depth + 1);
-  }
+                      std::size_t depth) override;
 
  protected:
   NodeStatus lockstep_tick_child() {
-    if (child_node_ == nullptr) {
-      throw LogicError("the decorator '" + name() + "' has no child; give it one with setChild()");
-    }
+    if (child_node_ == nullptr) lockstep_refuse_no_child();
     return child_node_->executeTick();
   }
 
   TreeNode* child_node_ = nullptr;
 
  private:
-  void lockstep_find_children(lockstep_detail::Place& place) override {
-    auto children = lockstep_detail::children_at(place);
-    if (children.empty()) return;
-    lockstep_owned_ = std::move(children.front());
-    child_node_ = lockstep_owned_.get();
-  }
+  [[noreturn]] void lockstep_refuse_no_child() const;
+  void lockstep_find_children(lockstep_detail::Place& place) override;
 
   std::unique_ptr<TreeNode> lockstep_owned_;
 };
@@ -84,14 +62,18 @@ class DecoratorNode : public TreeNode {
 class SimpleDecoratorNode : public DecoratorNode {
  public:
   using TickFunctor = std::function<NodeStatus(NodeStatus, TreeNode&)>;
-  SimpleDecoratorNode(const std::string& name, TickFunctor function, const NodeConfig& config)
-      : DecoratorNode(name, config), lockstep_function_(std::move(function)) {}
+  SimpleDecoratorNode(const std::string& name, TickFunctor function, const NodeConfig& config);
+  ~SimpleDecoratorNode() override;
 
  protected:
-  NodeStatus tick() override { return lockstep_function_(lockstep_tick_child(), *this); }
+  NodeStatus tick() override;
 
  private:
   TickFunctor lockstep_function_;
 };
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/decorator_node.h"  // IWYU pragma: export
+#endif

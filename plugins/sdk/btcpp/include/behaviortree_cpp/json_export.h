@@ -12,6 +12,18 @@
 #include "behaviortree_cpp/contrib/json.hpp"
 
 namespace BT {
+namespace lockstep_detail {
+
+// nlohmann::json where it is used: what does not depend on a parameter of a template is compiled in
+// each source that includes this.
+template <class>
+struct JsonOf {
+  using Type = nlohmann::json;
+};
+template <class T>
+using Json = typename JsonOf<T>::Type;
+
+}  // namespace lockstep_detail
 
 // What the types of this shared object have for JSON.
 class JsonExporter {
@@ -19,55 +31,32 @@ class JsonExporter {
   using Entry = std::pair<Any, TypeInfo>;
   using ExpectedEntry = nonstd::expected<Entry, std::string>;
 
+  template <class T = void>
   static JsonExporter& get() {
-    static JsonExporter exporter;
+    static JsonExporter& exporter = lockstep_make<T>();
     return exporter;
   }
 
   // False: its type has none.
+  template <class T = void>
   bool toJson(const Any& value, nlohmann::json& json) const {
     const auto text = toJsonString(value);
-    if (text) json = nlohmann::json::parse(text->substr(5));
+    if (text) json = lockstep_detail::Json<T>::parse(text->substr(5));
     return text.has_value();
   }
   // A number, a flag, a text or a list of these; an object as one of the type that its "__type"
   // names.
-  ExpectedEntry fromJson(const nlohmann::json& json) const {
-    if (json.is_boolean()) return entry_of(json.get<bool>());
-    if (json.is_number_integer()) return entry_of(json.get<std::int64_t>());
-    if (json.is_number_float()) return entry_of(json.get<double>());
-    if (json.is_string()) return entry_of(json.get<std::string>());
-    const nlohmann::json& first = json.is_array() && !json.empty() ? json.front() : json;
-    if (json.is_array()) {
-      if (first.is_boolean()) return fromJson(json, typeid(std::vector<bool>));
-      if (first.is_number_integer()) return fromJson(json, typeid(std::vector<int>));
-      if (first.is_number_float()) return fromJson(json, typeid(std::vector<double>));
-      if (first.is_string()) return fromJson(json, typeid(std::vector<std::string>));
-    }
-    const auto type = first.is_object() ? first.find("__type") : first.end();
-    if (type == first.end() || !type->is_string()) {
-      return nonstd::make_unexpected(std::string("Missing field '__type'"));
-    }
-    for (const auto& [index, functions] : lockstep_detail::json_functions()) {
-      if (functions.name == *type && functions.is_list == json.is_array()) {
-        return fromJson(json, index);
-      }
-    }
-    return nonstd::make_unexpected(std::string("Type not found in registered list"));
+  template <class T = void>
+  std::enable_if_t<std::is_void_v<T>, ExpectedEntry> fromJson(const nlohmann::json& json) const {
+    return lockstep_entry_from<lockstep_detail::Json<T>>(json);
   }
+  template <class T = void>
   ExpectedEntry fromJson(const nlohmann::json& json, std::type_index type) const {
-    Entry entry;
-    const lockstep_detail::JsonFunctions* const functions = lockstep_detail::find_json(type);
-    if (functions == nullptr || !functions->read || !functions->read(json.dump(), entry.first)) {
-      return nonstd::make_unexpected(
-          StrCat("it is no value of type ", lockstep_detail::readable(type)));
-    }
-    entry.second = functions->type();
-    return entry;
+    return lockstep_entry_as<lockstep_detail::Json<T>>(json, type);
   }
   template <class T>
-  Expected<T> fromJson(const nlohmann::json& json) const {
-    const auto entry = fromJson(json, typeid(T));
+  std::enable_if_t<!std::is_void_v<T>, Expected<T>> fromJson(const nlohmann::json& json) const {
+    const auto entry = lockstep_entry_as<lockstep_detail::Json<T>>(json, typeid(T));
     if (!entry) return nonstd::make_unexpected(entry.error());
     return entry->first.template tryCast<T>();
   }
@@ -75,12 +64,13 @@ class JsonExporter {
   // A type with to_json and from_json, as BT_JSON_CONVERTER makes them.
   template <class T>
   void addConverter() {
-    add_write<T>([](const T& value, nlohmann::json& json) { json = value; });
-    add_read<T>([](const nlohmann::json& json, T& value) { json.get_to(value); });
+    using Json = lockstep_detail::Json<T>;
+    add_write<T>([](const T& value, Json& json) { json = value; });
+    add_read<T>([](const Json& json, T& value) { json.get_to(value); });
   }
   template <class T>
   void addConverter(std::function<void(const T&, nlohmann::json&)> to_json, bool add_type = true) {
-    add_write<T>([=](const T& value, nlohmann::json& json) {
+    add_write<T>([=](const T& value, lockstep_detail::Json<T>& json) {
       to_json(value, json);
       if (add_type) json["__type"] = demangle(typeid(T));
     });
@@ -96,11 +86,54 @@ class JsonExporter {
     return {Any(value), TypeInfo::Create<T>()};
   }
 
-  JsonExporter() {
-    addConverter<std::vector<double>>();
-    addConverter<std::vector<int>>();
-    addConverter<std::vector<bool>>();
-    addConverter<std::vector<std::string>>();
+  JsonExporter() = default;
+
+  template <class T>
+  static JsonExporter& lockstep_make() {
+    static JsonExporter exporter;
+    exporter.lockstep_add_lists<lockstep_detail::Json<T>, double, int, bool, std::string>();
+    return exporter;
+  }
+  template <class Json, class... Items>
+  void lockstep_add_lists() {
+    (addConverter<std::vector<Items>>(), ...);
+  }
+
+  template <class Json>
+  ExpectedEntry lockstep_entry_from(const Json& json) const {
+    if (json.is_boolean()) return entry_of(json.template get<bool>());
+    if (json.is_number_integer()) return entry_of(json.template get<std::int64_t>());
+    if (json.is_number_float()) return entry_of(json.template get<double>());
+    if (json.is_string()) return entry_of(json.template get<std::string>());
+    const Json& first = json.is_array() && !json.empty() ? json.front() : json;
+    if (json.is_array()) {
+      if (first.is_boolean()) return lockstep_entry_as(json, typeid(std::vector<bool>));
+      if (first.is_number_integer()) return lockstep_entry_as(json, typeid(std::vector<int>));
+      if (first.is_number_float()) return lockstep_entry_as(json, typeid(std::vector<double>));
+      if (first.is_string()) return lockstep_entry_as(json, typeid(std::vector<std::string>));
+    }
+    const auto type = first.is_object() ? first.find("__type") : first.end();
+    if (type == first.end() || !type->is_string()) {
+      return nonstd::make_unexpected(std::string("Missing field '__type'"));
+    }
+    const auto name = type->template get<std::string>();
+    for (const auto& [index, functions] : lockstep_detail::json_functions()) {
+      if (functions.name == name && functions.is_list == json.is_array()) {
+        return lockstep_entry_as(json, index);
+      }
+    }
+    return nonstd::make_unexpected(std::string("Type not found in registered list"));
+  }
+  template <class Json>
+  ExpectedEntry lockstep_entry_as(const Json& json, std::type_index type) const {
+    Entry entry;
+    const lockstep_detail::JsonFunctions* const functions = lockstep_detail::find_json(type);
+    if (functions == nullptr || !functions->read || !functions->read(json.dump(), entry.first)) {
+      return nonstd::make_unexpected(
+          StrCat("it is no value of type ", lockstep_detail::readable(type)));
+    }
+    entry.second = functions->type();
+    return entry;
   }
 
   template <class T>
@@ -111,7 +144,7 @@ class JsonExporter {
     return functions;
   }
   template <class T>
-  static void name(const nlohmann::json& json) {
+  static void name(const lockstep_detail::Json<T>& json) {
     const auto type = json.is_object() ? json.find("__type") : json.end();
     const std::string name = type == json.end() ? demangle(typeid(T)) : std::string(*type);
     functions_of<T>().name = functions_of<std::vector<T>>(true).name = name;
@@ -119,36 +152,38 @@ class JsonExporter {
 
   template <class T, class Write>
   static void add_write(Write write_one) {
+    using Json = lockstep_detail::Json<T>;
     functions_of<T>().write = [=](const void* value) {
-      nlohmann::json json;
+      Json json;
       write_one(*static_cast<const T*>(value), json);
       return json.dump();
     };
     functions_of<std::vector<T>>(true).write = [=](const void* values) {
-      nlohmann::json list = nlohmann::json::array();
+      Json list = Json::array();
       for (const T& value : *static_cast<const std::vector<T>*>(values)) {
         write_one(value, list.emplace_back());
       }
       return list.dump();
     };
-    nlohmann::json json;
+    Json json;
     write_one(T{}, json);
     name<T>(json);
   }
 
   template <class T, class Read>
   static void add_read(Read read_one) {
+    using Json = lockstep_detail::Json<T>;
     functions_of<T>().read = [=](std::string_view text, Any& any) {
-      return reading(text, [&](const nlohmann::json& json) {
+      return reading(text, [&](const Json& json) {
         T value{};
         read_one(json, value);
         any = Any(value);
       });
     };
     functions_of<std::vector<T>>(true).read = [=](std::string_view text, Any& any) {
-      return reading(text, [&](const nlohmann::json& json) {
+      return reading(text, [&](const Json& json) {
         std::vector<T> values;
-        for (const nlohmann::json& it : json) read_one(it, values.emplace_back());
+        for (const Json& it : json) read_one(it, values.emplace_back());
         any = Any(values);
       });
     };
@@ -157,7 +192,7 @@ class JsonExporter {
   template <class Read>
   static bool reading(std::string_view text, Read read) {
     try {
-      read(nlohmann::json::parse(text));
+      read(lockstep_detail::Json<Read>::parse(text));
     } catch (const std::exception&) {
       return false;
     }
@@ -173,13 +208,13 @@ void RegisterJsonDefinition() {
 
 // The entries of a board with values that have a text in JSON, by their keys; null: it has none.
 template <class Board>
-[[nodiscard]] nlohmann::json ExportBlackboardToJSON(const Board& blackboard) {
-  nlohmann::json all;
+[[nodiscard]] lockstep_detail::Json<Board> ExportBlackboardToJSON(const Board& blackboard) {
+  lockstep_detail::Json<Board> all;
   for (const std::string& key : blackboard.template getKeys<std::string>()) {
     const auto content = std::as_const(blackboard).getAnyLocked(key);
     const Any* const value = std::as_const(content).get();
     if (value == nullptr || value->empty()) continue;
-    nlohmann::json json;
+    lockstep_detail::Json<Board> json;
     if (value->isType<bool>()) {
       all[key] = value->cast<bool>();
     } else if (JsonExporter::get().toJson(*value, json)) {
@@ -190,7 +225,7 @@ template <class Board>
 }
 // Sets the entries that it names; one that is not there is made, of the type that the JSON has.
 template <class Board>
-void ImportBlackboardFromJSON(const nlohmann::json& json, Board& blackboard) {
+void ImportBlackboardFromJSON(const lockstep_detail::Json<Board>& json, Board& blackboard) {
   for (const auto& [key, value] : json.items()) {
     if (const auto entry = JsonExporter::get().fromJson(value)) {
       lockstep_detail::note_opening<Board>();
@@ -201,8 +236,8 @@ void ImportBlackboardFromJSON(const nlohmann::json& json, Board& blackboard) {
 
 // The same of all boards of a BT::Tree, by the names of its subtrees.
 template <class AnyTree>
-[[nodiscard]] nlohmann::json ExportTreeToJSON(const AnyTree& tree) {
-  nlohmann::json all;
+[[nodiscard]] lockstep_detail::Json<AnyTree> ExportTreeToJSON(const AnyTree& tree) {
+  lockstep_detail::Json<AnyTree> all;
   for (const auto& subtree : tree.subtrees) {
     all[subtree->instance_name.empty() ? subtree->tree_ID : subtree->instance_name] =
         ExportBlackboardToJSON(*subtree->blackboard);
@@ -211,7 +246,7 @@ template <class AnyTree>
 }
 // Throws when it is of a tree with other boards.
 template <class AnyTree>
-void ImportTreeFromJSON(const nlohmann::json& json, AnyTree& tree) {
+void ImportTreeFromJSON(const lockstep_detail::Json<AnyTree>& json, AnyTree& tree) {
   for (const auto& subtree : tree.subtrees) {
     const std::string& name =
         subtree->instance_name.empty() ? subtree->tree_ID : subtree->instance_name;

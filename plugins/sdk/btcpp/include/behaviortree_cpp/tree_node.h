@@ -88,22 +88,18 @@ class TreeNode {
   using PreTickCallback = std::function<NodeStatus(TreeNode&)>;
   using PostTickCallback = std::function<NodeStatus(TreeNode&, NodeStatus)>;
   using TickMonitorCallback = std::function<void(TreeNode&, NodeStatus, std::chrono::microseconds)>;
-  void setPreTickFunction(PreTickCallback call) { lockstep_watch().before = std::move(call); }
-  void setPostTickFunction(PostTickCallback call) { lockstep_watch().after = std::move(call); }
-  void setTickMonitorCallback(TickMonitorCallback call) {
-    lockstep_watch().monitor = std::move(call);
-  }
+  void setPreTickFunction(PreTickCallback call);
+  void setPostTickFunction(PostTickCallback call);
+  void setTickMonitorCallback(TickMonitorCallback call);
 
   // Calls for each change of the status, as long as the subscriber lives.
   using StatusChangeSignal = Signal<TimePoint, const TreeNode&, NodeStatus, NodeStatus>;
   using StatusChangeSubscriber = StatusChangeSignal::Subscriber;
   using StatusChangeCallback = StatusChangeSignal::CallableFunction;
-  [[nodiscard]] StatusChangeSubscriber subscribeToStatusChange(StatusChangeCallback call) {
-    return lockstep_watch().changes.subscribe(std::move(call));
-  }
+  [[nodiscard]] StatusChangeSubscriber subscribeToStatusChange(StatusChangeCallback call);
 
   TreeNode(std::string name, NodeConfig config);
-  virtual ~TreeNode() = default;
+  virtual ~TreeNode();
   TreeNode(const TreeNode&) = delete;
   TreeNode& operator=(const TreeNode&) = delete;
 
@@ -167,9 +163,7 @@ class TreeNode {
 
   // Calls it for the node and all below it, each with its depth.
   virtual void lockstep_visit(const std::function<void(TreeNode*, std::size_t)>& visitor,
-                              std::size_t depth) {
-    visitor(this, depth);
-  }
+                              std::size_t depth);
 
   // A node of class T, with the constructor that it has.
   template <class T, class... Arguments>
@@ -257,11 +251,7 @@ class TreeNode {
     TickMonitorCallback monitor;
     StatusChangeSignal changes;
   };
-  LockstepWatch& lockstep_watch() {
-    if (lockstep_watch_ == nullptr) lockstep_watch_ = std::make_unique<LockstepWatch>();
-    if (lockstep_tree_ != nullptr) lockstep_tree_->begin_watch();
-    return *lockstep_watch_;
-  }
+  LockstepWatch& lockstep_watch();
   void lockstep_tell(NodeStatus before, NodeStatus status);
   template <class Work>
   [[gnu::always_inline]] NodeStatus lockstep_work(const Work& work);
@@ -279,8 +269,8 @@ class TreeNode {
   std::atomic<NodeStatus> lockstep_status_{NodeStatus::IDLE};
   lockstep_detail::Place* lockstep_place_ = nullptr;  // null: it is not in a tree
   lockstep_detail::NodeTree* lockstep_tree_ = nullptr;
-  std::uint32_t lockstep_index_ = 0;               // in that tree
-  std::unique_ptr<LockstepWatch> lockstep_watch_;  // null: nobody watches
+  std::uint32_t lockstep_index_ = 0;                // in that tree
+  std::unique_ptr<LockstepWatch> lockstep_watch_;   // null: nobody watches
   std::shared_ptr<WakeUpSignal> lockstep_wake_up_;  // of a node made by hand
 
   struct LockstepThreadPorts {

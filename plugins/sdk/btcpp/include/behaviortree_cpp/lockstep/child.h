@@ -60,19 +60,13 @@ class Child final : public TreeNode {
 };
 
 // Of a node that a program makes by hand.
-inline void check_child(const TreeNode& parent, const TreeNode* child) {
-  if (child != nullptr && child != &parent) return;
-  throw LogicError("the child that '" + parent.name() + "' is given is " +
-                   (child == nullptr ? "a null pointer" : "the node itself"));
-}
+void check_child(const TreeNode& parent, const TreeNode* child);
 
 // The children of a node that was made in a tree, in order.
-inline std::vector<std::unique_ptr<TreeNode>> children_at(Place& place) {
-  std::vector<std::unique_ptr<TreeNode>> children;
-  for (std::uint32_t i = 0; place.node->child_id(place.caller, i) != nullptr; ++i) {
-    children.push_back(std::make_unique<Child>(place, i));
-  }
-  return children;
-}
+std::vector<std::unique_ptr<TreeNode>> children_at(Place& place);
 
 }  // namespace BT::lockstep_detail
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/child.h"  // IWYU pragma: export
+#endif

@@ -25,49 +25,18 @@ struct JsonFunctions {
   std::function<bool(std::string_view text, Any& value)> read;  // false: it is none
 };
 
-[[gnu::visibility("hidden")]] inline std::map<std::type_index, JsonFunctions>& json_functions() {
-  static std::map<std::type_index, JsonFunctions> all;
-  return all;
-}
+[[gnu::visibility("hidden")]] std::map<std::type_index, JsonFunctions>& json_functions();
 
-inline const JsonFunctions* find_json(std::type_index type) {
-  const auto found = json_functions().find(type);
-  return found == json_functions().end() ? nullptr : &found->second;
-}
+const JsonFunctions* find_json(std::type_index type);
 
 // False: the type has none, or the text is no value of it.
-inline bool read_json(std::type_index type, std::string_view text, Any& value) {
-  const JsonFunctions* const functions = find_json(type);
-  return functions != nullptr && functions->read && functions->read(text, value);
-}
+bool read_json(std::type_index type, std::string_view text, Any& value);
 
 // Numbers and texts.
-inline std::string plain_json(const Any& value) {
-  if (value.isNumber()) {
-    std::string text = value.cast<std::string>();
-    if (value.castedType() == typeid(double)) {
-      char digits[64];
-      const double number = value.cast<double>();
-      if (!std::isfinite(number)) return "null";
-      const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-      text.assign(digits, end);
-      if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    }
-    return text;
-  }
-  std::string text = "\"";
-  for (const char c : value.cast<std::string>()) {
-    if (c == '"' || c == '\\') text += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) {
-      text += c;
-    } else {
-      constexpr char kHex[] = "0123456789abcdef";
-      text += "\\u00";
-      text += kHex[(c >> 4) & 0xf];
-      text += kHex[c & 0xf];
-    }
-  }
-  return text + '"';
-}
+std::string plain_json(const Any& value);
 
 }  // namespace BT::lockstep_detail
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/json_functions.h"  // IWYU pragma: export
+#endif

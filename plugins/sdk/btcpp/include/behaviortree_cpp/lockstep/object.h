@@ -18,25 +18,7 @@ namespace BT::lockstep_detail {
 
 // As it is written. Where the contract does not take that as a name, what replaces it is made
 // unique by a number.
-inline std::string object_name(std::type_index type) {
-  std::string name = readable(type);
-  bool is_plain = name.size() <= 100;
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (char& c : name) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (is_letter || (c >= '0' && c <= '9') ||
-        std::string_view("._:/- <>,*&()[]").find(c) != std::string::npos) {
-      continue;
-    }
-    is_plain = false;
-    c = '-';
-  }
-  if (is_plain) return name;
-  char number[20];
-  std::snprintf(number, sizeof number, ".%016llx", static_cast<unsigned long long>(hash));
-  return name.substr(0, 80) + number;
-}
+std::string object_name(std::type_index type);
 
 // What the last from_text of this thread has thrown.
 [[gnu::visibility("hidden")]] inline std::string& reason() {
@@ -115,11 +97,7 @@ struct KnownObject {
   static std::atomic<const KnownObject*> first = nullptr;
   return first;
 }
-inline void know_object(KnownObject& it) {
-  it.next = first_known_object().load();
-  while (!first_known_object().compare_exchange_weak(it.next, &it)) {
-  }
-}
+void know_object(KnownObject& it);
 
 // Made when it is first asked for: when the plugin has registered its types for JSON.
 template <class T>
@@ -159,3 +137,7 @@ const lockstep_object_type* object_type() {
 }
 
 }  // namespace BT::lockstep_detail
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/object.h"  // IWYU pragma: export
+#endif

@@ -2,74 +2,25 @@
 // bt_factory.h.
 #pragma once
 
-#include <dlfcn.h>
 #include <lockstep/leaf.h>
 
-#include <memory>
 #include <string>
 
 #include "behaviortree_cpp/bt_factory.h"
 
 namespace BT::lockstep_detail {
 
-// One for each shared object; it lives until the process ends.
-[[gnu::visibility("hidden")]] inline BehaviorTreeFactory& plugin_factory() {
-  static auto& factory = *new BehaviorTreeFactory;
-  return factory;
-}
-
-inline PluginTable& made_table() {
-  return making != nullptr ? *making : plugin_factory().lockstep_table();
-}
-inline bool reads_object(std::type_index type, const char* name) {
-  const auto sources = made_table().casts()->lockstep_sources(type);
-  return std::any_of(sources.begin(), sources.end(),
-                     [name](std::type_index it) { return object_name(it) == name; });
-}
-inline const Registration* find_registration(const std::string& id) {
-  return made_table().find(id);
-}
-inline const NodeNumber* number_of(const std::string& path) {
-  if (making == nullptr) return nullptr;
-  const auto found = making->numbers.find(path);
-  return found == making->numbers.end() ? nullptr : &found->second;
-}
-inline void note_made(const std::string& path, TreeNode& node) {
-  if (making != nullptr) making->made[path] = &node;
-}
-inline const std::shared_ptr<PolymorphicCastRegistry>& registered_casts() {
-  return made_table().casts();
-}
-inline const std::shared_ptr<ScriptingEnumsRegistry>& registered_enums() {
-  return made_table().words();
-}
-
-// The name of the file without "lib" in front and what is behind the first point.
-inline std::string plugin_name(const void* in_plugin) {
-  Dl_info info{};
-  if (dladdr(in_plugin, &info) == 0 || info.dli_fname == nullptr) return "plugin";
-  std::string name = info.dli_fname;
-  name.erase(0, name.rfind('/') + 1);
-  name.erase(std::min(name.find('.'), name.size()));
-  return StartWith(name, "lib") ? name.substr(3) : name;
-}
+// Runs `register_nodes`, and describes what it has registered; null: `error` says why not. `here`
+// is an address in the plugin.
+[[gnu::visibility("hidden")]] const lockstep_plugin* describe(
+    void (*register_nodes)(BehaviorTreeFactory&), const void* here, std::string& error);
 
 // Runs the body of BT_REGISTER_NODES, once.
 template <void (*Register)(BehaviorTreeFactory&)>
 [[gnu::visibility("hidden")]] const lockstep_plugin* describe(const char** why) {
   static std::string error;
-  static const lockstep_plugin* const plugin = []() -> const lockstep_plugin* {
-    const lockstep_plugin* described = nullptr;
-    lockstep::detail::catching(
-        [&] {
-          Register(plugin_factory());
-          const auto* const here = reinterpret_cast<const void*>(&describe<Register>);
-          described =
-              &plugin_factory().lockstep_table().describe(plugin_name(here), table_extension);
-        },
-        [](const char* message) { error = message; });
-    return described;
-  }();
+  static const lockstep_plugin* const plugin =
+      describe(Register, reinterpret_cast<const void*>(&describe<Register>), error);
   *why = error.c_str();
   return plugin;
 }

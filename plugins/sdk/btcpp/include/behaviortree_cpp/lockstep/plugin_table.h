@@ -224,31 +224,6 @@ class PluginTable {
   lockstep_plugin plugin_{};
 };
 
-// The manifests that a tree's nodes have, as long as it lives.
-class ManifestsOfTree {
- public:
-  using Map = std::unordered_map<std::string, TreeNodeManifest>;
-  ManifestsOfTree() = default;
-  explicit ManifestsOfTree(std::shared_ptr<PluginTable> table) : table_(std::move(table)) {}
-
-  Map::const_iterator begin() const { return map().begin(); }
-  Map::const_iterator end() const { return map().end(); }
-  Map::const_iterator find(const std::string& id) const { return map().find(id); }
-  const TreeNodeManifest& at(const std::string& id) const { return map().at(id); }
-  std::size_t count(const std::string& id) const { return map().count(id); }
-  std::size_t size() const { return map().size(); }
-  bool empty() const { return map().empty(); }
-  operator const Map&() const { return map(); }  // NOLINT(google-explicit-constructor): it is one
-
- private:
-  const Map& map() const {
-    static const Map kNone;
-    return table_ == nullptr ? kNone : table_->manifests();
-  }
-
-  std::shared_ptr<PluginTable> table_;
-};
-
 // Whose nodes are being made in this thread: those of a program. Null: of this plugin.
 [[gnu::visibility("hidden")]] inline thread_local PluginTable* making = nullptr;
 

@@ -205,44 +205,10 @@ Expected<T> parse_with(StringView text, const std::unordered_map<std::string, in
 }
 
 // An object of a type that this shared object knows.
-inline bool get_any_object(const Place& place, std::uint32_t port, Any& value) {
-  for (const auto* known = first_known_object().load(); known != nullptr; known = known->next) {
-    void* object = nullptr;
-    if (!place.node->get_object(place.caller, port, known->type, &object)) continue;
-    value = known->value(object);
-    return true;
-  }
-  return false;
-}
+bool get_any_object(const Place& place, std::uint32_t port, Any& value);
 
 // A value that is no text, as its type says.
-inline bool get_any(const Place& place, std::uint32_t port, lockstep_type type, Any& value) {
-  const auto read = [&](auto held) {
-    if (!get(place, port, held)) return false;
-    value = Any(held);
-    return true;
-  };
-  switch (type) {
-    case LOCKSTEP_BOOL:
-      return read(false);
-    case LOCKSTEP_INT:
-      return read(std::int64_t{});
-    case LOCKSTEP_DOUBLE:
-      return read(double{});
-    case LOCKSTEP_DOUBLE_LIST:
-      return read(std::vector<double>());
-    case LOCKSTEP_INT_LIST:
-      return read(std::vector<int>());
-    case LOCKSTEP_BOOL_LIST:
-      return read(std::vector<bool>());
-    case LOCKSTEP_STRING_LIST:
-      return read(std::vector<std::string>());
-    case LOCKSTEP_OBJECT:
-      return get_any_object(place, port, value);
-    default:
-      return false;
-  }
-}
+bool get_any(const Place& place, std::uint32_t port, lockstep_type type, Any& value);
 
 // What is done with the values of a port whose type is known by its declaration only.
 struct PortValues {
@@ -252,6 +218,9 @@ struct PortValues {
   bool (*get)(const Place& place, std::uint32_t port, Any& value);
   bool (*set)(const Place& place, std::uint32_t port, const Any& value);
 };
+
+// Into a port of any type, as the type that is inside.
+bool set_any(const Place& place, std::uint32_t port, const Any& any);
 
 template <class T>
 struct PortValue {
@@ -287,19 +256,10 @@ struct PortValue {
     }
   }
   static constexpr PortValues kTable{port_type<T>(), object_type_of<T>, parse, get, set};
-
- private:
-  // As the type that is inside.
-  static bool set_any(const Place& place, std::uint32_t port, const Any& any) {
-    if (any.isType<bool>()) return lockstep_detail::set(place, port, any.cast<bool>());
-    if (any.isString()) return lockstep_detail::set(place, port, any.cast<std::string>());
-    if (any.isIntegral()) {
-      const auto whole = any.tryCast<std::int64_t>();
-      return whole && lockstep_detail::set(place, port, *whole);
-    }
-    if (any.isNumber()) return lockstep_detail::set(place, port, any.cast<double>());
-    return any.lockstep_store_object(place, port);
-  }
 };
 
 }  // namespace BT::lockstep_detail
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/port_value.h"  // IWYU pragma: export
+#endif

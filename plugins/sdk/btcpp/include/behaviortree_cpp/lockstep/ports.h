@@ -16,18 +16,16 @@ class TypeInfo {
  public:
   template <class T>
   static TypeInfo Create() {
-    TypeInfo info;
-    info.type_ = typeid(T);
-    info.name_ = demangle(typeid(T));
-    info.values_ = &lockstep_detail::PortValue<T>::kTable;
-    return info;
+    return {typeid(T), lockstep_detail::PortValue<T>::kTable};
   }
-  TypeInfo() = default;
+  TypeInfo();
+  TypeInfo(const TypeInfo&);
+  TypeInfo(TypeInfo&&) noexcept;
+  TypeInfo& operator=(const TypeInfo&);
+  TypeInfo& operator=(TypeInfo&&) noexcept;
+  ~TypeInfo();
   // That of the number that is there; any for the rest.
-  static TypeInfo lockstep_of_number(const Any& value) {
-    return lockstep_first_of<int, double, bool, std::int64_t, std::uint64_t, float, unsigned,
-                             std::int16_t, std::uint16_t, std::int8_t, std::uint8_t>(value);
-  }
+  static TypeInfo lockstep_of_number(const Any& value);
 
   const std::type_index& type() const { return type_; }
   const std::string& typeName() const { return name_; }
@@ -39,6 +37,7 @@ class TypeInfo {
   const lockstep_detail::PortValues& lockstep_values() const { return *values_; }
 
  private:
+  TypeInfo(const std::type_info& type, const lockstep_detail::PortValues& values);
   template <class... Types>
   static TypeInfo lockstep_first_of(const Any& value) {
     TypeInfo info;
@@ -46,9 +45,9 @@ class TypeInfo {
     return info;
   }
 
-  std::type_index type_ = typeid(AnyTypeAllowed);
-  std::string name_ = "AnyTypeAllowed";
-  const lockstep_detail::PortValues* values_ = &lockstep_detail::PortValue<AnyTypeAllowed>::kTable;
+  std::type_index type_;
+  std::string name_;
+  const lockstep_detail::PortValues* values_;
 };
 
 namespace lockstep_detail {
@@ -60,8 +59,13 @@ TypeInfo type_info_of() {
 
 class PortInfo : public TypeInfo {
  public:
-  explicit PortInfo(PortDirection direction = PortDirection::INOUT) : direction_(direction) {}
-  PortInfo(PortDirection direction, const TypeInfo& type) : TypeInfo(type), direction_(direction) {}
+  explicit PortInfo(PortDirection direction = PortDirection::INOUT);
+  PortInfo(PortDirection direction, const TypeInfo& type);
+  PortInfo(const PortInfo&);
+  PortInfo(PortInfo&&) noexcept;
+  PortInfo& operator=(const PortInfo&);
+  PortInfo& operator=(PortInfo&&) noexcept;
+  ~PortInfo();
 
   PortDirection direction() const { return direction_; }
   const std::string& description() const { return description_; }
@@ -93,41 +97,17 @@ class PortInfo : public TypeInfo {
 using PortsList = std::unordered_map<std::string, PortInfo>;
 
 // The attributes of every node.
-[[nodiscard]] inline bool IsReservedAttribute(StringView name) {
-  for (const StringView it : {"name", "ID", "_autoremap", "_failureIf", "_successIf", "_skipIf",
-                              "_while", "_onHalted", "_onFailure", "_onSuccess", "_post"}) {
-    if (name == it) return true;
-  }
-  return false;
-}
+[[nodiscard]] bool IsReservedAttribute(StringView name);
 
 // The first character that no name may have; '\0': there is none.
-[[nodiscard]] inline char findForbiddenChar(StringView name) {
-  for (const char c : name) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f || StringView(" <>&\"'/\\:*?|.").find(c) != StringView::npos) {
-      return c;
-    }
-  }
-  return '\0';
-}
+[[nodiscard]] char findForbiddenChar(StringView name);
 
-[[nodiscard]] inline bool IsAllowedPortName(StringView name) {
-  if (name.empty()) return false;
-  const char first = static_cast<char>(name.front() | 0x20);
-  return first >= 'a' && first <= 'z' && findForbiddenChar(name) == '\0' &&
-         !IsReservedAttribute(name);
-}
+[[nodiscard]] bool IsAllowedPortName(StringView name);
 
 namespace lockstep_detail {
 
 // Throws when it is none: the tree could not name it.
-inline void check_port_name(StringView name) {
-  if (IsAllowedPortName(name)) return;
-  throw RuntimeError("'", name,
-                     "' is not the name of a port: a letter first, no blanks, and none "
-                     "of the characters <>&\"'/\\:*?|.");
-}
+void check_port_name(StringView name);
 
 template <class T>
 std::pair<std::string, PortInfo> make_port(PortDirection direction, StringView name,
@@ -232,3 +212,7 @@ PortsList getProvidedPorts() {
 }
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/ports.h"  // IWYU pragma: export
+#endif

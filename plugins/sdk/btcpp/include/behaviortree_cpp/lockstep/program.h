@@ -1,16 +1,12 @@
-// Trees in a program: BehaviorTreeFactory::createTreeFromFile and what it returns, over
-// lockstep/runtime.h. Included by bt_factory.h where all of lockstep is installed.
+// A tree of a program over lockstep/runtime.h, and the functions of tree.h.
 #pragma once
 
 #include <lockstep/runtime.h>
 
 #include <atomic>
 #include <chrono>
-#include <functional>
-#include <iostream>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,9 +14,9 @@
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 #include "behaviortree_cpp/lockstep/program_nodes.h"
 #include "behaviortree_cpp/lockstep/stand_in.h"
+#include "behaviortree_cpp/lockstep/tree.h"
 #include "behaviortree_cpp/lockstep/tree_watch.h"
 #include "behaviortree_cpp/utils/wakeup_signal.hpp"
-#include "behaviortree_cpp/utils/wildcards.hpp"
 
 namespace BT {
 namespace lockstep_detail {
@@ -45,9 +41,6 @@ inline std::string project_errors(lockstep_project* project) {
   }
   return text;
 }
-
-// A program that shows its trees in Groot2 sets it before it makes one: groot2_publisher.h.
-inline bool groot_is_wanted = false;
 
 // One tree that can be ticked, with its leaves.
 class Program : public NodeTree, public std::enable_shared_from_this<Program> {
@@ -268,97 +261,77 @@ inline NodeStatus tick_root(Program& program) {
   return program.tick(true);
 }
 
+LOCKSTEP_BTCPP_INLINE const ManifestsOfTree::Map& ManifestsOfTree::map() const {
+  static const Map kNone;
+  return table_ == nullptr ? kNone : table_->manifests();
+}
+
 }  // namespace lockstep_detail
 
-class Tree {
- public:
-  struct Subtree {
-    using Ptr = std::shared_ptr<Subtree>;
-    std::vector<TreeNode::Ptr> nodes;
-    Blackboard::Ptr blackboard;
-    std::string instance_name;  // "" of the main tree
-    std::string tree_ID;
-  };
-  std::vector<Subtree::Ptr> subtrees;  // the main tree first
-  // Of all nodes that the tree may have; those of config().manifest.
-  lockstep_detail::ManifestsOfTree manifests;
+LOCKSTEP_BTCPP_INLINE Tree::Tree(std::shared_ptr<lockstep_detail::Program> program)
+    : manifests(program->table()), program_(std::move(program)) {
+  for (const lockstep_detail::SubtreePlace& it : program_->places().subtrees) {
+    subtrees.push_back(
+        std::make_shared<Subtree>(Subtree{{},
+                                          program_->blackboard_of(subtrees.size()),
+                                          it.path,
+                                          it.tree_id.empty() ? it.name : it.tree_id}));
+  }
+  const auto& nodes = program_->nodes();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    subtrees[program_->places().nodes[i].subtree]->nodes.push_back(nodes[i]);
+  }
+}
 
-  Tree() = default;
-  explicit Tree(std::shared_ptr<lockstep_detail::Program> program)
-      : manifests(program->table()), program_(std::move(program)) {
-    for (const lockstep_detail::SubtreePlace& it : program_->places().subtrees) {
-      subtrees.push_back(
-          std::make_shared<Subtree>(Subtree{{},
-                                            program_->blackboard_of(subtrees.size()),
-                                            it.path,
-                                            it.tree_id.empty() ? it.name : it.tree_id}));
-    }
-    const auto& nodes = program_->nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      subtrees[program_->places().nodes[i].subtree]->nodes.push_back(nodes[i]);
-    }
-  }
+LOCKSTEP_BTCPP_INLINE lockstep_detail::Program& Tree::lockstep_program() const {
+  if (program_ == nullptr) throw LogicError("this BT::Tree is empty");
+  return *program_;
+}
+LOCKSTEP_BTCPP_INLINE const std::vector<TreeNode::Ptr>& Tree::lockstep_nodes() const {
+  return lockstep_program().nodes();
+}
 
-  // The tree is ticked again while a node asks for it.
-  NodeStatus tickOnce() { return lockstep_program().tick(false); }
-  NodeStatus tickExactlyOnce() { return lockstep_program().tick(true); }
-  NodeStatus tickWhileRunning(
-      std::chrono::milliseconds sleep_time = std::chrono::milliseconds(10)) {
-    NodeStatus status = tickOnce();
-    while (status == NodeStatus::RUNNING) {
-      sleep(sleep_time);
-      status = tickOnce();
-    }
-    return status;
+LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickOnce() {
+  return lockstep_program().tick(false);
+}
+LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickExactlyOnce() {
+  return lockstep_program().tick(true);
+}
+LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickWhileRunning(std::chrono::milliseconds sleep_time) {
+  NodeStatus status = tickOnce();
+  while (status == NodeStatus::RUNNING) {
+    lockstep_sleep(sleep_time);
+    status = tickOnce();
   }
-  void haltTree() { lockstep_program().halt(); }
-  // True: emitWakeUpSignal() of the tree or of a node has ended it.
-  template <class Rep, class Period>
-  bool sleep(std::chrono::duration<Rep, Period> duration) {
-    return wakeUpSignal()->waitFor(std::chrono::duration_cast<std::chrono::microseconds>(duration));
-  }
-  // From any thread.
-  void emitWakeUpSignal() { wakeUpSignal()->emitSignal(); }
-  [[nodiscard]] std::shared_ptr<WakeUpSignal> wakeUpSignal() const {
-    return lockstep_program().wake_up();
-  }
-  // Of the main tree; null: the tree is empty.
-  Blackboard::Ptr rootBlackboard() const {
-    return subtrees.empty() ? nullptr : subtrees.front()->blackboard;
-  }
+  return status;
+}
+LOCKSTEP_BTCPP_INLINE void Tree::haltTree() {
+  lockstep_program().halt();
+}
+LOCKSTEP_BTCPP_INLINE bool Tree::lockstep_sleep(std::chrono::microseconds duration) {
+  return wakeUpSignal()->waitFor(duration);
+}
+LOCKSTEP_BTCPP_INLINE void Tree::emitWakeUpSignal() {
+  wakeUpSignal()->emitSignal();
+}
+LOCKSTEP_BTCPP_INLINE std::shared_ptr<WakeUpSignal> Tree::wakeUpSignal() const {
+  return lockstep_program().wake_up();
+}
+LOCKSTEP_BTCPP_INLINE Blackboard::Ptr Tree::rootBlackboard() const {
+  return subtrees.empty() ? nullptr : subtrees.front()->blackboard;
+}
+LOCKSTEP_BTCPP_INLINE TreeNode* Tree::rootNode() const {
+  return lockstep_program().root();
+}
+LOCKSTEP_BTCPP_INLINE void Tree::applyVisitor(
+    const std::function<void(const TreeNode*)>& visitor) const {
+  for (const auto& node : lockstep_nodes()) visitor(node.get());
+}
+LOCKSTEP_BTCPP_INLINE void Tree::applyVisitor(const std::function<void(TreeNode*)>& visitor) {
+  for (const auto& node : lockstep_nodes()) visitor(node.get());
+}
 
-  // Its haltNode() halts the whole tree, its executeTick() ticks it.
-  [[nodiscard]] TreeNode* rootNode() const { return lockstep_program().root(); }
-  // A program's own nodes are the objects that its classes made; others have a name, a path, a type
-  // and a status.
-  void applyVisitor(const std::function<void(const TreeNode*)>& visitor) const {
-    for (const auto& node : lockstep_program().nodes()) visitor(node.get());
-  }
-  void applyVisitor(const std::function<void(TreeNode*)>& visitor) {
-    for (const auto& node : lockstep_program().nodes()) visitor(node.get());
-  }
-  template <class Node = TreeNode>
-  [[nodiscard]] std::vector<const TreeNode*> getNodesByPath(StringView pattern) const {
-    std::vector<const TreeNode*> found;
-    for (const auto& node : lockstep_program().nodes()) {
-      if (dynamic_cast<const Node*>(node.get()) == nullptr) continue;
-      if (wildcards_match(node->fullPath(), pattern)) found.push_back(node.get());
-    }
-    return found;
-  }
-
-  lockstep_detail::Program& lockstep_program() const {
-    if (program_ == nullptr) throw LogicError("this BT::Tree is empty");
-    return *program_;
-  }
-
- private:
-  std::shared_ptr<lockstep_detail::Program> program_;
-  std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
-};
-
-// What all boards of a tree have, in the order of Tree::subtrees.
-[[nodiscard]] inline std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree) {
+LOCKSTEP_BTCPP_INLINE std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree) {
   std::vector<Blackboard::Ptr> backup;
   for (const auto& subtree : tree.subtrees) {
     backup.push_back(Blackboard::create());
@@ -366,8 +339,8 @@ class Tree {
   }
   return backup;
 }
-// Throws when it is of a tree with other boards.
-inline void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, Tree& tree) {
+LOCKSTEP_BTCPP_INLINE void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup,
+                                             Tree& tree) {
   if (backup.size() != tree.subtrees.size()) {
     throw LogicError("BlackboardRestore: the backup has ", std::to_string(backup.size()),
                      " boards, the tree ", std::to_string(tree.subtrees.size()));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "behaviortree_cpp/behavior_tree.h"
+#include "behaviortree_cpp/lockstep/node_ids.h"
 #include "behaviortree_cpp/lockstep/outline.h"
 #include "behaviortree_cpp/lockstep/plugin_table.h"
 

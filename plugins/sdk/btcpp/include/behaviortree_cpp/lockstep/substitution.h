@@ -4,17 +4,12 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
-#include <variant>
 
-#include "behaviortree_cpp/actions/test_node.h"
 #include "behaviortree_cpp/lockstep/plain_json.h"
+#include "behaviortree_cpp/lockstep/substitution_rule.h"
 #include "behaviortree_cpp/utils/wildcards.hpp"
 
 namespace BT::lockstep_detail {
-
-using SubstitutionRule = std::variant<std::string, TestNodeConfig, std::shared_ptr<TestNodeConfig>>;
-// By what they are for: the name of a node, its ID, or a pattern of its path.
-using SubstitutionRules = std::unordered_map<std::string, SubstitutionRule>;
 
 inline const SubstitutionRule* rule_for(const SubstitutionRules& rules, const std::string& name,
                                         const std::string& id, const std::string& path) {

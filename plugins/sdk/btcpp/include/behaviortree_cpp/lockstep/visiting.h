@@ -12,19 +12,14 @@ namespace BT {
 // The number and the status of each node.
 using SerializedTreeStatus = std::vector<std::pair<std::uint16_t, std::uint8_t>>;
 
-inline void buildSerializedStatusSnapshot(const TreeNode* root, SerializedTreeStatus& snapshot) {
-  snapshot.clear();
-  applyRecursiveVisitor(root, [&snapshot](const TreeNode* node) {
-    snapshot.emplace_back(node->UID(), static_cast<std::uint8_t>(node->status()));
-  });
-}
+void buildSerializedStatusSnapshot(const TreeNode* root, SerializedTreeStatus& snapshot);
 
 // The version of the library that these headers stand for.
-inline const char* LibraryVersionString() {
-  return "4.10.0";
-}
-inline int LibraryVersionNumber() {
-  return 41000;
-}
+const char* LibraryVersionString();
+int LibraryVersionNumber();
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/visiting.h"  // IWYU pragma: export
+#endif

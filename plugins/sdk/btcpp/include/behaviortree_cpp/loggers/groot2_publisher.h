@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <memory>
-#include <string>
 
 #include "behaviortree_cpp/bt_factory.h"
 
@@ -18,16 +17,8 @@ inline const bool groot_was_included = groot_is_wanted = true;
 // tree and at its entries; it cannot change them or stop the tree.
 class Groot2Publisher {
  public:
-  explicit Groot2Publisher(const Tree& tree, unsigned server_port = 1667)
-      : program_(tree.lockstep_program().weak_from_this()) {
-    const std::string address = "0.0.0.0:" + std::to_string(server_port);
-    if (!lockstep_run_groot2(tree.lockstep_program().run(), address.c_str())) {
-      throw RuntimeError("Groot2Publisher: ", lockstep_last_error());
-    }
-  }
-  ~Groot2Publisher() {
-    if (const auto program = program_.lock()) lockstep_run_groot2(program->run(), nullptr);
-  }
+  explicit Groot2Publisher(const Tree& tree, unsigned server_port = 1667);
+  ~Groot2Publisher();
   Groot2Publisher(const Groot2Publisher&) = delete;
   Groot2Publisher& operator=(const Groot2Publisher&) = delete;
 
@@ -41,3 +32,7 @@ class Groot2Publisher {
 };
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/groot2_publisher.h"  // IWYU pragma: export
+#endif

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -13,10 +14,10 @@
 #include <type_traits>
 #include <typeindex>
 #include <utility>
-#include <variant>
 
 #include "behaviortree_cpp/contrib/expected.hpp"
 #include "behaviortree_cpp/exceptions.h"
+#include "behaviortree_cpp/lockstep/inline.h"
 #include "behaviortree_cpp/utils/demangle_util.h"
 
 namespace BT {
@@ -76,32 +77,50 @@ bool convert_number(From from, To& to) {
 }  // namespace lockstep_detail
 
 class Any {
+  enum class LockstepKind : std::uint8_t { kNone, kWhole, kUnsigned, kReal, kText, kObject };
+  using Kind = LockstepKind;
+
  public:
-  Any() = default;
+  Any() {}                                           // NOLINT: a union has no default
   Any(const std::type_index& type) : type_(type) {}  // NOLINT: as in the library
   template <class T, class = std::enable_if_t<!std::is_same_v<std::decay_t<T>, Any>>>
   explicit Any(const T& value) : type_(typeid(std::decay_t<const T>)) {
     using Value = std::decay_t<const T>;
     if constexpr (lockstep_detail::is_text_v<Value>) {
-      it_ = std::string(value);
+      hold(std::string(value));
       type_ = typeid(std::string);
     } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
-      it_ = value;
+      unsigned_ = value;
+      kind_ = Kind::kUnsigned;
     } else if constexpr (std::is_integral_v<Value> || std::is_enum_v<Value>) {
-      it_ = static_cast<std::int64_t>(value);
+      whole_ = static_cast<std::int64_t>(value);
+      kind_ = Kind::kWhole;
     } else if constexpr (std::is_floating_point_v<Value>) {
-      it_ = static_cast<double>(value);
+      real_ = static_cast<double>(value);
+      kind_ = Kind::kReal;
     } else {
-      it_ = Object{std::make_shared<Value>(value), &kOperations<Value>};
+      hold(std::make_shared<Value>(value), kOperations<Value>);
     }
   }
-
-  bool empty() const { return it_.index() == 0; }
-  bool isNumber() const { return isIntegral() || std::holds_alternative<double>(it_); }
-  bool isIntegral() const {
-    return std::holds_alternative<std::int64_t>(it_) || std::holds_alternative<std::uint64_t>(it_);
+  Any(const Any& other) : type_(other.type_) { hold_copy(other); }
+  Any(Any&& other) noexcept : type_(other.type_) { hold_moved(other); }
+  Any& operator=(const Any& other) {
+    if (this != &other) *this = Any(other);
+    return *this;
   }
-  bool isString() const { return std::holds_alternative<std::string>(it_); }
+  Any& operator=(Any&& other) noexcept {
+    if (this == &other) return *this;
+    drop();
+    type_ = other.type_;
+    hold_moved(other);
+    return *this;
+  }
+  ~Any() { drop(); }
+
+  bool empty() const { return kind_ == Kind::kNone; }
+  bool isNumber() const { return isIntegral() || kind_ == Kind::kReal; }
+  bool isIntegral() const { return kind_ == Kind::kWhole || kind_ == Kind::kUnsigned; }
+  bool isString() const { return kind_ == Kind::kText; }
   template <class T>
   bool isType() const {
     return type_ == typeid(T);
@@ -109,14 +128,7 @@ class Any {
   // The type that it was made from.
   std::type_index type() const { return type_; }
   // The type that it has inside.
-  const std::type_info& castedType() const {
-    if (empty()) return typeid(void);
-    if (isString()) return typeid(std::string);
-    if (std::holds_alternative<double>(it_)) return typeid(double);
-    if (std::holds_alternative<std::int64_t>(it_)) return typeid(std::int64_t);
-    if (std::holds_alternative<std::uint64_t>(it_)) return typeid(std::uint64_t);
-    return std::get<Object>(it_).ops->type;
-  }
+  const std::type_info& castedType() const;
 
   template <class T>
   nonstd::expected<T, std::string> tryCast() const {
@@ -124,7 +136,7 @@ class Any {
     if constexpr (std::is_same_v<T, Any>) {
       return *this;
     } else if constexpr (std::is_same_v<T, std::string>) {
-      if (const auto* text = std::get_if<std::string>(&it_)) return *text;
+      if (isString()) return text_;
       if (isNumber()) return number_text();
     } else if constexpr (std::is_enum_v<T>) {
       if (int number = 0; to_number(number)) return static_cast<T>(number);
@@ -162,13 +174,12 @@ class Any {
     static_assert(!std::is_same_v<T, float>, "inside it is a double: castPtr<double>()");
     if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, double> ||
                   std::is_same_v<T, std::int64_t> || std::is_same_v<T, std::uint64_t>) {
-      return std::get_if<T>(&it_);
+      return find_held(static_cast<T*>(nullptr));
     } else {
       static_assert(!std::is_arithmetic_v<T>, "inside it is 64 bits wide: castPtr<int64_t>()");
-      auto* const object = std::get_if<Object>(&it_);
-      if (object == nullptr || find<T>() == nullptr) return nullptr;
-      if (object->value.use_count() > 1) object->value = object->ops->clone(object->value.get());
-      return static_cast<T*>(object->value.get());
+      if (find<T>() == nullptr) return nullptr;
+      if (object_.value.use_count() > 1) object_.value = object_.ops->clone(object_.value.get());
+      return static_cast<T*>(object_.value.get());
     }
   }
   template <class T>
@@ -178,49 +189,29 @@ class Any {
 
   // The object inside; null: it is a number, a text or empty.
   const void* lockstep_object() const {
-    const auto* const object = std::get_if<Object>(&it_);
-    return object == nullptr ? nullptr : object->value.get();
+    return kind_ == Kind::kObject ? object_.value.get() : nullptr;
   }
   // For ports of any type: false when it is no object, or the port does not take it.
   bool lockstep_store_object(const lockstep_detail::Place& place, std::uint32_t port) const {
-    const auto* const object = std::get_if<Object>(&it_);
-    return object != nullptr && object->ops->store(place, port, object->value.get());
+    return kind_ == Kind::kObject && object_.ops->store(place, port, object_.value.get());
   }
 
   // For entries: false when it is no object.
   bool lockstep_describe(lockstep_detail::EntryValue& described) const {
-    const auto* const object = std::get_if<Object>(&it_);
-    if (object != nullptr) object->ops->describe(object->value, described);
-    return object != nullptr;
+    if (kind_ == Kind::kObject) object_.ops->describe(object_.value, described);
+    return kind_ == Kind::kObject;
   }
   // An object that is not copied: it has other owners.
   template <class T>
   static Any lockstep_share(std::shared_ptr<T> value) {
     Any any;
     any.type_ = typeid(T);
-    any.it_ = Object{std::move(value), &kOperations<T>};
+    any.hold(std::move(value), kOperations<T>);
     return any;
   }
 
   // The value as one of the type that `other` has. Throws when it is none.
-  void copyInto(Any& other) const {
-    if (other.empty() || castedType() == other.castedType()) {
-      other.it_ = it_;
-      if (other.type_ == typeid(std::nullptr_t)) other.type_ = type_;
-      return;
-    }
-    if (isNumber() && other.isNumber() &&
-        std::visit([this](auto& number) { return to_held(number); }, other.it_)) {
-      return;
-    }
-    if (isNumber() && other.isString()) {
-      other.it_ = number_text();
-      return;
-    }
-    throw std::runtime_error(StrCat("Any::copyInto: a value of type ",
-                                    lockstep_detail::readable(type_), " is none of type ",
-                                    lockstep_detail::readable(other.type_)));
-  }
+  void copyInto(Any& other) const;
 
  private:
   struct Operations {
@@ -244,49 +235,79 @@ class Any {
 
   template <class T>
   const T* find() const {
-    const auto* const object = std::get_if<Object>(&it_);
-    if (object == nullptr || object->ops->type != typeid(T)) return nullptr;
-    return static_cast<const T*>(object->value.get());
+    if (kind_ != Kind::kObject || object_.ops->type != typeid(T)) return nullptr;
+    return static_cast<const T*>(object_.value.get());
+  }
+  std::string* find_held(std::string* /*type*/) { return isString() ? &text_ : nullptr; }
+  double* find_held(double* /*type*/) { return kind_ == Kind::kReal ? &real_ : nullptr; }
+  std::int64_t* find_held(std::int64_t* /*type*/) {
+    return kind_ == Kind::kWhole ? &whole_ : nullptr;
+  }
+  std::uint64_t* find_held(std::uint64_t* /*type*/) {
+    return kind_ == Kind::kUnsigned ? &unsigned_ : nullptr;
   }
 
   template <class T>
   bool to_number(T& number) const {
-    if (const auto* whole = std::get_if<std::int64_t>(&it_)) {
-      return lockstep_detail::convert_number(*whole, number);
+    switch (kind_) {
+      case Kind::kWhole:
+        return lockstep_detail::convert_number(whole_, number);
+      case Kind::kUnsigned:
+        return lockstep_detail::convert_number(unsigned_, number);
+      case Kind::kReal:
+        return lockstep_detail::convert_number(real_, number);
+      default:
+        return false;
     }
-    if (const auto* whole = std::get_if<std::uint64_t>(&it_)) {
-      return lockstep_detail::convert_number(*whole, number);
-    }
-    const auto* const real = std::get_if<double>(&it_);
-    return real != nullptr && lockstep_detail::convert_number(*real, number);
   }
   // What a text begins with.
   template <class T>
   bool text_to_number([[maybe_unused]] T& number) const {
     if constexpr (!std::is_same_v<T, bool>) {
-      const auto* const text = std::get_if<std::string>(&it_);
-      if (text == nullptr) return false;
-      return std::from_chars(text->data(), text->data() + text->size(), number).ec == std::errc();
+      if (!isString()) return false;
+      return std::from_chars(text_.data(), text_.data() + text_.size(), number).ec == std::errc();
     }
     return false;
   }
-  template <class T>
-  bool to_held(T& held) const {
-    if constexpr (std::is_arithmetic_v<T>) {
-      return to_number(held);
-    } else {
-      return false;
-    }
-  }
+  std::string number_text() const;
 
-  std::string number_text() const {
-    if (const auto* whole = std::get_if<std::int64_t>(&it_)) return std::to_string(*whole);
-    if (const auto* whole = std::get_if<std::uint64_t>(&it_)) return std::to_string(*whole);
-    return std::to_string(std::get<double>(it_));
+  // Of one that holds nothing.
+  void hold(std::string text);
+  void hold(std::shared_ptr<void> object, const Operations& ops);
+  void hold_copy(const Any& other) {
+    if (other.kind_ >= Kind::kText) return hold_owned(other);
+    hold_number(other);
   }
+  void hold_moved(Any& other) noexcept {
+    if (other.kind_ >= Kind::kText) return hold_owned(std::move(other));
+    hold_number(other);
+  }
+  void hold_number(const Any& other) {  // or nothing
+    std::memcpy(&whole_, &other.whole_, sizeof whole_);
+    kind_ = other.kind_;
+  }
+  void hold_owned(const Any& other);
+  void hold_owned(Any&& other) noexcept;
+  void drop() noexcept {
+    if (kind_ >= Kind::kText) destroy();
+    kind_ = Kind::kNone;
+  }
+  void destroy() noexcept;
 
-  std::variant<std::monostate, std::int64_t, std::uint64_t, double, std::string, Object> it_;
+  // No std::variant: to copy and to end one would be compiled in each source.
+  union {
+    std::int64_t whole_ = 0;
+    std::uint64_t unsigned_;
+    double real_;
+    std::string text_;
+    Object object_;
+  };
   std::type_index type_{typeid(std::nullptr_t)};
+  Kind kind_ = Kind::kNone;
 };
 
 }  // namespace BT
+
+#if LOCKSTEP_BTCPP_HAS_FUNCTIONS
+#include "behaviortree_cpp/lockstep/compiled/safe_any.h"  // IWYU pragma: export
+#endif
