@@ -31,13 +31,14 @@
 namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
-    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand;
+    kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
+    kVerifyCommand;
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {&kRunCommand,    &kCheckCommand,  &kShowCommand,
-                                            &kNodesCommand,  &kSchemaCommand, &kConvertCommand,
-                                            &kPluginCommand, &kLogCommand,    &kReplayCommand,
-                                            &kStudyCommand,  &kMonitorCommand};
+  static constexpr const Command* kAll[] = {
+      &kRunCommand,     &kCheckCommand,  &kVerifyCommand, &kShowCommand,
+      &kNodesCommand,   &kSchemaCommand, &kConvertCommand, &kPluginCommand,
+      &kLogCommand,     &kReplayCommand, &kStudyCommand,  &kMonitorCommand};
   return kAll;
 }
 

@@ -6,6 +6,7 @@ namespace lockstep::host {
 extern const Command kShowCommand = absent("show"), kNodesCommand = absent("nodes"),
                      kSchemaCommand = absent("schema"), kConvertCommand = absent("convert"),
                      kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
-                     kReplayCommand = absent("replay"), kStudyCommand = absent("study");
+                     kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
+                     kVerifyCommand = absent("verify");
 
 }  // namespace lockstep::host

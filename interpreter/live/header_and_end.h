@@ -41,6 +41,7 @@ struct RecordingHeader {
   std::map<std::string, std::string, std::less<>> arguments = {};
   std::vector<RecordedNode> nodes = {};   // by index: pre-order
   std::vector<RecordedKey> entries = {};  // those that the recording shows
+  std::string verify = {};                // what verify has found; "": it is any other run
 };
 
 struct RecordedEnd {

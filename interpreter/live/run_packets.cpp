@@ -50,7 +50,8 @@ std::string RunPackets::header(const RunStart& start) const {
                          .seed = run_.seed,
                          .arguments = run_.arguments,
                          .nodes = describe(tree_),
-                         .entries = keys()});
+                         .entries = keys(),
+                         .verify = run_.verify});
 }
 
 std::vector<RecordedKey> RunPackets::keys() const {

@@ -24,6 +24,7 @@ struct RunDescription {
   std::uint64_t seed = 0;
   std::map<std::string, std::string, std::less<>> arguments = {};
   std::optional<std::vector<std::string>> entries = {};  // of these keys; none: all
+  std::string verify = {};                               // what it shows, of a run of verify
 };
 
 class RunPackets {

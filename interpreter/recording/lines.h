@@ -130,6 +130,9 @@ constexpr Field kHeaderFields[] = {
      "only if there are any: the blackboard entries in the recording. `--record-entries` chooses "
      "them",
      &RecordingHeader::entries},
+    {"verify", "Text", kMaybe,
+     "of a run that `lockstep verify` has found: the finding, and from which tick on it repeats",
+     &RecordingHeader::verify},
 };
 constexpr Object kHeader{"Header", kHeaderFields};
 

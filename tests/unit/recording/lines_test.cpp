@@ -181,6 +181,7 @@ std::string sample_header() {
   header.tree = header.file = header.version = "T";
   header.clock = "virtual";
   header.arguments["x"] = "1";
+  header.verify = "trap";
   header.entries = {{.key = "k", .type = "number", .writers = {2}}};
   const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> RecordedNode& {
     RecordedNode& node = header.nodes.emplace_back();

@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/checks.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/load/load_options.h"
+#include "cli/tools/verify/verify_report.h"
+#include "core/wording.h"
+#include "document/file.h"
+#include "document/reporter.h"
+#include "runtime/outlet.h"
+#include "runtime/stop_signals.h"
+#include "verify/verifiable.h"
+
+namespace lockstep::host {
+namespace {
+
+struct VerifyOptions {
+  LoadCommandOptions load;
+  std::string tree, leaves;
+  std::optional<double> rate;
+  std::uint64_t states = 5'000'000;
+  std::optional<std::uint64_t> memory_mib;
+  std::optional<double> time;
+  std::optional<std::uint64_t> depth;
+  bool json = false;
+  bool mock = false;
+  std::string out = ".";
+};
+
+// Half of what the machine has.
+std::size_t usual_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(size)
+                               : std::size_t{1} << 30u;
+}
+
+// On a terminal, a line that shows how far a search is.
+class SearchLine {
+ public:
+  ~SearchLine() {
+    if (is_visible_) messages().say("\r\x1b[K");
+  }
+  void show(const SearchProgress& it) {
+    const Nanoseconds now = monotonic_now();
+    if (!is_terminal_ || now - shown_ < std::chrono::seconds(1)) return;
+    const double seconds = to_seconds(now - start_);
+    shown_ = now;
+    is_visible_ |= messages().show(fmt::format(
+        "\r{} states, {} waiting, tick {}, {:.0f} transitions/s, {} MiB\x1b[K", it.states,
+        it.waiting, it.depth, static_cast<double>(it.transitions) / seconds, it.memory >> 20u));
+  }
+
+ private:
+  const bool is_terminal_ = is_terminal(STDERR_FILENO);
+  const Nanoseconds start_ = monotonic_now();
+  Nanoseconds shown_ = start_;
+  bool is_visible_ = false;
+};
+
+// The places of the nodes, and what needs them: the documents go with this.
+class Places {
+ public:
+  explicit Places(const Loaded& loaded) : sources_(loaded.project->sources) {
+    for (const DefinitionNode& node : loaded.definition.nodes) places_.push_back(node.place);
+  }
+  std::string text(NodeIndex node) const { return to_text(sources_.locate(places_[node])); }
+  void report(const std::vector<NodeProblem>& problems, Diagnostics& diagnostics) const {
+    const Reporter reporter(sources_, diagnostics);
+    for (const NodeProblem& it : problems) reporter.at(places_[it.node], it.message, it.hint);
+  }
+
+ private:
+  const Sources sources_;
+  std::vector<Place> places_;
+};
+
+// Null: none is named. Nothing: it cannot be used, which is reported.
+std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path,
+                                                     Diagnostics& diagnostics) {
+  if (path.empty()) return nullptr;
+  constexpr std::size_t kMost = std::size_t{16} << 20u;
+  auto text = read_file(path, kMost, FileKinds::RegularOrPipe);
+  if (!text) {
+    diagnostics.error({path}, text.error().message, text.error().hint);
+    return std::nullopt;
+  }
+  auto file = read_leaf_file(path, std::move(*text), diagnostics);
+  if (file == nullptr) return std::nullopt;
+  return file;
+}
+
+class VerifyCommand {
+ public:
+  explicit VerifyCommand(const VerifyOptions& options) : options_(options) {}
+
+  int run() {
+    auto loaded = load();
+    if (!loaded) return code_;
+    const Places places(*loaded);
+    played_.take_over(loaded->definition);
+    const Runnable runnable = make_runnable(std::move(*loaded));
+    const auto file = read_leaves(options_.leaves, diagnostics_);
+    if (!file) return refuse();
+    std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
+    const LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems);
+    places.report(problems, diagnostics_);
+    if (diagnostics_.has_errors()) return refuse();
+    print_diagnostics(diagnostics_, Severity::Warning);
+    return verify(runnable, models, places);
+  }
+
+ private:
+  tl::expected<Loaded, LoadFailure> load() {
+    LoadCommandOptions load = options_.load;
+    if (options_.mock) load.unknown = MissingNodes::AreMocked;
+    auto loaded = load_given(options_.tree, load, diagnostics_);
+    if (loaded) return loaded;
+    print_diagnostics(diagnostics_, Severity::Warning);
+    code_ = exit_code_of(loaded.error());
+    return loaded;
+  }
+
+  int refuse() {
+    print_diagnostics(diagnostics_, Severity::Warning);
+    return kExitInvalidTree;
+  }
+
+  int verify(const Runnable& runnable, const LeafModels& models, const Places& places) {
+    const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
+    StopSignals::install();
+    const Monitors monitors;
+    SearchResult found = [&] {
+      SearchLine line;
+      return search(runnable.tree, models, monitors, from_seconds(1 / rate), limits(line));
+    }();
+    const Verdict verdict =
+        make_verdict(runnable.tree, models, monitors, found,
+                     {.rate = rate, .place = [&](NodeIndex node) { return places.text(node); }});
+    VerifyReport report{found, verdict, options_.tree, options_.leaves, runnable.tree.leaves.size()};
+    Tracer tracer(runnable.tree, models, monitors, from_seconds(1 / rate), found);
+    if (!write_files(runnable, rate, tracer, verdict, report)) return kExitUsage;
+    const std::string text = options_.json ? to_json(report) : to_text(report);
+    return first_failure(write_results(text), exit_code(found, verdict));
+  }
+
+  SearchLimits limits(SearchLine& line) const {
+    SearchLimits limits{.states = options_.states, .memory = usual_memory()};
+    if (options_.memory_mib) limits.memory = *options_.memory_mib << 20u;
+    if (options_.time) limits.time = from_seconds(*options_.time);
+    if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
+    limits.stop_signal = StopSignals::received;
+    limits.tell = [&line](const SearchProgress& it) { line.show(it); };
+    return limits;
+  }
+
+  bool write_files(const Runnable& runnable, double rate, Tracer& tracer, const Verdict& verdict,
+                   VerifyReport& report) {
+    CounterExampleOptions options{.stem = {}, .tree_file = options_.tree, .rate = rate};
+    for (const DeclaredArgument& it : runnable.arguments) options.arguments[it.name] = it.value;
+    for (const Finding& finding : verdict.findings) {
+      if (finding.run.empty() || !finding.accepted.empty()) continue;
+      std::error_code error;
+      std::filesystem::create_directories(options_.out, error);
+      options.stem = stem_of(finding);
+      auto files = write_counter_example(runnable.tree, finding, tracer, played_, options);
+      if (!files) {
+        print_error(files.error().message, files.error().hint);
+        return false;
+      }
+      report.files[finding.name] = *files;
+    }
+    return true;
+  }
+
+  std::string stem_of(const Finding& finding) const {
+    const std::filesystem::path tree(options_.tree == "-" ? "stdin" : options_.tree);
+    std::string name = tree.stem().string() + '.' + finding.name;
+    for (char& it : name) {
+      const bool is_plain = std::isalnum(static_cast<unsigned char>(it)) != 0 || it == '-' ||
+                            it == '_' || it == '.';
+      if (!is_plain) it = '.';
+    }
+    return options_.out == "." ? name : (std::filesystem::path(options_.out) / name).string();
+  }
+
+  static int exit_code(const SearchResult& found, const Verdict& verdict) {
+    if (verdict.has_findings()) return kExitFailure;
+    if (found.end == SearchEnd::Signal) return kExitSignal + found.signal;
+    return found.is_complete() ? kExitSuccess : kExitLimit;
+  }
+
+  const VerifyOptions& options_;
+  Diagnostics diagnostics_;
+  PlayedLeaves played_;
+  int code_ = kExitSuccess;
+};
+
+int verify(const VerifyOptions& options) {
+  keep_stdout_for_results();
+  return VerifyCommand(options).run();
+}
+
+std::function<int()> define_verify(CLI::App& app) {
+  const auto options = std::make_shared<VerifyOptions>();
+  app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  app.add_option("--leaves", options->leaves,
+                 "What the leaves may do (default: all that their contract allows)")
+      ->type_name("FILE");
+  app.add_option("--rate", options->rate,
+                 "Ticks per second (default: that of the leaf file, else 10)")
+      ->type_name("HZ")
+      ->check(number_between(0.001, 100000.0));
+  app.add_option("--states", options->states, "Stop after N states")
+      ->type_name("N")
+      ->transform(whole_number(1))
+      ->capture_default_str();
+  app.add_option("--memory", options->memory_mib,
+                 "Stop when the search has taken N MiB (default: half of the machine)")
+      ->type_name("N")
+      ->transform(whole_number(1, 1u << 24u));
+  app.add_option("--time", options->time, "Stop after S seconds")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e9));
+  app.add_option("--depth", options->depth, "Look at the first N ticks only")
+      ->type_name("N")
+      ->transform(whole_number(1, 1'000'000'000));
+  app.add_option("--out", options->out,
+                 "Where recordings and scripts of what was found are written")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_flag("--json", options->json, "Print the verdict as JSON");
+  app.add_flag("--mock", options->mock, "Take nodes that no plugin has for leaves");
+  add_load_options(app, options->load);
+  add_program_option(app, options->load.plugins);
+  return [options] { return verify(*options); };
+}
+
+}  // namespace
+
+extern const Command kVerifyCommand{
+    "verify", "Look at every behavior of a tree: what can it do with any results of its leaves",
+    "The verdict goes to stdout, messages go to stderr. Of each finding there is a recording, and a\n"
+    "script of the leaves with which `lockstep run --leaves` does the same again.\n"
+    "Exit code: 0 all is verified, 1 there are findings, 2 usage, 3 invalid tree or leaf file, or\n"
+    "something that cannot be verified, 4 plugin refused, 124 a limit was reached and nothing was\n"
+    "found, 128 + N signal N, likewise.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep verify trees/door_pulling.xml\n"
+    "  lockstep verify tree.xml --leaves tree.leaves.xml --out findings\n"
+    "  lockstep run tree.xml --leaves findings/tree.trap.leaves --clock virtual",
+    define_verify};
+
+}  // namespace lockstep::host

@@ -1,0 +1,112 @@
+#include "cli/tools/verify/verify_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/wording.h"
+#include "json/json.h"
+
+namespace lockstep::host {
+namespace {
+
+std::size_t count_findings(const Verdict& verdict) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      verdict.findings, [](const Finding& it) { return it.accepted.empty(); }));
+}
+
+// Why a search did not look at everything.
+std::string_view limit_of(SearchEnd end) {
+  constexpr std::string_view kWords[] = {"",       "--states", "--memory", "--time",
+                                         "--depth", "a signal", "--values"};
+  return kWords[static_cast<std::size_t>(end)];
+}
+
+std::string size_text(const SearchResult& found) {
+  return fmt::format("{}, {}, {}, {:.2f} s", counted(found.store.size(), "state"),
+                     counted(found.transitions, "transition"),
+                     found.is_complete()
+                         ? std::string("complete")
+                         : fmt::format("stopped by {}", limit_of(found.end)),
+                     to_seconds(found.took));
+}
+
+}  // namespace
+
+std::string conclusion(const VerifyReport& report) {
+  const std::size_t count = count_findings(report.verdict);
+  if (count > 0) return fmt::format("not verified: {}", counted(count, "finding"));
+  const SearchResult& found = report.found;
+  if (found.is_complete()) return "verified for all behaviors that are assumed";
+  return fmt::format("bounded: nothing found in the first {} (all behaviors), {}",
+                     counted(found.complete_depth(), "tick"), counted(found.store.size(), "state"));
+}
+
+std::string to_text(const VerifyReport& report) {
+  std::string text = fmt::format(
+      "verify {}: {}, {}\n  {}\n", report.tree,
+      report.leaf_count == 1 ? "1 leaf" : fmt::format("{} leaves", report.leaf_count),
+      report.leaves.empty() ? std::string("no leaf file") : "leaf file " + report.leaves,
+      size_text(report.found));
+  std::size_t width = 0;
+  for (const VerdictLine& it : report.verdict.facts) width = std::max(width, it.name.size());
+  width = std::min<std::size_t>(width, 36);
+  for (const VerdictLine& it : report.verdict.facts) {
+    text += fmt::format("  {:<{}}  {}\n", it.name, width, it.text);
+  }
+  if (report.found.end == SearchEnd::Values) {
+    text += fmt::format("  the entry '{}' takes more and more values\n", report.found.note);
+  }
+  for (const Finding& it : report.verdict.findings) {
+    text += fmt::format("{} {}: {}\n", it.accepted.empty() ? "finding" : "accepted", it.name,
+                        it.message);
+    for (const std::string& line : it.more) text += fmt::format("    {}\n", line);
+    if (!it.accepted.empty()) text += fmt::format("    accepted: {}\n", it.accepted);
+    if (const auto files = report.files.find(it.name); files != report.files.end()) {
+      text += fmt::format("    -> {}, {}\n", files->second.recording, files->second.leaves);
+    }
+  }
+  text += fmt::format("  assumed: {}\n", joined(report.verdict.assumed, "; "));
+  return text + conclusion(report) + '\n';
+}
+
+std::string to_json(const VerifyReport& report) {
+  Json json;
+  json["tree"] = report.tree;
+  if (!report.leaves.empty()) json["leaves"] = report.leaves;
+  json["conclusion"] = conclusion(report);
+  json["complete"] = report.found.is_complete();
+  if (!report.found.is_complete()) json["limit"] = std::string(limit_of(report.found.end));
+  json["states"] = report.found.store.size();
+  json["transitions"] = report.found.transitions;
+  json["ticks"] = report.found.complete_depth();
+  json["seconds"] = to_seconds(report.found.took);
+  Json results = Json::object();
+  for (const Status status : {Status::Success, Status::Failure, Status::Skipped}) {
+    const auto& first = report.found.results[index_of(status)];
+    if (first) results[std::string(to_string(status))] = first->ticks;
+  }
+  json["results"] = std::move(results);
+  Json findings = Json::array();
+  for (const Finding& it : report.verdict.findings) {
+    Json finding;
+    finding["name"] = it.name;
+    finding["message"] = it.message;
+    finding["why"] = Json(it.more);
+    if (!it.accepted.empty()) finding["accepted"] = it.accepted;
+    if (it.repeats) finding["repeats_from"] = *it.repeats;
+    if (const auto files = report.files.find(it.name); files != report.files.end()) {
+      finding["recording"] = files->second.recording;
+      finding["leaves"] = files->second.leaves;
+    }
+    findings.push_back(std::move(finding));
+  }
+  json["findings"] = std::move(findings);
+  Json facts = Json::object();
+  for (const VerdictLine& it : report.verdict.facts) facts[it.name] = it.text;
+  json["facts"] = std::move(facts);
+  json["assumed"] = Json(report.verdict.assumed);
+  return json.printable(2) + '\n';
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,25 @@
+// A verdict as `lockstep verify` prints it.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "verify/counter_example.h"
+#include "verify/verdict.h"
+
+namespace lockstep::host {
+
+struct VerifyReport {
+  const SearchResult& found;
+  const Verdict& verdict;
+  std::string tree, leaves;  // files; "": there is no leaf file
+  std::size_t leaf_count = 0;
+  std::map<std::string, CounterExample> files = {};  // of findings, by their names
+};
+
+// "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …".
+std::string conclusion(const VerifyReport& report);
+std::string to_text(const VerifyReport& report);
+std::string to_json(const VerifyReport& report);
+
+}  // namespace lockstep::host

@@ -1,0 +1,25 @@
+// Where the progress of a leaf matters: what the nodes above compare it with, taken down through
+// the progress that each of them computes (docs/language.md).
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "engine/tree.h"
+
+namespace lockstep::host {
+
+// Of one node.
+struct Cuts {
+  std::vector<double> values;  // in (0, 1], rising: what its progress is compared with
+  std::vector<double> deltas;  // it is compared with others that are so far away
+  bool is_unknown = false;     // something above compares it with what is not known
+};
+
+// The barriers that an entry may hold, by slot. An entry that is not there is unknown.
+using BarriersOfEntries = std::map<std::uint32_t, std::vector<double>>;
+
+// Of each node.
+std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries);
+
+}  // namespace lockstep::host

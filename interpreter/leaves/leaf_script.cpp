@@ -1,0 +1,184 @@
+#include "leaves/leaf_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/value.h"
+#include "core/wording.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::pair<Status, char> kLetters[] = {{Status::Running, 'R'},
+                                                {Status::Success, 'S'},
+                                                {Status::Failure, 'F'},
+                                                {Status::Skipped, 'K'}};
+constexpr char kFault = 'X', kHeld = '~';
+
+// In a value, what separates words and parts is written as %20.
+std::string coded(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_plain = c > ' ' && c != '%' && c != '[' && c != ']' && c != '|' && c != '=' &&
+                          c != '\x7f';
+    if (is_plain) {
+      out += c;
+    } else {
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return out;
+}
+
+std::optional<std::string> decoded(std::string_view text) {
+  std::string out;
+  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      out += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    const int high = digit(text[i + 1]), low = digit(text[i + 2]);
+    if (high < 0 || low < 0) return std::nullopt;
+    out += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return out;
+}
+
+// "[a=1|b=2]".
+bool take_written(std::string_view text, LeafWord& word) {
+  if (text.empty()) return true;
+  if (text.front() != '[' || text.back() != ']') return false;
+  text = text.substr(1, text.size() - 2);
+  while (true) {
+    const std::string_view part = text.substr(0, text.find('|'));
+    const auto sign = part.find('=');
+    if (sign == std::string_view::npos) return false;
+    const auto port = decoded(part.substr(0, sign)), value = decoded(part.substr(sign + 1));
+    if (!port || !value) return false;
+    word.written.emplace_back(*port, *value);
+    if (part.size() == text.size()) return true;
+    text.remove_prefix(part.size() + 1);
+  }
+}
+
+std::optional<LeafWord> parse_word(std::string_view text) {
+  LeafWord word;
+  const char first = text.front();
+  text.remove_prefix(1);
+  const auto end = text.find('[');
+  const std::string_view number = text.substr(0, end);
+  if (!number.empty()) {
+    const auto progress = parse_double(number);
+    if (!progress || *progress < 0 || *progress > 1) return std::nullopt;
+    word.progress = *progress;
+  }
+  if (first == kHeld || first == kFault) {
+    word.kind = first == kHeld ? LeafWord::Kind::Held : LeafWord::Kind::Fault;
+  } else {
+    const auto* const letter = std::ranges::find(kLetters, first, &std::pair<Status, char>::second);
+    if (letter == std::end(kLetters)) return std::nullopt;
+    word.status = letter->first;
+  }
+  const bool fits = take_written(end == std::string_view::npos ? "" : text.substr(end), word);
+  return fits ? std::optional(word) : std::nullopt;
+}
+
+std::string to_text(const LeafWord& word) {
+  std::string text;
+  if (word.kind == LeafWord::Kind::Fault) {
+    text = kFault;
+  } else if (word.kind == LeafWord::Kind::Held) {
+    text = fmt::format("{}{}", kHeld, word.progress);
+  } else {
+    text = std::ranges::find(kLetters, word.status, &std::pair<Status, char>::first)->second;
+    if (word.status == Status::Running) text += fmt::format("{}", word.progress);
+  }
+  std::string_view before = "[";
+  for (const auto& [port, value] : word.written) {
+    text += fmt::format("{}{}={}", before, coded(port), coded(value));
+    before = "|";
+  }
+  return word.written.empty() ? text : text + ']';
+}
+
+// "@rate 10".
+std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts) {
+  const auto blank = line.find(' ');
+  const std::string_view name = line.substr(0, blank);
+  const std::string_view value = blank == std::string_view::npos ? "" : line.substr(blank + 1);
+  if (name == "@rate") {
+    scripts.rate = parse_double(value);
+    if (scripts.rate && *scripts.rate >= 0.001 && *scripts.rate <= 100000) return std::nullopt;
+    return Problem{"'@rate' is a number from 0.001 to 100000"};
+  }
+  if (name == "@ticks") {
+    const auto ticks = parse_int(value);
+    if (ticks && *ticks > 0) scripts.ticks = static_cast<std::uint64_t>(*ticks);
+    return scripts.ticks ? std::nullopt : std::optional(Problem{"'@ticks' is a whole number"});
+  }
+  return Problem{fmt::format("unknown setting '{}'", brief(name)), "there are @rate and @ticks"};
+}
+
+std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts) {
+  if (line.front() == '@') return read_setting(line, scripts);
+  const auto sign = line.find(" = ");
+  if (sign == std::string_view::npos) {
+    return Problem{"expected the path of a leaf, ' = ' and its words",
+                   "write Main/arm = R0 R0.5 S"};
+  }
+  std::vector<LeafWord> words;
+  std::istringstream text{std::string(line.substr(sign + 3))};
+  for (std::string it; text >> it;) {
+    auto word = parse_word(it);
+    if (!word) {
+      return Problem{fmt::format("'{}' is no word of a leaf", brief(it)),
+                     "there are R0.5 (running, with its progress), S, F, K (skipped), X (a fault), "
+                     "~0.5 (held), each with what it writes: S[port=value]"};
+    }
+    words.push_back(std::move(*word));
+  }
+  if (words.empty()) return Problem{"a leaf without words"};
+  const std::string path(line.substr(0, sign));
+  if (scripts.leaves.emplace(path, std::move(words)).second) return std::nullopt;
+  return Problem{fmt::format("'{}' is there twice", brief(path))};
+}
+
+}  // namespace
+
+bool is_leaf_file(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first != std::string_view::npos && text[first] == '<';
+}
+
+Result<LeafScripts> parse_leaf_scripts(std::string_view text) {
+  LeafScripts scripts;
+  for (int number = 1; !text.empty(); ++number) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+    if (line.empty() || line.front() == '#') continue;
+    if (auto wrong = read_line(line, scripts)) {
+      return problem(fmt::format("{}: {}", number, wrong->message), wrong->hint);
+    }
+  }
+  return scripts;
+}
+
+std::string to_text(const LeafScripts& scripts) {
+  std::string text;
+  if (scripts.rate) text += fmt::format("@rate {}\n", *scripts.rate);
+  if (scripts.ticks) text += fmt::format("@ticks {}\n", *scripts.ticks);
+  for (const auto& [path, words] : scripts.leaves) {
+    text += path + " =";
+    for (const LeafWord& word : words) text += ' ' + to_text(word);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace lockstep::host

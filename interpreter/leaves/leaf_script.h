@@ -1,0 +1,44 @@
+// What leaves do, tick by tick, as text: NAME.leaves. A counter-example of verify is one, and `run
+// --leaves` plays it. docs/verify.md has the grammar.
+//   @rate 10
+//   @ticks 14
+//   M/p/arm = R0 R0.1 ~0.05 R0.1 S[place=kitchen]
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/problem.h"
+#include "core/status.h"
+
+namespace lockstep::host {
+
+struct LeafWord {
+  enum class Kind : std::uint8_t { Tick, Fault, Held } kind = Kind::Tick;
+  Status status = Status::Running;  // of a Tick
+  double progress = 0;              // of a Tick that goes on, and of Held
+  // Ports, with the texts of their values: written in this tick, before it if it is the first.
+  std::vector<std::pair<std::string, std::string>> written = {};
+
+  friend bool operator==(const LeafWord&, const LeafWord&) = default;
+};
+
+struct LeafScripts {
+  std::optional<double> rate;
+  std::optional<std::uint64_t> ticks;  // of the tree, as many as the scripts are for
+  std::map<std::string, std::vector<LeafWord>, std::less<>> leaves = {};  // by path
+};
+
+// A text that begins with '<' is a leaf file (leaves/leaf_file.h), any other is scripts.
+bool is_leaf_file(std::string_view text);
+
+// An error has the line: "3: …".
+Result<LeafScripts> parse_leaf_scripts(std::string_view text);
+std::string to_text(const LeafScripts& scripts);
+
+}  // namespace lockstep::host

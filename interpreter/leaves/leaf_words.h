@@ -1,0 +1,72 @@
+// The words of a leaf file, once: for its reader and for the XSD.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace lockstep::host::leaf_words {
+
+struct Word {
+  std::string_view name;
+  std::string_view pattern;  // of its value, in XSD; "": any text that is not empty
+  std::string_view doc;
+  bool required = false;
+};
+
+inline constexpr Word kRoot[] = {
+    {"lockstep", "1", "The version of the leaf file.", true},
+    {"rate", R"([0-9]*\.?[0-9]+)", "Ticks per second."},
+};
+inline constexpr Word kFact[] = {
+    {"name", "[A-Za-z_][A-Za-z0-9_]*", "What leaves call it.", true},
+    {"changes", "never|freely|rises|falls",
+     "How it changes by itself: never (it is unknown, but constant), freely (the default), rises "
+     "(from false to true at most), falls."},
+};
+inline constexpr Word kLeaf[] = {
+    {"of", "", "The leaves of this type. Or give 'path'."},
+    {"path", "", "The leaves with this path; * stands for any part of it."},
+    {"result", "(success|failure|skipped|fault)(;(success|failure|skipped|fault))*",
+     "The results that may come."},
+    {"ticks", R"([0-9]+(\.\.([0-9]+|inf))?)",
+     "Ticks that an activation gets until it completes; 1..inf when nothing is said."},
+    {"ends", "yes|no",
+     "yes: an activation that is ticked again and again ends some time, which is assumed; no: it "
+     "may run for ever."},
+    {"progress", "none|cuts|grid:[1-9][0-9]*",
+     "What is told apart: cuts (what the barriers and properties compare it with) or parts of the "
+     "same size."},
+    {"step", R"(-?[0-9]+(\.\.(-?[0-9]+|inf))?)",
+     "How far a tick may take the progress, in cuts or parts."},
+    {"finish", "full|any", "full: it succeeds only by reaching 1."},
+    {"held", R"(still|-?[0-9]+\.\.-?[0-9]+)",
+     "How far its progress goes in each tick that is withheld, in cuts or parts."},
+    {"fact", "[A-Za-z_][A-Za-z0-9_]*", "Its result is this fact."},
+    {"sets", "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
+     "Facts that its success makes true or false."},
+    {"writes", "success|start|tick", "When it writes its outputs; on success when nothing is said."},
+};
+// Of a leaf, also "out.PORT".
+inline constexpr std::string_view kOutput = "out.";
+inline constexpr Word kAccept[] = {
+    {"finding", "", "The name of a finding, as verify gives it.", true},
+    {"because", "", "Why it is as it should be.", true},
+};
+inline constexpr Word kTree[] = {
+    {"ends", "yes|no", "no: the tree is to run for ever, so that it does not end is no finding.",
+     true},
+};
+
+struct Tag {
+  std::string_view name;
+  std::span<const Word> words;
+  std::string_view doc;
+};
+inline constexpr Tag kTags[] = {
+    {"tree", kTree, "What is expected of the whole tree."},
+    {"fact", kFact, "Something about the world that leaves look at or change."},
+    {"leaf", kLeaf, "What some leaves may do. Later rows win."},
+    {"accept", kAccept, "A finding that is as it should be."},
+};
+
+}  // namespace lockstep::host::leaf_words

@@ -1,0 +1,242 @@
+#include "leaves/model_leaf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "blackboard/entry.h"
+#include "engine/call_mark.h"
+#include "lockstep/leaf.h"
+
+namespace lockstep::host {
+
+struct ModelLeaves::Functions {
+  static Self& self(void* leaf) { return *static_cast<Self*>(leaf); }
+
+  template <class F>
+  static lockstep_leaf_type type(F set) {
+    lockstep_leaf_type type{};
+    type.struct_size = sizeof type;
+    type.start = [](void* it) { self(it).all->start(self(it).number); };
+    type.tick = [](void* it) {
+      return static_cast<lockstep_status>(self(it).all->tick(self(it).number));
+    };
+    type.halt = [](void* it) { self(it).all->halt(self(it).number); };
+    type.pause = [](void* it) { self(it).all->pause(self(it).number); };
+    type.resume = [](void* it) { self(it).all->resume(self(it).number); };
+    set(type);
+    return type;
+  }
+  static const lockstep_leaf_type& of(const LeafNode& node) {
+    static const auto kAction = type([](auto& it) { it.kind = LOCKSTEP_ACTION; });
+    static const auto kCondition = type([](auto& it) { it.kind = LOCKSTEP_CONDITION; });
+    static const auto kRunningCondition = type([](auto& it) {
+      it.kind = LOCKSTEP_CONDITION;
+      it.flags = LOCKSTEP_MAY_RUN;
+    });
+    if (node.type->category != NodeCategory::Condition) return kAction;
+    return node.type->can_run ? kRunningCondition : kCondition;
+  }
+};
+
+ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard& board,
+                         Answers& answers)
+    : tree_(tree),
+      models_(models),
+      board_(board),
+      answers_(answers),
+      slots_(tree.leaves.size()),
+      states_(tree.leaves.size()),
+      facts_(models.facts.size(), FactState::Unknown),
+      asked_(models.facts.size()),
+      progress_(tree.leaves.size()),
+      marks_(tree.leaves.size()) {
+  static const CallSite kSite;
+  for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
+    selves_.push_back({this, i});
+    if (models.leaves[i].drifts()) drifting_.push_back(i);
+  }
+  for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
+    slots_[i].type = &Functions::of(tree.leaves[i]);
+    slots_[i].self = &selves_[i];
+    slots_[i].site = &kSite;
+    if (models.leaves[i].has_progress) slots_[i].kept_progress = &progress_[i];
+  }
+}
+
+void ModelLeaves::restored() {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    progress_[i] = models_.leaves[i].levels[states_[i].level];
+    slots_[i].error = nullptr;
+  }
+}
+
+void ModelLeaves::begin_tick() {
+  for (LeafMark& mark : marks_) {
+    mark.ticked = mark.ended = mark.faulted = mark.drifted = false;
+    mark.result = Status::Idle;
+    mark.written.clear();
+  }
+  std::fill(asked_.begin(), asked_.end(), false);
+  for (const std::uint32_t leaf : drifting_) {
+    if (states_[leaf].phase != Phase::Paused) continue;
+    const LeafModel& model = models_.leaves[leaf];
+    const auto top = static_cast<std::int64_t>(model.levels.size()) - 1;
+    const std::int64_t now = states_[leaf].level;
+    const std::int64_t first = std::clamp<std::int64_t>(now + model.least_drift, 0, top);
+    const std::int64_t last = std::clamp<std::int64_t>(now + model.most_drift, 0, top);
+    const std::int64_t to = first + answers_.choose(static_cast<std::uint32_t>(last - first + 1));
+    set_level(leaf, to);
+    marks_[leaf].drifted = true;
+    marks_[leaf].held_progress = progress_[leaf];
+  }
+}
+
+// What only says how often something was counts no further than it matters.
+void ModelLeaves::fold() {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    LeafState& state = states_[i];
+    const LeafModel& model = models_.leaves[i];
+    if (state.phase == Phase::Idle) {
+      state = {};
+      continue;
+    }
+    if (model.most_ticks == 0) {
+      const auto enough = static_cast<std::uint32_t>(model.least_ticks - 1);
+      state.ticks = std::min(state.ticks, enough);
+    }
+  }
+  for (std::size_t i = 0; i < facts_.size(); ++i) {
+    if (models_.facts[i].changes == Changes::Freely) facts_[i] = FactState::Unknown;
+  }
+}
+
+bool ModelLeaves::is(std::uint32_t leaf, bool expected, const char* what) {
+  if (!expected && broken_.empty()) {
+    broken_ = fmt::format("{}: {}", tree_.path(tree_.leaves[leaf].node), what);
+  }
+  return expected;
+}
+
+void ModelLeaves::set_level(std::uint32_t leaf, std::int64_t level) {
+  states_[leaf].level = static_cast<std::uint16_t>(level);
+  progress_[leaf] = models_.leaves[leaf].levels[static_cast<std::size_t>(level)];
+}
+
+void ModelLeaves::start(std::uint32_t leaf) {
+  is(leaf, states_[leaf].phase == Phase::Idle, "start, and it runs");
+  states_[leaf] = {.phase = Phase::Running};
+  set_level(leaf, 0);
+  if (models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
+}
+
+bool ModelLeaves::ask(std::uint32_t fact) {
+  const Changes changes = models_.facts[fact].changes;
+  FactState& state = facts_[fact];
+  if (asked_[fact]) return state == FactState::True;
+  asked_[fact] = true;
+  const bool is_settled = (changes == Changes::Never && state != FactState::Unknown) ||
+                          (changes == Changes::Rises && state == FactState::True) ||
+                          (changes == Changes::Falls && state == FactState::False);
+  if (!is_settled) state = answers_.choose(2) == 0 ? FactState::True : FactState::False;
+  return state == FactState::True;
+}
+
+void ModelLeaves::write(std::uint32_t leaf) {
+  for (const LeafModel::Output& output : models_.leaves[leaf].outputs) {
+    const std::uint32_t which = answers_.choose(static_cast<std::uint32_t>(output.values.size()));
+    marks_[leaf].written.push_back(which);
+    const Parameter& parameter = tree_.leaves[leaf].type->parameters[output.port];
+    write_entry(board_.entries[output.slot], parameter.type, parameter.object,
+                output.values[which]);
+  }
+}
+
+Status ModelLeaves::tick(std::uint32_t leaf) {
+  LeafState& state = states_[leaf];
+  const LeafModel& model = models_.leaves[leaf];
+  LeafMark& mark = marks_[leaf];
+  is(leaf, state.phase == Phase::Running, "tick without start, or while it is held");
+  mark.ticked = true;
+  ++state.ticks;
+  if (model.writes == Writes::InEachTick) write(leaf);
+
+  const auto levels = static_cast<std::int64_t>(model.levels.size());
+  // Where it is done: at 1, which is behind all levels unless the last one is 1.
+  const std::int64_t goal = model.levels.back() >= 1 ? levels - 1 : levels;
+  const std::int64_t last = model.finishes_full ? std::max<std::int64_t>(goal - 1, 0) : levels - 1;
+  const std::int64_t from = std::clamp<std::int64_t>(state.level + model.least_step, 0, last);
+  const std::int64_t to = std::clamp<std::int64_t>(state.level + model.most_step, from, last);
+  const bool reaches = state.level + model.most_step >= goal;
+  const bool must_reach = state.level + model.least_step >= goal;
+  const bool may_end = state.ticks >= model.least_ticks;
+  const bool may_succeed = may_end && (!model.finishes_full || !model.has_progress || reaches);
+  const bool is_last = model.most_ticks != 0 && state.ticks >= model.most_ticks;
+  bool may_run = model.can_run && !is_last;
+  if (may_run && model.finishes_full && model.has_progress && must_reach && may_end &&
+      model.results.success) {
+    may_run = false;
+  }
+
+  Status ends[3];
+  std::uint32_t count = 0;
+  bool may_fault = false;
+  if (model.fact != kNoFact && may_end) {
+    ends[count++] = ask(model.fact) ? Status::Success : Status::Failure;
+  } else if (may_end) {
+    if (may_succeed && model.results.success) ends[count++] = Status::Success;
+    if (model.results.failure) ends[count++] = Status::Failure;
+    if (model.results.skipped) ends[count++] = Status::Skipped;
+    may_fault = model.results.fault;
+  }
+  if (count == 0 && !may_fault && !may_run) {
+    model.can_run ? void(may_run = true) : void(ends[count++] = Status::Success);
+  }
+  const auto running = may_run ? static_cast<std::uint32_t>(to - from + 1) : 0;
+  std::uint32_t choice = answers_.choose(count + (may_fault ? 1 : 0) + running);
+  if (choice < count) {
+    mark.result = ends[choice];
+    mark.ended = true;
+    mark.progress = 0;
+    if (mark.result == Status::Success) {
+      for (const LeafModel::Set& set : model.sets) {
+        facts_[set.fact] = set.value ? FactState::True : FactState::False;
+        asked_[set.fact] = true;
+      }
+      if (model.writes == Writes::OnSuccess) write(leaf);
+    }
+    state = {};
+    return mark.result;
+  }
+  choice -= count;
+  if (may_fault && choice-- == 0) {
+    mark.faulted = mark.ended = true;
+    mark.result = Status::Failure;
+    slots_[leaf].error = "fails as a program, which the leaf file allows";
+    return Status::Failure;
+  }
+  set_level(leaf, from + choice);
+  mark.result = Status::Running;
+  mark.progress = progress_[leaf];
+  return Status::Running;
+}
+
+void ModelLeaves::halt(std::uint32_t leaf) {
+  is(leaf, states_[leaf].phase != Phase::Idle, "halt, and it does not run");
+  states_[leaf] = {};
+  marks_[leaf].ended = true;
+}
+
+void ModelLeaves::pause(std::uint32_t leaf) {
+  if (is(leaf, states_[leaf].phase == Phase::Running, "pause, and it gets no ticks")) {
+    states_[leaf].phase = Phase::Paused;
+  }
+}
+
+void ModelLeaves::resume(std::uint32_t leaf) {
+  if (is(leaf, states_[leaf].phase == Phase::Paused, "resume, and it is not held")) {
+    states_[leaf].phase = Phase::Running;
+  }
+}
+
+}  // namespace lockstep::host

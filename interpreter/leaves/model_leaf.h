@@ -1,0 +1,96 @@
+// Leaves that do what their models allow, as answers choose. All that they keep is a few bytes for
+// each, which a search saves and compares. They refuse an order of calls that the contract forbids.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/blackboard.h"
+#include "engine/leaf_slot.h"
+#include "leaves/answers.h"
+#include "leaves/models.h"
+
+namespace lockstep::host {
+
+enum class Phase : std::uint8_t { Idle, Running, Paused };
+
+// Of a leaf between two ticks; all 0 while it is idle.
+struct LeafState {
+  std::uint32_t ticks = 0;  // of this activation, as far as their number matters
+  std::uint16_t level = 0;
+  Phase phase = Phase::Idle;
+
+  friend bool operator==(const LeafState&, const LeafState&) = default;
+};
+
+enum class FactState : std::uint8_t { False, True, Unknown };
+
+// What a leaf did in a tick of the tree.
+struct LeafMark {
+  bool ticked = false, ended = false;
+  Status result = Status::Idle;  // of its tick
+  bool faulted = false;
+  double progress = 0;             // after it
+  bool drifted = false;            // it was held before it, and may drift
+  double held_progress = 0;        // then
+  std::vector<std::uint32_t> written = {};  // of each output, in order: which value
+};
+
+// The leaves of a run.
+class ModelLeaves {
+ public:
+  // All must outlive this.
+  ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard& board, Answers& answers);
+  ModelLeaves(const ModelLeaves&) = delete;
+  ModelLeaves& operator=(const ModelLeaves&) = delete;
+
+  std::span<LeafSlot> slots() { return slots_; }
+  std::vector<LeafState>& states() { return states_; }
+  std::vector<FactState>& facts() { return facts_; }
+  // After states() or facts() were written.
+  void restored();
+
+  // Before each tick of the tree. What is held may drift.
+  void begin_tick();
+  // After it: what does not matter any more is 0.
+  void fold();
+  std::span<const LeafMark> marks() const { return marks_; }
+  // What the engine did against the contract; "" for nothing.
+  const std::string& broken() const { return broken_; }
+
+ private:
+  struct Self {
+    ModelLeaves* all;
+    std::uint32_t number;
+  };
+  struct Functions;
+  friend struct Functions;
+
+  void start(std::uint32_t leaf);
+  Status tick(std::uint32_t leaf);
+  void halt(std::uint32_t leaf);
+  void pause(std::uint32_t leaf);
+  void resume(std::uint32_t leaf);
+  bool is(std::uint32_t leaf, bool expected, const char* what);
+  bool ask(std::uint32_t fact);
+  void write(std::uint32_t leaf);
+  void set_level(std::uint32_t leaf, std::int64_t level);
+
+  const Tree& tree_;
+  const LeafModels& models_;
+  Blackboard& board_;
+  Answers& answers_;
+  std::vector<Self> selves_;
+  std::vector<LeafSlot> slots_;
+  std::vector<LeafState> states_;
+  std::vector<FactState> facts_;
+  std::vector<bool> asked_;       // of each fact, in this tick
+  std::vector<double> progress_;  // of each leaf
+  std::vector<LeafMark> marks_;
+  std::vector<std::uint32_t> drifting_;  // the leaves that may
+  std::string broken_;
+};
+
+}  // namespace lockstep::host

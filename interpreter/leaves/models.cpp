@@ -1,0 +1,359 @@
+#include "leaves/models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "document/reporter.h"
+#include "leaves/cuts.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::int64_t kNoEnd = 1'000'000'000;
+constexpr std::uint32_t kUsualParts = 10, kMostParts = 1000;
+
+bool is_whole(double value) {
+  return std::abs(value - std::round(value)) < 1e-6;
+}
+
+// The fewest parts, at least the usual ones, of which each delta is a multiple; 0: too many.
+std::uint32_t parts_for(const std::vector<double>& deltas) {
+  for (std::uint32_t parts = kUsualParts; parts <= kMostParts; ++parts) {
+    if (std::ranges::all_of(deltas, [&](double it) { return is_whole(it * parts); })) return parts;
+  }
+  return 0;
+}
+
+class ModelMaker {
+ public:
+  ModelMaker(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
+             std::vector<NodeProblem>& problems)
+      : tree_(tree), file_(file), diagnostics_(diagnostics), problems_(problems) {}
+
+  LeafModels make() {
+    make_general();
+    if (file_ != nullptr) {
+      models_.rate = file_->rate;
+      models_.tree_ends = file_->tree_ends;
+      models_.accepted = file_->accepted;
+      for (const FactRow& it : file_->facts) models_.facts.push_back({it.name, it.changes});
+      for (const LeafRow& row : file_->leaves) apply(row);
+    }
+    add_missing_outputs();
+    find_levels();
+    return std::move(models_);
+  }
+
+ private:
+  const NodeType& type_of(std::size_t leaf) const { return *tree_.leaves[leaf].type; }
+  const Reporter& report() {
+    if (!report_) report_.emplace(file_->sources, diagnostics_);
+    return *report_;
+  }
+
+  void make_general() {
+    ways_.resize(tree_.leaves.size());
+    for (std::size_t i = 0; i < tree_.leaves.size(); ++i) {
+      const NodeType& type = type_of(i);
+      LeafModel& model = models_.leaves.emplace_back();
+      model.node = tree_.leaves[i].node;
+      model.can_run = type.can_run;
+      model.has_progress = type.has_progress && type.category == NodeCategory::Action;
+      model.most_step = kNoEnd;
+      if (type.category == NodeCategory::Control || type.category == NodeCategory::Decorator) {
+        problems_.push_back({model.node,
+                             fmt::format("'{}' is a {} of plugin '{}': what it does with its "
+                                         "children is not known",
+                                         type.id, to_string(type.category), type.plugin),
+                             "use nodes of the language here"});
+      }
+    }
+  }
+
+  // --- a row of the file -------------------------------------------------------------------------
+
+  void apply(const LeafRow& row) {
+    const auto leaves = leaves_of(row);
+    if (leaves.empty()) return tell_no_match(row);
+    for (const std::size_t leaf : leaves) apply(row, leaf);
+  }
+
+  std::vector<std::size_t> leaves_of(const LeafRow& row) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < tree_.leaves.size(); ++i) {
+      const bool fits = row.path.empty() ? type_of(i).id == row.of
+                                         : matches(row.path, tree_.path(tree_.leaves[i].node));
+      if (fits) found.push_back(i);
+    }
+    return found;
+  }
+
+  void tell_no_match(const LeafRow& row) {
+    std::vector<std::string> names;
+    for (const LeafNode& leaf : tree_.leaves) {
+      names.push_back(row.path.empty() ? std::string(leaf.type->id) : tree_.path(leaf.node));
+    }
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string& given = row.path.empty() ? row.of : row.path;
+    report().at_value(row.place,
+                      row.path.empty()
+                          ? fmt::format("the tree has no leaf of type '{}'", brief(given))
+                          : fmt::format("no leaf has the path '{}'", brief(given)),
+                      suggest(given, known, "its leaves"));
+  }
+
+  void apply(const LeafRow& row, std::size_t leaf) {
+    LeafModel& model = models_.leaves[leaf];
+    if (row.results) model.results = *row.results;
+    if (row.ticks) {
+      model.least_ticks = row.ticks->least;
+      model.most_ticks = row.ticks->most.value_or(0);
+    }
+    if (row.ends) model.ends = *row.ends;
+    if (row.progress) ways_[leaf] = {*row.progress, row.place};
+    if (row.step) {
+      model.least_step = row.step->least;
+      model.most_step = row.step->most.value_or(kNoEnd);
+    }
+    if (row.finishes_full) model.finishes_full = *row.finishes_full;
+    if (row.held) {
+      model.least_drift = row.held->least;
+      model.most_drift = row.held->most.value_or(0);
+    }
+    if (row.writes) model.writes = *row.writes;
+    if (row.fact) model.fact = fact(*row.fact);
+    for (const LeafRow::Named& it : row.sets) add_set(model, it);
+    for (const LeafRow::Named& it : row.outputs) add_output(leaf, it);
+  }
+
+  std::uint32_t fact(const LeafRow::Named& named) {
+    const auto it = std::ranges::find(models_.facts, named.name, &Fact::name);
+    if (it != models_.facts.end()) return static_cast<std::uint32_t>(it - models_.facts.begin());
+    std::vector<std::string_view> names;
+    for (const Fact& known : models_.facts) names.push_back(known.name);
+    if (told_.insert(named.place.byte).second) {
+      report().at_value(named.place, fmt::format("unknown fact '{}'", brief(named.name)),
+                        names.empty()
+                            ? fmt::format("declare it: <fact name=\"{}\"/>", brief(named.name))
+                            : suggest(named.name, names, "facts"));
+    }
+    return kNoFact;
+  }
+
+  void add_set(LeafModel& model, const LeafRow::Named& named) {
+    const std::uint32_t which = fact(named);
+    if (which != kNoFact) model.sets.push_back({which, named.text == "true"});
+  }
+
+  void add_output(std::size_t leaf, const LeafRow::Named& named) {
+    const NodeType& type = type_of(leaf);
+    std::vector<std::string_view> known;
+    for (const Parameter& it : type.parameters) {
+      if (it.direction != Direction::Input) known.push_back(it.name);
+    }
+    const auto parameter = std::ranges::find(type.parameters, named.name, &Parameter::name);
+    if (parameter == type.parameters.end() || parameter->direction == Direction::Input) {
+      report().at(named.place,
+                  fmt::format("'{}' has no output '{}'", type.id, brief(named.name)),
+                  suggest(named.name, known, "its outputs"));
+      return;
+    }
+    const auto port = static_cast<std::uint32_t>(parameter - type.parameters.begin());
+    const std::uint32_t slot = tree_.ports[tree_.leaves[leaf].first_port + port].slot;
+    LeafModel::Output output{port, slot, values_of(*parameter, named)};
+    if (slot == PortBinding::kUnbound || output.values.empty()) return;
+    std::erase_if(models_.leaves[leaf].outputs, [&](const auto& it) { return it.port == port; });
+    models_.leaves[leaf].outputs.push_back(std::move(output));
+  }
+
+  std::vector<Value> values_of(const Parameter& parameter, const LeafRow::Named& named) {
+    std::vector<Value> values;
+    std::string_view rest = named.text;
+    while (true) {
+      const std::string_view part = rest.substr(0, rest.find('|'));
+      const auto value = parse_value(parameter.type, part);
+      if (!value) {
+        report().at_value(named.place, fmt::format("'{}' is no value of '{}'", brief(part),
+                                                   parameter.name),
+                          fmt::format("expected {}", expected_text(parameter.type)));
+        return {};
+      }
+      values.push_back(*value);
+      if (part.size() == rest.size()) return values;
+      rest.remove_prefix(part.size() + 1);
+    }
+  }
+
+  // --- what nothing is said of -------------------------------------------------------------------
+
+  // An output that only leaves read does not matter. A bool may be both.
+  void add_missing_outputs() {
+    const std::vector<bool> matters = entries_of_engine(tree_);
+    for (std::size_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
+      const NodeType& type = type_of(leaf);
+      LeafModel& model = models_.leaves[leaf];
+      for (std::uint32_t port = 0; port < type.parameters.size(); ++port) {
+        if (type.parameters[port].direction == Direction::Input) continue;
+        const std::uint32_t slot = tree_.ports[tree_.leaves[leaf].first_port + port].slot;
+        if (slot == PortBinding::kUnbound || !matters[slot]) continue;
+        if (std::ranges::find(model.outputs, port, &LeafModel::Output::port) !=
+            model.outputs.end()) {
+          continue;
+        }
+        if (type.parameters[port].type == ValueType::Bool) {
+          model.outputs.push_back({port, slot, {Value(false), Value(true)}});
+          continue;
+        }
+        problems_.push_back(
+            {model.node,
+             fmt::format("'{}' writes the entry '{}', which the tree itself reads, and nothing says "
+                         "which values",
+                         type.id, tree_.slots[slot].name),
+             fmt::format("say them in the leaf file: <leaf of=\"{}\" out.{}=\"…|…\"/>", type.id,
+                         type.parameters[port].name)});
+      }
+      std::erase_if(model.outputs, [&](const auto& it) { return !matters[it.slot]; });
+    }
+  }
+
+  // --- progress ----------------------------------------------------------------------------------
+
+  // The entries whose values are known: those that only leaves write.
+  BarriersOfEntries barriers_of_entries() const {
+    BarriersOfEntries known;
+    for (const BoundNode& bound : tree_.bound) {
+      if (synchronization(tree_.nodes[bound.node]) != Synchronization::Absolute) continue;
+      const std::uint32_t slot = tree_.ports[bound.first_port].slot;
+      if (slot == PortBinding::kUnbound || is_in_script(slot)) continue;
+      std::vector<double>& all = known[slot];
+      add(tree_.slots[slot].initial, all);
+      for (const LeafModel& model : models_.leaves) {
+        for (const auto& output : model.outputs) {
+          if (output.slot != slot) continue;
+          for (const Value& value : output.values) add(value, all);
+        }
+      }
+    }
+    return known;
+  }
+
+  static void add(const Value& value, std::vector<double>& all) {
+    const auto* list = std::get_if<std::vector<double>>(&value);
+    if (list != nullptr) all.insert(all.end(), list->begin(), list->end());
+  }
+
+  bool is_in_script(std::uint32_t slot) const {
+    return std::ranges::any_of(tree_.scripts, [&](const Script& it) {
+      return std::ranges::find(it.slots, slot) != it.slots.end();
+    });
+  }
+
+  void find_levels() {
+    const std::vector<Cuts> cuts = cuts_of(tree_, barriers_of_entries());
+    for (std::size_t leaf = 0; leaf < models_.leaves.size(); ++leaf) {
+      find_levels(leaf, cuts[models_.leaves[leaf].node]);
+    }
+  }
+
+  void find_levels(std::size_t leaf, const Cuts& cuts) {
+    LeafModel& model = models_.leaves[leaf];
+    const auto& [way, place] = ways_[leaf];
+    using Kind = ProgressWay::Kind;
+    if (way && way->kind == Kind::None) model.has_progress = false;
+    if (!model.has_progress) return;
+    const bool wants_grid = !cuts.deltas.empty() || cuts.is_unknown;
+    if (way && way->kind == Kind::Grid) model.parts = way->parts;
+    if (way && way->kind == Kind::Cuts && wants_grid) {
+      report().at(place, "its progress is compared with a distance: no set of cuts is exact",
+                  fmt::format("write progress=\"grid:{}\"", parts_for(cuts.deltas)));
+    }
+    if (!way && wants_grid) model.parts = parts_for(cuts.deltas);
+    if (wants_grid && model.parts == 0) model.parts = kUsualParts;
+    if (way && way->kind == Kind::Grid) check_parts(*way, place, cuts.deltas);
+    for (std::uint32_t part = 1; part < model.parts; ++part) {
+      add_level(model, static_cast<double>(part) / model.parts);
+    }
+    for (const double cut : cuts.values) add_level(model, cut);
+  }
+
+  static void add_level(LeafModel& model, double value) {
+    const auto at = std::ranges::lower_bound(model.levels, value - 1e-9);
+    if (at == model.levels.end() || *at > value + 1e-9) model.levels.insert(at, value);
+  }
+
+  void check_parts(const ProgressWay& way, Place place, const std::vector<double>& deltas) {
+    for (const double delta : deltas) {
+      if (is_whole(delta * way.parts)) continue;
+      report().at(place, fmt::format("delta {} is no multiple of 1/{}", delta, way.parts),
+                  fmt::format("write progress=\"grid:{}\"", parts_for(deltas)));
+    }
+  }
+
+  struct Way {
+    std::optional<ProgressWay> way;
+    Place place = {};
+  };
+
+  const Tree& tree_;
+  const LeafFile* const file_;
+  Diagnostics& diagnostics_;
+  std::vector<NodeProblem>& problems_;
+  std::optional<Reporter> report_;
+  std::vector<Way> ways_;  // of each leaf
+  std::set<std::uint32_t> told_;
+  LeafModels models_;
+};
+
+}  // namespace
+
+bool matches(std::string_view pattern, std::string_view path) {
+  const auto star = pattern.find('*');
+  if (star == std::string_view::npos) return pattern == path;
+  if (!path.starts_with(pattern.substr(0, star))) return false;
+  path.remove_prefix(star);
+  pattern.remove_prefix(star + 1);
+  if (pattern.find('*') == std::string_view::npos) return path.ends_with(pattern);
+  for (std::size_t at = 0; at <= path.size(); ++at) {
+    if (matches(pattern, path.substr(at))) return true;
+  }
+  return false;
+}
+
+std::vector<bool> entries_of_engine(const Tree& tree) {
+  std::vector<bool> used(tree.slots.size());
+  const auto add_ports = [&](std::uint32_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t slot = tree.ports[first + i].slot;
+      if (slot != PortBinding::kUnbound) used[slot] = true;
+    }
+  };
+  for (const Script& script : tree.scripts) {
+    for (const std::uint32_t slot : script.slots) used[slot] = true;
+  }
+  for (const BoundNode& bound : tree.bound) {
+    add_ports(bound.first_port, bound.kind->type.parameters.size());
+  }
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    const NodeType& type = *tree.labels[node].type;
+    if (type.reads_ports && type.leaf == nullptr) {
+      add_ports(tree.nodes[node].params, type.parameters.size());
+    }
+  }
+  return used;
+}
+
+LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
+                   std::vector<NodeProblem>& problems) {
+  return ModelMaker(tree, file, diagnostics, problems).make();
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,81 @@
+// What each leaf of a tree may do, as data: a leaf file's rows found in the tree, and where it says
+// nothing the most general leaf that keeps the contract of lockstep/leaf.h and stands still while
+// it is held. leaves/model_leaf.h does it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/tree.h"
+#include "leaves/leaf_file.h"
+
+namespace lockstep::host {
+
+inline constexpr std::uint32_t kNoFact = 0xffffffff;
+inline constexpr double kModelRate = 10;  // Hz, when nothing is said
+
+struct LeafModel {
+  NodeIndex node = 0;
+  ResultSet results;
+  bool can_run = true;
+  std::int64_t least_ticks = 1;
+  std::int64_t most_ticks = 0;  // 0: without end
+  bool ends = true;
+  // The progress that it may have, rising from 0; 1 only if running with it is not the same as
+  // having succeeded. A step is from one to another.
+  std::vector<double> levels{0.0};
+  bool has_progress = false;
+  std::uint32_t parts = 0;  // of a grid; 0: the levels are cuts
+  std::int64_t least_step = 0, most_step = 0;
+  bool finishes_full = false;
+  std::int64_t least_drift = 0, most_drift = 0;  // in each tick that is withheld
+  std::uint32_t fact = kNoFact;
+  struct Set {
+    std::uint32_t fact;
+    bool value;
+  };
+  std::vector<Set> sets;  // by a success
+  struct Output {
+    std::uint32_t port;
+    std::uint32_t slot;
+    std::vector<Value> values;
+  };
+  std::vector<Output> outputs;
+  Writes writes = Writes::OnSuccess;
+
+  bool drifts() const { return least_drift != 0 || most_drift != 0; }
+};
+
+struct Fact {
+  std::string name;
+  Changes changes;
+};
+
+struct LeafModels {
+  std::vector<LeafModel> leaves;  // of each Tree::leaves
+  std::vector<Fact> facts;
+  std::optional<double> rate;
+  bool tree_ends = true;
+  std::vector<AcceptedFinding> accepted;
+};
+
+// What is wrong with a node of the tree.
+struct NodeProblem {
+  NodeIndex node;
+  std::string message, hint;
+};
+
+// `file` may be null. Errors in the file go to `diagnostics`; those of nodes, which need something
+// that nothing says, to `problems`.
+LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
+                   std::vector<NodeProblem>& problems);
+
+// The entries that the engine itself reads or writes: in scripts, parameters and built-in nodes.
+std::vector<bool> entries_of_engine(const Tree& tree);
+
+// Whether a path is one that a pattern means, in which * stands for any part.
+bool matches(std::string_view pattern, std::string_view path);
+
+}  // namespace lockstep::host

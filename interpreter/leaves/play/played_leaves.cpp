@@ -1,0 +1,193 @@
+#include "leaves/play/played_leaves.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "plugin/contract/host.h"
+
+namespace lockstep::host {
+namespace {
+
+using Kind = LeafWord::Kind;
+
+// Its words in order; what it does behind the last one is what that says.
+class PlayedLeaf final : public RemoteLeaf {
+ public:
+  PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words)
+      : RemoteLeaf(caller), words_(words) {}
+
+  void start() override {
+    progress_ = 0;
+    is_first_ = true;
+    // What it writes at its start is there before other nodes look.
+    if (const LeafWord* word = current()) write(*word);
+  }
+  void start_unreset() override { start(); }
+
+  lockstep_status tick() override {
+    const LeafWord* const word = current();
+    if (word == nullptr) return is_condition() ? LOCKSTEP_FAILURE : LOCKSTEP_RUNNING;
+    if (!std::exchange(is_first_, false)) write(*word);
+    if (at_ + 1 < words_->size()) ++at_;
+    if (word->kind == Kind::Fault) {
+      fail("fails as a program, which the leaf file allows");
+      return LOCKSTEP_FAILURE;
+    }
+    progress_ = word->progress;
+    return static_cast<lockstep_status>(word->status);
+  }
+  void halt() override { is_held_ = false; }
+  void pause() override {
+    is_held_ = true;
+    held_at_ = tick_number();
+  }
+  void resume() override {
+    progress_ = progress();
+    is_held_ = false;
+    for (std::size_t count = held_words(); count > 0 && at_ + 1 < words_->size(); --count) ++at_;
+  }
+  // While it is held it may drift, by a word in each tick.
+  double progress() override {
+    const std::size_t count = is_held_ ? held_words() : 0;
+    return count == 0 ? progress_ : (*words_)[at_ + count - 1].progress;
+  }
+  void end() override {}
+  std::string trouble() override { return {}; }
+
+ private:
+  bool is_condition() const { return caller_.type->category == NodeCategory::Condition; }
+
+  const LeafWord* current() const {
+    return words_ == nullptr || words_->empty() ? nullptr : &(*words_)[at_];
+  }
+
+  std::int64_t tick_number() const {
+    return std::llround(to_seconds(caller_.time->now) / to_seconds(caller_.time->period));
+  }
+
+  // So many of the words for held ticks have come.
+  std::size_t held_words() const {
+    if (words_ == nullptr) return 0;
+    const auto passed = static_cast<std::size_t>(std::max<std::int64_t>(0, tick_number() - held_at_));
+    std::size_t count = 0;
+    while (count < passed && at_ + count < words_->size() &&
+           (*words_)[at_ + count].kind == Kind::Held) {
+      ++count;
+    }
+    return count;
+  }
+
+  void write(const LeafWord& word) {
+    for (const auto& [name, text] : word.written) {
+      for (BoundPort& port : caller_.ports) {
+        if (port.name() != name || port.write == nullptr) continue;
+        auto value = parse_value(port.type, text);
+        if (value) write_entry(*port.write, port.type, port.object(), std::move(*value));
+      }
+    }
+  }
+
+  const std::vector<LeafWord>* const words_;
+  std::size_t at_ = 0;  // the next word
+  double progress_ = 0;
+  bool is_first_ = false;  // the next tick is the first of the activation
+  bool is_held_ = false;
+  std::int64_t held_at_ = 0;
+};
+
+class PlayedRun final : public RemoteRun {
+ public:
+  explicit PlayedRun(const LeafScripts& scripts) : scripts_(scripts) {}
+
+  std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
+    const auto words = scripts_.leaves.find(caller.run->tree->path(caller.node));
+    return std::make_unique<PlayedLeaf>(
+        caller, words == scripts_.leaves.end() ? nullptr : &words->second);
+  }
+
+ private:
+  const LeafScripts& scripts_;
+};
+
+bool is_leaf(const NodeType& type) {
+  const bool is_foreign = type.leaf != nullptr || type.mock != nullptr;
+  return is_foreign &&
+         (type.category == NodeCategory::Action || type.category == NodeCategory::Condition);
+}
+
+std::optional<Problem> check_written(const NodeType& type, const LeafWord& word) {
+  for (const auto& [name, text] : word.written) {
+    const auto port = std::ranges::find(type.parameters, name, &Parameter::name);
+    if (port == type.parameters.end() || port->direction == Direction::Input) {
+      return Problem{fmt::format("'{}' has no output '{}'", type.id, brief(name))};
+    }
+    if (!parse_value(port->type, text)) {
+      return Problem{fmt::format("'{}' is no value of the port '{}' of '{}'", brief(text), name,
+                                 type.id),
+                     fmt::format("expected {}", expected_text(port->type))};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+PlayedLeaves::PlayedLeaves() {
+  static_cast<lockstep_plugin&>(plugin_) = proxy_plugin();
+  plugin_.name = "leaves";
+  plugin_.remote = this;
+  plugin_.is_local = true;
+}
+
+void PlayedLeaves::take_over(Definition& definition) {
+  std::map<const NodeType*, const NodeType*> taken;
+  for (DefinitionNode& node : definition.nodes) {
+    if (!is_leaf(*node.type)) continue;
+    const auto [it, is_new] = taken.try_emplace(node.type);
+    if (is_new) {
+      Type& type = types_.emplace_back(Type{proxy_leaf_type(), *node.type});
+      const bool is_condition = type.node.category == NodeCategory::Condition;
+      type.leaf.kind = is_condition ? LOCKSTEP_CONDITION : LOCKSTEP_ACTION;
+      type.leaf.flags = is_condition && type.node.can_run ? LOCKSTEP_MAY_RUN : 0;
+      type.leaf.id = type.node.leaf != nullptr ? type.node.leaf->id : "leaf";
+      if (!type.node.has_progress) type.leaf.progress = nullptr;
+      type.node.mock = nullptr;
+      type.node.leaf = &type.leaf;
+      type.node.origin = &plugin_;
+      type.node.real_time = false;
+      if (type.node.plugin.empty()) type.node.plugin = plugin_.name;
+      it->second = &type.node;
+    }
+    node.type = it->second;
+  }
+}
+
+std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tree& tree) {
+  std::map<std::string, const NodeType*, std::less<>> leaves;
+  for (const LeafNode& leaf : tree.leaves) leaves[tree.path(leaf.node)] = leaf.type;
+  for (const auto& [path, words] : scripts.leaves) {
+    const auto leaf = leaves.find(path);
+    if (leaf == leaves.end()) {
+      std::vector<std::string_view> known;
+      for (const auto& it : leaves) known.emplace_back(it.first);
+      return Problem{fmt::format("the tree has no leaf '{}'", brief(path)),
+                     suggest(path, known, "its leaves")};
+    }
+    for (const LeafWord& word : words) {
+      if (auto wrong = check_written(*leaf->second, word)) return wrong;
+    }
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<RemoteRun> PlayedLeaves::begin_run(const lockstep_caller& /*caller*/) {
+  return std::make_unique<PlayedRun>(scripts_);
+}
+
+}  // namespace lockstep::host

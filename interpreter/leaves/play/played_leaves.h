@@ -1,0 +1,43 @@
+// Leaves that play scripts in place of those of plugins: to the rest of lockstep they are those of
+// an ordinary plugin, which needs no file.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "definition/definition.h"
+#include "leaves/leaf_script.h"
+#include "plugin/contract/descriptor.h"
+#include "remote/remote_plugin.h"
+
+namespace lockstep::host {
+
+class PlayedLeaves final : public RemotePlugin {
+ public:
+  PlayedLeaves();
+  PlayedLeaves(const PlayedLeaves&) = delete;
+  PlayedLeaves& operator=(const PlayedLeaves&) = delete;
+
+  // All leaves of the definition are of this plugin from now on, also those that no plugin has.
+  // This must outlive the definition, and the tree that is made of it.
+  void take_over(Definition& definition);
+  // Before a run. A leaf without a script runs for ever; a condition without one fails.
+  void set_scripts(LeafScripts scripts) { scripts_ = std::move(scripts); }
+  // What is wrong with scripts for a tree: a path that it does not have, a port, a value.
+  static std::optional<Problem> check(const LeafScripts& scripts, const Tree& tree);
+
+  const lockstep_plugin& entry() const override { return plugin_; }
+  std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
+
+ private:
+  struct Type {
+    lockstep_leaf_type leaf;
+    NodeType node;
+  };
+
+  HostedPlugin plugin_{};
+  std::deque<Type> types_;
+  LeafScripts scripts_;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,29 @@
+// A finding as files: a recording like that of any run, and the script of its leaves, with which
+// `run --leaves` makes the same recording.
+#pragma once
+
+#include <string>
+
+#include "leaves/play/played_leaves.h"
+#include "verify/trace.h"
+#include "verify/verdict.h"
+
+namespace lockstep::host {
+
+struct CounterExample {
+  std::string recording, leaves;  // their names
+};
+
+struct CounterExampleOptions {
+  std::string stem;  // of the names of both files
+  std::string tree_file;
+  double rate = 10;
+  std::map<std::string, std::string, std::less<>> arguments = {};
+};
+
+// `played` are the leaves of the tree. Nothing, and why, if a file cannot be written.
+Result<CounterExample> write_counter_example(const Tree& tree, const Finding& finding,
+                                             Tracer& tracer, PlayedLeaves& played,
+                                             const CounterExampleOptions& options);
+
+}  // namespace lockstep::host

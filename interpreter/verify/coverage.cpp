@@ -1,0 +1,55 @@
+#include "verify/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/synchronized.h"
+
+namespace lockstep::host {
+
+SearchCoverage::SearchCoverage(const Tree& tree) : tree_(tree), seen_(tree.nodes.size()) {
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.labels[node].type->id == "Timeout") timeouts_.push_back(node);
+    if (compares_progress(synchronization(tree.nodes[node]))) synchronized_.push_back({node});
+  }
+}
+
+void SearchCoverage::after_tick(Ticker& ticker) {
+  const RunState& state = ticker.run_state();
+  for (NodeIndex node = 0; node < seen_.size(); ++node) {
+    if (state.last_tick[node] != state.tick_number) continue;
+    seen_[node] |= static_cast<std::uint8_t>(
+        kTicked | 1u << static_cast<unsigned>(status_of(state.activity[node])));
+  }
+  for (const NodeIndex node : timeouts_) {
+    const bool fired = ticker.ticked(node) && ticker.status(node) == Status::Failure &&
+                       ticker.status(node + 1) == Status::Idle;
+    if (fired) seen_[node] |= kFired;
+  }
+  for (Synchronized& it : synchronized_) look_at(ticker, it);
+}
+
+void SearchCoverage::look_at(Ticker& ticker, Synchronized& it) const {
+  if (!ticker.ticked(it.node)) return;
+  const double now = limit(ticker, it.node);
+  if (it.limits.size() < 1000) it.limits.insert(now);
+  double least = 1, most = 0;
+  for (const double progress : child_progress(ticker, it.node)) {
+    if (is_left_out(progress)) continue;
+    least = std::min(least, progress);
+    most = std::max(most, progress);
+  }
+  it.largest_spread = std::max(it.largest_spread, most - least);
+}
+
+void SearchCoverage::add(const SearchCoverage& other) {
+  for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] |= other.seen_[i];
+  for (std::size_t i = 0; i < synchronized_.size(); ++i) {
+    synchronized_[i].limits.insert(other.synchronized_[i].limits.begin(),
+                                   other.synchronized_[i].limits.end());
+    synchronized_[i].largest_spread =
+        std::max(synchronized_[i].largest_spread, other.synchronized_[i].largest_spread);
+  }
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,356 @@
+#include "verify/graph.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
+// Tarjan's algorithm without recursion. `of` is kNone outside of `states`; a component has a
+// smaller number than those that lead to it.
+class ComponentFinder {
+ public:
+  using Uses = std::function<bool(StateId from, const Edge&)>;
+
+  ComponentFinder(const Graph& graph, std::size_t size, Uses uses)
+      : graph_(graph), uses_(std::move(uses)), of_(size, kNone), index_(size, kNone), low_(size) {}
+
+  std::uint32_t find(const std::vector<StateId>& states) {
+    for (const StateId state : states) {
+      if (index_[state] == kNone) visit(state);
+    }
+    return count_;
+  }
+  const std::vector<std::uint32_t>& of() const { return of_; }
+
+ private:
+  struct Frame {
+    StateId state;
+    std::size_t next;
+  };
+
+  void visit(StateId root) {
+    std::vector<Frame> frames;
+    const auto enter = [&](StateId state) {
+      index_[state] = low_[state] = next_++;
+      stack_.push_back(state);
+      frames.push_back({state, 0});
+    };
+    enter(root);
+    while (!frames.empty()) {
+      Frame& frame = frames.back();
+      const StateId state = frame.state;
+      const auto edges = graph_.edges_of(state);
+      if (frame.next == edges.size()) {
+        frames.pop_back();
+        if (low_[state] == index_[state]) close(state);
+        if (!frames.empty()) {
+          low_[frames.back().state] = std::min(low_[frames.back().state], low_[state]);
+        }
+        continue;
+      }
+      const Edge& edge = edges[frame.next++];
+      if (!uses_(state, edge)) continue;
+      if (index_[edge.to] == kNone) {
+        enter(edge.to);
+      } else if (of_[edge.to] == kNone) {
+        low_[state] = std::min(low_[state], index_[edge.to]);
+      }
+    }
+  }
+
+  void close(StateId root) {
+    StateId state = kNoState;
+    do {
+      state = stack_.back();
+      stack_.pop_back();
+      of_[state] = count_;
+    } while (state != root);
+    ++count_;
+  }
+
+  const Graph& graph_;
+  const Uses uses_;
+  std::vector<std::uint32_t> of_, index_, low_;
+  std::vector<StateId> stack_;
+  std::uint32_t next_ = 0, count_ = 0;
+};
+
+std::size_t all_states(const Graph& graph) {
+  return graph.ends.size();
+}
+
+// The states of a component in which an edge goes from one to another.
+std::vector<std::vector<StateId>> with_cycles(const Graph& graph,
+                                              const std::vector<StateId>& states,
+                                              const std::vector<std::uint32_t>& of,
+                                              std::uint32_t count,
+                                              const ComponentFinder::Uses& uses) {
+  std::vector<bool> has_cycle(count);
+  for (const StateId state : states) {
+    for (const Edge& edge : graph.edges_of(state)) {
+      if (of[edge.to] == of[state] && uses(state, edge)) has_cycle[of[state]] = true;
+    }
+  }
+  std::vector<std::vector<StateId>> found;
+  std::vector<std::uint32_t> place(count, kNone);
+  for (const StateId state : states) {
+    const std::uint32_t component = of[state];
+    if (!has_cycle[component]) continue;
+    if (place[component] == kNone) {
+      place[component] = static_cast<std::uint32_t>(found.size());
+      found.emplace_back();
+    }
+    found[place[component]].push_back(state);
+  }
+  return found;
+}
+
+// A way over some edges, breadth first.
+class Way {
+ public:
+  using Uses = std::function<bool(StateId from, const Edge&)>;
+  using Goal = std::function<bool(StateId from, const Edge&)>;
+
+  Way(const Graph& graph, Uses uses) : graph_(graph), uses_(std::move(uses)) {}
+
+  // The last step is the first that is a goal.
+  std::vector<CycleStep> find(StateId from, const Goal& is_goal) const {
+    std::vector<CycleStep> queue;           // each edge that was taken
+    std::vector<std::size_t> before;        // of each: the one before it; itself: none
+    std::vector<bool> seen(all_states(graph_));
+    seen[from] = true;
+    const auto expand = [&](StateId state, std::size_t came_by) {
+      for (const Edge& edge : graph_.edges_of(state)) {
+        if (!uses_(state, edge)) continue;
+        const bool goal = is_goal(state, edge);
+        if (!goal && seen[edge.to]) continue;
+        seen[edge.to] = true;
+        before.push_back(came_by == kStart ? queue.size() : came_by);
+        queue.push_back({state, edge});
+        if (goal) return true;
+      }
+      return false;
+    };
+    bool found = expand(from, kStart);
+    for (std::size_t at = 0; !found && at < queue.size(); ++at) found = expand(queue[at].edge.to, at);
+    if (!found) return {};
+    std::vector<CycleStep> way;
+    for (std::size_t at = queue.size() - 1;; at = before[at]) {
+      way.push_back(queue[at]);
+      if (before[at] == at) break;
+    }
+    std::ranges::reverse(way);
+    return way;
+  }
+
+ private:
+  static constexpr std::size_t kStart = static_cast<std::size_t>(-1);
+  const Graph& graph_;
+  const Uses uses_;
+};
+
+// Finds a fair cycle in a component, by leaving out the leaves that only work (Streett's
+// condition: who works again and again, ends again and again).
+class FairCycle {
+ public:
+  enum class Fairness : bool { Needed, Ignored };
+  FairCycle(const Graph& graph, const EdgeFilter& filter, Fairness fairness)
+      : graph_(graph), filter_(filter), fairness_(fairness) {}
+
+  std::vector<CycleStep> find() const {
+    std::vector<StateId> all(graph_.expanded());
+    for (StateId i = 0; i < all.size(); ++i) all[i] = i;
+    return find(all, std::vector<bool>(graph_.leaves));
+  }
+
+ private:
+  bool uses(const Edge& edge, const std::vector<bool>& without) const {
+    if (filter_ && !filter_(edge)) return false;
+    for (std::size_t leaf = 0; leaf < without.size(); ++leaf) {
+      if (without[leaf] && graph_.has(edge, graph_.worked_bit(leaf))) return false;
+    }
+    return true;
+  }
+
+  std::vector<CycleStep> find(const std::vector<StateId>& states,
+                              const std::vector<bool>& without) const {
+    std::vector<bool> in(all_states(graph_));
+    for (const StateId state : states) in[state] = true;
+    const auto inside = [&](StateId, const Edge& edge) { return in[edge.to] && uses(edge, without); };
+    ComponentFinder finder(graph_, all_states(graph_), inside);
+    const std::uint32_t count = finder.find(states);
+    auto found = with_cycles(graph_, states, finder.of(), count, inside);
+    // The ones that a search finds first, first.
+    std::ranges::sort(found, {}, [](const auto& it) { return std::ranges::min(it); });
+    for (const auto& component : found) {
+      const std::uint32_t number = finder.of()[component.front()];
+      const auto within = [&](StateId from, const Edge& edge) {
+        return finder.of()[from] == number && finder.of()[edge.to] == number && uses(edge, without);
+      };
+      std::vector<bool> more = without;
+      if (!add_those_that_only_work(component, within, more)) return walk(component, within);
+      if (auto cycle = find(component, more); !cycle.empty()) return cycle;
+    }
+    return {};
+  }
+
+  bool add_those_that_only_work(const std::vector<StateId>& component, const Way::Uses& within,
+                                std::vector<bool>& without) const {
+    std::vector<bool> works(graph_.leaves), ends(graph_.leaves);
+    for (const StateId state : component) {
+      for (const Edge& edge : graph_.edges_of(state)) {
+        if (!within(state, edge)) continue;
+        for (std::size_t leaf = 0; leaf < graph_.leaves; ++leaf) {
+          works[leaf] = works[leaf] || graph_.has(edge, graph_.worked_bit(leaf));
+          ends[leaf] = ends[leaf] || graph_.has(edge, graph_.ended_bit(leaf));
+        }
+      }
+    }
+    if (fairness_ == Fairness::Ignored) return false;
+    bool any = false;
+    for (std::size_t leaf = 0; leaf < graph_.leaves; ++leaf) {
+      if (!works[leaf] || ends[leaf] || without[leaf]) continue;
+      without[leaf] = any = true;
+    }
+    return any;
+  }
+
+  // All of the component is fair. A short cycle: from its first state back to it, by way of an end
+  // of each leaf that works on the way.
+  std::vector<CycleStep> walk(const std::vector<StateId>& component,
+                              const Way::Uses& within) const {
+    const StateId start = std::ranges::min(component);
+    const Way way(graph_, within);
+    std::vector<CycleStep> cycle;
+    std::vector<bool> ended(graph_.leaves);
+    const auto take = [&](std::vector<CycleStep> steps) {
+      for (CycleStep& step : steps) {
+        for (std::size_t leaf = 0; leaf < graph_.leaves; ++leaf) {
+          if (graph_.has(step.edge, graph_.ended_bit(leaf))) ended[leaf] = true;
+        }
+        cycle.push_back(step);
+      }
+    };
+    const auto lacking = [&] {
+      for (std::size_t leaf = 0; leaf < graph_.leaves; ++leaf) {
+        if (fairness_ == Fairness::Ignored) break;
+        const bool works = std::ranges::any_of(cycle, [&](const CycleStep& it) {
+          return graph_.has(it.edge, graph_.worked_bit(leaf));
+        });
+        if (works && !ended[leaf]) return leaf;
+      }
+      return graph_.leaves;
+    };
+    take(way.find(start, [&](StateId, const Edge& edge) { return edge.to == start; }));
+    // Not fair yet: it also goes where the leaf ends, and back.
+    while (true) {
+      const std::size_t leaf = lacking();
+      if (leaf == graph_.leaves) return cycle;
+      const StateId here = cycle.back().edge.to;
+      take(way.find(here, [&](StateId, const Edge& edge) {
+        return graph_.has(edge, graph_.ended_bit(leaf));
+      }));
+      if (const StateId there = cycle.back().edge.to; there != start) {
+        take(way.find(there, [&](StateId, const Edge& edge) { return edge.to == start; }));
+      }
+    }
+  }
+
+  const Graph& graph_;
+  const EdgeFilter& filter_;
+  const Fairness fairness_;
+};
+
+}  // namespace
+
+std::uint32_t LabelTable::add(const Bits& bits) {
+  if (last_ != nullptr && *last_ == bits) return last_number_;
+  const auto [it, is_new] = numbers_.try_emplace(bits, static_cast<std::uint32_t>(labels_.size()));
+  if (is_new) labels_.push_back(&it->first);
+  last_ = &it->first;
+  return last_number_ = it->second;
+}
+
+std::vector<bool> can_end(const Graph& graph) {
+  const std::size_t size = all_states(graph);
+  std::vector<std::uint64_t> begins(size + 2);
+  for (const Edge& edge : graph.edges) ++begins[edge.to + 2];
+  for (std::size_t i = 2; i < begins.size(); ++i) begins[i] += begins[i - 1];
+  std::vector<StateId> from(graph.edges.size());
+  for (StateId state = 0; state < graph.expanded(); ++state) {
+    for (const Edge& edge : graph.edges_of(state)) from[begins[edge.to + 1]++] = state;
+  }
+  std::vector<bool> can = graph.ends;
+  std::vector<StateId> queue;
+  for (StateId state = 0; state < size; ++state) {
+    if (state >= graph.expanded()) can[state] = true;
+    if (can[state]) queue.push_back(state);
+  }
+  while (!queue.empty()) {
+    const StateId state = queue.back();
+    queue.pop_back();
+    for (std::uint64_t i = begins[state]; i < begins[state + 1]; ++i) {
+      if (can[from[i]]) continue;
+      can[from[i]] = true;
+      queue.push_back(from[i]);
+    }
+  }
+  return can;
+}
+
+std::vector<CycleStep> fair_cycle(const Graph& graph, const EdgeFilter& filter) {
+  return FairCycle(graph, filter, FairCycle::Fairness::Needed).find();
+}
+
+std::vector<CycleStep> any_cycle(const Graph& graph, const EdgeFilter& filter) {
+  return FairCycle(graph, filter, FairCycle::Fairness::Ignored).find();
+}
+
+std::vector<bool> reachable_from(const Graph& graph, StateId from) {
+  std::vector<bool> reached(all_states(graph));
+  reached[from] = true;
+  std::vector<StateId> queue{from};
+  while (!queue.empty()) {
+    const StateId state = queue.back();
+    queue.pop_back();
+    for (const Edge& edge : graph.edges_of(state)) {
+      if (reached[edge.to]) continue;
+      reached[edge.to] = true;
+      queue.push_back(edge.to);
+    }
+  }
+  return reached;
+}
+
+LongestRow longest_row(const Graph& graph, std::size_t bit) {
+  std::vector<StateId> states(graph.expanded());
+  for (StateId i = 0; i < states.size(); ++i) states[i] = i;
+  const auto uses = [&](StateId, const Edge& edge) { return graph.has(edge, bit); };
+  ComponentFinder finder(graph, all_states(graph), uses);
+  const std::uint32_t count = finder.find(states);
+  if (!with_cycles(graph, states, finder.of(), count, uses).empty()) return {.is_endless = true};
+  // Without cycles each state is a component, and those that it leads to have smaller numbers.
+  std::vector<StateId> by_number(count, kNoState);
+  for (const StateId state : states) by_number[finder.of()[state]] = state;
+  std::vector<std::uint64_t> longest(all_states(graph));
+  LongestRow row;
+  for (const StateId state : by_number) {
+    if (state == kNoState) continue;
+    for (const Edge& edge : graph.edges_of(state)) {
+      if (uses(state, edge)) longest[state] = std::max(longest[state], longest[edge.to] + 1);
+    }
+    row.ticks = std::max(row.ticks, longest[state]);
+  }
+  return row;
+}
+
+std::vector<CycleStep> shortest_way(const Graph& graph, StateId from,
+                                    const std::vector<bool>& is_goal) {
+  const Way way(graph, [](StateId, const Edge&) { return true; });
+  return way.find(from, [&](StateId, const Edge& edge) { return bool(is_goal[edge.to]); });
+}
+
+}  // namespace lockstep::host

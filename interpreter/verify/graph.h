@@ -1,0 +1,96 @@
+// What a search has found: the states as numbers, and what each tick from one of them did. The
+// questions of a verdict are asked here, without the engine.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "verify/state_store.h"
+
+namespace lockstep::host {
+
+// What matters of a tick for a run that never ends, as bits: which leaves worked, which of them
+// ended, and who was held. Few labels are different.
+class LabelTable {
+ public:
+  using Bits = std::vector<std::uint64_t>;
+
+  std::uint32_t add(const Bits& bits);
+  const Bits& operator[](std::uint32_t label) const { return *labels_[label]; }
+  static bool has(const Bits& bits, std::size_t bit) {
+    return (bits[bit / 64] >> bit % 64 & 1u) != 0;
+  }
+  static void set(Bits& bits, std::size_t bit) { bits[bit / 64] |= std::uint64_t{1} << bit % 64; }
+
+ private:
+  std::map<Bits, std::uint32_t> numbers_;
+  std::vector<const Bits*> labels_;
+  const Bits* last_ = nullptr;
+  std::uint32_t last_number_ = 0;
+};
+
+struct Edge {
+  StateId to;
+  std::uint32_t label;
+
+  friend auto operator<=>(const Edge&, const Edge&) = default;
+};
+
+struct Graph {
+  std::vector<std::uint64_t> begins{0};  // of the edges of each state, one more than states
+  std::vector<Edge> edges;
+  std::vector<bool> ends;  // of each state: some tick from it ends the run
+  LabelTable labels;
+  std::size_t leaves = 0;  // bits: those that worked and go on, those that ended, who was held
+  std::size_t held = 0;
+
+  // States that were looked at: their edges are known. Others may do anything.
+  std::size_t expanded() const { return begins.size() - 1; }
+  std::span<const Edge> edges_of(StateId state) const {
+    if (state >= expanded()) return {};
+    return std::span(edges).subspan(begins[state], begins[state + 1] - begins[state]);
+  }
+  std::size_t worked_bit(std::size_t leaf) const { return leaf; }
+  std::size_t ended_bit(std::size_t leaf) const { return leaves + leaf; }
+  std::size_t held_bit(std::size_t child) const { return 2 * leaves + child; }
+  std::size_t bits() const { return 2 * leaves + held; }
+  bool has(const Edge& edge, std::size_t bit) const {
+    return LabelTable::has(labels[edge.label], bit);
+  }
+};
+
+// Of each state: some way leads from it to an end, or to a state that was not looked at.
+std::vector<bool> can_end(const Graph& graph);
+
+// Edges that a cycle may use.
+using EdgeFilter = std::function<bool(const Edge&)>;
+
+// A cycle that is fair: no activation of a leaf gets ticks for ever without an end. Empty: there
+// is none. In order, from a state of it that a search finds first; the last edge leads back to it.
+struct CycleStep {
+  StateId from;
+  Edge edge;
+};
+std::vector<CycleStep> fair_cycle(const Graph& graph, const EdgeFilter& filter = {});
+// The same, fair or not, if there is any.
+std::vector<CycleStep> any_cycle(const Graph& graph, const EdgeFilter& filter);
+
+// The states to which some way leads from this one, which is one of them.
+std::vector<bool> reachable_from(const Graph& graph, StateId from);
+
+// How many ticks in a row may have this bit: nothing if there is no end, for some leaf may work
+// as long as it likes meanwhile. Ask fair_cycle before.
+struct LongestRow {
+  bool is_endless = false;
+  std::uint64_t ticks = 0;
+};
+LongestRow longest_row(const Graph& graph, std::size_t bit);
+
+// From `from` the shortest way to a state for which `is_goal`, over the edges of the graph.
+std::vector<CycleStep> shortest_way(const Graph& graph, StateId from,
+                                    const std::vector<bool>& is_goal);
+
+}  // namespace lockstep::host

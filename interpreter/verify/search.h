@@ -1,0 +1,82 @@
+// Ticks a tree from every state that it can reach with every answer that its leaves may give,
+// breadth first: what is found first is found by a shortest way.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/clock.h"
+#include "verify/coverage.h"
+#include "verify/labels.h"
+#include "verify/stepper.h"
+
+namespace lockstep::host {
+
+struct SearchProgress {
+  std::uint64_t states = 0, waiting = 0, transitions = 0;
+  std::uint32_t depth = 0;
+  std::size_t memory = 0;
+};
+
+struct SearchLimits {
+  std::uint64_t states = 5'000'000;
+  std::size_t memory = std::size_t{1} << 30u;   // bytes
+  std::optional<Nanoseconds> time = {};         // of a real clock
+  std::optional<std::uint32_t> depth = {};      // ticks
+  std::size_t values = 1000;                    // of one entry
+  std::function<int()> stop_signal = {};        // nonzero: stop
+  std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
+};
+
+enum class SearchEnd : std::uint8_t { Complete, States, Memory, Time, Depth, Signal, Values };
+
+// A tick: the state before it and which of its combinations of answers.
+struct Step {
+  StateId from = kNoState;
+  std::uint32_t combination = 0;
+};
+
+struct Occurrence {
+  Step step;
+  std::uint32_t ticks = 0;  // of a run until then, this one too
+};
+
+struct FaultFound {
+  NodeIndex node = 0;
+  std::string message;
+};
+
+struct SearchResult {
+  explicit SearchResult(const Tree& tree) : coverage(tree) {}
+
+  SearchEnd end = SearchEnd::Complete;
+  std::string note;     // of Values: which entry
+  int signal = 0;
+  StateStore store;
+  std::vector<Step> before;             // of each state: the tick that found it; of the first none
+  std::vector<StateId> depths;          // the first state of each depth
+  Graph graph;
+  SearchCoverage coverage;
+  std::uint64_t transitions = 0;
+  Nanoseconds took{0};
+  std::array<std::optional<Occurrence>, kStatuses.size()> results = {};  // the first of each
+  std::map<NodeIndex, std::pair<std::string, Occurrence>> faults = {};   // the first of each node
+  std::optional<std::pair<std::string, Occurrence>> broken = {};         // contract of the leaves
+  std::map<const Monitor*, Occurrence> violated = {};
+
+  bool is_complete() const { return end == SearchEnd::Complete; }
+  std::uint32_t depth_of(StateId state) const;
+  // So many ticks were looked at with all behaviors.
+  std::uint32_t complete_depth() const;
+  // The ticks from the start to this state.
+  std::vector<Step> way_to(StateId state) const;
+  std::size_t memory() const;
+};
+
+SearchResult search(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+                    Nanoseconds period, const SearchLimits& limits);
+
+}  // namespace lockstep::host

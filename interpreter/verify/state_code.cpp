@@ -1,0 +1,241 @@
+#include "verify/state_code.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/blackboard.h"
+
+namespace lockstep::host {
+namespace {
+
+// A value is its alternative and its bytes.
+class Writer {
+ public:
+  explicit Writer(StateBytes& to) : to_(to) {}
+
+  void bytes(const void* from, std::size_t size) {
+    const auto* const first = static_cast<const std::byte*>(from);
+    to_.insert(to_.end(), first, first + size);
+  }
+  template <class T>
+  void plain(const T& value) {
+    bytes(&value, sizeof value);
+  }
+  // Zero bytes as a zero and how many.
+  void sparse(const std::byte* from, std::size_t size) {
+    for (std::size_t at = 0; at < size;) {
+      if (from[at] != std::byte{0}) {
+        to_.push_back(from[at++]);
+        continue;
+      }
+      std::size_t count = 1;
+      while (at + count < size && count < 255 && from[at + count] == std::byte{0}) ++count;
+      to_.push_back(std::byte{0});
+      to_.push_back(static_cast<std::byte>(count));
+      at += count;
+    }
+  }
+  void number(std::uint32_t value) {
+    while (value >= 128) {
+      to_.push_back(static_cast<std::byte>(value | 128u));
+      value >>= 7u;
+    }
+    to_.push_back(static_cast<std::byte>(value));
+  }
+  void operator()(const NoValue&) {}
+  void operator()(bool value) { plain(value); }
+  void operator()(std::int64_t value) { plain(value); }
+  void operator()(double value) { plain(value); }
+  void operator()(const std::string& value) {
+    number(static_cast<std::uint32_t>(value.size()));
+    bytes(value.data(), value.size());
+  }
+  template <class T>
+  void operator()(const std::vector<T>& value) {
+    number(static_cast<std::uint32_t>(value.size()));
+    for (const T& it : value) item(it);
+  }
+  void operator()(const Object&) {}  // refused before a search begins
+
+ private:
+  void item(const std::string& value) { (*this)(value); }
+  template <class T>
+  void item(const T& value) {
+    plain(value);
+  }
+
+  StateBytes& to_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> from) : from_(from) {}
+
+  void bytes(void* to, std::size_t size) {
+    std::memcpy(to, from_.data(), size);
+    from_ = from_.subspan(size);
+  }
+  template <class T>
+  T plain() {
+    T value;
+    bytes(&value, sizeof value);
+    return value;
+  }
+  void sparse(std::byte* to, std::size_t size) {
+    for (std::size_t at = 0; at < size;) {
+      const std::byte it = plain<std::byte>();
+      const std::size_t count = it == std::byte{0} ? std::to_integer<std::size_t>(plain<std::byte>()) : 1;
+      std::fill_n(to + at, count, it);
+      at += count;
+    }
+  }
+  std::uint32_t number() {
+    std::uint32_t value = 0;
+    for (unsigned shift = 0;; shift += 7) {
+      const auto part = std::to_integer<std::uint32_t>(plain<std::byte>());
+      value |= (part & 127u) << shift;
+      if (part < 128) return value;
+    }
+  }
+  Value value(unsigned alternative) {
+    switch (alternative) {
+      case 1:
+        return plain<bool>();
+      case 2:
+        return plain<std::int64_t>();
+      case 3:
+        return plain<double>();
+      case 4:
+        return text();
+      case 5:
+        return list<double>();
+      case 6:
+        return list<std::int64_t>();
+      case 7:
+        return list<Flag>();
+      case 8: {
+        std::vector<std::string> texts(number());
+        for (std::string& it : texts) it = text();
+        return texts;
+      }
+      default:
+        return NoValue();
+    }
+  }
+
+ private:
+  std::string text() {
+    std::string text(number(), '\0');
+    bytes(text.data(), text.size());
+    return text;
+  }
+  template <class T>
+  std::vector<T> list() {
+    std::vector<T> list(number());
+    for (T& it : list) it = plain<T>();
+    return list;
+  }
+
+  std::span<const std::byte> from_;
+};
+
+// What a node keeps beside its activity may say when it was held.
+bool keeps_pause(const Tree& tree, NodeIndex node, const LeafModels& models) {
+  const Node& it = tree.nodes[node];
+  const NodeType& type = *tree.labels[node].type;
+  if (type.leaf == nullptr) return it.kind->pause != nullptr;
+  return models.leaves[it.params].drifts();
+}
+
+}  // namespace
+
+StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh)
+    : tree_(tree), models_(models), fresh_(fresh), activity_(tree.nodes.size()) {
+  const std::vector<bool> used = entries_of_engine(tree);
+  for (std::uint32_t slot = 0; slot < used.size(); ++slot) {
+    if (used[slot]) entries_.push_back(slot);
+  }
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    keeps_pause_.push_back(keeps_pause(tree, node, models_));
+  }
+}
+
+// A node that is held and would not be told apart from one that runs is one that runs: the next
+// tick holds it again. Not below one that stays held, since nobody looks below it.
+void StateCode::find_held(const Ticker& ticker) {
+  const auto& from = ticker.run_state().activity;
+  NodeIndex stays_until = 0;
+  for (NodeIndex node = 0; node < from.size(); ++node) {
+    activity_[node] = from[node];
+    if (from[node] != Activity::Paused || node < stays_until) continue;
+    if (keeps_pause_[node]) {
+      stays_until = tree_.nodes[node].end;
+    } else {
+      activity_[node] = Activity::Running;
+    }
+  }
+}
+
+void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
+                       std::span<const std::byte> monitors, StateBytes& into) {
+  find_held(ticker);
+  into.clear();
+  Writer writer(into);
+  const RunState& state = ticker.run_state();
+  writer.sparse(reinterpret_cast<const std::byte*>(activity_.data()), activity_.size());
+  writer.sparse(reinterpret_cast<const std::byte*>(state.bytes.data()),
+                state.bytes.size() * sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < leaves.states().size(); ++i) {
+    const LeafState& leaf = leaves.states()[i];
+    if (leaf.phase == Phase::Idle) continue;
+    writer.number(leaf.ticks);
+    writer.number(leaf.level);
+  }
+  writer.bytes(leaves.facts().data(), leaves.facts().size());
+  writer.bytes(monitors.data(), monitors.size());
+  for (const std::uint32_t slot : entries_) {
+    const Entry& entry = ticker.blackboard().entries[slot];
+    writer.plain(static_cast<std::uint8_t>(entry.value.index() | (entry.is_present ? 16u : 0u)));
+    std::visit(writer, entry.value);
+    writer.number(entry.writes);
+    if (fresh_.entries[slot].typing != Typing::Strict) {
+      writer.plain(entry.typing);
+      writer.plain(entry.type);
+    }
+  }
+}
+
+void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
+                       std::vector<LeafState>& leaves, std::vector<FactState>& facts,
+                       std::span<std::byte> monitors) const {
+  ByteReader reader(from);
+  reader.sparse(reinterpret_cast<std::byte*>(run.run.activity.data()), run.run.activity.size());
+  reader.sparse(reinterpret_cast<std::byte*>(run.run.bytes.data()),
+                run.run.bytes.size() * sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const Activity activity = run.run.activity[tree_.leaves[i].node];
+    const bool runs = status_of(activity) == Status::Running;
+    run.leaves[i].started = runs;
+    leaves[i] = {};
+    if (!runs) continue;
+    leaves[i].phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
+    leaves[i].ticks = reader.number();
+    leaves[i].level = static_cast<std::uint16_t>(reader.number());
+  }
+  reader.bytes(facts.data(), facts.size());
+  reader.bytes(monitors.data(), monitors.size());
+  for (const std::uint32_t slot : entries_) {
+    Entry& entry = run.entries[slot];
+    entry = fresh_.entries[slot];
+    const auto head = reader.plain<std::uint8_t>();
+    entry.is_present = (head & 16u) != 0;
+    entry.value = reader.value(head & 15u);
+    entry.writes = reader.number();
+    if (fresh_.entries[slot].typing != Typing::Strict) {
+      entry.typing = reader.plain<Typing>();
+      entry.type = reader.plain<ValueType>();
+    }
+  }
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,392 @@
+#include "verify/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/wording.h"
+#include "engine/resources.h"
+#include "measure/stall.h"
+#include "summary/standstill_text.h"
+#include "verify/trace.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kMostNames = 6;
+
+std::string some_of(std::vector<std::string> names) {
+  if (names.empty()) return "none";
+  const std::size_t more = names.size() - std::min(names.size(), kMostNames);
+  names.resize(names.size() - more);
+  return joined(names, ", ") + (more == 0 ? "" : fmt::format(" and {} more", more));
+}
+
+class VerdictMaker {
+ public:
+  VerdictMaker(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+               const SearchResult& found, const VerdictOptions& options)
+      : tree_(tree),
+        models_(models),
+        monitors_(monitors),
+        found_(found),
+        graph_(found.graph),
+        options_(options),
+        held_(holdable(tree)),
+        period_(from_seconds(1 / options.rate)),
+        tracer_(tree, models, monitors, period_, found) {}
+
+  Verdict make() {
+    say_results();
+    look_for_traps();
+    look_for_cycles();
+    look_for_starvation();
+    look_for_dead_nodes();
+    look_at_violations();
+    say_coverage();
+    say_holds();
+    accept();
+    assume();
+    return std::move(verdict_);
+  }
+
+ private:
+  void say(std::string name, std::string text) {
+    verdict_.facts.push_back({std::move(name), std::move(text)});
+  }
+  std::string at(NodeIndex node) const {
+    const std::string place = options_.place ? options_.place(node) : "";
+    return place.empty() ? tree_.path(node) : fmt::format("{} ({})", tree_.path(node), place);
+  }
+  std::vector<Step> run_to(const Occurrence& it) const {
+    std::vector<Step> run = found_.way_to(it.step.from);
+    run.push_back(it.step);
+    return run;
+  }
+
+  // --- how a run ends ----------------------------------------------------------------------------
+
+  void say_results() {
+    std::vector<std::string> results;
+    for (const Status status : {Status::Success, Status::Failure, Status::Skipped}) {
+      const auto& first = found_.results[index_of(status)];
+      if (first) {
+        results.push_back(fmt::format("{} (from {})", to_string(status),
+                                      counted(first->ticks, "tick")));
+      }
+    }
+    say("results", results.empty() ? "none: no behavior ends" : joined(results, ", "));
+  }
+
+  void look_for_traps() {
+    can_end_ = can_end(graph_);
+    if (!models_.tree_ends) return;
+    const auto doomed = std::find(can_end_.begin(), can_end_.end(), false);
+    if (doomed == can_end_.end()) {
+      if (found_.is_complete()) say("can always end", "yes");
+      return;
+    }
+    const auto state = static_cast<StateId>(doomed - can_end_.begin());
+    Finding trap{.name = "trap", .message = {}};
+    trap.run = found_.way_to(state);
+    const std::size_t ticks = trap.run.size();
+    const std::vector<bool> reached = reachable_from(graph_, state);
+    const EdgeFilter inside = [&](const Edge& edge) { return bool(reached[edge.to]); };
+    auto cycle = fair_cycle(graph_, inside);
+    if (cycle.empty() || !reached[cycle.front().from]) cycle = any_cycle(graph_, inside);
+    add_lasso(state, cycle, trap);
+    trap.message =
+        ticks == 0 ? "it can never end"
+                   : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
+    trap.more = why_it_stands(trap);
+    say("can always end", "NO: " + trap.message);
+    verdict_.findings.push_back(std::move(trap));
+  }
+
+  // From a state to the cycle, and two rounds of it.
+  void add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding) {
+    if (cycle.empty()) return;
+    std::vector<bool> is_goal(graph_.ends.size());
+    is_goal[cycle.front().from] = true;
+    if (from != cycle.front().from) {
+      const auto way = tracer_.steps_of(shortest_way(graph_, from, is_goal));
+      finding.run.insert(finding.run.end(), way.begin(), way.end());
+    }
+    finding.repeats = finding.run.size();
+    const auto round = tracer_.steps_of(cycle);
+    for (int i = 0; i < 2; ++i) finding.run.insert(finding.run.end(), round.begin(), round.end());
+  }
+
+  // Who waits for whom in the end, as a run would report it.
+  std::vector<std::string> why_it_stands(const Finding& finding) {
+    std::vector<std::string> lines;
+    StallWatch watch(tree_, period_ / 2, [&](const Standstill& standstill) {
+      lines = standstill_lines(tree_, standstill);
+    });
+    std::vector<Step> run = finding.run;
+    if (finding.repeats) {
+      const std::size_t round = (run.size() - *finding.repeats) / 2;
+      while (run.size() < *finding.repeats + 8) {
+        const std::vector<Step> more(run.end() - static_cast<std::ptrdiff_t>(round), run.end());
+        run.insert(run.end(), more.begin(), more.end());
+      }
+    }
+    tracer_.play(run, [&](Stepper& stepper, Status status, std::size_t tick) {
+      if (status == Status::Running) {
+        watch.after_tick(stepper.ticker(), static_cast<std::int64_t>(tick) * period_);
+      }
+    });
+    // When it began is that of this one run.
+    for (std::string& line : lines) {
+      const auto since = line.find(" since ");
+      if (since == std::string::npos) continue;
+      const auto end = line.find(" s", since + 7);
+      if (end != std::string::npos) line.erase(since, end + 2 - since);
+    }
+    if (lines.empty()) lines.push_back(who_is_ticked(finding));
+    return lines;
+  }
+
+  // The leaves that work in the cycle.
+  std::string who_is_ticked(const Finding& finding) {
+    std::set<std::string> worked;
+    tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
+      if (!finding.repeats || tick < *finding.repeats) return;
+      const auto marks = stepper.leaves().marks();
+      for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
+        if (marks[leaf].ticked) worked.insert(tree_.path(tree_.leaves[leaf].node));
+      }
+    });
+    if (worked.empty()) return "no leaf gets ticks";
+    return "what gets ticks: " + some_of({worked.begin(), worked.end()});
+  }
+
+  void look_for_cycles() {
+    if (!models_.tree_ends) return;
+    const EdgeFilter alive = [&](const Edge& edge) { return bool(can_end_[edge.to]); };
+    auto cycle = fair_cycle(graph_, alive);
+    if (cycle.empty()) {
+      if (!found_.is_complete()) return;
+      const bool has_trap = !verdict_.findings.empty();
+      say("always ends", has_trap ? "NO: see 'can always end'" : "yes");
+      return;
+    }
+    Finding finding{.name = "cycle", .message = {}};
+    finding.run = found_.way_to(cycle.front().from);
+    finding.repeats = finding.run.size();
+    const auto round = tracer_.steps_of(cycle);
+    for (int i = 0; i < 2; ++i) finding.run.insert(finding.run.end(), round.begin(), round.end());
+    finding.message =
+        fmt::format("it may go on for ever: from tick {} on it repeats a cycle of {}",
+                    *finding.repeats, counted(cycle.size(), "tick"));
+    finding.more.push_back(what_happens(finding));
+    say("always ends", fmt::format("NO: a cycle of {}", counted(cycle.size(), "tick")));
+    verdict_.findings.push_back(std::move(finding));
+  }
+
+  std::string what_happens(const Finding& finding) {
+    std::vector<std::string> events;
+    tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
+      const std::size_t round = (finding.run.size() - *finding.repeats) / 2;
+      if (tick < *finding.repeats || tick >= *finding.repeats + round) return;
+      const auto marks = stepper.leaves().marks();
+      for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
+        const std::string path = tree_.path(tree_.leaves[leaf].node);
+        std::string event;
+        if (marks[leaf].ended && !marks[leaf].ticked) {
+          event = path + " is halted";
+        } else if (marks[leaf].ended) {
+          event = path + ' ' + std::string(row_of(marks[leaf].result).counted);
+        }
+        if (!event.empty() && std::ranges::find(events, event) == events.end()) {
+          events.push_back(event);
+        }
+      }
+    });
+    return events.empty() ? who_is_ticked(finding) : "in it: " + some_of(events);
+  }
+
+  // --- who is held -------------------------------------------------------------------------------
+
+  void look_for_starvation() {
+    if (models_.tree_ends) return;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      const auto cycle = starving(i);
+      if (cycle.empty()) continue;
+      const NodeIndex child = held_[i].child;
+      Finding finding{.name = "starvation/" + tree_.path(child), .message = {}};
+      finding.node = child;
+      finding.run = found_.way_to(cycle.front().from);
+      add_lasso(cycle.front().from, cycle, finding);
+      finding.message = fmt::format("{} may be held for ever by '{}'", at(child),
+                                    tree_.labels[held_[i].holder].name);
+      finding.more = why_it_stands(finding);
+      verdict_.findings.push_back(std::move(finding));
+    }
+  }
+
+  std::vector<CycleStep> starving(std::size_t held) const {
+    const std::size_t bit = graph_.held_bit(held);
+    return fair_cycle(graph_, [&](const Edge& edge) { return graph_.has(edge, bit); });
+  }
+
+  void say_holds() {
+    if (!found_.is_complete()) return;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      const LongestRow row = longest_row(graph_, graph_.held_bit(i));
+      const std::string name = "held: " + tree_.path(held_[i].child);
+      if (row.is_endless) {
+        say(name, starving(i).empty() ? "as long as others take" : "may be held for ever");
+      } else if (row.ticks > 0) {
+        say(name, fmt::format("at most {}", counted(row.ticks, "tick")));
+      } else {
+        say(name, "never");
+      }
+    }
+  }
+
+  // --- nodes -------------------------------------------------------------------------------------
+
+  void look_for_dead_nodes() {
+    if (!found_.is_complete()) return;
+    std::vector<std::string> names;
+    for (NodeIndex node = 0; node < tree_.nodes[0].end;) {
+      if (found_.coverage.was_ticked(node)) {
+        ++node;
+        continue;
+      }
+      names.push_back(at(node));
+      verdict_.findings.push_back({.name = "never-ticked/" + tree_.path(node),
+                                   .message = at(node) + " is never ticked",
+                                   .node = node});
+      node = tree_.nodes[node].end;
+    }
+    say("never ticked", some_of(names));
+  }
+
+  void look_at_violations() {
+    for (const auto& [node, fault] : found_.faults) {
+      verdict_.findings.push_back(
+          {.name = "fault/" + tree_.path(node),
+           .message = fmt::format("a fault is reachable after {}: {} {}",
+                                  counted(fault.second.ticks, "tick"), at(node), fault.first),
+           .node = node,
+           .run = run_to(fault.second)});
+    }
+    if (found_.broken) {
+      verdict_.findings.push_back(
+          {.name = "order/" + found_.broken->first.substr(0, found_.broken->first.find(':')),
+           .message = "an order of calls that the contract forbids, which is a bug in lockstep: " +
+                      found_.broken->first,
+           .run = run_to(found_.broken->second)});
+    }
+    for (const auto& monitor : monitors_) {
+      const auto it = found_.violated.find(monitor.get());
+      if (it == found_.violated.end()) {
+        if (found_.is_complete()) say(fmt::format("property '{}'", monitor->name()), "holds");
+        continue;
+      }
+      verdict_.findings.push_back(
+          {.name = "property/" + monitor->name(),
+           .message = fmt::format("property '{}' is violated after {}", monitor->name(),
+                                  counted(it->second.ticks, "tick")),
+           .run = run_to(it->second)});
+    }
+  }
+
+  void say_coverage() {
+    if (!found_.is_complete()) return;
+    std::vector<std::string> no_success, no_failure, no_timeout;
+    for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
+      if (!found_.coverage.was_ticked(node)) continue;
+      const bool is_timeout = tree_.labels[node].type->id == "Timeout";
+      if (is_timeout && !found_.coverage.has_fired(node)) no_timeout.push_back(at(node));
+      if (!found_.coverage.has_been(node, Status::Success)) no_success.push_back(tree_.path(node));
+      if (!found_.coverage.has_been(node, Status::Failure)) no_failure.push_back(tree_.path(node));
+    }
+    say("never succeeds", some_of(no_success));
+    say("never fails", some_of(no_failure));
+    if (!no_timeout.empty()) say("Timeouts that never fire", some_of(no_timeout));
+    for (const auto& it : found_.coverage.synchronized()) say_spread(it);
+  }
+
+  void say_spread(const SearchCoverage::Synchronized& it) {
+    if (!found_.coverage.was_ticked(it.node) && !tree_.is_group(it.node)) return;
+    const std::string name = tree_.path(it.node);
+    say("largest spread of " + name, fmt::format("{:.6g}", it.largest_spread));
+    const auto all = barriers(tree_, it.node);
+    if (!all) return;
+    std::vector<std::string> never;
+    for (const double barrier : *all) {
+      if (!it.limits.contains(barrier)) never.push_back(fmt::format("{:.6g}", barrier));
+    }
+    if (!never.empty()) say("never the current barrier of " + name, some_of(never));
+  }
+
+  // --- the words of a verdict --------------------------------------------------------------------
+
+  void accept() {
+    for (Finding& finding : verdict_.findings) {
+      for (const AcceptedFinding& it : models_.accepted) {
+        if (matches(it.finding, finding.name)) finding.accepted = it.because;
+      }
+    }
+  }
+
+  void assume() {
+    auto& assumed = verdict_.assumed;
+    assumed.push_back(fmt::format("ticks come at {} Hz", options_.rate));
+    std::size_t held = 0, by_parts = 0;
+    std::set<std::uint32_t> parts;
+    bool ends = false;
+    for (const LeafModel& model : models_.leaves) {
+      const bool is_action = model.can_run;
+      held += is_action && !model.drifts();
+      ends |= is_action && model.ends;
+      if (model.parts == 0) continue;
+      ++by_parts;
+      parts.insert(model.parts);
+    }
+    if (held > 0 && !held_.empty()) {
+      assumed.push_back(fmt::format("held leaves stand still ({})", counted(held, "action")));
+    }
+    if (ends) assumed.push_back("an action that is ticked again and again ends");
+    for (const std::uint32_t it : parts) {
+      assumed.push_back(fmt::format("progress goes in steps of 1/{} ({})", it,
+                                    counted(by_parts, "action")));
+    }
+    for (const Fact& fact : models_.facts) {
+      constexpr std::string_view kWords[] = {"does not change by itself", "changes freely",
+                                             "changes from false to true at most",
+                                             "changes from true to false at most"};
+      assumed.push_back(
+          fmt::format("{} {}", fact.name, kWords[static_cast<std::size_t>(fact.changes)]));
+    }
+  }
+
+  const Tree& tree_;
+  const LeafModels& models_;
+  const Monitors& monitors_;
+  const SearchResult& found_;
+  const Graph& graph_;
+  const VerdictOptions& options_;
+  const std::vector<Holdable> held_;
+  const Nanoseconds period_;
+  Tracer tracer_;
+  std::vector<bool> can_end_;
+  Verdict verdict_;
+};
+
+}  // namespace
+
+bool Verdict::has_findings() const {
+  return std::ranges::any_of(findings, [](const Finding& it) { return it.accepted.empty(); });
+}
+
+Verdict make_verdict(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+                     const SearchResult& found, const VerdictOptions& options) {
+  return VerdictMaker(tree, models, monitors, found, options).make();
+}
+
+}  // namespace lockstep::host

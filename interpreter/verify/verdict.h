@@ -1,0 +1,45 @@
+// What a search says about a tree: findings, each with a stable name and a run that shows it, and
+// what else is known.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "verify/search.h"
+
+namespace lockstep::host {
+
+struct Finding {
+  std::string name;     // "trap", "never-ticked/Main/arm"
+  std::string message;  // a line
+  std::vector<std::string> more = {};    // lines that say why
+  std::optional<NodeIndex> node = {};    // where
+  std::vector<Step> run = {};            // that shows it; empty: there is none to show
+  std::optional<std::size_t> repeats = {};  // from this tick of it, counted from 0, for ever
+  std::string accepted = {};             // why it is as it should be
+};
+
+// A line of information.
+struct VerdictLine {
+  std::string name, text;
+};
+
+struct Verdict {
+  std::vector<Finding> findings;  // those of which it is sure
+  std::vector<VerdictLine> facts;
+  std::vector<std::string> assumed;
+
+  bool has_findings() const;  // that are not accepted
+};
+
+struct VerdictOptions {
+  double rate = 10;
+  // Where a node is written, for messages: "tree.xml:5:9".
+  std::function<std::string(NodeIndex)> place = {};
+};
+
+Verdict make_verdict(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+                     const SearchResult& found, const VerdictOptions& options);
+
+}  // namespace lockstep::host

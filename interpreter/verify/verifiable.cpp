@@ -1,0 +1,74 @@
+#include "verify/verifiable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lockstep::host {
+namespace {
+
+class Unknowns {
+ public:
+  explicit Unknowns(const Tree& tree) : tree_(tree) {}
+
+  std::vector<NodeProblem> find() {
+    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) look_at(node);
+    for (const BoundNode& it : tree_.bound) {
+      look_at_ports(it.node, it.first_port, it.kind->type.parameters.size());
+    }
+    for (const HookedNode& it : tree_.hooked) {
+      for (const std::uint32_t script : it.scripts) look_at_script(it.node, script);
+    }
+    return std::move(problems_);
+  }
+
+ private:
+  void look_at(NodeIndex node) {
+    const NodeType& type = *tree_.labels[node].type;
+    if (type.leaf != nullptr) return;
+    if (type.reads_ports) {
+      look_at_ports(node, tree_.nodes[node].params, type.parameters.size());
+    }
+    const bool by_name = std::ranges::any_of(type.parameters, &Parameter::is_key);
+    if (by_name && !tree_.boards.empty()) {
+      add(node, fmt::format("'{}' looks up entries by names that are known only while it runs",
+                            type.id));
+    }
+    if (type.id.starts_with("Loop")) {
+      add(node, fmt::format("'{}' goes through a list that it keeps for itself", type.id));
+    }
+    for (std::size_t i = 0; i < type.parameters.size(); ++i) {
+      if (!type.parameters[i].is_script || type.reads_ports) continue;
+      const Cell& cell = tree_.cells[tree_.nodes[node].params + i];
+      look_at_script(node, static_cast<std::uint32_t>(cell.integer));
+    }
+  }
+
+  void look_at_script(NodeIndex node, std::uint32_t script) {
+    if (script >= tree_.scripts.size()) return;
+    if (tree_.scripts[script].code == nullptr) add(node, "its script is the text of an entry");
+  }
+
+  void look_at_ports(NodeIndex node, std::uint32_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t slot = tree_.ports[first + i].slot;
+      if (slot == PortBinding::kUnbound || tree_.slots[slot].type != ValueType::Object) continue;
+      add(node, fmt::format("it reads the entry '{}', which is an object", tree_.slots[slot].name));
+    }
+  }
+
+  void add(NodeIndex node, std::string message) {
+    problems_.push_back({node, "this cannot be verified: " + std::move(message), ""});
+  }
+
+  const Tree& tree_;
+  std::vector<NodeProblem> problems_;
+};
+
+}  // namespace
+
+std::vector<NodeProblem> not_verifiable(const Tree& tree) {
+  return Unknowns(tree).find();
+}
+
+}  // namespace lockstep::host
