@@ -55,7 +55,7 @@ const std::vector<Layer> kThirdParty{
     {"zlib.h", {"interpreter/web/gzip.cpp"}},
     {"lockstep/",
      {"interpreter/engine/leaf_call.h", "interpreter/plugin/", "interpreter/remote/",
-      "interpreter/loading/", "interpreter/cli/", "interpreter/embedding/"}},
+      "interpreter/loading/", "interpreter/leaves/", "interpreter/cli/", "interpreter/embedding/"}},
     {"fmt/", {"interpreter/core/",       "interpreter/system/",     "interpreter/json/",
               "interpreter/blackboard/", "interpreter/document/",   "interpreter/expression/",
               "interpreter/property/",   "interpreter/definition/", "interpreter/dialect/",
@@ -64,7 +64,8 @@ const std::vector<Layer> kThirdParty{
               "interpreter/summary/",    "interpreter/live/",       "interpreter/recording/",
               "interpreter/view/",       "interpreter/web/",        "interpreter/study/",
               "interpreter/plots/",      "interpreter/describe/",   "interpreter/convert/",
-              "interpreter/groot/",      "interpreter/cli/"}},
+              "interpreter/groot/",      "interpreter/leaves/",     "interpreter/verify/",
+              "interpreter/cli/"}},
 };
 
 // The rooms of the monitor's page, the lowest first, and what each may import beside its own files.

@@ -35,10 +35,10 @@ extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kS
     kVerifyCommand;
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {
-      &kRunCommand,     &kCheckCommand,  &kVerifyCommand, &kShowCommand,
-      &kNodesCommand,   &kSchemaCommand, &kConvertCommand, &kPluginCommand,
-      &kLogCommand,     &kReplayCommand, &kStudyCommand,  &kMonitorCommand};
+  static constexpr const Command* kAll[] = {&kRunCommand,     &kCheckCommand,  &kVerifyCommand,
+                                            &kShowCommand,    &kNodesCommand,  &kSchemaCommand,
+                                            &kConvertCommand, &kPluginCommand, &kLogCommand,
+                                            &kReplayCommand,  &kStudyCommand,  &kMonitorCommand};
   return kAll;
 }
 

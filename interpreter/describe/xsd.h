@@ -19,6 +19,9 @@ enum class UnknownNodes : bool { Allowed, Refused };
 std::string make_xsd(std::span<const NodeType* const> types,
                      UnknownNodes unknown = UnknownNodes::Allowed);
 
+// The schema of leaf files: leaves/leaf_words.h.
+std::string make_leaf_xsd();
+
 // The xs:simpleType of a parameter, for attributes that are named `name`. Only within xsd*.cpp.
 std::string xsd_type(const Parameter& parameter);
 // For attributes and texts of XML.

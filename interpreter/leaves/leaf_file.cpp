@@ -143,7 +143,8 @@ class Reader {
     }
     if (const Attribute* changes = document_.find_attribute(at, "changes")) {
       constexpr std::array<std::string_view, 4> kWords{"never", "freely", "rises", "falls"};
-      fact.changes = static_cast<Changes>(std::ranges::find(kWords, changes->value) - kWords.begin());
+      fact.changes =
+          static_cast<Changes>(std::ranges::find(kWords, changes->value) - kWords.begin());
     }
     file_.facts.push_back(std::move(fact));
   }
@@ -188,8 +189,8 @@ class Reader {
     } else if (name == "sets") {
       for (const std::string_view part : split(value, ";")) read_set(it, part, row);
     } else if (name.starts_with(leaf_words::kOutput)) {
-      row.outputs.push_back({std::string(name.substr(leaf_words::kOutput.size())),
-                             std::string(value), it.place});
+      row.outputs.push_back(
+          {std::string(name.substr(leaf_words::kOutput.size())), std::string(value), it.place});
     }
   }
 
@@ -199,8 +200,8 @@ class Reader {
     if (to == "true" || to == "false") {
       row.sets.push_back({std::string(part.substr(0, sign)), std::string(to), it.place});
     } else {
-      report_.at_value(it.place, fmt::format("'{}' does not say what becomes of a fact",
-                                             brief(part)),
+      report_.at_value(it.place,
+                       fmt::format("'{}' does not say what becomes of a fact", brief(part)),
                        "write charged=true, or charged=true;seen=false");
     }
   }
@@ -223,7 +224,8 @@ class Reader {
   WholeRange range(const Attribute& it, std::optional<std::int64_t> least, std::string_view as) {
     constexpr std::int64_t kMost = 1'000'000;
     const auto range = parse_range(it.value);
-    const bool fits = range && std::abs(range->least) <= kMost && (!least || range->least >= *least) &&
+    const bool fits = range && std::abs(range->least) <= kMost &&
+                      (!least || range->least >= *least) &&
                       std::abs(range->most.value_or(0)) <= kMost;
     if (fits) return *range;
     report_.at_value(it.place, fmt::format("'{}' is no range", brief(it.value)),

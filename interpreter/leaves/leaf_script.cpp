@@ -11,18 +11,16 @@
 namespace lockstep::host {
 namespace {
 
-constexpr std::pair<Status, char> kLetters[] = {{Status::Running, 'R'},
-                                                {Status::Success, 'S'},
-                                                {Status::Failure, 'F'},
-                                                {Status::Skipped, 'K'}};
+constexpr std::pair<Status, char> kLetters[] = {
+    {Status::Running, 'R'}, {Status::Success, 'S'}, {Status::Failure, 'F'}, {Status::Skipped, 'K'}};
 constexpr char kFault = 'X', kHeld = '~';
 
 // In a value, what separates words and parts is written as %20.
 std::string coded(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    const bool is_plain = c > ' ' && c != '%' && c != '[' && c != ']' && c != '|' && c != '=' &&
-                          c != '\x7f';
+    const bool is_plain =
+        c > ' ' && c != '%' && c != '[' && c != ']' && c != '|' && c != '=' && c != '\x7f';
     if (is_plain) {
       out += c;
     } else {
@@ -34,7 +32,9 @@ std::string coded(std::string_view text) {
 
 std::optional<std::string> decoded(std::string_view text) {
   std::string out;
-  const auto digit = [](char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1; };
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+  };
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '%') {
       out += text[i];

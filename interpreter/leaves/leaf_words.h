@@ -44,7 +44,8 @@ inline constexpr Word kLeaf[] = {
     {"fact", "[A-Za-z_][A-Za-z0-9_]*", "Its result is this fact."},
     {"sets", "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
      "Facts that its success makes true or false."},
-    {"writes", "success|start|tick", "When it writes its outputs; on success when nothing is said."},
+    {"writes", "success|start|tick",
+     "When it writes its outputs; on success when nothing is said."},
 };
 // Of a leaf, also "out.PORT".
 inline constexpr std::string_view kOutput = "out.";

@@ -32,9 +32,9 @@ struct LeafMark {
   bool ticked = false, ended = false;
   Status result = Status::Idle;  // of its tick
   bool faulted = false;
-  double progress = 0;             // after it
-  bool drifted = false;            // it was held before it, and may drift
-  double held_progress = 0;        // then
+  double progress = 0;                      // after it
+  bool drifted = false;                     // it was held before it, and may drift
+  double held_progress = 0;                 // then
   std::vector<std::uint32_t> written = {};  // of each output, in order: which value
 };
 

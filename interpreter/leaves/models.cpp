@@ -162,8 +162,7 @@ class ModelMaker {
     }
     const auto parameter = std::ranges::find(type.parameters, named.name, &Parameter::name);
     if (parameter == type.parameters.end() || parameter->direction == Direction::Input) {
-      report().at(named.place,
-                  fmt::format("'{}' has no output '{}'", type.id, brief(named.name)),
+      report().at(named.place, fmt::format("'{}' has no output '{}'", type.id, brief(named.name)),
                   suggest(named.name, known, "its outputs"));
       return;
     }
@@ -182,8 +181,8 @@ class ModelMaker {
       const std::string_view part = rest.substr(0, rest.find('|'));
       const auto value = parse_value(parameter.type, part);
       if (!value) {
-        report().at_value(named.place, fmt::format("'{}' is no value of '{}'", brief(part),
-                                                   parameter.name),
+        report().at_value(named.place,
+                          fmt::format("'{}' is no value of '{}'", brief(part), parameter.name),
                           fmt::format("expected {}", expected_text(parameter.type)));
         return {};
       }
@@ -215,9 +214,10 @@ class ModelMaker {
         }
         problems_.push_back(
             {model.node,
-             fmt::format("'{}' writes the entry '{}', which the tree itself reads, and nothing says "
-                         "which values",
-                         type.id, tree_.slots[slot].name),
+             fmt::format(
+                 "'{}' writes the entry '{}', which the tree itself reads, and nothing says "
+                 "which values",
+                 type.id, tree_.slots[slot].name),
              fmt::format("say them in the leaf file: <leaf of=\"{}\" out.{}=\"…|…\"/>", type.id,
                          type.parameters[port].name)});
       }
@@ -352,7 +352,7 @@ std::vector<bool> entries_of_engine(const Tree& tree) {
 }
 
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-                   std::vector<NodeProblem>& problems) {
+                       std::vector<NodeProblem>& problems) {
   return ModelMaker(tree, file, diagnostics, problems).make();
 }
 

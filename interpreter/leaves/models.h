@@ -70,7 +70,7 @@ struct NodeProblem {
 // `file` may be null. Errors in the file go to `diagnostics`; those of nodes, which need something
 // that nothing says, to `problems`.
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-                   std::vector<NodeProblem>& problems);
+                       std::vector<NodeProblem>& problems);
 
 // The entries that the engine itself reads or writes: in scripts, parameters and built-in nodes.
 std::vector<bool> entries_of_engine(const Tree& tree);

@@ -118,8 +118,8 @@ class Way {
 
   // The last step is the first that is a goal.
   std::vector<CycleStep> find(StateId from, const Goal& is_goal) const {
-    std::vector<CycleStep> queue;           // each edge that was taken
-    std::vector<std::size_t> before;        // of each: the one before it; itself: none
+    std::vector<CycleStep> queue;     // each edge that was taken
+    std::vector<std::size_t> before;  // of each: the one before it; itself: none
     std::vector<bool> seen(all_states(graph_));
     seen[from] = true;
     const auto expand = [&](StateId state, std::size_t came_by) {
@@ -135,7 +135,8 @@ class Way {
       return false;
     };
     bool found = expand(from, kStart);
-    for (std::size_t at = 0; !found && at < queue.size(); ++at) found = expand(queue[at].edge.to, at);
+    for (std::size_t at = 0; !found && at < queue.size(); ++at)
+      found = expand(queue[at].edge.to, at);
     if (!found) return {};
     std::vector<CycleStep> way;
     for (std::size_t at = queue.size() - 1;; at = before[at]) {
@@ -179,7 +180,9 @@ class FairCycle {
                               const std::vector<bool>& without) const {
     std::vector<bool> in(all_states(graph_));
     for (const StateId state : states) in[state] = true;
-    const auto inside = [&](StateId, const Edge& edge) { return in[edge.to] && uses(edge, without); };
+    const auto inside = [&](StateId, const Edge& edge) {
+      return in[edge.to] && uses(edge, without);
+    };
     ComponentFinder finder(graph_, all_states(graph_), inside);
     const std::uint32_t count = finder.find(states);
     auto found = with_cycles(graph_, states, finder.of(), count, inside);

@@ -23,11 +23,11 @@ struct SearchProgress {
 
 struct SearchLimits {
   std::uint64_t states = 5'000'000;
-  std::size_t memory = std::size_t{1} << 30u;   // bytes
-  std::optional<Nanoseconds> time = {};         // of a real clock
-  std::optional<std::uint32_t> depth = {};      // ticks
-  std::size_t values = 1000;                    // of one entry
-  std::function<int()> stop_signal = {};        // nonzero: stop
+  std::size_t memory = std::size_t{1} << 30u;            // bytes
+  std::optional<Nanoseconds> time = {};                  // of a real clock
+  std::optional<std::uint32_t> depth = {};               // ticks
+  std::size_t values = 1000;                             // of one entry
+  std::function<int()> stop_signal = {};                 // nonzero: stop
   std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
 };
 
@@ -53,11 +53,11 @@ struct SearchResult {
   explicit SearchResult(const Tree& tree) : coverage(tree) {}
 
   SearchEnd end = SearchEnd::Complete;
-  std::string note;     // of Values: which entry
+  std::string note;  // of Values: which entry
   int signal = 0;
   StateStore store;
-  std::vector<Step> before;             // of each state: the tick that found it; of the first none
-  std::vector<StateId> depths;          // the first state of each depth
+  std::vector<Step> before;     // of each state: the tick that found it; of the first none
+  std::vector<StateId> depths;  // the first state of each depth
   Graph graph;
   SearchCoverage coverage;
   std::uint64_t transitions = 0;

@@ -84,7 +84,8 @@ class ByteReader {
   void sparse(std::byte* to, std::size_t size) {
     for (std::size_t at = 0; at < size;) {
       const std::byte it = plain<std::byte>();
-      const std::size_t count = it == std::byte{0} ? std::to_integer<std::size_t>(plain<std::byte>()) : 1;
+      const std::size_t count =
+          it == std::byte{0} ? std::to_integer<std::size_t>(plain<std::byte>()) : 1;
       std::fill_n(to + at, count, it);
       at += count;
     }

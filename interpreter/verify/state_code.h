@@ -31,9 +31,9 @@ class StateCode {
   const Tree& tree_;
   const LeafModels& models_;
   const SavedRun& fresh_;
-  std::vector<std::uint32_t> entries_;       // the slots that are in the state
-  std::vector<bool> keeps_pause_;            // of each node: it is not the same held or not
-  std::vector<Activity> activity_;           // as it is encoded
+  std::vector<std::uint32_t> entries_;  // the slots that are in the state
+  std::vector<bool> keeps_pause_;       // of each node: it is not the same held or not
+  std::vector<Activity> activity_;      // as it is encoded
 };
 
 }  // namespace lockstep::host

@@ -72,8 +72,8 @@ class VerdictMaker {
     for (const Status status : {Status::Success, Status::Failure, Status::Skipped}) {
       const auto& first = found_.results[index_of(status)];
       if (first) {
-        results.push_back(fmt::format("{} (from {})", to_string(status),
-                                      counted(first->ticks, "tick")));
+        results.push_back(
+            fmt::format("{} (from {})", to_string(status), counted(first->ticks, "tick")));
       }
     }
     say("results", results.empty() ? "none: no behavior ends" : joined(results, ", "));
@@ -96,9 +96,9 @@ class VerdictMaker {
     auto cycle = fair_cycle(graph_, inside);
     if (cycle.empty() || !reached[cycle.front().from]) cycle = any_cycle(graph_, inside);
     add_lasso(state, cycle, trap);
-    trap.message =
-        ticks == 0 ? "it can never end"
-                   : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
+    trap.message = ticks == 0
+                       ? "it can never end"
+                       : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
     trap.more = why_it_stands(trap);
     say("can always end", "NO: " + trap.message);
     verdict_.findings.push_back(std::move(trap));
@@ -177,9 +177,8 @@ class VerdictMaker {
     finding.repeats = finding.run.size();
     const auto round = tracer_.steps_of(cycle);
     for (int i = 0; i < 2; ++i) finding.run.insert(finding.run.end(), round.begin(), round.end());
-    finding.message =
-        fmt::format("it may go on for ever: from tick {} on it repeats a cycle of {}",
-                    *finding.repeats, counted(cycle.size(), "tick"));
+    finding.message = fmt::format("it may go on for ever: from tick {} on it repeats a cycle of {}",
+                                  *finding.repeats, counted(cycle.size(), "tick"));
     finding.more.push_back(what_happens(finding));
     say("always ends", fmt::format("NO: a cycle of {}", counted(cycle.size(), "tick")));
     verdict_.findings.push_back(std::move(finding));
@@ -353,8 +352,8 @@ class VerdictMaker {
     }
     if (ends) assumed.push_back("an action that is ticked again and again ends");
     for (const std::uint32_t it : parts) {
-      assumed.push_back(fmt::format("progress goes in steps of 1/{} ({})", it,
-                                    counted(by_parts, "action")));
+      assumed.push_back(
+          fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));
     }
     for (const Fact& fact : models_.facts) {
       constexpr std::string_view kWords[] = {"does not change by itself", "changes freely",

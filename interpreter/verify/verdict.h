@@ -11,13 +11,13 @@
 namespace lockstep::host {
 
 struct Finding {
-  std::string name;     // "trap", "never-ticked/Main/arm"
-  std::string message;  // a line
-  std::vector<std::string> more = {};    // lines that say why
-  std::optional<NodeIndex> node = {};    // where
-  std::vector<Step> run = {};            // that shows it; empty: there is none to show
+  std::string name;                         // "trap", "never-ticked/Main/arm"
+  std::string message;                      // a line
+  std::vector<std::string> more = {};       // lines that say why
+  std::optional<NodeIndex> node = {};       // where
+  std::vector<Step> run = {};               // that shows it; empty: there is none to show
   std::optional<std::size_t> repeats = {};  // from this tick of it, counted from 0, for ever
-  std::string accepted = {};             // why it is as it should be
+  std::string accepted = {};                // why it is as it should be
 };
 
 // A line of information.

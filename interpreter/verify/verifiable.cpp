@@ -31,8 +31,8 @@ class Unknowns {
     }
     const bool by_name = std::ranges::any_of(type.parameters, &Parameter::is_key);
     if (by_name && !tree_.boards.empty()) {
-      add(node, fmt::format("'{}' looks up entries by names that are known only while it runs",
-                            type.id));
+      add(node,
+          fmt::format("'{}' looks up entries by names that are known only while it runs", type.id));
     }
     if (type.id.starts_with("Loop")) {
       add(node, fmt::format("'{}' goes through a list that it keeps for itself", type.id));

@@ -42,6 +42,28 @@ TEST_CASE("schema/lockstep.xsd is what the program prints") {
   CHECK((outcome.out == read_file(kSchema)));
 }
 
+TEST_CASE("schema/leaves.xsd is what the program prints, and describes leaf files") {
+  const std::string schema = LOCKSTEP_SOURCE_DIR "/schema/leaves.xsd";
+  INFO("schema/leaves.xsd is stale: lockstep schema --leaves > schema/leaves.xsd");
+  CHECK((run_lockstep({"schema", "--leaves"}).out == read_file(schema)));
+  const TemporaryDirectory directory;
+  const auto code = [&](const std::string& rows) {
+    return xmllint(schema, directory.file("t.leaves.xml", "<leaves lockstep=\"1\" rate=\"10\">" +
+                                                              rows + "</leaves>"))
+        .code;
+  };
+  CHECK(code(R"(<tree ends="no"/><fact name="f" changes="never"/><leaf of="A" fact="f"
+    result="success;fault" ticks="2..inf" step="-1..2" held="-1..0" progress="grid:20"
+    out.place="a|b" writes="start" sets="f=true;g=false" finish="full" ends="no"/>
+    <accept finding="trap" because="x"/>)") == 0);
+  for (const std::string wrong :
+       {"<leef/>", R"(<leaf of="A" ticks="a"/>)", R"(<leaf of="A" result="succes"/>)", R"(<tree/>)",
+        R"(<fact name="f" changes="at will"/>)"}) {
+    INFO(wrong);
+    CHECK(code(wrong) != 0);
+  }
+}
+
 TEST_CASE("xmllint accepts every tree that ships and every good one of the tests") {
   auto files = trees_below(LOCKSTEP_SOURCE_DIR "/trees");
   REQUIRE(files.size() > 3);

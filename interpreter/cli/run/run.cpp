@@ -10,6 +10,7 @@
 #include "cli/run/progress_notes.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
+#include "cli/run/scripted_leaves.h"
 #include "cli/run/view.h"
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
@@ -114,7 +115,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     }
     watchers_.tell();
     Diagnostics refused;
-    if (!plugins->initialize(refused)) {
+    // Whose leaves are played is not asked.
+    if (options_.leaves.empty() && !plugins->initialize(refused)) {
       view_.close();
       print_diagnostics(refused, Severity::Warning);
       return kExitPluginRefused;
@@ -328,13 +330,16 @@ bool place_helpers(const RunCommandOptions& options) {
   return !refusal;
 }
 
-int run(const RunCommandOptions& options) {
+int run(RunCommandOptions options) {
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
     return kExitUsage;
   }
   keep_stdout_for_results();
   CrashReport::set_last_words(last_words);
+  PlayedLeaves played;  // which the tree refers to
+  LeafScripts scripts;
+  if (!options.leaves.empty() && !read_scripts(options, scripts)) return kExitUsage;
   Diagnostics diagnostics;
   auto loaded = load_given(options.tree, options.load, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
@@ -351,8 +356,13 @@ int run(const RunCommandOptions& options) {
     print_error(sockets.error().message, sockets.error().hint);
     return kExitUsage;
   }
+  if (!options.leaves.empty()) played.take_over(loaded->definition);
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
+  if (!options.leaves.empty() &&
+      !give_scripts(options, std::move(scripts), runnable.tree, played)) {
+    return kExitUsage;
+  }
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
   auto properties =
       all_properties(std::move(runnable.properties), options.properties, runnable.tree);

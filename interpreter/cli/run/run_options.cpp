@@ -35,6 +35,7 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--rate", options.rate, "Ticks per second")
       ->type_name("HZ")
       ->check(number_between(0.001, 100000.0))
+      ->each([&options](const std::string&) { options.is_rate_given = true; })
       ->capture_default_str();
   app.add_option("--clock", options.clock,
                  "wall: real time; virtual: as fast as the machine allows")
@@ -200,6 +201,10 @@ LoopOptions RunCommandOptions::loop() const {
 
 void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  app.add_option("--leaves", options.leaves,
+                 "What the leaves do, tick by tick, in place of plugins: a script as `lockstep "
+                 "verify` writes it; its rate and its length are those of the run")
+      ->type_name("FILE");
   define_loop_options(app, options);
   define_time_options(app, options);
   define_fault_options(app, options);

@@ -16,7 +16,9 @@ namespace lockstep::host {
 struct RunCommandOptions {
   LoadCommandOptions load;
   std::string tree;
+  std::string leaves;  // scripts that are played in place of plugins; "": none
   double rate = 100;
+  bool is_rate_given = false;
   std::string clock = "wall";
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> max_ticks;

@@ -13,9 +13,11 @@ namespace {
 struct SchemaOptions {
   PluginOptions plugins;
   bool strict = false;
+  bool leaves = false;
 };
 
 int schema(const SchemaOptions& options) {
+  if (options.leaves) return write_results(make_leaf_xsd());
   PluginSet plugins;
   Catalog catalog;
   const int code = load_catalog(options.plugins, plugins, catalog);
@@ -28,6 +30,8 @@ std::function<int()> define_schema(CLI::App& app) {
   const auto options = std::make_shared<SchemaOptions>();
   app.add_flag("--strict", options->strict,
                "Reject unknown nodes; name every plugin of the trees with --plugin");
+  app.add_flag("--leaves", options->leaves,
+               "The schema of leaf files instead, which `lockstep verify --leaves` takes");
   add_plugin_options(app, options->plugins);
   add_program_option(app, options->plugins);
   return [options] { return schema(*options); };

@@ -74,7 +74,8 @@ class PlayedLeaf final : public RemoteLeaf {
   // So many of the words for held ticks have come.
   std::size_t held_words() const {
     if (words_ == nullptr) return 0;
-    const auto passed = static_cast<std::size_t>(std::max<std::int64_t>(0, tick_number() - held_at_));
+    const auto passed =
+        static_cast<std::size_t>(std::max<std::int64_t>(0, tick_number() - held_at_));
     std::size_t count = 0;
     while (count < passed && at_ + count < words_->size() &&
            (*words_)[at_ + count].kind == Kind::Held) {
@@ -107,8 +108,8 @@ class PlayedRun final : public RemoteRun {
 
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
     const auto words = scripts_.leaves.find(caller.run->tree->path(caller.node));
-    return std::make_unique<PlayedLeaf>(
-        caller, words == scripts_.leaves.end() ? nullptr : &words->second);
+    return std::make_unique<PlayedLeaf>(caller,
+                                        words == scripts_.leaves.end() ? nullptr : &words->second);
   }
 
  private:
@@ -128,9 +129,9 @@ std::optional<Problem> check_written(const NodeType& type, const LeafWord& word)
       return Problem{fmt::format("'{}' has no output '{}'", type.id, brief(name))};
     }
     if (!parse_value(port->type, text)) {
-      return Problem{fmt::format("'{}' is no value of the port '{}' of '{}'", brief(text), name,
-                                 type.id),
-                     fmt::format("expected {}", expected_text(port->type))};
+      return Problem{
+          fmt::format("'{}' is no value of the port '{}' of '{}'", brief(text), name, type.id),
+          fmt::format("expected {}", expected_text(port->type))};
     }
   }
   return std::nullopt;

@@ -37,8 +37,9 @@ struct VerifyOptions {
 // Half of what the machine has.
 std::size_t usual_memory() {
   const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  return pages > 0 && size > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(size)
-                               : std::size_t{1} << 30u;
+  return pages > 0 && size > 0
+             ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(size)
+             : std::size_t{1} << 30u;
 }
 
 // On a terminal, a line that shows how far a search is.
@@ -143,7 +144,8 @@ class VerifyCommand {
     const Verdict verdict =
         make_verdict(runnable.tree, models, monitors, found,
                      {.rate = rate, .place = [&](NodeIndex node) { return places.text(node); }});
-    VerifyReport report{found, verdict, options_.tree, options_.leaves, runnable.tree.leaves.size()};
+    VerifyReport report{found, verdict, options_.tree, options_.leaves,
+                        runnable.tree.leaves.size()};
     Tracer tracer(runnable.tree, models, monitors, from_seconds(1 / rate), found);
     if (!write_files(runnable, rate, tracer, verdict, report)) return kExitUsage;
     const std::string text = options_.json ? to_json(report) : to_text(report);
@@ -183,8 +185,8 @@ class VerifyCommand {
     const std::filesystem::path tree(options_.tree == "-" ? "stdin" : options_.tree);
     std::string name = tree.stem().string() + '.' + finding.name;
     for (char& it : name) {
-      const bool is_plain = std::isalnum(static_cast<unsigned char>(it)) != 0 || it == '-' ||
-                            it == '_' || it == '.';
+      const bool is_plain =
+          std::isalnum(static_cast<unsigned char>(it)) != 0 || it == '-' || it == '_' || it == '.';
       if (!is_plain) it = '.';
     }
     return options_.out == "." ? name : (std::filesystem::path(options_.out) / name).string();
@@ -246,7 +248,8 @@ std::function<int()> define_verify(CLI::App& app) {
 
 extern const Command kVerifyCommand{
     "verify", "Look at every behavior of a tree: what can it do with any results of its leaves",
-    "The verdict goes to stdout, messages go to stderr. Of each finding there is a recording, and a\n"
+    "The verdict goes to stdout, messages go to stderr. Of each finding there is a recording, and "
+    "a\n"
     "script of the leaves with which `lockstep run --leaves` does the same again.\n"
     "Exit code: 0 all is verified, 1 there are findings, 2 usage, 3 invalid tree or leaf file, or\n"
     "something that cannot be verified, 4 plugin refused, 124 a limit was reached and nothing was\n"

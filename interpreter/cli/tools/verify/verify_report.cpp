@@ -17,7 +17,7 @@ std::size_t count_findings(const Verdict& verdict) {
 
 // Why a search did not look at everything.
 std::string_view limit_of(SearchEnd end) {
-  constexpr std::string_view kWords[] = {"",       "--states", "--memory", "--time",
+  constexpr std::string_view kWords[] = {"",        "--states", "--memory", "--time",
                                          "--depth", "a signal", "--values"};
   return kWords[static_cast<std::size_t>(end)];
 }
@@ -25,9 +25,8 @@ std::string_view limit_of(SearchEnd end) {
 std::string size_text(const SearchResult& found) {
   return fmt::format("{}, {}, {}, {:.2f} s", counted(found.store.size(), "state"),
                      counted(found.transitions, "transition"),
-                     found.is_complete()
-                         ? std::string("complete")
-                         : fmt::format("stopped by {}", limit_of(found.end)),
+                     found.is_complete() ? std::string("complete")
+                                         : fmt::format("stopped by {}", limit_of(found.end)),
                      to_seconds(found.took));
 }
 
@@ -71,7 +70,7 @@ std::string to_text(const VerifyReport& report) {
 }
 
 std::string to_json(const VerifyReport& report) {
-  Json json;
+  Json json = Json::object();
   json["tree"] = report.tree;
   if (!report.leaves.empty()) json["leaves"] = report.leaves;
   json["conclusion"] = conclusion(report);
@@ -89,7 +88,7 @@ std::string to_json(const VerifyReport& report) {
   json["results"] = std::move(results);
   Json findings = Json::array();
   for (const Finding& it : report.verdict.findings) {
-    Json finding;
+    Json finding = Json::object();
     finding["name"] = it.name;
     finding["message"] = it.message;
     finding["why"] = Json(it.more);

@@ -1,0 +1,147 @@
+// lockstep verify from outside, and that what it found comes again with run --leaves.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+constexpr auto kHead = "<root lockstep=\"1\"><plugin name=\"motion\"/>";
+
+struct Case {
+  std::string_view claim, beside, tree, leaves, finding;
+};
+
+// clang-format off
+const Case kCases[] = {
+  {"a circle of barriers",
+   R"(<barrier name="coarse" barriers="0.5"/><barrier name="fine" barriers="0.25"/>)",
+   R"(<Parallel><SyncProgress barrier="coarse"><SyncProgress barrier="fine">
+      <Advance name="a" step="0.05"/></SyncProgress></SyncProgress>
+      <SyncProgress barrier="coarse"><Sequence memory="true"><Advance name="b" step="0.05"/>
+      <SyncProgress barrier="fine"><Advance name="c" step="0.05"/></SyncProgress></Sequence>
+      </SyncProgress></Parallel>)",
+   R"(<leaf path="*" finish="full" result="success"/>)", "trap"},
+  {"an action that is halted again and again", "",
+   R"(<Fallback><Sequence><Check code="n == 1"/><Advance name="a" step="0.05"/></Sequence>
+      <Timeout seconds="0.3"><Advance name="b" step="0.1"/></Timeout><AlwaysRunning/></Fallback>)",
+   R"(<leaf path="*" result="failure" ticks="2..3"/>)", "trap"},
+  {"a leaf that drifts while it is held", R"(<barrier name="g" barriers="0.5"/>)",
+   R"(<Parallel><SyncProgress barrier="g"><Advance name="a" step="0.05"/></SyncProgress>
+      <Fallback><Advance name="b" step="0.5"/><SyncProgress barrier="g">
+      <Advance name="c" step="0.05"/></SyncProgress></Fallback></Parallel>)",
+   R"(<leaf path="*" finish="full" result="success" held="-1..0"/>)", "cycle"},
+};
+// clang-format on
+
+std::string root_of(const Case& it) {
+  std::string beside(it.beside);
+  const std::string value = it.tree.find("n == 1") == std::string_view::npos ? "" : " n=\"0\"";
+  std::string tree(it.tree);
+  if (!value.empty()) {
+    tree = "<Sequence memory=\"true\"><Script code=\"n := 0\"/>" + tree + "</Sequence>";
+  }
+  return kHead + beside + "<BehaviorTree ID=\"T\">" + tree + "</BehaviorTree></root>";
+}
+
+}  // namespace
+
+TEST_CASE("what verify has found comes again with run --leaves") {
+  for (const Case& it : kCases) {
+    INFO(it.claim);
+    const TemporaryDirectory directory;
+    const std::string tree = directory.file("t.xml", root_of(it));
+    const std::string leaves = directory.file(
+        "t.leaves.xml", "<leaves lockstep=\"1\">" + std::string(it.leaves) + "</leaves>");
+    const std::string out = directory.path("found");
+    const Outcome verified = run_lockstep({"verify", tree, "--leaves", leaves, "--out", out});
+    INFO(verified.out << verified.err);
+    REQUIRE(verified.code == 1);
+    CHECK(contains(verified.out, "finding " + std::string(it.finding)));
+    const std::string stem = out + "/t." + std::string(it.finding), again = directory.path("again");
+    const Outcome played = run_lockstep({"run", tree, "--leaves", stem + ".leaves", "--clock",
+                                         "virtual", "--view", "none", "--record", again});
+    INFO(played.err);
+    CHECK(played.code != 2);
+    const Outcome diff = run_lockstep({"log", "diff", stem + ".jsonl", again});
+    CHECK(diff.code == 0);
+    CHECK(diff.out.empty());
+    const std::string recording = read_file(stem + ".jsonl");
+    CHECK(contains(recording.substr(0, recording.find('\n')), "\"verify\":\"" + std::string(it.finding) + ": "));
+    CHECK(run_lockstep({"log", "info", stem + ".jsonl"}).code == 0);
+  }
+}
+
+TEST_CASE("a tree without findings is verified, with what is assumed") {
+  const TemporaryDirectory directory;
+  const Outcome it = run_lockstep(
+      {"verify", LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml", "--out", directory.path("out")});
+  CHECK(it.code == 0);
+  CHECK(contains(it.out, "complete"));
+  CHECK(contains(it.out, "results"));
+  CHECK(contains(it.out, "assumed: ticks come at 10 Hz"));
+  CHECK(it.out.ends_with("verified for all behaviors that are assumed\n"));
+  CHECK_FALSE(std::filesystem::exists(directory.path("out")));
+}
+
+TEST_CASE("what a limit has stopped is not called verified") {
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/predictability.xml";
+  for (const auto& limit :
+       {std::vector<std::string>{"--states", "50"}, {"--depth", "1"}, {"--time", "0"}}) {
+    const Outcome it = run_lockstep({"verify", tree, limit[0], limit[1]});
+    INFO(it.out);
+    CHECK(it.code == 124);
+    CHECK(contains(it.out, "\nbounded: nothing found in the first "));
+    CHECK_FALSE(contains(it.out, "verified"));
+  }
+}
+
+TEST_CASE("what cannot be verified is told with its place") {
+  const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/navigate.xml"});
+  CHECK(it.code == 3);
+  CHECK(contains(it.err, "navigate.xml:15:5: error: 'RecoveryNode' is a control node of plugin"));
+  const Outcome entry = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/replanning.xml"});
+  CHECK(entry.code == 3);
+  CHECK(contains(entry.err, "say them in the leaf file: <leaf of=\"Replan\" out.barriers="));
+}
+
+TEST_CASE("a leaf file with mistakes is refused") {
+  const TemporaryDirectory directory;
+  const std::string leaves =
+      directory.file("l.xml", "<leaves lockstep=\"1\">\n<leaf of=\"Advanc\"/></leaves>");
+  const Outcome it =
+      run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml", "--leaves", leaves});
+  CHECK(it.code == 3);
+  CHECK(contains(it.err, ":2:11: error: the tree has no leaf of type 'Advanc'"));
+  CHECK(contains(it.err, "did you mean 'Advance'?"));
+}
+
+TEST_CASE("a verdict as JSON has what the text has") {
+  const TemporaryDirectory directory;
+  const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml",
+                                   "--json", "--out", directory.path("out")});
+  CHECK(it.code == 1);
+  const auto json = nlohmann::json::parse(it.out);
+  CHECK(json["complete"] == true);
+  CHECK(json["results"]["success"] == 1);
+  REQUIRE(json["findings"].size() == 1);
+  CHECK(json["findings"][0]["name"] == "cycle");
+  CHECK(std::filesystem::exists(std::string(json["findings"][0]["recording"])));
+}
+
+TEST_CASE("a script of another tree is refused") {
+  const TemporaryDirectory directory;
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
+  const auto played = [&](const std::string& text) {
+    return run_lockstep({"run", tree, "--leaves", directory.file("s.leaves", text), "--clock",
+                         "virtual", "--view", "none"});
+  };
+  const Outcome other = played("OpenDoor/open/handl = S\n");
+  CHECK(other.code == 2);
+  CHECK(contains(other.err, "the tree has no leaf 'OpenDoor/open/handl'"));
+  CHECK(played("OpenDoor\n").code == 2);
+}

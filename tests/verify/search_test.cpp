@@ -1,0 +1,108 @@
+// How many states and transitions small trees have, and what ends a search.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "verify/verified.h"
+
+namespace lockstep::host::test {
+namespace {
+
+// A ParallelAbsolute of n leaves and k barriers, i / (k + 1).
+std::string absolute(int n, int k) {
+  std::string barriers, leaves;
+  for (int i = 1; i <= k; ++i) {
+    barriers += (i > 1 ? ";" : "") + std::to_string(static_cast<double>(i) / (k + 1));
+  }
+  for (int i = 0; i < n; ++i) leaves += " a" + std::to_string(i);
+  return "ParallelAbsolute[barriers=" + barriers + "](" + leaves.substr(1) + ")";
+}
+
+}  // namespace
+
+TEST_CASE("a ParallelAbsolute has a state for each region of each leaf") {
+  for (const auto& [n, k] : {std::pair(2, 1), {2, 4}, {2, 8}, {3, 4}, {3, 8}, {4, 4}, {5, 4}}) {
+    INFO(n << " leaves, " << k << " barriers");
+    const Verified it(absolute(n, k), R"(<leaf path="*" finish="full"/>)");
+    CHECK(it.found.is_complete());
+    CHECK(it.found.store.size() == static_cast<std::size_t>(std::pow(k + 2, n)));
+  }
+}
+
+TEST_CASE("each answer of a leaf is tried") {
+  // Running, success or failure.
+  const Verified it("a");
+  CHECK(it.found.store.size() == 2);  // before the first tick, and running
+  CHECK(it.found.transitions == 6);
+  CHECK(it.said("results") == "success (from 1 tick), failure (from 1 tick)");
+}
+
+TEST_CASE("the shortest run to a result counts ticks of the leaves and time") {
+  CHECK(Verified("a", R"(<leaf path="*" ticks="3..5"/>)").said("results") ==
+        "success (from 3 ticks), failure (from 3 ticks)");
+  CHECK(Verified("Wait[seconds=.3]").said("results") == "success (from 4 ticks)");
+  CHECK(Verified("Timeout[seconds=.3](a)", R"(<leaf path="*" result="success" ticks="9..inf"/>)")
+            .said("results") == "failure (from 4 ticks)");
+  CHECK(Verified("Sequence(a b)", R"(<leaf path="*" result="failure"/>)").said("results") ==
+        "failure (from 1 tick)");
+}
+
+TEST_CASE("an activation completes after so many ticks at most") {
+  const Verified it("a", R"(<leaf path="*" result="success" ticks="2..3"/>)");
+  CHECK(it.found.store.size() == 3);  // before the first tick, after it and after the second
+  CHECK(it.said("always ends") == "yes");
+}
+
+TEST_CASE("a fact is the same for all that name it in a tick") {
+  const Verified free("Sequence(a? Inverter(b?))");
+  CHECK(free.said("results") == "success (from 1 tick), failure (from 1 tick)");
+  const Verified same("Sequence(a? Inverter(b?))", R"(<fact name="day"/>
+    <leaf path="*" fact="day"/>)");
+  CHECK(same.said("results") == "failure (from 1 tick)");
+}
+
+TEST_CASE("a fact that does not change by itself is what it was, until an action sets it") {
+  // Fails once, and then succeeds: only if the fact changes.
+  constexpr auto kTree = "Sequence[memory=true](Inverter(a?) b c?)";
+  const auto results = [&](std::string_view changes, std::string_view sets) {
+    return Verified(kTree, "<fact name=\"day\" changes=\"" + std::string(changes) +
+                               "\"/><leaf path=\"*/a\" fact=\"day\"/>"
+                               "<leaf path=\"*/c\" fact=\"day\"/><leaf path=\"*/b\" " +
+                               "result=\"success\" ticks=\"2\"" + std::string(sets) + "/>")
+        .said("results");
+  };
+  CHECK(results("never", "") == "failure (from 1 tick)");
+  CHECK(results("never", " sets=\"day=true\"") == "success (from 2 ticks), failure (from 1 tick)");
+  CHECK(results("freely", "") == "success (from 2 ticks), failure (from 1 tick)");
+  CHECK(results("rises", "") == "success (from 2 ticks), failure (from 1 tick)");
+  CHECK(results("falls", "") == "failure (from 1 tick)");
+}
+
+TEST_CASE("what a limit stops is bounded, and the first ticks are complete") {
+  const std::string tree = absolute(3, 8);
+  const Verified states(tree, R"(<leaf path="*" step="0..1"/>)", {.states = 100});
+  CHECK(states.found.end == SearchEnd::States);
+  CHECK_FALSE(states.found.is_complete());
+  const Verified depth(tree, R"(<leaf path="*" step="0..1"/>)", {.depth = 2});
+  CHECK(depth.found.end == SearchEnd::Depth);
+  CHECK(depth.found.complete_depth() == 2);
+  CHECK(depth.said("never ticked").empty());  // nobody knows
+  const Verified signal(tree, "", {.stop_signal = [] { return 2; }});
+  CHECK(signal.found.end == SearchEnd::Signal);
+  CHECK(signal.found.signal == 2);
+}
+
+TEST_CASE("an entry with more and more values stops the search, and is named") {
+  const Verified it(
+      "Sequence[memory=true](Script[code=n:=0] Repeat(Sequence(Script[code=n=n+1] a)))", "",
+      {.values = 20});
+  CHECK(it.found.end == SearchEnd::Values);
+  CHECK(it.found.note == "n");
+}
+
+TEST_CASE("a second search finds the same in the same order") {
+  const Verified one(absolute(2, 4)), two(absolute(2, 4));
+  CHECK(one.found.transitions == two.found.transitions);
+  CHECK(one.found.graph.edges == two.found.graph.edges);
+}
+
+}  // namespace lockstep::host::test
