@@ -21,10 +21,12 @@ void add(std::vector<double>& values, double value) {
 
 class CutFinder {
  public:
-  CutFinder(const Tree& tree, const BarriersOfEntries& entries)
-      : tree_(tree), entries_(entries), cuts_(tree.nodes.size()) {}
+  CutFinder(const Tree& tree, const BarriersOfEntries& entries,
+            std::span<const Observed::Progress> compared)
+      : tree_(tree), entries_(entries), compared_(compared), cuts_(tree.nodes.size()) {}
 
   std::vector<Cuts> find() {
+    add_compared(0);
     for (NodeIndex node = 1; node < tree_.nodes[0].end; ++node) {
       take_down(tree_.labels[node].parent, node);
     }
@@ -42,6 +44,7 @@ class CutFinder {
     const Synchronization way = synchronization(tree_.nodes[parent]);
     if (compares_progress(way) && !tree_.is_group(parent)) add_own(parent, here);
     if (const Member* member = member_of(parent)) add_own(member->group, here);
+    add_compared(node);
     if (here.values.size() > kMostCuts) here.is_unknown = true;
     if (here.is_unknown) here.values.clear();
   }
@@ -61,6 +64,13 @@ class CutFinder {
         add(values, std::max(rounds, 1.0) * cut - round);
         if (values.size() > kMostCuts) return;
       }
+    }
+  }
+
+  // At a constant and behind it, a comparison may differ.
+  void add_compared(NodeIndex node) {
+    for (const Observed::Progress& it : compared_) {
+      if (it.node == node) add_list(std::span(&it.constant, 1), true, cuts_[node]);
     }
   }
 
@@ -122,13 +132,15 @@ class CutFinder {
 
   const Tree& tree_;
   const BarriersOfEntries& entries_;
+  const std::span<const Observed::Progress> compared_;
   std::vector<Cuts> cuts_;
 };
 
 }  // namespace
 
-std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries) {
-  return CutFinder(tree, entries).find();
+std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries,
+                          std::span<const Observed::Progress> compared) {
+  return CutFinder(tree, entries, compared).find();
 }
 
 }  // namespace lockstep::host

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "engine/tree.h"
+#include "leaves/models.h"
 
 namespace lockstep::host {
 
@@ -20,6 +20,7 @@ struct Cuts {
 using BarriersOfEntries = std::map<std::uint32_t, std::vector<double>>;
 
 // Of each node.
-std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries);
+std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries,
+                          std::span<const Observed::Progress> compared = {});
 
 }  // namespace lockstep::host

@@ -34,8 +34,12 @@ std::uint32_t parts_for(const std::vector<double>& deltas) {
 class ModelMaker {
  public:
   ModelMaker(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-             std::vector<NodeProblem>& problems)
-      : tree_(tree), file_(file), diagnostics_(diagnostics), problems_(problems) {}
+             std::vector<NodeProblem>& problems, const Observed& observed)
+      : tree_(tree),
+        file_(file),
+        diagnostics_(diagnostics),
+        problems_(problems),
+        observed_(observed) {}
 
   LeafModels make() {
     make_general();
@@ -46,6 +50,8 @@ class ModelMaker {
       for (const FactRow& it : file_->facts) models_.facts.push_back({it.name, it.changes});
       for (const LeafRow& row : file_->leaves) apply(row);
     }
+    models_.entries = entries_of_engine(tree_);
+    for (const std::uint32_t slot : observed_.entries) models_.entries[slot] = true;
     add_missing_outputs();
     find_levels();
     return std::move(models_);
@@ -196,7 +202,7 @@ class ModelMaker {
 
   // An output that only leaves read does not matter. A bool may be both.
   void add_missing_outputs() {
-    const std::vector<bool> matters = entries_of_engine(tree_);
+    const std::vector<bool>& matters = models_.entries;
     for (std::size_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
       const NodeType& type = type_of(leaf);
       LeafModel& model = models_.leaves[leaf];
@@ -215,7 +221,7 @@ class ModelMaker {
         problems_.push_back(
             {model.node,
              fmt::format(
-                 "'{}' writes the entry '{}', which the tree itself reads, and nothing says "
+                 "'{}' writes the entry '{}', which the tree or a property reads, and nothing says "
                  "which values",
                  type.id, tree_.slots[slot].name),
              fmt::format("say them in the leaf file: <leaf of=\"{}\" out.{}=\"…|…\"/>", type.id,
@@ -258,7 +264,7 @@ class ModelMaker {
   }
 
   void find_levels() {
-    const std::vector<Cuts> cuts = cuts_of(tree_, barriers_of_entries());
+    const std::vector<Cuts> cuts = cuts_of(tree_, barriers_of_entries(), observed_.progress);
     for (std::size_t leaf = 0; leaf < models_.leaves.size(); ++leaf) {
       find_levels(leaf, cuts[models_.leaves[leaf].node]);
     }
@@ -307,6 +313,7 @@ class ModelMaker {
   const LeafFile* const file_;
   Diagnostics& diagnostics_;
   std::vector<NodeProblem>& problems_;
+  const Observed& observed_;
   std::optional<Reporter> report_;
   std::vector<Way> ways_;  // of each leaf
   std::set<std::uint32_t> told_;
@@ -352,8 +359,8 @@ std::vector<bool> entries_of_engine(const Tree& tree) {
 }
 
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-                       std::vector<NodeProblem>& problems) {
-  return ModelMaker(tree, file, diagnostics, problems).make();
+                       std::vector<NodeProblem>& problems, const Observed& observed) {
+  return ModelMaker(tree, file, diagnostics, problems, observed).make();
 }
 
 }  // namespace lockstep::host

@@ -59,6 +59,17 @@ struct LeafModels {
   std::optional<double> rate;
   bool tree_ends = true;
   std::vector<AcceptedFinding> accepted;
+  std::vector<bool> entries;  // by slot: those whose values matter
+};
+
+// What is looked at beside what the tree itself does.
+struct Observed {
+  struct Progress {
+    NodeIndex node;
+    double constant;
+  };
+  std::vector<Progress> progress = {};      // compared with constants
+  std::vector<std::uint32_t> entries = {};  // by slot
 };
 
 // What is wrong with a node of the tree.
@@ -70,7 +81,7 @@ struct NodeProblem {
 // `file` may be null. Errors in the file go to `diagnostics`; those of nodes, which need something
 // that nothing says, to `problems`.
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-                       std::vector<NodeProblem>& problems);
+                       std::vector<NodeProblem>& problems, const Observed& observed = {});
 
 // The entries that the engine itself reads or writes: in scripts, parameters and built-in nodes.
 std::vector<bool> entries_of_engine(const Tree& tree);

@@ -46,6 +46,7 @@ struct Graph {
   LabelTable labels;
   std::size_t leaves = 0;  // bits: those that worked and go on, those that ended, who was held
   std::size_t held = 0;
+  std::size_t properties = 0;  // and which of them wait for something
 
   // States that were looked at: their edges are known. Others may do anything.
   std::size_t expanded() const { return begins.size() - 1; }
@@ -56,7 +57,7 @@ struct Graph {
   std::size_t worked_bit(std::size_t leaf) const { return leaf; }
   std::size_t ended_bit(std::size_t leaf) const { return leaves + leaf; }
   std::size_t held_bit(std::size_t child) const { return 2 * leaves + child; }
-  std::size_t bits() const { return 2 * leaves + held; }
+  std::size_t owed_bit(std::size_t property) const { return 2 * leaves + held + property; }
   bool has(const Edge& edge, std::size_t bit) const {
     return LabelTable::has(labels[edge.label], bit);
   }

@@ -17,13 +17,16 @@ std::vector<Holdable> holdable(const Tree& tree) {
   return found;
 }
 
-Labeller::Labeller(const Tree& tree, const LeafModels& models)
+Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t properties)
     : tree_(tree),
       models_(models),
       held_(holdable(tree)),
-      bits_((2 * tree.leaves.size() + held_.size()) / 64 + 1) {}
+      properties_(properties),
+      bits_((2 * tree.leaves.size() + held_.size() + properties) / 64 + 1) {}
 
-const LabelTable::Bits& Labeller::of(const Ticker& ticker, std::span<const LeafMark> marks) {
+const LabelTable::Bits& Labeller::of(Stepper& stepper) {
+  const Ticker& ticker = stepper.ticker();
+  const auto marks = stepper.leaves().marks();
   std::ranges::fill(bits_, 0);
   for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
     if (!models_.leaves[leaf].ends) continue;
@@ -35,6 +38,9 @@ const LabelTable::Bits& Labeller::of(const Ticker& ticker, std::span<const LeafM
   }
   for (std::size_t i = 0; i < held_.size(); ++i) {
     if (is_held(ticker, held_[i])) LabelTable::set(bits_, 2 * marks.size() + i);
+  }
+  for (std::size_t i = 0; i < properties_; ++i) {
+    if (stepper.owes(i)) LabelTable::set(bits_, 2 * marks.size() + held_.size() + i);
   }
   return bits_;
 }

@@ -10,18 +10,19 @@ namespace {
 
 class Searcher {
  public:
-  Searcher(const Tree& tree, const LeafModels& models, const Monitors& monitors, Nanoseconds period,
-           const SearchLimits& limits)
+  Searcher(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+           Nanoseconds period, const SearchLimits& limits)
       : tree_(tree),
         limits_(limits),
-        stepper_(tree, models, monitors, period),
-        labeller_(tree, models),
+        stepper_(tree, models, properties, period),
+        labeller_(tree, models, properties.size()),
+        properties_(properties.size()),
         result_(tree) {
     result_.graph.leaves = tree.leaves.size();
     result_.graph.held = labeller_.held().size();
-    const std::vector<bool> used = entries_of_engine(tree);
-    for (std::uint32_t slot = 0; slot < used.size(); ++slot) {
-      if (used[slot]) values_.emplace_back(slot, std::set<std::string>());
+    result_.graph.properties = properties_;
+    for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
+      if (models.entries[slot]) values_.emplace_back(slot, std::set<std::string>());
     }
   }
 
@@ -100,7 +101,7 @@ class Searcher {
     Ticker& ticker = stepper_.ticker();
     const Occurrence here{step, depth() + 1};
     result_.coverage.after_tick(ticker);
-    if (stepper_.violated() != nullptr) result_.violated.try_emplace(stepper_.violated(), here);
+    for (const std::size_t it : stepper_.violated()) result_.violated.try_emplace(it, here);
     if (!stepper_.leaves().broken().empty() && !result_.broken) {
       result_.broken.emplace(stepper_.leaves().broken(), here);
     }
@@ -115,10 +116,8 @@ class Searcher {
       result_.graph.ends[step.from] = true;
       return;
     }
-    if (stepper_.violated() != nullptr) return;  // what comes after it does not matter
     count_values(ticker);
-    const std::uint32_t label =
-        result_.graph.labels.add(labeller_.of(ticker, stepper_.leaves().marks()));
+    const std::uint32_t label = result_.graph.labels.add(labeller_.of(stepper_));
     edges_.push_back({add(stepper_.fold(), step), label});
   }
 
@@ -136,6 +135,7 @@ class Searcher {
   const SearchLimits& limits_;
   Stepper stepper_;
   Labeller labeller_;
+  const std::size_t properties_;
   SearchResult result_;
   StateBytes loaded_;
   std::vector<Edge> edges_;
@@ -169,9 +169,10 @@ std::size_t SearchResult::memory() const {
          graph.begins.capacity() * sizeof(std::uint64_t);
 }
 
-SearchResult search(const Tree& tree, const LeafModels& models, const Monitors& monitors,
-                    Nanoseconds period, const SearchLimits& limits) {
-  return Searcher(tree, models, monitors, period, limits).search();
+SearchResult search(const Tree& tree, const LeafModels& models,
+                    std::span<const Property> properties, Nanoseconds period,
+                    const SearchLimits& limits) {
+  return Searcher(tree, models, properties, period, limits).search();
 }
 
 }  // namespace lockstep::host

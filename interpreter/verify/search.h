@@ -65,7 +65,7 @@ struct SearchResult {
   std::array<std::optional<Occurrence>, kStatuses.size()> results = {};  // the first of each
   std::map<NodeIndex, std::pair<std::string, Occurrence>> faults = {};   // the first of each node
   std::optional<std::pair<std::string, Occurrence>> broken = {};         // contract of the leaves
-  std::map<const Monitor*, Occurrence> violated = {};
+  std::map<std::size_t, Occurrence> violated = {};  // properties, by their place
 
   bool is_complete() const { return end == SearchEnd::Complete; }
   std::uint32_t depth_of(StateId state) const;
@@ -76,7 +76,8 @@ struct SearchResult {
   std::size_t memory() const;
 };
 
-SearchResult search(const Tree& tree, const LeafModels& models, const Monitors& monitors,
-                    Nanoseconds period, const SearchLimits& limits);
+SearchResult search(const Tree& tree, const LeafModels& models,
+                    std::span<const Property> properties, Nanoseconds period,
+                    const SearchLimits& limits);
 
 }  // namespace lockstep::host

@@ -150,15 +150,23 @@ bool keeps_pause(const Tree& tree, NodeIndex node, const LeafModels& models) {
 
 }  // namespace
 
-StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh)
+StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
+                     std::vector<bool> watched)
     : tree_(tree), models_(models), fresh_(fresh), activity_(tree.nodes.size()) {
-  const std::vector<bool> used = entries_of_engine(tree);
-  for (std::uint32_t slot = 0; slot < used.size(); ++slot) {
-    if (used[slot]) entries_.push_back(slot);
+  for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
+    if (models.entries[slot]) entries_.push_back(slot);
+  }
+  for (NodeIndex node = 0; node < watched.size(); ++node) {
+    if (watched[node]) watched_.push_back(node);
   }
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     keeps_pause_.push_back(keeps_pause(tree, node, models_));
   }
+}
+
+void StateCode::before_fold(const Ticker& ticker) {
+  seen_.clear();
+  for (const NodeIndex node : watched_) seen_.push_back(ticker.activity(node));
 }
 
 // A node that is held and would not be told apart from one that runs is one that runs: the next
@@ -178,8 +186,11 @@ void StateCode::find_held(const Ticker& ticker) {
 }
 
 void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
-                       std::span<const std::byte> monitors, StateBytes& into) {
+                       std::span<const std::byte> properties, StateBytes& into) {
   find_held(ticker);
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (has_ended(status_of(seen_[i]))) activity_[watched_[i]] = seen_[i];
+  }
   into.clear();
   Writer writer(into);
   const RunState& state = ticker.run_state();
@@ -193,7 +204,7 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
     writer.number(leaf.level);
   }
   writer.bytes(leaves.facts().data(), leaves.facts().size());
-  writer.bytes(monitors.data(), monitors.size());
+  writer.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {
     const Entry& entry = ticker.blackboard().entries[slot];
     writer.plain(static_cast<std::uint8_t>(entry.value.index() | (entry.is_present ? 16u : 0u)));
@@ -208,7 +219,7 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
 
 void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
                        std::vector<LeafState>& leaves, std::vector<FactState>& facts,
-                       std::span<std::byte> monitors) const {
+                       std::span<std::byte> properties) const {
   ByteReader reader(from);
   reader.sparse(reinterpret_cast<std::byte*>(run.run.activity.data()), run.run.activity.size());
   reader.sparse(reinterpret_cast<std::byte*>(run.run.bytes.data()),
@@ -224,7 +235,7 @@ void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
     leaves[i].level = static_cast<std::uint16_t>(reader.number());
   }
   reader.bytes(facts.data(), facts.size());
-  reader.bytes(monitors.data(), monitors.size());
+  reader.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {
     Entry& entry = run.entries[slot];
     entry = fresh_.entries[slot];

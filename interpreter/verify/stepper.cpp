@@ -13,44 +13,33 @@ SavedRun saved(const Ticker& ticker) {
   return run;
 }
 
-std::size_t size_of(const Monitors& monitors) {
-  std::size_t size = 0;
-  for (const auto& it : monitors) size += it->state_size();
-  return size;
-}
-
 }  // namespace
 
-Stepper::Stepper(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                  Nanoseconds period)
-    : tree_(tree),
-      monitors_(monitors),
-      period_(period),
+    : period_(period),
       board_(tree),
       leaves_(tree, models, board_, odometer_),
       ticker_(tree, leaves_.slots(), board_),
+      watch_(tree, properties),
       fresh_(saved(ticker_)),
       from_(fresh_),
-      code_(tree, models, fresh_),
+      code_(tree, models, fresh_, nodes_of(properties, tree)),
       from_leaves_(leaves_.states()),
       from_facts_(leaves_.facts()),
-      monitor_bytes_(size_of(monitors)),
-      from_monitors_(monitor_bytes_) {}
+      property_bytes_(watch_.state_size()),
+      from_properties_(property_bytes_) {}
 
 StateBytes Stepper::first_state() {
   ticker_.restore(fresh_);
-  std::byte* at = monitor_bytes_.data();
-  for (const auto& it : monitors_) {
-    it->begin(at);
-    at += it->state_size();
-  }
+  watch_.begin(property_bytes_.data());
   StateBytes state;
-  code_.encode(ticker_, leaves_, monitor_bytes_, state);
+  code_.encode(ticker_, leaves_, property_bytes_, state);
   return state;
 }
 
 void Stepper::load(std::span<const std::byte> state, bool is_first) {
-  code_.decode(state, from_, from_leaves_, from_facts_, from_monitors_);
+  code_.decode(state, from_, from_leaves_, from_facts_, from_properties_);
   time_ = is_first ? Nanoseconds(0) : period_;
   odometer_.start_over();
 }
@@ -62,6 +51,11 @@ Status Stepper::tick() {
   leaves_.restored();
   odometer_.begin();
   leaves_.begin_tick();
+  if (!watch_.empty()) {
+    property_bytes_ = from_properties_;
+    ticker_.set_now(time_);
+    watch_.before_tick(ticker_);
+  }
   Status status = ticker_.tick_root(time_);
   for (int count = 1; ticker_.is_asked(); ++count) {
     const auto node = ticker_.take_request();
@@ -72,26 +66,17 @@ Status Stepper::tick() {
     }
     status = ticker_.tick_root_again();
   }
-  violated_ = nullptr;
-  if (!monitors_.empty()) step_monitors(status);
+  if (!watch_.empty()) {
+    watch_.after_tick(property_bytes_.data(), ticker_, status != Status::Running);
+  }
   return status;
 }
 
-void Stepper::step_monitors(Status status) {
-  monitor_bytes_ = from_monitors_;
-  std::byte* at = monitor_bytes_.data();
-  for (const auto& it : monitors_) {
-    Monitor::Answer answer = it->step(at, ticker_);
-    if (answer == Monitor::Answer::Open && status != Status::Running) answer = it->at_end(at);
-    if (answer == Monitor::Answer::Violated && violated_ == nullptr) violated_ = it.get();
-    at += it->state_size();
-  }
-}
-
 const StateBytes& Stepper::fold() {
+  code_.before_fold(ticker_);
   ticker_.fold();
   leaves_.fold();
-  code_.encode(ticker_, leaves_, monitor_bytes_, folded_);
+  code_.encode(ticker_, leaves_, property_bytes_, folded_);
   return folded_;
 }
 

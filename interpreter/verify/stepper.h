@@ -6,7 +6,7 @@
 
 #include "core/clock.h"
 #include "leaves/model_leaf.h"
-#include "verify/monitor.h"
+#include "verify/property_watch.h"
 #include "verify/state_code.h"
 
 namespace lockstep::host {
@@ -14,7 +14,8 @@ namespace lockstep::host {
 class Stepper {
  public:
   // All must outlive this.
-  Stepper(const Tree& tree, const LeafModels& models, const Monitors& monitors, Nanoseconds period);
+  Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+          Nanoseconds period);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -31,27 +32,25 @@ class Stepper {
 
   Ticker& ticker() { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
-  // The property that the tick, or the end in it, has violated; null: none.
-  const Monitor* violated() const { return violated_; }
+  // The properties that the tick, or the end in it, has violated, by their place.
+  std::span<const std::size_t> violated() const { return watch_.violated(); }
+  // After `tick`: whether a property still waits for something.
+  bool owes(std::size_t property) const { return watch_.owes(property_bytes_.data(), property); }
 
  private:
-  void step_monitors(Status status);
-
-  const Tree& tree_;
-  const Monitors& monitors_;
   const Nanoseconds period_;
   Blackboard board_;
   Odometer odometer_;
   ModelLeaves leaves_;
   Ticker ticker_;
+  PropertyWatch watch_;
   SavedRun fresh_, from_;
   StateCode code_;
   std::vector<LeafState> from_leaves_;
   std::vector<FactState> from_facts_;
-  StateBytes monitor_bytes_, from_monitors_;
+  StateBytes property_bytes_, from_properties_;
   Nanoseconds time_{0};
   StateBytes folded_;
-  const Monitor* violated_ = nullptr;
 };
 
 }  // namespace lockstep::host

@@ -4,13 +4,13 @@
 
 namespace lockstep::host {
 
-Tracer::Tracer(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                Nanoseconds period, const SearchResult& found)
     : tree_(tree),
       models_(models),
       found_(found),
-      stepper_(tree, models, monitors, period),
-      labeller_(tree, models) {}
+      stepper_(tree, models, properties, period),
+      labeller_(tree, models, properties.size()) {}
 
 Step Tracer::step_of(const CycleStep& wanted) {
   stepper_.load(found_.store[wanted.from], wanted.from == 0);
@@ -19,8 +19,7 @@ Step Tracer::step_of(const CycleStep& wanted) {
   do {
     const Status status = stepper_.tick();
     const bool goes_on = status == Status::Running && !stepper_.ticker().faulted();
-    const bool is_label = labeller_.of(stepper_.ticker(), stepper_.leaves().marks()) ==
-                          found_.graph.labels[wanted.edge.label];
+    const bool is_label = labeller_.of(stepper_) == found_.graph.labels[wanted.edge.label];
     if (goes_on && is_label && std::ranges::equal(stepper_.fold(), to)) return step;
     ++step.combination;
   } while (stepper_.next());

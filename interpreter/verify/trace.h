@@ -12,8 +12,8 @@ namespace lockstep::host {
 class Tracer {
  public:
   // All must outlive this.
-  Tracer(const Tree& tree, const LeafModels& models, const Monitors& monitors, Nanoseconds period,
-         const SearchResult& found);
+  Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+         Nanoseconds period, const SearchResult& found);
 
   // The combination of answers that takes a state over this edge.
   Step step_of(const CycleStep& edge);

@@ -25,17 +25,17 @@ std::string some_of(std::vector<std::string> names) {
 
 class VerdictMaker {
  public:
-  VerdictMaker(const Tree& tree, const LeafModels& models, const Monitors& monitors,
+  VerdictMaker(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                const SearchResult& found, const VerdictOptions& options)
       : tree_(tree),
         models_(models),
-        monitors_(monitors),
+        properties_(properties),
         found_(found),
         graph_(found.graph),
         options_(options),
         held_(holdable(tree)),
         period_(from_seconds(1 / options.rate)),
-        tracer_(tree, models, monitors, period_, found) {}
+        tracer_(tree, models, properties, period_, found) {}
 
   Verdict make() {
     say_results();
@@ -280,18 +280,33 @@ class VerdictMaker {
                       found_.broken->first,
            .run = run_to(found_.broken->second)});
     }
-    for (const auto& monitor : monitors_) {
-      const auto it = found_.violated.find(monitor.get());
-      if (it == found_.violated.end()) {
-        if (found_.is_complete()) say(fmt::format("property '{}'", monitor->name()), "holds");
-        continue;
+    for (std::size_t i = 0; i < properties_.size(); ++i) look_at_property(i);
+  }
+
+  // One that waits for something is also violated by a run that goes on for ever without it.
+  void look_at_property(std::size_t number) {
+    const std::string& name = properties_[number].name();
+    Finding finding{.name = "property/" + name, .message = {}};
+    if (const auto it = found_.violated.find(number); it != found_.violated.end()) {
+      finding.run = run_to(it->second);
+      finding.message = fmt::format("property '{}' is violated after {}", name,
+                                    counted(it->second.ticks, "tick"));
+    } else {
+      const std::size_t bit = graph_.owed_bit(number);
+      const auto cycle =
+          fair_cycle(graph_, [&](const Edge& edge) { return graph_.has(edge, bit); });
+      if (cycle.empty()) {
+        if (found_.is_complete()) say(fmt::format("property '{}'", name), "holds");
+        return;
       }
-      verdict_.findings.push_back(
-          {.name = "property/" + monitor->name(),
-           .message = fmt::format("property '{}' is violated after {}", monitor->name(),
-                                  counted(it->second.ticks, "tick")),
-           .run = run_to(it->second)});
+      finding.run = found_.way_to(cycle.front().from);
+      add_lasso(cycle.front().from, cycle, finding);
+      finding.message =
+          fmt::format("property '{}' waits for ever: from tick {} on a cycle of {} repeats", name,
+                      *finding.repeats, counted(cycle.size(), "tick"));
     }
+    say(fmt::format("property '{}'", name), "NO");
+    verdict_.findings.push_back(std::move(finding));
   }
 
   void say_coverage() {
@@ -366,7 +381,7 @@ class VerdictMaker {
 
   const Tree& tree_;
   const LeafModels& models_;
-  const Monitors& monitors_;
+  std::span<const Property> properties_;
   const SearchResult& found_;
   const Graph& graph_;
   const VerdictOptions& options_;
@@ -383,9 +398,10 @@ bool Verdict::has_findings() const {
   return std::ranges::any_of(findings, [](const Finding& it) { return it.accepted.empty(); });
 }
 
-Verdict make_verdict(const Tree& tree, const LeafModels& models, const Monitors& monitors,
-                     const SearchResult& found, const VerdictOptions& options) {
-  return VerdictMaker(tree, models, monitors, found, options).make();
+Verdict make_verdict(const Tree& tree, const LeafModels& models,
+                     std::span<const Property> properties, const SearchResult& found,
+                     const VerdictOptions& options) {
+  return VerdictMaker(tree, models, properties, found, options).make();
 }
 
 }  // namespace lockstep::host

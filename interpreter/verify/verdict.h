@@ -39,7 +39,8 @@ struct VerdictOptions {
   std::function<std::string(NodeIndex)> place = {};
 };
 
-Verdict make_verdict(const Tree& tree, const LeafModels& models, const Monitors& monitors,
-                     const SearchResult& found, const VerdictOptions& options);
+Verdict make_verdict(const Tree& tree, const LeafModels& models,
+                     std::span<const Property> properties, const SearchResult& found,
+                     const VerdictOptions& options);
 
 }  // namespace lockstep::host

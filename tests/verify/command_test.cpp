@@ -71,7 +71,8 @@ TEST_CASE("what verify has found comes again with run --leaves") {
     CHECK(diff.code == 0);
     CHECK(diff.out.empty());
     const std::string recording = read_file(stem + ".jsonl");
-    CHECK(contains(recording.substr(0, recording.find('\n')), "\"verify\":\"" + std::string(it.finding) + ": "));
+    CHECK(contains(recording.substr(0, recording.find('\n')),
+                   "\"verify\":\"" + std::string(it.finding) + ": "));
     CHECK(run_lockstep({"log", "info", stem + ".jsonl"}).code == 0);
   }
 }

@@ -3,15 +3,34 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "measure/live_properties.h"
+
 namespace lockstep::host::test {
 namespace {
 
-LeafModels models_of(const Tree& tree, std::string_view rows) {
+std::vector<Property> properties_of(const Tree& tree, const std::vector<std::string>& texts) {
+  std::vector<Property> properties;
+  for (const std::string& text : texts) {
+    auto property = Property::parse(text, property_names(tree));
+    if (!property) throw std::invalid_argument(property.error().message);
+    properties.push_back(std::move(*property));
+  }
+  return properties;
+}
+
+LeafModels models_of(const Tree& tree, std::string_view rows,
+                     const std::vector<Property>& properties) {
+  Observed observed;
+  for (const Property& property : properties) {
+    for (const ProgressComparison& it : property.progress_comparisons()) {
+      observed.progress.push_back({it.node, it.constant});
+    }
+  }
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems;
   const std::string text = "<leaves lockstep=\"1\">" + std::string(rows) + "</leaves>";
   const auto file = read_leaf_file("t.leaves.xml", text, diagnostics);
-  LeafModels models = make_models(tree, file.get(), diagnostics, problems);
+  LeafModels models = make_models(tree, file.get(), diagnostics, problems, observed);
   if (diagnostics.has_errors()) throw std::invalid_argument(diagnostics.all()[0].message);
   if (!problems.empty()) throw std::invalid_argument(problems[0].message);
   return models;
@@ -20,12 +39,13 @@ LeafModels models_of(const Tree& tree, std::string_view rows) {
 }  // namespace
 
 Verified::Verified(std::string_view text, std::string_view rows, const SearchLimits& limits,
-                   double of_rate)
+                   double of_rate, std::vector<std::string> texts)
     : tree(tree_from_text(text)),
-      models(models_of(tree, rows)),
+      properties(properties_of(tree, texts)),
+      models(models_of(tree, rows, properties)),
       rate(of_rate),
-      found(search(tree, models, {}, from_seconds(1 / rate), limits)),
-      verdict(make_verdict(tree, models, {}, found, {.rate = rate})) {}
+      found(search(tree, models, properties, from_seconds(1 / rate), limits)),
+      verdict(make_verdict(tree, models, properties, found, {.rate = rate})) {}
 
 const Finding* Verified::finding(std::string_view name) const {
   const auto it = std::ranges::find(verdict.findings, name, &Finding::name);
@@ -44,7 +64,7 @@ std::string Verified::findings() const {
 }
 
 std::string Verified::script(std::string_view name) const {
-  Tracer tracer(tree, models, {}, from_seconds(1 / rate), found);
+  Tracer tracer(tree, models, properties, from_seconds(1 / rate), found);
   LeafScripts scripts = tracer.scripts(finding(name)->run);
   scripts.ticks.reset();
   return to_text(scripts);

@@ -13,7 +13,7 @@ namespace lockstep::host::test {
 struct Verified {
   // `rows`: those of a leaf file. Throws std::invalid_argument for mistakes in either.
   Verified(std::string_view tree, std::string_view rows = "", const SearchLimits& limits = {},
-           double rate = 10);
+           double rate = 10, std::vector<std::string> properties = {});
 
   const Finding* finding(std::string_view name) const;
   // "" if nothing is said.
@@ -24,6 +24,7 @@ struct Verified {
   std::string script(std::string_view finding) const;
 
   Tree tree;
+  std::vector<Property> properties;
   LeafModels models;
   double rate;
   SearchResult found;

@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
+#include "cli/properties.h"
 #include "cli/tools/verify/verify_report.h"
 #include "core/wording.h"
 #include "document/file.h"
@@ -32,6 +33,7 @@ struct VerifyOptions {
   bool json = false;
   bool mock = false;
   std::string out = ".";
+  PropertyOptions properties;
 };
 
 // Half of what the machine has.
@@ -109,8 +111,12 @@ class VerifyCommand {
     const Runnable runnable = make_runnable(std::move(*loaded));
     const auto file = read_leaves(options_.leaves, diagnostics_);
     if (!file) return refuse();
+    auto properties = all_properties(runnable.properties, options_.properties, runnable.tree);
+    if (!properties) return kExitUsage;
+    properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
-    const LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems);
+    const LeafModels models =
+        make_models(runnable.tree, file->get(), diagnostics_, problems, observed());
     places.report(problems, diagnostics_);
     if (diagnostics_.has_errors()) return refuse();
     print_diagnostics(diagnostics_, Severity::Warning);
@@ -128,6 +134,20 @@ class VerifyCommand {
     return loaded;
   }
 
+  // What the properties compare.
+  Observed observed() const {
+    Observed observed;
+    for (const Property& property : properties_) {
+      for (const ProgressComparison& it : property.progress_comparisons()) {
+        observed.progress.push_back({it.node, it.constant});
+      }
+      for (const EntryComparison& it : property.comparisons()) {
+        observed.entries.push_back(it.entry);
+      }
+    }
+    return observed;
+  }
+
   int refuse() {
     print_diagnostics(diagnostics_, Severity::Warning);
     return kExitInvalidTree;
@@ -136,17 +156,16 @@ class VerifyCommand {
   int verify(const Runnable& runnable, const LeafModels& models, const Places& places) {
     const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
     StopSignals::install();
-    const Monitors monitors;
     SearchResult found = [&] {
       SearchLine line;
-      return search(runnable.tree, models, monitors, from_seconds(1 / rate), limits(line));
+      return search(runnable.tree, models, properties_, from_seconds(1 / rate), limits(line));
     }();
     const Verdict verdict =
-        make_verdict(runnable.tree, models, monitors, found,
+        make_verdict(runnable.tree, models, properties_, found,
                      {.rate = rate, .place = [&](NodeIndex node) { return places.text(node); }});
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
-    Tracer tracer(runnable.tree, models, monitors, from_seconds(1 / rate), found);
+    Tracer tracer(runnable.tree, models, properties_, from_seconds(1 / rate), found);
     if (!write_files(runnable, rate, tracer, verdict, report)) return kExitUsage;
     const std::string text = options_.json ? to_json(report) : to_text(report);
     return first_failure(write_results(text), exit_code(found, verdict));
@@ -201,6 +220,7 @@ class VerifyCommand {
   const VerifyOptions& options_;
   Diagnostics diagnostics_;
   PlayedLeaves played_;
+  std::vector<Property> properties_;
   int code_ = kExitSuccess;
 };
 
@@ -237,6 +257,7 @@ std::function<int()> define_verify(CLI::App& app) {
                  "Where recordings and scripts of what was found are written")
       ->type_name("DIR")
       ->capture_default_str();
+  add_property_options(app, options->properties);
   app.add_flag("--json", options->json, "Print the verdict as JSON");
   app.add_flag("--mock", options->mock, "Take nodes that no plugin has for leaves");
   add_load_options(app, options->load);

@@ -1,0 +1,121 @@
+#include "verify/property_watch.h"
+
+#include <algorithm>
+
+#include "engine/blackboard.h"
+#include "engine/synchronized.h"
+#include "measure/synchronized_measure.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::byte kDecided{1};
+
+}  // namespace
+
+PropertyWatch::PropertyWatch(const Tree& tree, std::span<const Property> properties) {
+  for (const Property& it : properties) {
+    parts_.push_back({&it, state_size_, std::vector<SeenNode>(it.nodes().size()),
+                      std::make_unique<bool[]>(it.comparisons().size())});
+    state_size_ += 1 + it.comparisons().size() + it.state_size();
+  }
+  for (const NodeIndex keeper : synchronized_nodes(tree)) {
+    if (!compares_progress(synchronization(tree.nodes[keeper]))) continue;
+    const auto children = children_of(tree, keeper);
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+      const auto nodes = parts_[part].property->nodes();
+      for (std::size_t place = 0; place < nodes.size(); ++place) {
+        const auto child = std::ranges::find(children, nodes[place]);
+        if (child == children.end() || !parts_[part].property->needs_progress(place)) continue;
+        used_.push_back({part, place, keeper, static_cast<std::size_t>(child - children.begin())});
+      }
+    }
+  }
+}
+
+void PropertyWatch::begin(std::byte* state) const {
+  for (const Part& part : parts_) {
+    std::byte* at = state + part.first_byte;
+    *at++ = std::byte{0};
+    for (const EntryComparison& it : part.property->comparisons()) {
+      *at++ = static_cast<std::byte>(it.holds_without_value());
+    }
+    part.property->begin(at);
+  }
+}
+
+void PropertyWatch::before_tick(Ticker& ticker) {
+  for (Part& part : parts_) {
+    const auto nodes = part.property->nodes();
+    for (std::size_t place = 0; place < nodes.size(); ++place) {
+      if (part.property->needs_progress(place)) {
+        part.seen[place].progress = ticker.progress(nodes[place]);
+      }
+    }
+  }
+}
+
+void PropertyWatch::look(Part& part, std::byte* compared, Ticker& ticker) {
+  const auto nodes = part.property->nodes();
+  for (std::size_t place = 0; place < nodes.size(); ++place) {
+    SeenNode& seen = part.seen[place];
+    seen.status = ticker.status(nodes[place]);
+    seen.ticked = ticker.ticked(nodes[place]);
+    seen.held = ticker.held(nodes[place]);
+  }
+  const auto comparisons = part.property->comparisons();
+  for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    const Value& value = ticker.blackboard().entries[comparisons[i].entry].value;
+    if (!std::holds_alternative<NoValue>(value)) {
+      compared[i] = static_cast<std::byte>(comparisons[i].holds_for(value, room_));
+    }
+    part.compared[i] = compared[i] != std::byte{0};
+  }
+}
+
+void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, bool has_ended) {
+  violated_.clear();
+  for (const Used& it : used_) {
+    if (!ticker.ticked(it.keeper)) continue;
+    const double used = child_progress(ticker, it.keeper)[it.child];
+    parts_[it.part].seen[it.place].progress = is_left_out(used) ? 0 : used;
+  }
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    std::byte* const decided = state + part.first_byte;
+    if (*decided == kDecided) continue;
+    const std::size_t count = part.property->comparisons().size();
+    std::byte* const own = decided + 1 + count;
+    look(part, decided + 1, ticker);
+    PropertyVerdict verdict = part.property->step(
+        own, {.nodes = part.seen, .comparisons = std::span(part.compared.get(), count)});
+    if (verdict == PropertyVerdict::Open && has_ended) verdict = part.property->at_end(own);
+    if (verdict == PropertyVerdict::Open) continue;
+    if (verdict == PropertyVerdict::Violated) violated_.push_back(i);
+    std::fill(decided, own + part.property->state_size(), std::byte{0});
+    *decided = kDecided;
+  }
+}
+
+bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {
+  const Part& part = parts_[property];
+  const std::byte* const decided = state + part.first_byte;
+  if (*decided == kDecided) return false;
+  const std::byte* const own = decided + 1 + part.property->comparisons().size();
+  return part.property->at_end(own) == PropertyVerdict::Violated;
+}
+
+std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree) {
+  std::vector<bool> found(tree.nodes.size());
+  for (const Property& property : properties) {
+    for (NodeIndex node : property.nodes()) {
+      while (!found[node]) {
+        found[node] = true;
+        node = tree.labels[node].parent;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,61 @@
+// The properties of a tree while a search ticks it: what they look at is read from the engine,
+// exactly as recordings have it, and all that they remember is some bytes of the state.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/ticker.h"
+#include "property/property.h"
+
+namespace lockstep::host {
+
+class PropertyWatch {
+ public:
+  // Both must outlive this.
+  PropertyWatch(const Tree& tree, std::span<const Property> properties);
+
+  bool empty() const { return parts_.empty(); }
+  std::size_t state_size() const { return state_size_; }
+  void begin(std::byte* state) const;
+  void before_tick(Ticker& ticker);
+  // After a tick, before its state is folded. `has_ended`: the root has a result.
+  void after_tick(std::byte* state, Ticker& ticker, bool has_ended);
+
+  // The properties that the last tick has violated, by their place.
+  std::span<const std::size_t> violated() const { return violated_; }
+  // Whether a property that is open would be violated if no tick came any more.
+  bool owes(const std::byte* state, std::size_t property) const;
+
+ private:
+  // Of a property. In its state: whether it is decided, the results of its comparisons (which count
+  // while an entry has no value), and what the property itself keeps.
+  struct Part {
+    const Property* property;
+    std::size_t first_byte;
+    std::vector<SeenNode> seen;
+    std::unique_ptr<bool[]> compared;
+  };
+  // A node whose progress is used by a synchronized node, which keeps what it has used.
+  struct Used {
+    std::size_t part, place;
+    NodeIndex keeper;
+    std::size_t child;
+  };
+
+  void look(Part& part, std::byte* compared, Ticker& ticker);
+
+  std::vector<Part> parts_;
+  std::vector<Used> used_;
+  std::size_t state_size_ = 0;
+  std::vector<std::size_t> violated_;
+  std::string room_;
+};
+
+// The nodes whose statuses they look at, with all above them.
+std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree);
+
+}  // namespace lockstep::host
