@@ -27,7 +27,6 @@ class Searcher {
   }
 
   SearchResult search() {
-    const Nanoseconds began = monotonic_now();
     add(stepper_.first_state(), {});
     result_.depths.push_back(0);
     for (StateId state = 0; state < result_.store.size(); ++state) {
@@ -35,17 +34,16 @@ class Searcher {
         next_depth_ = static_cast<StateId>(result_.store.size());
         if (state != 0) result_.depths.push_back(state);
       }
-      if (is_over(state, began)) break;
-      expand(state);
+      if (is_over(state) || !expand(state)) break;
     }
-    result_.took = monotonic_now() - began;
+    result_.took = monotonic_now() - began_;
     return std::move(result_);
   }
 
  private:
   std::uint32_t depth() const { return static_cast<std::uint32_t>(result_.depths.size()) - 1; }
 
-  bool is_over(StateId state, Nanoseconds began) {
+  bool is_over(StateId state) {
     const auto stop = [&](SearchEnd end) {
       result_.end = end;
       return true;
@@ -59,7 +57,7 @@ class Searcher {
       return stop(SearchEnd::Signal);
     }
     const Nanoseconds now = monotonic_now();
-    if (limits_.time && now - began > *limits_.time) return stop(SearchEnd::Time);
+    if (limits_.time && now - began_ > *limits_.time) return stop(SearchEnd::Time);
     const std::size_t memory = result_.memory();
     if (memory > limits_.memory) return stop(SearchEnd::Memory);
     if (limits_.tell && now - told_ > std::chrono::milliseconds(100)) {
@@ -79,7 +77,8 @@ class Searcher {
     return id;
   }
 
-  void expand(StateId state) {
+  // False: a limit was reached before all of its answers were tried.
+  bool expand(StateId state) {
     const auto from = result_.store[state];
     loaded_.assign(from.begin(), from.end());
     stepper_.load(loaded_, state == 0);
@@ -88,12 +87,14 @@ class Searcher {
     do {
       take(step, stepper_.tick());
       ++step.combination;
+      if (result_.transitions >= next_look_ && is_over(state)) return false;
     } while (stepper_.next());
     std::ranges::sort(edges_);
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
     Graph& graph = result_.graph;
     graph.edges.insert(graph.edges.end(), edges_.begin(), edges_.end());
     graph.begins.push_back(graph.edges.size());
+    return true;
   }
 
   void take(const Step& step, Status status) {
@@ -142,6 +143,7 @@ class Searcher {
   std::vector<std::pair<std::uint32_t, std::set<std::string>>> values_;
   StateId next_depth_ = 0;
   std::uint64_t next_look_ = 0;
+  const Nanoseconds began_ = monotonic_now();
   Nanoseconds told_{0};
 };
 

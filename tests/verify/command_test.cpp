@@ -101,6 +101,21 @@ TEST_CASE("what a limit has stopped is not called verified") {
   }
 }
 
+TEST_CASE("a limit is heeded within a state of very many answers") {
+  const TemporaryDirectory directory;
+  std::string leaves;
+  for (int i = 0; i < 40; ++i) leaves += "<Advance/>";
+  const std::string tree =
+      directory.file("tree.xml", std::string(kHead) + "<BehaviorTree ID=\"M\"><Parallel>" + leaves +
+                                     "</Parallel></BehaviorTree></root>");
+  for (const auto& limit : {std::vector<std::string>{"--states", "5000"}, {"--time", "0.1"}}) {
+    const Outcome it = run_lockstep({"verify", tree, limit[0], limit[1]});
+    INFO(it.out);
+    CHECK(it.code == 124);
+    CHECK(contains(it.out, "\nbounded: nothing found in the first 0 ticks"));
+  }
+}
+
 TEST_CASE("what cannot be verified is told with its place") {
   const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/navigate.xml"});
   CHECK(it.code == 3);
