@@ -52,8 +52,15 @@ class CutFinder {
   void pull(const Cuts& above, NodeIndex parent, NodeIndex node, std::vector<double>& values) {
     const NodeType& type = *tree_.labels[parent].type;
     const auto children = static_cast<double>(tree_.nodes[parent].children);
+    const double place = place_of(parent, node);
+    if (type.id == "TryCatch") {  // its last child is apart
+      const bool is_last = place + 1 == children;
+      for (const double cut : above.values) {
+        add(values, is_last ? cut : (children - 1) * cut - place);
+      }
+      return;
+    }
     if (type.category == NodeCategory::Control && type.goes_on_after == Status::Success) {
-      const double place = place_of(parent, node);
       for (const double cut : above.values) add(values, children * cut - place);
       return;
     }
@@ -102,7 +109,7 @@ class CutFinder {
   void add_own(NodeIndex node, Cuts& cuts) {
     if (synchronization(tree_.nodes[node]) == Synchronization::Relative) {
       const auto own = delta(tree_, node);
-      own ? add(cuts.deltas, *own) : void(cuts.is_unknown = true);
+      own ? cuts.deltas.push_back(*own) : void(cuts.is_unknown = true);
       return;
     }
     if (const auto list = barriers(tree_, node)) {

@@ -41,9 +41,18 @@ struct ModelLeaves::Functions {
 
 ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard& board,
                          Answers& answers)
+    : ModelLeaves(
+          tree, models,
+          [&](std::uint32_t leaf, const LeafModel::Output& output, const Value& value) {
+            const Parameter& parameter = tree.leaves[leaf].type->parameters[output.port];
+            write_entry(board.entries[output.slot], parameter.type, parameter.object, value);
+          },
+          answers) {}
+
+ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Write write, Answers& answers)
     : tree_(tree),
       models_(models),
-      board_(board),
+      write_(std::move(write)),
       answers_(answers),
       slots_(tree.leaves.size()),
       states_(tree.leaves.size()),
@@ -146,9 +155,7 @@ void ModelLeaves::write(std::uint32_t leaf) {
   for (const LeafModel::Output& output : models_.leaves[leaf].outputs) {
     const std::uint32_t which = answers_.choose(static_cast<std::uint32_t>(output.values.size()));
     marks_[leaf].written.push_back(which);
-    const Parameter& parameter = tree_.leaves[leaf].type->parameters[output.port];
-    write_entry(board_.entries[output.slot], parameter.type, parameter.object,
-                output.values[which]);
+    write_(leaf, output, output.values[which]);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,10 +42,22 @@ struct LeafMark {
 // The leaves of a run.
 class ModelLeaves {
  public:
+  // Puts a value of an output where it belongs.
+  using Write =
+      std::function<void(std::uint32_t leaf, const LeafModel::Output& output, const Value& value)>;
   // All must outlive this.
   ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard& board, Answers& answers);
+  ModelLeaves(const Tree& tree, const LeafModels& models, Write write, Answers& answers);
   ModelLeaves(const ModelLeaves&) = delete;
   ModelLeaves& operator=(const ModelLeaves&) = delete;
+
+  // What the engine asks of a leaf, by its number.
+  void start(std::uint32_t leaf);
+  Status tick(std::uint32_t leaf);
+  void halt(std::uint32_t leaf);
+  void pause(std::uint32_t leaf);
+  void resume(std::uint32_t leaf);
+  double progress(std::uint32_t leaf) const { return progress_[leaf]; }
 
   std::span<LeafSlot> slots() { return slots_; }
   std::vector<LeafState>& states() { return states_; }
@@ -68,11 +81,6 @@ class ModelLeaves {
   struct Functions;
   friend struct Functions;
 
-  void start(std::uint32_t leaf);
-  Status tick(std::uint32_t leaf);
-  void halt(std::uint32_t leaf);
-  void pause(std::uint32_t leaf);
-  void resume(std::uint32_t leaf);
   bool is(std::uint32_t leaf, bool expected, const char* what);
   bool ask(std::uint32_t fact);
   void write(std::uint32_t leaf);
@@ -80,7 +88,7 @@ class ModelLeaves {
 
   const Tree& tree_;
   const LeafModels& models_;
-  Blackboard& board_;
+  const Write write_;
   Answers& answers_;
   std::vector<Self> selves_;
   std::vector<LeafSlot> slots_;

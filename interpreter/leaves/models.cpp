@@ -285,7 +285,7 @@ class ModelMaker {
     if (!way && wants_grid) model.parts = parts_for(cuts.deltas);
     if (wants_grid && model.parts == 0) model.parts = kUsualParts;
     if (way && way->kind == Kind::Grid) check_parts(*way, place, cuts.deltas);
-    for (std::uint32_t part = 1; part < model.parts; ++part) {
+    for (std::uint32_t part = 1; part <= model.parts; ++part) {
       add_level(model, static_cast<double>(part) / model.parts);
     }
     for (const double cut : cuts.values) add_level(model, cut);

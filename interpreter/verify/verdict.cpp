@@ -100,6 +100,9 @@ class VerdictMaker {
                        ? "it can never end"
                        : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
     trap.more = why_it_stands(trap);
+    if (ticks == 0) {
+      trap.more.push_back("if it is to run for ever, say so in the leaf file: <tree ends=\"no\"/>");
+    }
     say("can always end", "NO: " + trap.message);
     verdict_.findings.push_back(std::move(trap));
   }

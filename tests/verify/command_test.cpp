@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/program.h"
 #include "support/paths.h"
@@ -73,7 +74,8 @@ TEST_CASE("what verify has found comes again with run --leaves") {
     const std::string recording = read_file(stem + ".jsonl");
     CHECK(contains(recording.substr(0, recording.find('\n')),
                    "\"verify\":\"" + std::string(it.finding) + ": "));
-    CHECK(run_lockstep({"log", "info", stem + ".jsonl"}).code == 0);
+    CHECK(contains(run_lockstep({"log", "info", stem + ".jsonl"}).out,
+                   "\n  found by verify: " + std::string(it.finding) + ": "));
   }
 }
 
@@ -147,6 +149,32 @@ TEST_CASE("a verdict as JSON has what the text has") {
   REQUIRE(json["findings"].size() == 1);
   CHECK(json["findings"][0]["name"] == "cycle");
   CHECK(std::filesystem::exists(std::string(json["findings"][0]["recording"])));
+}
+
+TEST_CASE("run --leaves with a leaf file does what that allows, as the seed chooses") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml",
+                     "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><ParallelAbsolute "
+                     "barriers=\"0.5\"><Lift/><Drive/>"
+                     "</ParallelAbsolute></BehaviorTree></root>");  // leaves that no plugin has
+  const auto runs = [&](const std::string& rows, const std::string& seed) {
+    const std::string leaves =
+        directory.file("l.xml", "<leaves lockstep=\"1\" rate=\"10\">" + rows + "</leaves>");
+    return run_lockstep({"run", tree, "--leaves", leaves, "--clock", "virtual", "--view", "none",
+                         "--seed", seed, "--json"});
+  };
+  std::set<std::string> outcomes;
+  for (int seed = 0; seed < 8; ++seed) {
+    const Outcome it = runs(R"(<leaf path="*" result="success" finish="full" ticks="2..9"/>)",
+                            std::to_string(seed));
+    INFO(it.err);
+    CHECK(it.code == 0);
+    outcomes.insert(it.out);
+    CHECK(runs(R"(<leaf path="*" result="failure"/>)", std::to_string(seed)).code == 1);
+  }
+  CHECK(outcomes.size() > 1);
+  CHECK(runs(R"(<leaf of="Lft"/>)", "1").code == 2);
 }
 
 TEST_CASE("a script of another tree is refused") {

@@ -116,6 +116,8 @@ TEST_CASE("the cuts of a leaf are the barriers above it, as far as it goes until
 TEST_CASE("below a delta progress goes in steps, of which the delta is a multiple") {
   CHECK(model_of("", "ParallelRelative[delta=.2](a b)").parts == 10);
   CHECK(model_of("", "ParallelRelative[delta=.05](a b)").parts == 20);
+  CHECK(model_of("", "ParallelRelative[delta=0](a b)").parts == 10);
+  CHECK(model_of("", "ParallelRelative[delta=.2](a b)").levels.back() == 1);  // and it still runs
   const Read wrong =
       read(R"(<leaf path="*" progress="grid:10"/>)", "ParallelRelative[delta=.05](a b)");
   REQUIRE(wrong.diagnostics.has_errors());

@@ -337,9 +337,8 @@ int run(RunCommandOptions options) {
   }
   keep_stdout_for_results();
   CrashReport::set_last_words(last_words);
-  PlayedLeaves played;  // which the tree refers to
-  LeafScripts scripts;
-  if (!options.leaves.empty() && !read_scripts(options, scripts)) return kExitUsage;
+  GivenLeaves leaves;  // to which the tree refers
+  if (!options.leaves.empty() && !leaves.read(options)) return kExitUsage;
   Diagnostics diagnostics;
   auto loaded = load_given(options.tree, options.load, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
@@ -356,13 +355,10 @@ int run(RunCommandOptions options) {
     print_error(sockets.error().message, sockets.error().hint);
     return kExitUsage;
   }
-  if (!options.leaves.empty()) played.take_over(loaded->definition);
+  if (!options.leaves.empty()) leaves.take_over(loaded->definition);
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
-  if (!options.leaves.empty() &&
-      !give_scripts(options, std::move(scripts), runnable.tree, played)) {
-    return kExitUsage;
-  }
+  if (!options.leaves.empty() && !leaves.give(options, runnable.tree)) return kExitUsage;
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
   auto properties =
       all_properties(std::move(runnable.properties), options.properties, runnable.tree);

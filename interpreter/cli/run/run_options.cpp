@@ -201,9 +201,10 @@ LoopOptions RunCommandOptions::loop() const {
 
 void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
-  app.add_option("--leaves", options.leaves,
-                 "What the leaves do, tick by tick, in place of plugins: a script as `lockstep "
-                 "verify` writes it; its rate and its length are those of the run")
+  app.add_option(
+         "--leaves", options.leaves,
+         "What the leaves do in place of plugins: a script, as `lockstep verify` writes it, "
+         "whose rate and length are those of the run; or a leaf file, from which --seed chooses")
       ->type_name("FILE");
   define_loop_options(app, options);
   define_time_options(app, options);

@@ -9,6 +9,7 @@
 
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "leaves/model_leaf.h"
 #include "plugin/contract/host.h"
 
 namespace lockstep::host {
@@ -116,6 +117,89 @@ class PlayedRun final : public RemoteRun {
   const LeafScripts& scripts_;
 };
 
+// --- by chance -----------------------------------------------------------------------------------
+
+class RandomAnswers final : public Answers {
+ public:
+  explicit RandomAnswers(const lockstep_caller& caller) : caller_(caller) {}
+  std::uint32_t choose(std::uint32_t count) override {
+    return static_cast<std::uint32_t>(host_table().random(&caller_) * count);
+  }
+
+ private:
+  const lockstep_caller& caller_;
+};
+
+// All leaves of a run. Its tick begins with the first call at another time.
+class ModelRun final : public RemoteRun {
+ public:
+  ModelRun(const lockstep_caller& caller, const Tree& tree, const LeafModels& models)
+      : caller_(caller),
+        answers_(caller),
+        callers_(tree.leaves.size()),
+        leaves_(
+            tree, models,
+            [this](std::uint32_t leaf, const LeafModel::Output& output, const Value& value) {
+              BoundPort& port = callers_[leaf]->ports[output.port];
+              if (port.write != nullptr) write_entry(*port.write, port.type, port.object(), value);
+            },
+            answers_) {
+    for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) numbers_[tree.leaves[i].node] = i;
+  }
+
+  std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override;
+
+  ModelLeaves& leaves() {
+    if (caller_.time->now != now_) {
+      now_ = caller_.time->now;
+      leaves_.fold();
+      leaves_.begin_tick();
+    }
+    return leaves_;
+  }
+  const char* error(std::uint32_t leaf) {
+    return std::exchange(leaves_.slots()[leaf].error, nullptr);
+  }
+
+ private:
+  const lockstep_caller& caller_;
+  RandomAnswers answers_;
+  std::vector<const lockstep_caller*> callers_;  // of each leaf
+  ModelLeaves leaves_;
+  std::map<NodeIndex, std::uint32_t> numbers_;
+  Nanoseconds now_{-1};
+};
+
+class ModelLeafOfRun final : public RemoteLeaf {
+ public:
+  ModelLeafOfRun(const lockstep_caller& caller, ModelRun& run, std::uint32_t number)
+      : RemoteLeaf(caller), run_(run), number_(number) {}
+
+  void start() override { run_.leaves().start(number_); }
+  void start_unreset() override { start(); }
+  lockstep_status tick() override {
+    const Status status = run_.leaves().tick(number_);
+    if (const char* error = run_.error(number_)) fail(error);
+    return static_cast<lockstep_status>(status);
+  }
+  void halt() override { run_.leaves().halt(number_); }
+  void pause() override { run_.leaves().pause(number_); }
+  void resume() override { run_.leaves().resume(number_); }
+  double progress() override { return run_.leaves().progress(number_); }
+  void end() override {}
+  std::string trouble() override { return {}; }
+
+ private:
+  ModelRun& run_;
+  const std::uint32_t number_;
+};
+
+std::unique_ptr<RemoteLeaf> ModelRun::create(const lockstep_caller& caller) {
+  const std::uint32_t number = numbers_.at(caller.node);
+  callers_[number] = &caller;
+  return std::make_unique<ModelLeafOfRun>(caller, *this, number);
+}
+
 bool is_leaf(const NodeType& type) {
   const bool is_foreign = type.leaf != nullptr || type.mock != nullptr;
   return is_foreign &&
@@ -187,7 +271,8 @@ std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tre
   return std::nullopt;
 }
 
-std::unique_ptr<RemoteRun> PlayedLeaves::begin_run(const lockstep_caller& /*caller*/) {
+std::unique_ptr<RemoteRun> PlayedLeaves::begin_run(const lockstep_caller& caller) {
+  if (models_ != nullptr) return std::make_unique<ModelRun>(caller, *tree_, *models_);
   return std::make_unique<PlayedRun>(scripts_);
 }
 

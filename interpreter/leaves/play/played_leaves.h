@@ -1,5 +1,5 @@
-// Leaves that play scripts in place of those of plugins: to the rest of lockstep they are those of
-// an ordinary plugin, which needs no file.
+// Leaves that play scripts, or what a leaf file lets them do by chance, in place of those of
+// plugins: to the rest of lockstep they are those of an ordinary plugin, which needs no file.
 #pragma once
 
 #include <deque>
@@ -7,6 +7,7 @@
 
 #include "definition/definition.h"
 #include "leaves/leaf_script.h"
+#include "leaves/models.h"
 #include "plugin/contract/descriptor.h"
 #include "remote/remote_plugin.h"
 
@@ -23,6 +24,12 @@ class PlayedLeaves final : public RemotePlugin {
   void take_over(Definition& definition);
   // Before a run. A leaf without a script runs for ever; a condition without one fails.
   void set_scripts(LeafScripts scripts) { scripts_ = std::move(scripts); }
+  // Before a run, instead of scripts: all leaves do what these allow, as the run's random numbers
+  // choose. Both must outlive the run.
+  void set_models(const Tree& tree, const LeafModels& models) {
+    tree_ = &tree;
+    models_ = &models;
+  }
   // What is wrong with scripts for a tree: a path that it does not have, a port, a value.
   static std::optional<Problem> check(const LeafScripts& scripts, const Tree& tree);
 
@@ -38,6 +45,8 @@ class PlayedLeaves final : public RemotePlugin {
   HostedPlugin plugin_{};
   std::deque<Type> types_;
   LeafScripts scripts_;
+  const Tree* tree_ = nullptr;
+  const LeafModels* models_ = nullptr;
 };
 
 }  // namespace lockstep::host

@@ -22,6 +22,9 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
   out +=
       fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n", counted(header.nodes.size(), "node"),
                   header.rate_hz, printable(header.clock), header.seed, header.law);
+  if (!header.verify.empty()) {
+    out += fmt::format("  found by verify: {}\n", printable(header.verify));
+  }
   for (const auto& [name, value] : header.arguments) {
     out += fmt::format("  argument {} = {}\n", printable(name), printable(value));
   }
