@@ -41,7 +41,7 @@ std::string element(const Tag& tag) {
 
 std::string make_leaf_xsd() {
   std::string text = R"xsd(<?xml version="1.0" encoding="UTF-8"?>
-<!-- What the leaves of a tree may do: NAME.leaves.xml. Made by `lockstep schema --leaves`; do not edit. -->
+<!-- What the leaves of a tree may do: NAME.leaves.xml. Made by `lockstep schema`, which has an option for it; do not edit. -->
 <xs:schema xmlns:xs="http://www.w3.org/2001/XMLSchema" elementFormDefault="unqualified">
   <xs:element name="leaves">
     <xs:complexType>

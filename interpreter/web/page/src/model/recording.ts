@@ -26,6 +26,7 @@ export interface Header {
   arguments: Record<string, string>;
   nodes: HeaderNode[];
   entries?: HeaderEntry[];
+  verify?: string;
 }
 
 export interface TickLine {

@@ -25,6 +25,15 @@ Expected<T> converted(const Expected<Any>& value, const NodeConfig& config) {
 
 }  // namespace lockstep_detail
 
+inline void TreeNode::lockstep_note(NodeStatus status) {
+  if (status != NodeStatus::SKIPPED) {
+    setStatus(status);
+  } else if (lockstep_place_ != nullptr || type() == NodeType::ACTION ||
+             type() == NodeType::CONDITION) {
+    setStatus(NodeStatus::IDLE);
+  }  // by hand, a node with children keeps its status: its parent halts it, and so them
+}
+
 template <class Work>
 inline NodeStatus TreeNode::lockstep_tick_as(const Work& work) {
   const NodeStatus status = lockstep_result_of(work);

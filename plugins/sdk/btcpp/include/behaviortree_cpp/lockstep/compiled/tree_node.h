@@ -21,15 +21,6 @@ LOCKSTEP_BTCPP_INLINE NodeStatus TreeNode::executeTick() {
   throw LogicError("node '", lockstep_name_, "' ", what);
 }
 
-LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_note(NodeStatus status) {
-  if (status != NodeStatus::SKIPPED) {
-    setStatus(status);
-  } else if (lockstep_place_ != nullptr || type() == NodeType::ACTION ||
-             type() == NodeType::CONDITION) {
-    setStatus(NodeStatus::IDLE);
-  }  // by hand, a node with children keeps its status: its parent halts it, and so them
-}
-
 [[gnu::cold]] LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_rethrow(
     const std::exception& thrown) const {
   const bool is_told = dynamic_cast<const NodeExecutionError*>(&thrown) != nullptr;
