@@ -125,8 +125,8 @@ struct Tree {
   std::vector<Slot> slots;
   std::shared_ptr<const ScriptEnums> words = {};  // for scripts that are compiled at run time
   bool shares_entries = false;  // other threads than that of its run use them, too
-  std::vector<Board> boards;   // if names are looked up at run time; in the order of their nodes
-  std::size_t state_size = 0;  // bytes of all node states
+  std::vector<Board> boards;    // if names are looked up at run time; in the order of their nodes
+  std::size_t state_size = 0;   // bytes of all node states
   const LanguageRules* rules = &kLockstepRules;
   std::string id;                 // of the main BehaviorTree
   std::vector<NodeLabel> labels;  // not touched while ticking

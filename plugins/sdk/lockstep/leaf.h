@@ -398,7 +398,7 @@ typedef struct lockstep_entry_value {
   void* object;           /* borrowed; write retains it */
   const lockstep_object_type* object_type; /* of the entry. read gives its name only */
   const char* object_name;                 /* by read: of the entry's objects; NULL: it has none */
-  uint64_t writes;                         /* by read: another one for each value since it was made */
+  uint64_t writes; /* by read: another one for each value since it was made */
 } lockstep_entry_value;
 
 typedef struct lockstep_boards {
