@@ -22,7 +22,15 @@ class SyncActionNode : public ActionNodeBase {
   SyncActionNode(const std::string& name, const NodeConfig& config);
   ~SyncActionNode() override;
 
-  NodeStatus executeTick() override;
+  // Here, so that the compiler sees it beside tick().
+  NodeStatus executeTick() override {
+    const NodeStatus status = lockstep_tick_as([this] { return tick(); });
+    if (status == NodeStatus::RUNNING) {
+      lockstep_refuse(
+          "is a SyncActionNode and has returned RUNNING; derive it from StatefulActionNode");
+    }
+    return status;
+  }
   void halt() final { resetStatus(); }
 };
 

@@ -17,14 +17,6 @@ LOCKSTEP_BTCPP_INLINE SyncActionNode::SyncActionNode(const std::string& name,
                                                      const NodeConfig& config)
     : ActionNodeBase(name, config) {}
 LOCKSTEP_BTCPP_INLINE SyncActionNode::~SyncActionNode() = default;
-LOCKSTEP_BTCPP_INLINE NodeStatus SyncActionNode::executeTick() {
-  const NodeStatus status = lockstep_tick_as([this] { return tick(); });
-  if (status == NodeStatus::RUNNING) {
-    lockstep_refuse(
-        "is a SyncActionNode and has returned RUNNING; derive it from StatefulActionNode");
-  }
-  return status;
-}
 
 LOCKSTEP_BTCPP_INLINE SimpleActionNode::SimpleActionNode(const std::string& name,
                                                          TickFunctor function,
