@@ -115,13 +115,17 @@ export async function cable(link) {
 let browser = null;
 const complaints = [];
 
-// A browser that draws: a new Chromium without a graphics card may come up on a busy machine and never draw a frame.
+// Without a graphics card, on a busy machine, Chromium or a new page of it may come up and never draw a frame.
+function draws(page) {
+  const drawn = page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done(true))));
+  const late = new Promise((done) => setTimeout(done, 15_000, false).unref());
+  return Promise.race([drawn.catch(() => false), late]);
+}
+
 async function launch(tries = 3) {
   const launched = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
   const page = await launched.newPage();
-  const drawn = page.evaluate(() => new Promise((done) => requestAnimationFrame(() => done(true))));
-  const late = new Promise((done) => setTimeout(done, 15_000, false).unref());
-  if (await Promise.race([drawn.catch(() => false), late])) {
+  if (await draws(page)) {
     await page.close();
     return launched;
   }
@@ -130,7 +134,7 @@ async function launch(tries = 3) {
   return launch(tries - 1);
 }
 
-export async function open(address, options = {}) {
+export async function open(address, options = {}, tries = 3) {
   browser ??= await launch();
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   const page = await context.newPage();
@@ -138,7 +142,10 @@ export async function open(address, options = {}) {
   page.on("pageerror", (error) => complaints.push(error.stack ?? error.message));
   page.setDefaultTimeout(60_000); // only what hangs takes so long, also on a busy machine
   await page.goto(address);
-  return page;
+  if (await draws(page)) return page;
+  await context.close();
+  assert.ok(tries > 1, "a page of Chromium draws nothing");
+  return open(address, options, tries - 1);
 }
 export async function openRun(recording, options) {
   const page = await open(pageOf(recording), options);
