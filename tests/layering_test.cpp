@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -375,6 +376,31 @@ TEST_CASE("layers: of the engine, only the compiler sees definitions") {
         FAIL_CHECK(at(include) + "only engine/compile may");
     }
   }
+}
+
+// The linker takes the functions of one of two types with one name for both.
+TEST_CASE("layers: a name is that of one type in the interpreter") {
+  const std::regex space{R"(^namespace ([\w:]*) ?\{)"};
+  const std::regex type{
+      R"(^(?:class|struct|union|enum|enum class)(?: \[\[\w+\]\])? (\w+)(?: final)?(?: : .*)?(?: \{.*)?$)"};
+  std::map<std::string, std::string> defined;  // the file of each
+  for (const std::string& file : sources_under("interpreter")) {
+    std::vector<std::string> spaces;
+    std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+    for (std::string line; std::getline(stream, line);) {
+      std::smatch match;
+      if (std::regex_search(line, match, space) && line.find('}') == std::string::npos) {
+        spaces.push_back(match[1].length() == 0 ? file : match[1].str());
+      } else if (line.starts_with("}  // namespace")) {
+        spaces.pop_back();
+      } else if (std::regex_match(line, match, type)) {
+        const std::string name = fmt::format("{}::{}", fmt::join(spaces, "::"), match[1].str());
+        const auto [first, is_new] = defined.try_emplace(name, file);
+        if (!is_new) FAIL_CHECK(fmt::format("{} in {} and {}", name, first->second, file));
+      }
+    }
+  }
+  CHECK(defined.size() > 500);
 }
 
 // Where files are compiled as one, another one's #include hides that it is missing.

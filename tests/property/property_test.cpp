@@ -9,7 +9,7 @@
 #include "property/random_tree.h"
 #include "recording/use/recorded_properties.h"
 #include "recording/write/recorder.h"
-#include "summary/property_watch.h"
+#include "summary/property_observer.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host::test {
@@ -106,7 +106,7 @@ TEST_CASE("a recording of a random tree has the verdicts of its run") {
     Recorder recorder(run.run.tree(),
                       {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     std::size_t told = 0;
-    PropertyWatch watch(run.run.tree(), properties,
+    PropertyObserver watch(run.run.tree(), properties,
                         [&told](const Property&, const std::string&) { ++told; });
     run.watch({&watch, &recorder}, static_cast<std::uint64_t>(trial.ticks));
     Summary live;

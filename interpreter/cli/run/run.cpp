@@ -21,7 +21,7 @@
 #include "runtime/outlet.h"
 #include "runtime/stall_fail.h"
 #include "runtime/stop_signals.h"
-#include "summary/property_watch.h"
+#include "summary/property_observer.h"
 #include "summary/standstills.h"
 #include "summary/statistics.h"
 #include "system/freed_memory.h"
@@ -297,7 +297,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<Recorder> recorder_;
   Watchers watchers_;
   std::optional<Standstills> standstills_;
-  std::optional<PropertyWatch> properties_;
+  std::optional<PropertyObserver> properties_;
   std::optional<StallFail> stall_fail_;
   LineBudget standstill_budget_{ConsolePlain::kBurstOfFaults};
   std::vector<Observer*> observers_;

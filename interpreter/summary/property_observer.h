@@ -13,12 +13,12 @@
 
 namespace lockstep::host {
 
-class PropertyWatch final : public Observer {
+class PropertyObserver final : public Observer {
  public:
   // On the tick thread, in the tick that shows it or at the end of the run: the property, and when
   // it was violated.
   using Tell = std::function<void(const Property& property, const std::string& when)>;
-  PropertyWatch(const Tree& tree, std::vector<Property> properties, Tell tell);
+  PropertyObserver(const Tree& tree, std::vector<Property> properties, Tell tell);
 
   void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
