@@ -21,9 +21,9 @@ constexpr unsigned bit(Status status) {
 
 constexpr auto kFields = std::to_array<std::string_view>(
     {"running", "success", "failure", "idle", "skipped", "done", "ticked", "held", "progress"});
-constexpr auto kReserved =
-    std::to_array<std::string_view>({"never", "sometimes", "leads", "to", "within", "ticks", "tick",
-                                     "only", "after", "at", "most", "until", "and", "or", "not"});
+constexpr auto kReserved = std::to_array<std::string_view>(
+    {"never", "sometimes", "finally", "leads", "to", "within", "ticks", "tick", "only", "after",
+     "at", "most", "until", "and", "or", "not"});
 
 constexpr std::string_view kTermHint = "such as arm.running, arm.progress < 0.5 or {key} == 'text'";
 

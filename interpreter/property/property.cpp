@@ -27,6 +27,7 @@ bool Property::needs_progress(std::size_t place) const {
 //   OnlyAfter  1: what must come before has come
 //   AtMost     how many ticks in a row it has been so
 //   Until      1: the end has come
+//   Finally    1: it is so after this tick
 void Property::choose_state() {
   std::uint32_t most = 1;
   if (pattern_ == Pattern::Never) most = 0;
@@ -79,6 +80,9 @@ PropertyVerdict Property::step(std::byte* state, const PropertyView& view) const
       if (right) store(state, 1);
       if (load(state) != 0) return Holds;
       return left ? Open : Violated;
+    case Pattern::Finally:
+      store(state, left ? 1 : 0);
+      return Open;
   }
   return Open;
 }
@@ -108,6 +112,7 @@ PropertyVerdict Property::at_end(const std::byte* state) const {
       return Holds;
     case Pattern::Sometimes:
     case Pattern::Until:
+    case Pattern::Finally:
       return is_set ? Holds : Violated;
     case Pattern::LeadsTo:
       return is_set ? Violated : Holds;

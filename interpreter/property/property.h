@@ -75,12 +75,22 @@ class Property {
   void begin(std::byte* state) const;
   // After each tick, until it is violated. Does not allocate.
   PropertyVerdict step(std::byte* state, const PropertyView& view) const;
+  // Whether it is about the last tick only, so that a run without an end does not violate it.
+  bool is_of_last_tick() const { return pattern_ == Pattern::Finally; }
   // When no tick comes any more: never Open.
   PropertyVerdict at_end(const std::byte* state) const;
 
  private:
   friend class PropertyParser;
-  enum class Pattern : std::uint8_t { Never, Sometimes, LeadsTo, OnlyAfter, AtMost, Until };
+  enum class Pattern : std::uint8_t {
+    Never,
+    Sometimes,
+    LeadsTo,
+    OnlyAfter,
+    AtMost,
+    Until,
+    Finally
+  };
 
   Property() = default;
   void choose_state();

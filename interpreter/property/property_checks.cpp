@@ -51,7 +51,8 @@ std::span<const std::size_t> PropertyChecks::end(RunIsOver how) {
     Checked& it = checked_[i];
     if (it.verdict != PropertyVerdict::Open) continue;
     const auto verdict = properties_[i].at_end(states_.data() + it.first_byte);
-    if (verdict == PropertyVerdict::Violated && how == RunIsOver::FromOutside) continue;
+    const bool is_owed = verdict == PropertyVerdict::Violated || properties_[i].is_of_last_tick();
+    if (is_owed && how == RunIsOver::FromOutside) continue;
     it.verdict = verdict;
     if (verdict == PropertyVerdict::Violated) violated_.push_back(i);
   }

@@ -73,6 +73,7 @@ class PropertyParser {
   void pattern() {
     if (parser_.take_word("never")) return only_left(Pattern::Never);
     if (parser_.take_word("sometimes")) return only_left(Pattern::Sometimes);
+    if (parser_.take_word("finally")) return only_left(Pattern::Finally);
     property_.left_ = parser_.formula();
     if (parser_.take_word("leads")) return leads_to();
     if (parser_.take_word("only")) {
@@ -86,8 +87,8 @@ class PropertyParser {
     }
     if (parser_.take_word("until")) return both(Pattern::Until);
     parser_.expected("'and', 'or', 'leads to', 'only after', 'at most' or 'until'",
-                     "what holds in a tick is no property yet; or write 'never' or 'sometimes' "
-                     "before it");
+                     "what holds in a tick is no property yet; or write 'never', 'sometimes' or "
+                     "'finally' before it");
   }
 
   void need(std::string_view word) {

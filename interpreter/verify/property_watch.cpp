@@ -102,7 +102,8 @@ bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {
   const std::byte* const decided = state + part.first_byte;
   if (*decided == kDecided) return false;
   const std::byte* const own = decided + 1 + part.property->comparisons().size();
-  return part.property->at_end(own) == PropertyVerdict::Violated;
+  return !part.property->is_of_last_tick() &&
+         part.property->at_end(own) == PropertyVerdict::Violated;
 }
 
 std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree) {

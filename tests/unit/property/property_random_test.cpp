@@ -109,7 +109,16 @@ class Generator {
 };
 
 struct Definition {
-  enum class Pattern { Never, Sometimes, LeadsTo, LeadsToWithin, OnlyAfter, AtMost, Until } pattern;
+  enum class Pattern {
+    Never,
+    Sometimes,
+    LeadsTo,
+    LeadsToWithin,
+    OnlyAfter,
+    AtMost,
+    Until,
+    Finally
+  } pattern;
   std::unique_ptr<Term> left, right;
   std::size_t ticks = 0;
 
@@ -130,6 +139,8 @@ struct Definition {
         return l + " at most " + n;
       case Pattern::Until:
         return l + " until " + r;
+      case Pattern::Finally:
+        return "finally " + l;
     }
     return {};
   }
@@ -190,6 +201,9 @@ struct Definition {
           if (!l(i)) return at("violated", i);
         }
         return owed;
+      case Pattern::Finally:
+        if (is_cut) return "open";
+        return size > 0 && l(size - 1) ? "holds" : "violated";
     }
     return {};
   }
@@ -201,7 +215,7 @@ TEST_CASE("random properties have the verdict of their definition on random trac
   std::map<std::string, int> seen;
   for (std::uint64_t seed = 0; seed < kProperties; ++seed) {
     Generator make(seed);
-    const Definition definition{static_cast<Definition::Pattern>(make.below(7)), make.term(3),
+    const Definition definition{static_cast<Definition::Pattern>(make.below(8)), make.term(3),
                                 make.term(2), make.below(4)};
     for (int i = 0; i < 10; ++i) {
       const Trace trace = make.trace();
@@ -222,7 +236,7 @@ TEST_CASE("random properties have the verdict of their definition on random trac
 TEST_CASE("a state that is copied goes on as the original") {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator make(seed);
-    const Definition definition{static_cast<Definition::Pattern>(make.below(7)), make.term(2),
+    const Definition definition{static_cast<Definition::Pattern>(make.below(8)), make.term(2),
                                 make.term(2), make.below(4)};
     const Trace trace = make.trace();
     const auto property = Property::parse(definition.text(), trace.names());

@@ -73,6 +73,8 @@ TEST_CASE("each pattern has its verdict on a trace") {
       {"a.running until b.success", "rrrf", "iisi", "holds 2", "holds 2"},
       {"a.running until b.success", "rfrr", "iiss", "violated 1", "violated 1"},
       {"a.running until b.success", "rrrr", "iiii", "violated", "open"},
+      {"finally a.failure", "rrrf", "iiii", "holds", "open"},
+      {"finally a.failure", "rrfr", "iiii", "violated", "open"},
       // what holds until then need not hold in that tick
       {"a.running until b.success", "rf", "is", "holds 1", "holds 1"},
       {"a.running until b.success", "f", "s", "holds 0", "holds 0"},
@@ -238,6 +240,7 @@ TEST_CASE("a state has as few bytes as its largest number") {
   const std::pair<const char*, std::size_t> kSizes[] = {
       {"never a.running", 0},
       {"sometimes a.running", 1},
+      {"finally a.running", 1},
       {"a.running until a.failure", 1},
       {"a.running leads to a.failure", 1},
       {"a.running leads to a.failure within 0 ticks", 0},
