@@ -1,6 +1,7 @@
 // The XML schema of leaf files, from the table that their reader uses.
 #include <fmt/format.h>
 
+#include "describe/words_xsd.h"
 #include "describe/xsd.h"
 #include "leaves/leaf_words.h"
 
@@ -10,26 +11,10 @@ namespace {
 using leaf_words::Tag;
 using leaf_words::Word;
 
-std::string documented(std::string_view text) {
-  return fmt::format("<xs:annotation><xs:documentation>{}</xs:documentation></xs:annotation>",
-                     xsd_escaped(text));
-}
-
-// A regular expression of XSD has no anchors, and \. and \- mean what they mean here.
-std::string attribute(const Word& word) {
-  const std::string facet =
-      word.pattern.empty() ? std::string("<xs:minLength value=\"1\"/>")
-                           : fmt::format("<xs:pattern value=\"{}\"/>", xsd_escaped(word.pattern));
-  return fmt::format(
-      "      <xs:attribute name=\"{}\"{}>\n        {}\n        <xs:simpleType><xs:restriction "
-      "base=\"xs:string\">{}</xs:restriction></xs:simpleType>\n      </xs:attribute>\n",
-      word.name, word.required ? " use=\"required\"" : "", documented(word.doc), facet);
-}
-
 std::string element(const Tag& tag) {
   std::string text = fmt::format("        <xs:element name=\"{}\">\n    {}\n    <xs:complexType>\n",
-                                 tag.name, documented(tag.doc));
-  for (const Word& word : tag.words) text += attribute(word);
+                                 tag.name, xsd_documented(tag.doc));
+  for (const Word& word : tag.words) text += xsd_attribute(word);
   // Of a leaf, out.PORT: XSD cannot say how a name begins.
   if (tag.name == "leaf") {
     text += "      <xs:anyAttribute namespace=\"##local\" processContents=\"skip\"/>\n";
@@ -49,7 +34,7 @@ std::string make_leaf_xsd() {
 )xsd";
   for (const Tag& tag : leaf_words::kTags) text += element(tag);
   text += "      </xs:choice>\n";
-  for (const Word& word : leaf_words::kRoot) text += attribute(word);
+  for (const Word& word : leaf_words::kRoot) text += xsd_attribute(word);
   return text + "    </xs:complexType>\n  </xs:element>\n</xs:schema>\n";
 }
 

@@ -120,6 +120,13 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
             </xs:simpleContent>
           </xs:complexType>
         </xs:element>
+        <xs:element name="scenario">
+          <xs:annotation><xs:documentation>What is to come of the tree when its leaves do this: `lockstep test` plays it. schema/scenarios.xsd has its words.</xs:documentation></xs:annotation>
+          <xs:complexType mixed="true">
+            <xs:sequence><xs:any processContents="skip" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
+            <xs:anyAttribute processContents="skip"/>
+          </xs:complexType>
+        </xs:element>
         <xs:element name="TreeNodesModel">
           <xs:annotation><xs:documentation>What editors know of the nodes. lockstep reads it for 'run --mock' only.</xs:documentation></xs:annotation>
           <xs:complexType mixed="true">
@@ -150,6 +157,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
   <xs:element name="arg" abstract="true"/>
   <xs:element name="include" abstract="true"/>
   <xs:element name="property" abstract="true"/>
+  <xs:element name="scenario" abstract="true"/>
   <xs:element name="TreeNodesModel" abstract="true"/>
 )xsd";
 

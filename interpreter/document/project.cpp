@@ -199,7 +199,7 @@ void Loader::substitute(Document& document) {
   arguments_.substitute(document, 0);
   for (const std::uint32_t child : children_in(elements, 0)) {
     // Substituted when it was read; the text of an argument is not looked into again.
-    if (is_read(child)) continue;
+    if (is_read(child) || elements[child].tag == "scenario") continue;  // which has its own
     for (auto i = child; i < elements[child].end; ++i) arguments_.substitute(document, i);
   }
 }

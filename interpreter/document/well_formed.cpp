@@ -181,7 +181,7 @@ class Checker {
     const auto offset = blank ? token.begin : static_cast<std::size_t>(first - text_.data());
     const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
     if (is_in_models()) return;  // what ports are for
-    if (!is_lenient_ && is_in_property()) return property(token, is_section);
+    if (!is_lenient_ && may_have_text()) return element_text(token, is_section);
     if (is_lenient_ && (is_section || !open_.empty() || !has_root()))
       return warn({offset, "text is ignored", "put it into a comment: <!-- … -->"});
     if (open_.empty())
@@ -191,12 +191,14 @@ class Checker {
   }
 
   // Its text is kept as an attribute without a name.
-  void property(const XmlToken& token, bool is_section) {
+  void element_text(const XmlToken& token, bool is_section) {
     const auto begin = scanner_.offset_of(token.value);
     auto& element = result_.elements.back();
     const bool has_text = element.attribute_count > 0 && result_.attributes.back().name.empty();
     if (open_.back() + 1 != result_.elements.size() || has_text) {
-      return add({begin, "a property has one text", "move comments out of it"});
+      const bool is_property = innermost() == "property";
+      return add({begin, is_property ? "a property has one text" : "an expectation has one text",
+                  "move comments out of it"});
     }
     ++element.attribute_count;
     Attribute text{{}, token.value, {first_.byte + static_cast<std::uint32_t>(begin)}};
@@ -207,8 +209,13 @@ class Checker {
     if (value.is_coded) references(value);
   }
 
-  bool is_in_property() const {
-    return open_.size() == 2 && result_.elements[open_[1]].tag == "property";
+  // In a property, and in what a scenario expects.
+  bool may_have_text() const {
+    const std::size_t depth = open_.size();
+    if (depth < 2) return false;
+    if (depth == 2 && innermost() == "property") return true;
+    const std::string_view around = result_.elements[open_[depth - 2]].tag;
+    return innermost() == "expect" && (around == "scenario" || around == "scenarios");
   }
 
   bool is_in_models() const {

@@ -12,22 +12,13 @@
 #include "document/document.h"
 #include "document/reporter.h"
 #include "leaves/leaf_words.h"
+#include "leaves/word_check.h"
 
 namespace lockstep::host {
 namespace {
 
 using leaf_words::Tag;
 using leaf_words::Word;
-
-std::vector<std::string_view> split(std::string_view text, std::string_view between) {
-  std::vector<std::string_view> parts;
-  for (auto at = text.find(between); at != std::string_view::npos; at = text.find(between)) {
-    parts.push_back(text.substr(0, at));
-    text.remove_prefix(at + between.size());
-  }
-  parts.push_back(text);
-  return parts;
-}
 
 // "3", "1..5", "2..inf".
 std::optional<WholeRange> parse_range(std::string_view text) {
@@ -96,41 +87,9 @@ class Reader {
     }
   }
 
-  // Their names, and that required ones are there and none is empty. False: a required one is not.
   bool check_words(std::uint32_t at, std::string_view tag, std::span<const Word> words) {
-    std::vector<std::string_view> names;
-    for (const Word& word : words) names.push_back(word.name);
-    for (const auto& [name, value, place] : document_.attributes(at)) {
-      const bool is_output = tag == "leaf" && name.starts_with(leaf_words::kOutput);
-      if (!is_output && std::ranges::find(names, name) == names.end()) {
-        report_.at(place, fmt::format("unknown attribute '{}' of '{}'", brief(name), tag),
-                   suggest(name, names, fmt::format("attributes of '{}'", tag)));
-      } else if (value.empty()) {
-        report_.at_value(place, fmt::format("'{}' is empty", brief(name)));
-      }
-    }
-    bool complete = true;
-    for (const Word& word : words) {
-      const Attribute* const it = document_.find_attribute(at, word.name);
-      if (it != nullptr && !is_one_of(*it, word)) complete = false;
-      if (it != nullptr || !word.required) continue;
-      complete = false;
-      report_.at(document_.elements()[at].place,
-                 fmt::format("'{}' needs the attribute '{}'", tag, word.name));
-    }
-    return complete;
-  }
-
-  // Of a word whose pattern is a choice between plain words.
-  bool is_one_of(const Attribute& it, const Word& word) {
-    const bool is_choice = word.pattern.find('|') != std::string_view::npos &&
-                           word.pattern.find_first_of("()[]:\\") == std::string_view::npos;
-    if (!is_choice) return true;
-    const auto choices = split(word.pattern, "|");
-    if (std::ranges::find(choices, it.value) != choices.end()) return true;
-    report_.at_value(it.place, fmt::format("'{}' cannot be '{}'", word.name, brief(it.value)),
-                     suggest(it.value, choices, "it can be"));
-    return false;
+    const std::string_view open = tag == "leaf" ? leaf_words::kOutput : std::string_view();
+    return host::check_words(document_, at, open, words, report_);
   }
 
   void read_fact(std::uint32_t at) {

@@ -66,7 +66,52 @@ bool take_written(std::string_view text, LeafWord& word) {
   }
 }
 
-std::optional<LeafWord> parse_word(std::string_view text) {
+// "@rate 10".
+std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts) {
+  const auto blank = line.find(' ');
+  const std::string_view name = line.substr(0, blank);
+  const std::string_view value = blank == std::string_view::npos ? "" : line.substr(blank + 1);
+  if (name == "@rate") {
+    scripts.rate = parse_double(value);
+    if (scripts.rate && *scripts.rate >= 0.001 && *scripts.rate <= 100000) return std::nullopt;
+    return Problem{"'@rate' is a number from 0.001 to 100000"};
+  }
+  if (name == "@ticks") {
+    const auto ticks = parse_int(value);
+    if (ticks && *ticks > 0) scripts.ticks = static_cast<std::uint64_t>(*ticks);
+    return scripts.ticks ? std::nullopt : std::optional(Problem{"'@ticks' is a whole number"});
+  }
+  return Problem{fmt::format("unknown setting '{}'", brief(name)), "there are @rate and @ticks"};
+}
+
+std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts) {
+  if (line.front() == '@') return read_setting(line, scripts);
+  const auto sign = line.find(" = ");
+  if (sign == std::string_view::npos) {
+    return Problem{"expected the path of a leaf, ' = ' and its words",
+                   "write Main/arm = R0 R0.5 S"};
+  }
+  std::vector<LeafWord> words;
+  std::istringstream text{std::string(line.substr(sign + 3))};
+  for (std::string it; text >> it;) {
+    auto word = parse_leaf_word(it);
+    if (!word) {
+      return Problem{fmt::format("'{}' is no word of a leaf", brief(it)),
+                     "there are R0.5 (running, with its progress), S, F, K (skipped), X (a fault), "
+                     "~0.5 (held), each with what it writes: S[port=value]"};
+    }
+    words.push_back(std::move(*word));
+  }
+  if (words.empty()) return Problem{"a leaf without words"};
+  const std::string path(line.substr(0, sign));
+  if (scripts.leaves.emplace(path, std::move(words)).second) return std::nullopt;
+  return Problem{fmt::format("'{}' is there twice", brief(path))};
+}
+
+}  // namespace
+
+std::optional<LeafWord> parse_leaf_word(std::string_view text) {
+  if (text.empty()) return std::nullopt;
   LeafWord word;
   const char first = text.front();
   text.remove_prefix(1);
@@ -105,50 +150,6 @@ std::string to_text(const LeafWord& word) {
   }
   return word.written.empty() ? text : text + ']';
 }
-
-// "@rate 10".
-std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts) {
-  const auto blank = line.find(' ');
-  const std::string_view name = line.substr(0, blank);
-  const std::string_view value = blank == std::string_view::npos ? "" : line.substr(blank + 1);
-  if (name == "@rate") {
-    scripts.rate = parse_double(value);
-    if (scripts.rate && *scripts.rate >= 0.001 && *scripts.rate <= 100000) return std::nullopt;
-    return Problem{"'@rate' is a number from 0.001 to 100000"};
-  }
-  if (name == "@ticks") {
-    const auto ticks = parse_int(value);
-    if (ticks && *ticks > 0) scripts.ticks = static_cast<std::uint64_t>(*ticks);
-    return scripts.ticks ? std::nullopt : std::optional(Problem{"'@ticks' is a whole number"});
-  }
-  return Problem{fmt::format("unknown setting '{}'", brief(name)), "there are @rate and @ticks"};
-}
-
-std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts) {
-  if (line.front() == '@') return read_setting(line, scripts);
-  const auto sign = line.find(" = ");
-  if (sign == std::string_view::npos) {
-    return Problem{"expected the path of a leaf, ' = ' and its words",
-                   "write Main/arm = R0 R0.5 S"};
-  }
-  std::vector<LeafWord> words;
-  std::istringstream text{std::string(line.substr(sign + 3))};
-  for (std::string it; text >> it;) {
-    auto word = parse_word(it);
-    if (!word) {
-      return Problem{fmt::format("'{}' is no word of a leaf", brief(it)),
-                     "there are R0.5 (running, with its progress), S, F, K (skipped), X (a fault), "
-                     "~0.5 (held), each with what it writes: S[port=value]"};
-    }
-    words.push_back(std::move(*word));
-  }
-  if (words.empty()) return Problem{"a leaf without words"};
-  const std::string path(line.substr(0, sign));
-  if (scripts.leaves.emplace(path, std::move(words)).second) return std::nullopt;
-  return Problem{fmt::format("'{}' is there twice", brief(path))};
-}
-
-}  // namespace
 
 bool is_leaf_file(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");

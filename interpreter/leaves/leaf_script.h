@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,10 +33,17 @@ struct LeafScripts {
   std::optional<double> rate;
   std::optional<std::uint64_t> ticks;  // of the tree, as many as the scripts are for
   std::map<std::string, std::vector<LeafWord>, std::less<>> leaves = {};  // by path
+  // The leaves that begin with their first word again in each activation. The text has no word for
+  // it: scenarios do.
+  std::set<std::string, std::less<>> restarting = {};
 };
 
 // A text that begins with '<' is a leaf file (leaves/leaf_file.h), any other is scripts.
 bool is_leaf_file(std::string_view text);
+
+// "R0.5", "S[place=kitchen]"; nothing if it is none.
+std::optional<LeafWord> parse_leaf_word(std::string_view text);
+std::string to_text(const LeafWord& word);
 
 // An error has the line: "3: …".
 Result<LeafScripts> parse_leaf_scripts(std::string_view text);

@@ -30,6 +30,8 @@ class Stepper {
   // The state after a tick.
   const StateBytes& fold();
 
+  // The state that was loaded.
+  const SavedRun& before() const { return from_; }
   Ticker& ticker() { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
   // The properties that the tick, or the end in it, has violated, by their place.

@@ -20,9 +20,9 @@ bool is_schema_attribute(std::string_view name) {
   return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
 }
 
-// The last one by editors.
+// The last ones by editors, and by `lockstep test`.
 bool is_read_elsewhere(std::string_view tag) {
-  constexpr std::string_view kTags[] = {"arg", "include", "plugin", "TreeNodesModel"};
+  constexpr std::string_view kTags[] = {"arg", "include", "plugin", "TreeNodesModel", "scenario"};
   return std::ranges::find(kTags, tag) != std::end(kTags);
 }
 
@@ -33,8 +33,8 @@ const LanguageRules* language_marked(std::string_view attribute) {
 }
 
 std::string element_hint(std::string_view tag) {
-  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",    "arg",     "include",
-                                        "barrier",      "resources", "property"};
+  constexpr std::string_view kTags[] = {"BehaviorTree", "plugin",    "arg",      "include",
+                                        "barrier",      "resources", "property", "scenario"};
   const std::string hint = foreign_node_hint(tag, {});
   return hint.empty() ? suggest(tag, kTags, "elements of 'root'") : hint;
 }

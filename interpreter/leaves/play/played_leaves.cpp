@@ -20,12 +20,14 @@ using Kind = LeafWord::Kind;
 // Its words in order; what it does behind the last one is what that says.
 class PlayedLeaf final : public RemoteLeaf {
  public:
-  PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words)
-      : RemoteLeaf(caller), words_(words) {}
+  // Null: it has no words.
+  PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words, bool restarts)
+      : RemoteLeaf(caller), words_(words), restarts_(restarts) {}
 
   void start() override {
     progress_ = 0;
     is_first_ = true;
+    if (restarts_) at_ = 0;
     // What it writes at its start is there before other nodes look.
     if (const LeafWord* word = current()) write(*word);
   }
@@ -96,21 +98,29 @@ class PlayedLeaf final : public RemoteLeaf {
   }
 
   const std::vector<LeafWord>* const words_;
-  std::size_t at_ = 0;  // the next word
+  const bool restarts_;  // with its first word, in each activation
+  std::size_t at_ = 0;   // the next word
   double progress_ = 0;
   bool is_first_ = false;  // the next tick is the first of the activation
   bool is_held_ = false;
   std::int64_t held_at_ = 0;
 };
 
+// Null: it has no script.
+std::unique_ptr<PlayedLeaf> find_script(const LeafScripts& scripts, const lockstep_caller& caller) {
+  const auto words = scripts.leaves.find(caller.run->tree->path(caller.node));
+  if (words == scripts.leaves.end()) return nullptr;
+  return std::make_unique<PlayedLeaf>(caller, &words->second,
+                                      scripts.restarting.contains(words->first));
+}
+
 class PlayedRun final : public RemoteRun {
  public:
   explicit PlayedRun(const LeafScripts& scripts) : scripts_(scripts) {}
 
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
-    const auto words = scripts_.leaves.find(caller.run->tree->path(caller.node));
-    return std::make_unique<PlayedLeaf>(caller,
-                                        words == scripts_.leaves.end() ? nullptr : &words->second);
+    auto leaf = find_script(scripts_, caller);
+    return leaf != nullptr ? std::move(leaf) : std::make_unique<PlayedLeaf>(caller, nullptr, false);
   }
 
  private:
@@ -130,11 +140,13 @@ class RandomAnswers final : public Answers {
   const lockstep_caller& caller_;
 };
 
-// All leaves of a run. Its tick begins with the first call at another time.
+// All leaves of a run without a script. Its tick begins with the first call at another time.
 class ModelRun final : public RemoteRun {
  public:
-  ModelRun(const lockstep_caller& caller, const Tree& tree, const LeafModels& models)
-      : caller_(caller),
+  ModelRun(const lockstep_caller& caller, const Tree& tree, const LeafModels& models,
+           const LeafScripts& scripts)
+      : scripts_(scripts),
+        caller_(caller),
         answers_(caller),
         callers_(tree.leaves.size()),
         leaves_(
@@ -162,6 +174,7 @@ class ModelRun final : public RemoteRun {
   }
 
  private:
+  const LeafScripts& scripts_;
   const lockstep_caller& caller_;
   RandomAnswers answers_;
   std::vector<const lockstep_caller*> callers_;  // of each leaf
@@ -195,6 +208,7 @@ class ModelLeafOfRun final : public RemoteLeaf {
 };
 
 std::unique_ptr<RemoteLeaf> ModelRun::create(const lockstep_caller& caller) {
+  if (auto scripted = find_script(scripts_, caller)) return scripted;
   const std::uint32_t number = numbers_.at(caller.node);
   callers_[number] = &caller;
   return std::make_unique<ModelLeafOfRun>(caller, *this, number);
@@ -272,7 +286,7 @@ std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tre
 }
 
 std::unique_ptr<RemoteRun> PlayedLeaves::begin_run(const lockstep_caller& caller) {
-  if (models_ != nullptr) return std::make_unique<ModelRun>(caller, *tree_, *models_);
+  if (models_ != nullptr) return std::make_unique<ModelRun>(caller, *tree_, *models_, scripts_);
   return std::make_unique<PlayedRun>(scripts_);
 }
 

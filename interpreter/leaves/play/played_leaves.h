@@ -24,8 +24,8 @@ class PlayedLeaves final : public RemotePlugin {
   void take_over(Definition& definition);
   // Before a run. A leaf without a script runs for ever; a condition without one fails.
   void set_scripts(LeafScripts scripts) { scripts_ = std::move(scripts); }
-  // Before a run, instead of scripts: all leaves do what these allow, as the run's random numbers
-  // choose. Both must outlive the run.
+  // Before a run: leaves without a script do what these allow, as the run's random numbers choose.
+  // Both must outlive the run.
   void set_models(const Tree& tree, const LeafModels& models) {
     tree_ = &tree;
     models_ = &models;

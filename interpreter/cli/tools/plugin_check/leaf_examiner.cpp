@@ -29,14 +29,14 @@ constexpr std::size_t kLong = 64 * 1024;
 // What is done to a run, one after the other.
 enum class Do : std::uint8_t { Tick, Pause, Halt, Restart };
 
-struct Scenario {
+struct Exercise {
   const char* name;
   std::vector<Do> steps;
 };
 
-const std::vector<Scenario>& scenarios() {
+const std::vector<Exercise>& exercises() {
   using enum Do;
-  static const std::vector<Scenario> kAll{
+  static const std::vector<Exercise> kAll{
       {"is halted after its first tick, and begins again", {Tick, Halt, Tick}},
       {"is halted before it began", {Halt, Tick}},
       {"is halted while it is held", {Tick, Pause, Halt, Tick}},
@@ -127,7 +127,7 @@ class Examiner {
       if (!tree) return;
       children_ = child.empty() ? "" : fmt::format(" around {}", child);
       if (!ticks(*tree)) return;
-      for (const Scenario& it : scenarios()) {
+      for (const Exercise& it : exercises()) {
         if (!passes(*tree, it.name, it.steps)) return;
       }
       if (!survives_values(*tree)) return;
