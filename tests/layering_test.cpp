@@ -66,7 +66,7 @@ const std::vector<Layer> kThirdParty{
               "interpreter/view/",       "interpreter/web/",        "interpreter/study/",
               "interpreter/plots/",      "interpreter/describe/",   "interpreter/convert/",
               "interpreter/groot/",      "interpreter/leaves/",     "interpreter/verify/",
-              "interpreter/cli/"}},
+              "interpreter/scenario/",   "interpreter/cli/"}},
 };
 
 // The rooms of the monitor's page, the lowest first, and what each may import beside its own files.

@@ -49,6 +49,12 @@ void print_checked(const std::string& tree, Diagnostics& diagnostics, int code, 
   }
 }
 
+// What reads a file that stands beside trees, so that trees/*.xml may name it too. "": it is a tree.
+std::string other_command(const std::string& file) {
+  if (file.ends_with(".test.xml")) return "`lockstep test`";
+  return file.ends_with(".leaves.xml") ? "`lockstep verify --leaves`" : "";
+}
+
 int check(const CheckOptions& options) {
   keep_stdout_for_results();
   const CheckWriter write = writer_of(options.format);
@@ -58,6 +64,11 @@ int check(const CheckOptions& options) {
   int worst = kExitSuccess, written = kExitSuccess;
   for (const std::string& tree : options.trees) {
     Diagnostics diagnostics;
+    if (const std::string other = other_command(tree); !other.empty()) {
+      diagnostics.note({tree}, "is no tree file", other + " reads it");
+      print_diagnostics(diagnostics, Severity::Note);
+      continue;
+    }
     const auto loaded = load_given(tree, load, diagnostics);
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;

@@ -32,13 +32,13 @@ namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
-    kVerifyCommand;
+    kVerifyCommand, kTestCommand;
 
 std::span<const Command* const> commands() {
-  static constexpr const Command* kAll[] = {&kRunCommand,     &kCheckCommand,  &kVerifyCommand,
-                                            &kShowCommand,    &kNodesCommand,  &kSchemaCommand,
-                                            &kConvertCommand, &kPluginCommand, &kLogCommand,
-                                            &kReplayCommand,  &kStudyCommand,  &kMonitorCommand};
+  static constexpr const Command* kAll[] = {
+      &kRunCommand,    &kCheckCommand,  &kVerifyCommand,  &kTestCommand,   &kShowCommand,
+      &kNodesCommand,  &kSchemaCommand, &kConvertCommand, &kPluginCommand, &kLogCommand,
+      &kReplayCommand, &kStudyCommand,  &kMonitorCommand};
   return kAll;
 }
 

@@ -7,6 +7,6 @@ extern const Command kShowCommand = absent("show"), kNodesCommand = absent("node
                      kSchemaCommand = absent("schema"), kConvertCommand = absent("convert"),
                      kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
                      kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
-                     kVerifyCommand = absent("verify");
+                     kVerifyCommand = absent("verify"), kTestCommand = absent("test");
 
 }  // namespace lockstep::host

@@ -26,7 +26,8 @@ std::vector<std::string> trees_below(const std::string& directory) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
     const std::string file = entry.path().string();
-    if (!file.ends_with(".xml") || contains(read_file(file), "<root BTCPP_format")) continue;
+    if (!file.ends_with(".xml") || file.ends_with(".test.xml")) continue;
+    if (contains(read_file(file), "<root BTCPP_format")) continue;
     files.push_back(file);
   }
   return files;

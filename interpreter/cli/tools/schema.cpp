@@ -6,6 +6,7 @@
 #include "cli/load/catalog_loading.h"
 #include "cli/load/load_options.h"
 #include "describe/xsd.h"
+#include "scenario/scenario_xsd.h"
 
 namespace lockstep::host {
 namespace {
@@ -14,10 +15,12 @@ struct SchemaOptions {
   PluginOptions plugins;
   bool strict = false;
   bool leaves = false;
+  bool tests = false;
 };
 
 int schema(const SchemaOptions& options) {
   if (options.leaves) return write_results(make_leaf_xsd());
+  if (options.tests) return write_results(make_scenario_xsd());
   PluginSet plugins;
   Catalog catalog;
   const int code = load_catalog(options.plugins, plugins, catalog);
@@ -32,6 +35,8 @@ std::function<int()> define_schema(CLI::App& app) {
                "Reject unknown nodes; name every plugin of the trees with --plugin");
   app.add_flag("--leaves", options->leaves,
                "The schema of leaf files instead, which `lockstep verify --leaves` takes");
+  app.add_flag("--tests", options->tests,
+               "The schema of scenarios instead, which `lockstep test` plays");
   add_plugin_options(app, options->plugins);
   add_program_option(app, options->plugins);
   return [options] { return schema(*options); };

@@ -75,12 +75,14 @@ std::function<int()> define_log(CLI::App& app) {
   const auto difference = define_log_diff(app);
   const auto page = define_log_page(app);
   const auto check = define_log_check(app);
+  const auto scenario = define_log_scenario(app);
   return [=] {
     if (measures.app->parsed()) return measures.run();
     if (plot.app->parsed()) return plot.run();
     if (difference.app->parsed()) return difference.run();
     if (page.app->parsed()) return page.run();
     if (check.app->parsed()) return check.run();
+    if (scenario.app->parsed()) return scenario.run();
     return table->parsed() ? csv(*options) : info(*options);
   };
 }
@@ -105,7 +107,8 @@ extern const Command kLogCommand{
     "  lockstep log plot run.jsonl --out progress.svg\n"
     "  lockstep log page run.jsonl --out run.html\n"
     "  lockstep log diff run.jsonl again.jsonl\n"
-    "  lockstep log check run.jsonl --property 'arm.held at most 200 ticks'",
+    "  lockstep log check run.jsonl --property 'arm.held at most 200 ticks'\n"
+    "  lockstep log scenario run.jsonl --save trees/door_pulling.test.xml",
     define_log};
 
 }  // namespace lockstep::host

@@ -48,5 +48,6 @@ LogSubcommand define_log_plot(CLI::App& log);
 LogSubcommand define_log_diff(CLI::App& log);
 LogSubcommand define_log_page(CLI::App& log);
 LogSubcommand define_log_check(CLI::App& log);
+LogSubcommand define_log_scenario(CLI::App& log);
 
 }  // namespace lockstep::host

@@ -11,6 +11,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "cli/properties.h"
+#include "cli/tools/verify/save_scenarios.h"
 #include "cli/tools/verify/verify_report.h"
 #include "core/wording.h"
 #include "document/file.h"
@@ -33,6 +34,7 @@ struct VerifyOptions {
   bool json = false;
   bool mock = false;
   std::string out = ".";
+  std::string save;  // a file of scenarios; "": none
   PropertyOptions properties;
 };
 
@@ -167,6 +169,10 @@ class VerifyCommand {
                         runnable.tree.leaves.size()};
     Tracer tracer(runnable.tree, models, properties_, from_seconds(1 / rate), found);
     if (!write_files(runnable, rate, tracer, verdict, report)) return kExitUsage;
+    if (!options_.save.empty() &&
+        !save_scenarios(options_.save, report, runnable.tree, properties_)) {
+      return kExitUsage;
+    }
     const std::string text = options_.json ? to_json(report) : to_text(report);
     return first_failure(write_results(text), exit_code(found, verdict));
   }
@@ -257,6 +263,9 @@ std::function<int()> define_verify(CLI::App& app) {
                  "Where recordings and scripts of what was found are written")
       ->type_name("DIR")
       ->capture_default_str();
+  app.add_option("--save", options->save,
+                 "Add what was found to this file of scenarios, or make it, for `lockstep test`")
+      ->type_name("FILE.test.xml");
   add_property_options(app, options->properties);
   app.add_flag("--json", options->json, "Print the verdict as JSON");
   app.add_flag("--mock", options->mock, "Take nodes that no plugin has for leaves");

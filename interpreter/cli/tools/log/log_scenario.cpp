@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/load/load_options.h"
+#include "cli/tools/log/log.h"
+#include "leaves/play/played_leaves.h"
+#include "scenario/recorded_words.h"
+#include "scenario/scenario_writer.h"
+
+namespace lockstep::host {
+namespace {
+
+struct LogScenarioOptions {
+  std::string file;
+  std::string tree;  // "": as the recording names it
+  std::string name;  // "": that of the recording
+  std::string save;  // "": stdout
+  PluginOptions plugins;
+};
+
+// The tree of a recording, with the arguments that it was loaded with.
+tl::expected<Loaded, int> load_recorded(const LogScenarioOptions& options,
+                                        const RecordingHeader& header, std::string& tree_file) {
+  tree_file = options.tree.empty() ? header.file : options.tree;
+  LoadCommandOptions load;
+  load.plugins = options.plugins;
+  load.unknown = MissingNodes::AreMocked;
+  load.main_tree = header.tree;
+  load.main_file = MainFile::IsRegular;
+  for (const auto& [name, value] : header.arguments) load.arguments.push_back(name + '=' + value);
+  Diagnostics diagnostics;
+  auto loaded = load_given(tree_file, load, diagnostics);
+  print_diagnostics(diagnostics, Severity::Error);
+  if (!loaded) return tl::unexpected(exit_code_of(loaded.error()));
+  return std::move(*loaded);
+}
+
+int write_scenario(const LogScenarioOptions& options, const RecordingHeader& header) {
+  std::string tree_file;
+  auto loaded = load_recorded(options, header, tree_file);
+  if (!loaded) return loaded.error();
+  PlayedLeaves leaves;
+  leaves.take_over(loaded->definition);
+  const Runnable runnable = make_runnable(std::move(*loaded));
+  const RecordedWords words = read_recorded_words(options.file, runnable.tree);
+  if (!words.error.empty()) {
+    print_error(words.error);
+    return kExitInvalidTree;
+  }
+  const std::string name =
+      options.name.empty()
+          ? fmt::format("as in {}", std::filesystem::path(options.file).filename().string())
+          : options.name;
+  const std::string text = to_text(words, {.name = name});
+  if (options.save.empty()) return write_results(scenario_file(tree_file, text));
+  const auto saved = add_to_scenario_file(options.save, tree_file, text);
+  if (saved) return kExitSuccess;
+  print_error(saved.error().message, saved.error().hint);
+  return kExitUsage;
+}
+
+int scenario(const LogScenarioOptions& options) {
+  keep_stdout_for_results();
+  if (options.file == "-") {
+    return usage_error("log scenario reads the recording twice: name a file");
+  }
+  return with_recording(options.file, [&](RecordingReader& reader) -> int {
+    return write_scenario(options, reader.header());
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_scenario(CLI::App& log) {
+  const auto options = std::make_shared<LogScenarioOptions>();
+  CLI::App* app =
+      log.add_subcommand("scenario", "Write a scenario in which the leaves do what they did");
+  add_recording_file(*app, options->file);
+  app->add_option("tree", options->tree, "The tree file (default: as the recording names it)")
+      ->type_name("TREE.xml");
+  app->add_option("--name", options->name, "What the scenario is called")->type_name("NAME");
+  app->add_option("--save", options->save,
+                  "Add it to the end of this file, or make it, instead of stdout")
+      ->type_name("FILE.test.xml");
+  add_plugin_options(*app, options->plugins);
+  add_program_option(*app, options->plugins);
+  app->footer(
+      "A bug on the robot becomes a test: `lockstep test` plays it, and expects that it ends as "
+      "it\n"
+      "did. Change that to what should come of it.\n"
+      "Exit code: 0 written, 2 usage, 3 not a recording or a damaged one, or an invalid tree,\n"
+      "4 plugin refused.\n"
+      "\n"
+      "Example:\n"
+      "  lockstep log scenario run.jsonl --save trees/door_pulling.test.xml --name 'the jam of "
+      "Monday'");
+  return {app, [options] { return scenario(*options); }};
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,304 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+
+#include "cli/checks.h"
+#include "cli/command.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/load/load_options.h"
+#include "cli/tools/test/coverage_files.h"
+#include "cli/tools/test/file_watch.h"
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "leaves/models.h"
+#include "runtime/outlet.h"
+#include "runtime/stop_signals.h"
+#include "scenario/discover.h"
+#include "scenario/mutation_run.h"
+#include "scenario/report_text.h"
+#include "scenario/scenario_reader.h"
+#include "scenario/test_run.h"
+#include "system/descriptors.h"
+#include "system/freed_memory.h"
+#include "system/output_file.h"
+
+namespace lockstep::host {
+namespace {
+
+struct TestCommandOptions {
+  std::vector<std::string> paths;
+  std::vector<std::string> filters;
+  unsigned jobs = 0;
+  std::string out = "failed-scenarios";
+  std::string junit;
+  bool json = false;
+  bool list = false;
+  bool updates = false;
+  bool watches = false;
+  bool mutates = false;
+  CoverageOptions coverage;
+  PluginOptions plugins;
+};
+
+// What --filter says: a name, or a part of names; with * a pattern for all of them.
+struct Filter {
+  std::string text;
+  bool is_whole_name = false;  // of a scenario: then no other is meant
+
+  bool fits(const std::string& name) const {
+    if (is_whole_name) return name == text;
+    if (text.find('*') != std::string::npos) return matches(text, name);
+    return name.find(text) != std::string::npos;
+  }
+};
+
+class TestCommand {
+ public:
+  explicit TestCommand(const TestCommandOptions& options) : options_(options) {}
+
+  int run() {
+    if (!read_files()) return kExitUsage;
+    read_filters();
+    if (options_.list) return list();
+    const Nanoseconds began = monotonic_now();
+    StopSignals::install();
+    keep_freed_memory();
+    TestRun tests(
+        files(), [&](const auto&, const Scenario& it) { return is_chosen(it); }, test_options());
+    if (tests.count() == 0) return tell_none();
+    tests.run([&](const ScenarioReport& report) { add(report); });
+    counts_.took = monotonic_now() - began;
+    const int code = finish();
+    return options_.mutates ? first_failure(code, mutate()) : code;
+  }
+
+ private:
+  bool is_chosen(const Scenario& scenario) const {
+    return filters_.empty() ||
+           std::ranges::any_of(filters_, [&](const Filter& it) { return it.fits(scenario.name); });
+  }
+
+  void read_filters() {
+    for (const std::string& text : options_.filters) {
+      Filter& filter = filters_.emplace_back(Filter{text});
+      for (const auto& file : files_) {
+        filter.is_whole_name |=
+            std::ranges::find(file->scenarios, text, &Scenario::name) != file->scenarios.end();
+      }
+    }
+  }
+
+  std::vector<const ScenarioFile*> files() const {
+    std::vector<const ScenarioFile*> files;
+    for (const auto& it : files_) files.push_back(it.get());
+    return files;
+  }
+
+  // False: a path is not there, which is reported.
+  bool read_files() {
+    auto found = find_scenario_files(options_.paths);
+    if (!found) {
+      print_error(found.error().message, found.error().hint);
+      return false;
+    }
+    for (const std::string& path : *found) {
+      Diagnostics diagnostics;
+      auto file = read_scenarios(path, diagnostics);
+      print_diagnostics(diagnostics, Severity::Warning);
+      if (diagnostics.has_errors() || file == nullptr) {
+        code_ = first_failure(code_, kExitInvalidTree);
+      } else {
+        files_.push_back(std::move(file));
+      }
+    }
+    return true;
+  }
+
+  TestOptions test_options() const {
+    TestOptions options{.jobs = options_.jobs,
+                        .hang_limit = from_seconds(options_.plugins.hang_limit),
+                        .out = options_.out,
+                        .covers = options_.coverage.is_wanted(),
+                        .updates = options_.updates,
+                        .stop_signal = StopSignals::received};
+    options.load.plugins = options_.plugins;
+    return options;
+  }
+
+  int list() const {
+    std::string text;
+    for (const auto& file : files_) {
+      for (const Scenario& it : file->scenarios) {
+        if (!is_chosen(it)) continue;
+        text +=
+            fmt::format("{}: {}\n", to_text(file->sources.locate(it.place)), printable(it.name));
+      }
+    }
+    return first_failure(write_results(text), code_);
+  }
+
+  int tell_none() const {
+    if (code_ != kExitSuccess) return code_;
+    std::vector<std::string_view> names;
+    for (const auto& file : files_) {
+      for (const Scenario& it : file->scenarios) names.emplace_back(it.name);
+    }
+    if (names.empty()) {
+      print_error("there are no scenarios",
+                  "write NAME.test.xml beside a tree; docs/testing.md has an example");
+    } else {
+      print_error("no scenario is chosen by --filter",
+                  options_.filters.size() == 1 ? suggest(options_.filters[0], names, "there are")
+                                               : std::string());
+    }
+    return kExitUsage;
+  }
+
+  void add(const ScenarioReport& report) {
+    counts_.add(report);
+    if (!report.errors.empty()) {
+      const bool is_refused = report.failure == LoadFailure::PluginRefused;
+      invalid_ = first_failure(invalid_, is_refused ? kExitPluginRefused : kExitInvalidTree);
+    }
+    updated_ += report.written;
+    if (report.coverage != nullptr) {
+      coverage_.add(report.stage, report.rate, report.scenario->name, *report.coverage);
+    }
+    if (options_.json || !options_.junit.empty()) reported_.push_back(reported(report));
+    if (options_.json) return;
+    std::string text;
+    if (report.file != shown_) {
+      shown_ = report.file;
+      text = printable(report.file->path) + '\n';
+      width_ = 0;
+      for (const Scenario& it : report.file->scenarios) {
+        if (is_chosen(it)) width_ = std::max(width_, it.name.size());
+      }
+      width_ = std::min<std::size_t>(width_, 50);
+    }
+    written_ = first_failure(written_, write_results(text + to_text(report, width_)));
+  }
+
+  int finish() {
+    int covered = kExitSuccess;
+    if (options_.coverage.is_wanted()) {
+      covered = write_coverage(options_.coverage, coverage_, options_.json);
+    }
+    std::string text = options_.json ? to_json(reported_, counts_) : to_text(counts_);
+    if (updated_ > 0 && !options_.json) {
+      text += fmt::format("{} written\n", counted(updated_, "recording"));
+    }
+    written_ = first_failure(written_, write_results(text));
+    if (!options_.junit.empty() && !write_junit()) return kExitUsage;
+    if (const int signal = StopSignals::received(); signal != 0) return kExitSignal + signal;
+    if (counts_.failed > 0) return first_failure(written_, kExitFailure);
+    return first_failure(written_, first_failure(invalid_, first_failure(code_, covered)));
+  }
+
+  // Only where all is as expected without a change.
+  int mutate() const {
+    if (counts_.failed > 0 || counts_.invalid > 0 || StopSignals::received() != 0) {
+      print_error("--mutate: the scenarios are to be as expected first");
+      return kExitFailure;
+    }
+    const auto trees = run_mutations(
+        files(), [&](const auto&, const Scenario& it) { return is_chosen(it); }, test_options());
+    const int written = options_.json ? kExitSuccess : write_results(to_text(trees));
+    const auto& least = options_.coverage.least;
+    if (!least || percent(trees) >= *least) return written;
+    print_error(
+        fmt::format("{:.1f} % of the changes are noticed, less than {} %", percent(trees), *least));
+    return kExitFailure;
+  }
+
+  bool write_junit() const {
+    OutputFile file(options_.junit);
+    if (!file.error().empty()) {
+      print_error("--junit: " + file.error());
+      return false;
+    }
+    if (write_all(file.descriptor(), to_junit(reported_, counts_)) && file.take_name()) return true;
+    print_error("--junit: cannot write '" + printable(options_.junit) + "'");
+    return false;
+  }
+
+  const TestCommandOptions& options_;
+  std::vector<std::unique_ptr<ScenarioFile>> files_;
+  std::vector<Filter> filters_;
+  std::vector<ReportedScenario> reported_;
+  TestCounts counts_;
+  const ScenarioFile* shown_ = nullptr;  // whose name is printed
+  std::size_t width_ = 0;
+  Coverage coverage_;
+  std::uint64_t updated_ = 0;  // recordings
+  int code_ = kExitSuccess, invalid_ = kExitSuccess, written_ = kExitSuccess;
+};
+
+int test(const TestCommandOptions& options) {
+  keep_stdout_for_results();
+  if (!options.watches) return TestCommand(options).run();
+  StopSignals::install();
+  while (true) {
+    TestCommand(options).run();
+    if (!wait_for_change(options.paths)) return kExitSignal + StopSignals::received();
+  }
+}
+
+std::function<int()> define_test(CLI::App& app) {
+  const auto options = std::make_shared<TestCommandOptions>();
+  options->paths = {"."};
+  options->jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("paths", options->paths,
+                 "Files of scenarios, or folders: all NAME.test.xml in them and below, and trees "
+                 "with scenarios in them (default: this folder)")
+      ->type_name("FILE|DIR");
+  app.add_option("--filter", options->filters,
+                 "Only scenarios whose name has this text in it, or is as a pattern with *; may be "
+                 "repeated")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  app.add_flag("--list", options->list, "Print the scenarios, and play none");
+  app.add_option("-j,--jobs", options->jobs, "Threads; the result does not depend on it")
+      ->type_name("J")
+      ->transform(whole_number(1, 4096));
+  app.add_option("--out", options->out, "Where recordings of failures are written")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option("--junit", options->junit, "Write the results to a file as JUnit does")
+      ->type_name("FILE");
+  app.add_flag("--update", options->updates,
+               "Write the recordings again that runs are compared with (same-as)");
+  app.add_flag("--watch", options->watches,
+               "Play them again whenever a file of these folders changes, until Ctrl-C");
+  app.add_flag("--mutate", options->mutates,
+               "Then change the trees a little, again and again: which changes does no scenario "
+               "notice?");
+  define_coverage_options(app, options->coverage);
+  app.add_flag("--json", options->json, "Print the results as JSON");
+  add_plugin_options(app, options->plugins);
+  add_program_option(app, options->plugins);
+  return [options] { return test(*options); };
+}
+
+}  // namespace
+
+extern const Command kTestCommand{
+    "test", "Play scenarios: trees tested without a robot",
+    "A line for each scenario goes to stdout, and what is known of each failure: what was "
+    "expected,\n"
+    "what came, where, and a recording of it. Messages about files go to stderr.\n"
+    "Exit code: 0 all is as expected, 1 a scenario failed, or --fail-under, 2 usage, or there are "
+    "no scenarios,\n"
+    "3 invalid scenarios or trees, 4 plugin refused, 128 + N signal N.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep test\n"
+    "  lockstep test trees --junit results.xml\n"
+    "  lockstep test trees --coverage --fail-under 90\n"
+    "  lockstep test trees/door_pulling.test.xml --filter 'the arm slips'",
+    define_test};
+
+}  // namespace lockstep::host

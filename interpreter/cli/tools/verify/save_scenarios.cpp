@@ -1,0 +1,44 @@
+#include "cli/tools/verify/save_scenarios.h"
+
+#include <fmt/format.h>
+
+#include "cli/console.h"
+#include "scenario/recorded_words.h"
+#include "scenario/scenario_writer.h"
+
+namespace lockstep::host {
+namespace {
+
+// Of a property that some behavior violates, the scenario expects that it holds. Of the rest it
+// expects what came: it is for a person to say what should.
+ScenarioText text_of(const Finding& finding, const std::vector<Property>& properties) {
+  ScenarioText text{.name = "verify: " + finding.name,
+                    .comments = {"found by verify: " + finding.message}};
+  for (const Property& property : properties) {
+    if (finding.name == "property/" + property.name()) text.expected.push_back(property.text());
+  }
+  return text;
+}
+
+}  // namespace
+
+bool save_scenarios(const std::string& path, const VerifyReport& report, const Tree& tree,
+                    const std::vector<Property>& properties) {
+  std::string scenarios;
+  for (const Finding& finding : report.verdict.findings) {
+    const auto files = report.files.find(finding.name);
+    if (files == report.files.end()) continue;
+    const RecordedWords words = read_recorded_words(files->second.recording, tree);
+    if (!words.error.empty()) {
+      print_error("--save: " + words.error);
+      return false;
+    }
+    scenarios += to_text(words, text_of(finding, properties));
+  }
+  if (scenarios.empty()) return true;
+  const auto saved = add_to_scenario_file(path, report.tree, scenarios);
+  if (!saved) print_error("--save: " + saved.error().message, saved.error().hint);
+  return saved.has_value();
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,164 @@
+#include "scenario/cast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "leaves/play/played_leaves.h"
+#include "scenario/cast_reader.h"
+#include "scenario/recorded_words.h"
+
+namespace lockstep::host {
+namespace {
+
+bool is_condition(const NodeType& type) {
+  return type.category == NodeCategory::Condition;
+}
+
+bool is_leaf(const NodeType& type) {
+  return is_condition(type) || type.category == NodeCategory::Action;
+}
+
+bool fits(const CastRow& row, const NodeType& type, const std::string& path) {
+  if (row.path.empty()) return row.of == type.id;
+  return matches(row.path, path) || matches("*/" + row.path, path);
+}
+
+class CastMaker {
+ public:
+  CastMaker(const Scenario& scenario, double rate, const Tree& tree, MissingLeaves missing,
+            const Reporter& report)
+      : scenario_(scenario), rate_(rate), tree_(tree), missing_(missing), report_(report) {}
+
+  Cast make(bool has_models) {
+    std::vector<const CastRow*> rows(tree_.leaves.size());
+    for (const CastRow& row : scenario_.cast) choose(row, rows);
+    for (std::size_t leaf = 0; leaf < rows.size(); ++leaf) {
+      const LeafNode& it = tree_.leaves[leaf];
+      if (!is_leaf(*it.type)) continue;
+      if (rows[leaf] != nullptr) {
+        give(*rows[leaf], it);
+      } else {
+        cast_.without_row.push_back(it.node);
+        if (!has_models) {
+          cast_.scripts.leaves[tree_.path(it.node)] = {LeafWord{.status = Status::Success}};
+        }
+      }
+    }
+    return std::move(cast_);
+  }
+
+ private:
+  // Later rows win.
+  void choose(const CastRow& row, std::vector<const CastRow*>& rows) const {
+    bool is_there = false;
+    for (std::size_t leaf = 0; leaf < rows.size(); ++leaf) {
+      const LeafNode& it = tree_.leaves[leaf];
+      if (!is_leaf(*it.type) || !fits(row, *it.type, tree_.path(it.node))) continue;
+      rows[leaf] = &row;
+      is_there = true;
+    }
+    if (!is_there && missing_ == MissingLeaves::AreErrors) tell_no_match(row);
+  }
+
+  void tell_no_match(const CastRow& row) const {
+    std::set<std::string> names;
+    for (const LeafNode& it : tree_.leaves) {
+      if (!is_leaf(*it.type)) continue;
+      names.insert(row.path.empty() ? std::string(it.type->id) : tree_.path(it.node));
+      if (!row.path.empty()) names.insert(std::string(tree_.labels[it.node].name));
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    report_.at_value(row.place,
+                     row.path.empty()
+                         ? fmt::format("the tree has no leaf of type '{}'", brief(row.of))
+                         : fmt::format("the tree has no leaf '{}'", brief(row.path)),
+                     suggest(row.path.empty() ? row.of : row.path, known, "its leaves"));
+  }
+
+  void give(const CastRow& row, const LeafNode& leaf) {
+    if (row.from == CastRow::From::Plugin) {
+      if (leaf.type->mock != nullptr || leaf.type->leaf == nullptr) {
+        return report_.at_value(row.source, fmt::format("no plugin has '{}'", leaf.type->id));
+      }
+      cast_.real.insert(leaf.node);
+      return;
+    }
+    const std::string path = tree_.path(leaf.node);
+    std::vector<LeafWord> words = row.from == CastRow::From::Recording
+                                      ? words_of_recording(row, leaf)
+                                      : words_for(row, *leaf.type);
+    if (words.empty()) return;
+    check(row, leaf, path, words);
+    if (row.restarts) cast_.scripts.restarting.insert(path);
+    cast_.scripts.leaves[path] = std::move(words);
+  }
+
+  std::vector<LeafWord> words_for(const CastRow& row, const NodeType& type) const {
+    CastRow made = row;
+    if (row.seconds) {
+      const double ticks = std::min(std::max(std::ceil(*row.seconds * rate_ - 1e-9), 1.0), 1e6);
+      add_even_words(made, static_cast<std::uint64_t>(ticks));
+    }
+    // Whatever the time that the row gives to actions, a condition answers at once.
+    if (row.has_result && is_condition(type) && !type.can_run) {
+      made.words.erase(made.words.begin(), made.words.end() - 1);
+    }
+    return std::move(made.words);
+  }
+
+  std::vector<LeafWord> words_of_recording(const CastRow& row, const LeafNode& leaf) {
+    auto& recording = recordings_[row.recording];
+    if (recording == nullptr) {
+      recording = std::make_unique<RecordedWords>(read_recorded_words(row.recording, tree_));
+      if (!recording->error.empty()) report_.at_value(row.source, recording->error);
+    }
+    const auto words = recording->leaves.find(tree_.path(leaf.node));
+    // One that the recording never ticks.
+    return words == recording->leaves.end() ? std::vector<LeafWord>{LeafWord()} : words->second;
+  }
+
+  void check(const CastRow& row, const LeafNode& leaf, const std::string& path,
+             const std::vector<LeafWord>& words) const {
+    LeafScripts one;
+    const bool writes =
+        std::ranges::any_of(words, [](const LeafWord& it) { return !it.written.empty(); });
+    if (writes) {
+      one.leaves[path] = words;
+      if (const auto wrong = PlayedLeaves::check(one, tree_)) {
+        return report_.at_value(row.source, wrong->message, wrong->hint);
+      }
+    }
+    if (!is_condition(*leaf.type) || leaf.type->can_run) return;
+    const bool runs = std::ranges::any_of(words, [](const LeafWord& it) {
+      return it.kind == LeafWord::Kind::Tick && it.status == Status::Running;
+    });
+    if (runs && row.from == CastRow::From::Words) {
+      report_.at_value(row.source,
+                       fmt::format("'{}' is a condition, which is never running", leaf.type->id),
+                       "write S or F for each tick");
+    }
+  }
+
+  const Scenario& scenario_;
+  const double rate_;
+  const Tree& tree_;
+  const MissingLeaves missing_;
+  const Reporter& report_;
+  Cast cast_;
+  std::map<std::string, std::unique_ptr<RecordedWords>> recordings_;
+};
+
+}  // namespace
+
+Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, bool has_models,
+               MissingLeaves missing, const Reporter& report) {
+  return CastMaker(scenario, rate, tree, missing, report).make(has_models);
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,69 @@
+// How much of trees their scenarios show: each node and what may be seen of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenario/node_coverage.h"
+#include "scenario/stage.h"
+
+namespace lockstep::host {
+
+struct CoveredNode {
+  std::string path, kind;
+  SourceLocation place;
+  AspectSet seen, possible;
+  std::uint64_t ticks = 0;
+  std::map<double, bool> barriers = {};  // whether somebody has waited at it; those that can be
+  std::array<std::vector<std::string>, kAspectCount> by = {};  // the first scenarios that show it
+
+  std::size_t all() const;    // that may be seen
+  std::size_t shown() const;  // of these
+};
+
+struct CoveredTree {
+  std::string file;  // the main one
+  std::string id;
+  bool is_proved = true;  // what is possible; else it is what is usual
+  std::vector<CoveredNode> nodes = {};
+
+  std::size_t all() const;
+  std::size_t shown() const;
+};
+
+// Collects from one thread.
+class Coverage {
+ public:
+  // Of a scenario in which `stage` was played at this rate.
+  void add(const std::shared_ptr<const Stage>& stage, double rate, const std::string& scenario,
+           const NodeCoverage& coverage);
+  // Searches for what is possible, once for each stage.
+  std::vector<CoveredTree> trees();
+
+ private:
+  struct Played {
+    std::shared_ptr<const Stage> stage;
+    double rate;
+    NodeCoverage coverage;
+    std::map<NodeIndex, std::array<std::vector<std::string>, kAspectCount>> by;
+  };
+  void merge(const Played& played, CoveredTree& into,
+             std::map<std::string, std::size_t>& numbers) const;
+
+  std::vector<Played> stages_;  // in the order in which they came
+};
+
+// "98.1 %"; all of nothing is 100.
+double percent(std::span<const CoveredTree> trees);
+
+std::string to_table(std::span<const CoveredTree> trees);
+// One page with the trees in color.
+std::string to_page(std::span<const CoveredTree> trees);
+// For those who want lines of XML: a line for each node, a branch for each aspect.
+std::string to_lcov(std::span<const CoveredTree> trees);
+
+}  // namespace lockstep::host

@@ -1,0 +1,180 @@
+#include "scenario/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/wording.h"
+#include "engine/blackboard.h"
+#include "measure/decision.h"
+#include "measure/measure_spec.h"
+#include "property/nearly.h"
+#include "study/run_measures.h"
+
+namespace lockstep::host {
+namespace {
+
+using Kind = Expectation::Kind;
+
+std::string in_last_tick(const RunEnd& end) {
+  return end.ticks == 0 ? "before the first tick" : fmt::format("in tick {}", end.ticks - 1);
+}
+
+std::string range_text(const NumberRange& range) {
+  if (!range.most) return fmt::format("{} or more", range.least);
+  if (*range.most == range.least) return fmt::format("{}", range.least);
+  return fmt::format("{} to {}", range.least, *range.most);
+}
+
+bool is_within(double value, const NumberRange& range) {
+  constexpr double kSame = 1e-9;
+  return value >= range.least - kSame && (!range.most || value <= *range.most + kSame);
+}
+
+}  // namespace
+
+std::string_view result_text(const RunEnd& end) {
+  constexpr std::string_view kTexts[] = {"success", "failure", "running", "fault", "skipped"};
+  return kTexts[static_cast<std::size_t>(end.result())];
+}
+
+Judge::Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties)
+    : rehearsal_(rehearsal), tree_(tree), checks_(std::move(properties)), live_(tree, checks_) {}
+
+void Judge::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
+  live_.before_tick(ticker);
+}
+
+void Judge::after_tick(Ticker& ticker, const TickReport& report) {
+  ticks_ = report.tick + 1;
+  for (const std::size_t it : live_.after_tick(ticker, report.tick)) {
+    tell_violated(it, fmt::format("in tick {}", report.tick), ticker);
+  }
+  running_.clear();
+  if (has_ended(report.status)) {
+    for (const DecidingNode& it : deciding_path(ticker)) decided_.push_back(tree_.path(it.node));
+  } else if (report.tick + 1 >= rehearsal_.scenario->max_ticks.value_or(kMostScenarioTicks)) {
+    for (const LeafNode& leaf : tree_.leaves) {
+      if (ticker.status(leaf.node) != Status::Running) continue;
+      running_.push_back(tree_.path(leaf.node) + (ticker.held(leaf.node) ? " (held)" : ""));
+    }
+  }
+}
+
+// The end, before what runs is halted. That of a scenario is that of its run, also when a limit has
+// ended it.
+void Judge::standing(Ticker& ticker) {
+  for (const std::size_t it : checks_.end(RunIsOver::ByItself)) {
+    tell_violated(it,
+                  ticks_ == 0 ? std::string("before the first tick")
+                              : fmt::format("at the end, in tick {}", ticks_ - 1),
+                  ticker);
+  }
+}
+
+void Judge::tell_violated(std::size_t property, const std::string& when, const Ticker& ticker) {
+  const PreparedProperty& it = rehearsal_.properties[property];
+  Surprise surprise{.place = it.of->place,
+                    .message = fmt::format("'{}' is violated {}", it.property.text(), when)};
+  for (const std::uint32_t node : it.property.nodes()) {
+    surprise.more.push_back(fmt::format("{}: {}{}", tree_.path(node),
+                                        to_string(ticker.status(node)),
+                                        ticker.held(node) ? ", held" : ""));
+  }
+  for (const EntryComparison& comparison : it.property.comparisons()) {
+    const Entry& entry = ticker.blackboard().entries[comparison.entry];
+    surprise.more.push_back(fmt::format(
+        "{{{}}} is {}", tree_.slots[comparison.entry].name,
+        entry.has_value() ? brief(to_text(entry.value)) : std::string("without a value")));
+  }
+  surprises_.push_back(std::move(surprise));
+}
+
+std::vector<Surprise> Judge::verdict(const RunEnd& end, const RunMeasures* measures) {
+  judge_ending(end);
+  if (measures != nullptr) judge_limits(*measures);
+  std::ranges::stable_sort(surprises_, {}, [](const Surprise& it) { return it.place.byte; });
+  return std::move(surprises_);
+}
+
+void Judge::judge_ending(const RunEnd& end) {
+  const Scenario& scenario = *rehearsal_.scenario;
+  bool is_result_said = false;
+  for (const Expectation& it : scenario.expectations) {
+    if (it.kind != Kind::Ending) continue;
+    is_result_said |= !it.result.empty();
+    judge_ending(it, end);
+  }
+  if (is_result_said) return;
+  if (end.reason == StopReason::Fault) {
+    surprises_.push_back({scenario.place, "a leaf failed as a program", why(end)});
+  } else if (end.reason == StopReason::MaxTicks && !scenario.max_ticks) {
+    surprises_.push_back({scenario.place,
+                          fmt::format("does not end within {} ticks", kMostScenarioTicks),
+                          why(end)});
+  }
+}
+
+void Judge::judge_ending(const Expectation& expected, const RunEnd& end) {
+  if (!expected.result.empty() && expected.result != result_text(end)) {
+    surprises_.push_back({expected.result_place,
+                          fmt::format("expected {}, came {}", expected.result, result_text(end)),
+                          why(end)});
+  }
+  const auto ticks = static_cast<double>(end.ticks);
+  if (expected.ticks && !is_within(ticks, *expected.ticks)) {
+    surprises_.push_back(
+        {expected.ticks_place,
+         fmt::format("expected {} ticks, came {}", range_text(*expected.ticks), end.ticks),
+         why(end)});
+  }
+  if (expected.time && !is_within(to_seconds(end.time), *expected.time)) {
+    surprises_.push_back({expected.time_place,
+                          fmt::format("expected {} s, came {:g} s", range_text(*expected.time),
+                                      to_seconds(end.time)),
+                          why(end)});
+  }
+  if (!expected.node.empty()) judge_node(expected, end);
+}
+
+void Judge::judge_node(const Expectation& expected, const RunEnd& end) {
+  const auto path = end.fault ? tree_.path(end.fault->node) : std::string();
+  if (path == expected.node || path.ends_with('/' + expected.node)) return;
+  surprises_.push_back({expected.place,
+                        fmt::format("expected a fault of {}, came {}", expected.node,
+                                    path.empty() ? "none" : "one of " + path),
+                        why(end)});
+}
+
+std::vector<std::string> Judge::why(const RunEnd& end) const {
+  if (end.fault) {
+    return {fmt::format("{}: {} {}", in_last_tick(end), tree_.path(end.fault->node),
+                        end.fault->message)};
+  }
+  if (!decided_.empty()) {
+    return {fmt::format("{}: decided by {}", in_last_tick(end), decided_.back())};
+  }
+  if (running_.empty()) return {in_last_tick(end)};
+  return {fmt::format("{}: still running: {}", in_last_tick(end), joined(running_, ", "))};
+}
+
+void Judge::judge_limits(const RunMeasures& measures) {
+  for (const PreparedLimit& limit : rehearsal_.limits) {
+    const std::string name = to_text(limit.measure);
+    for (std::size_t column = 0; column < measures.columns().size(); ++column) {
+      const StudyColumn& it = measures.columns()[column];
+      if (it.is_gap || it.measure != name) continue;
+      const double value = measures.values()[column];
+      constexpr double kSame = 1e-9;
+      if (!std::isnan(value) && are_nearly(value, limit.relation, limit.limit, kSame)) continue;
+      surprises_.push_back({limit.of->place,
+                            fmt::format("expected {}, came {}", limit.text,
+                                        std::isnan(value) ? "no value: it was not reached"
+                                                          : fmt::format("{:g}", value)),
+                            {it.node}});
+    }
+  }
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,48 @@
+// Compares a run with what was expected of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/live_properties.h"
+#include "runtime/observer.h"
+#include "scenario/performance.h"
+
+namespace lockstep::host {
+
+class RunMeasures;
+
+class Judge final : public Observer {
+ public:
+  // All must outlive this.
+  Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties);
+
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void standing(Ticker& ticker) override;
+
+  // After the end; null: nothing is measured.
+  std::vector<Surprise> verdict(const RunEnd& end, const RunMeasures* measures);
+
+ private:
+  void tell_violated(std::size_t property, const std::string& when, const Ticker& ticker);
+  void judge_ending(const RunEnd& end);
+  void judge_ending(const Expectation& expected, const RunEnd& end);
+  void judge_node(const Expectation& expected, const RunEnd& end);
+  void judge_limits(const RunMeasures& measures);
+  std::vector<std::string> why(const RunEnd& end) const;
+
+  const Rehearsal& rehearsal_;
+  const Tree& tree_;
+  PropertyChecks checks_;
+  LiveProperties live_;
+  std::uint64_t ticks_ = 0;
+  std::vector<std::string> decided_;  // the path to what decided
+  std::vector<std::string> running_;  // leaves, at the end
+  std::vector<Surprise> surprises_;
+};
+
+// "success", "failure", "skipped", "fault", "running".
+std::string_view result_text(const RunEnd& end);
+
+}  // namespace lockstep::host

@@ -1,0 +1,69 @@
+// What ticks have shown of each node of a tree. The ticks may be those of scenarios, or of a search
+// over all behaviors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/ticker.h"
+#include "runtime/observer.h"
+
+namespace lockstep::host {
+
+// What may be seen of a node.
+enum class Aspect : std::uint8_t { Ticked, Success, Failure, Skipped, Halted, Held };
+inline constexpr std::array<std::string_view, 6> kAspects{"ticked",  "success", "failure",
+                                                          "skipped", "halted",  "held"};
+inline constexpr std::size_t kAspectCount = kAspects.size();
+
+struct AspectSet {
+  std::uint8_t bits = 0;
+
+  bool has(Aspect aspect) const { return (bits >> static_cast<unsigned>(aspect) & 1u) != 0; }
+  void add(Aspect aspect) {
+    bits |= static_cast<std::uint8_t>(1u << static_cast<unsigned>(aspect));
+  }
+};
+
+class NodeCoverage {
+ public:
+  explicit NodeCoverage(const Tree& tree);
+
+  // What the nodes were before a tick, and the ticker after it.
+  void add(std::span<const Activity> before, const Ticker& ticker);
+  void add(const NodeCoverage& other);
+
+  AspectSet seen(NodeIndex node) const { return seen_[node]; }
+  std::uint64_t ticks(NodeIndex node) const { return ticks_[node]; }  // that reached it
+  // Of each node with constant barriers, whether somebody has waited at each.
+  const std::map<NodeIndex, std::map<double, bool>>& barriers() const { return barriers_; }
+
+ private:
+  void add_barriers(const Ticker& ticker);
+
+  const Tree& tree_;
+  std::vector<AspectSet> seen_;
+  std::vector<std::uint64_t> ticks_;
+  std::map<NodeIndex, std::map<double, bool>> barriers_;
+};
+
+// The coverage of runs.
+class RunCoverage final : public Observer {
+ public:
+  explicit RunCoverage(const Tree& tree) : coverage_(tree) {}
+
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+
+  const NodeCoverage& coverage() const { return coverage_; }
+
+ private:
+  NodeCoverage coverage_;
+  std::vector<Activity> before_;
+};
+
+}  // namespace lockstep::host

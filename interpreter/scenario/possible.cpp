@@ -1,0 +1,50 @@
+#include "scenario/possible.h"
+
+#include "core/clock.h"
+#include "engine/synchronized.h"
+#include "leaves/models.h"
+#include "verify/search.h"
+#include "verify/verifiable.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::uint64_t kMostStates = 50'000;
+constexpr Nanoseconds kLongestSearch = std::chrono::seconds(2);
+
+}  // namespace
+
+std::optional<NodeCoverage> possible_coverage(const Tree& tree, double rate) {
+  Diagnostics diagnostics;
+  std::vector<NodeProblem> problems = not_verifiable(tree);
+  const LeafModels models = make_models(tree, nullptr, diagnostics, problems);
+  if (!problems.empty() || diagnostics.has_errors()) return std::nullopt;
+  const Nanoseconds period = from_seconds(1 / rate);
+  const SearchResult found =
+      search(tree, models, {}, period, {.states = kMostStates, .time = kLongestSearch});
+  if (!found.is_complete()) return std::nullopt;
+  // Each tick of the search once more, now with what was before it.
+  NodeCoverage coverage(tree);
+  Stepper stepper(tree, models, {}, period);
+  for (StateId state = 0; state < found.store.size(); ++state) {
+    stepper.load(found.store[state], state == 0);
+    const std::vector<Activity> before = stepper.before().run.activity;
+    do {
+      stepper.tick();
+      coverage.add(before, stepper.ticker());
+    } while (stepper.next());
+  }
+  return coverage;
+}
+
+AspectSet usual_aspects(const Tree& tree, NodeIndex node) {
+  AspectSet aspects;
+  for (const Aspect it : {Aspect::Ticked, Aspect::Success, Aspect::Failure}) aspects.add(it);
+  const NodeIndex parent = tree.labels[node].parent;
+  const bool is_member_child = tree.labels[parent].type->id == "SyncProgress";
+  const bool is_synchronized = node != 0 && compares_progress(synchronization(tree.nodes[parent]));
+  if (is_synchronized || is_member_child) aspects.add(Aspect::Held);
+  return aspects;
+}
+
+}  // namespace lockstep::host

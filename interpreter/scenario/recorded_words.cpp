@@ -1,0 +1,127 @@
+#include "scenario/recorded_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+
+#include "recording/read/recording_reader.h"
+
+namespace lockstep::host {
+namespace {
+
+// The leaves of a tree as a recording has them.
+class WordMaker {
+ public:
+  WordMaker(const RecordingHeader& header, const Tree& tree, RecordedWords& words)
+      : header_(header), tree_(tree), words_(words) {
+    std::map<std::string, const LeafNode*> by_path;
+    for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
+    for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+      const auto leaf = by_path.find(header.nodes[node].path);
+      if (leaf == by_path.end()) continue;
+      leaves_.push_back({node, leaf->second, &words.leaves[leaf->first]});
+    }
+  }
+
+  void add(const RecordedTick& tick) {
+    for (Leaf& it : leaves_) add(tick, it);
+    for (const RecordedEntry& entry : tick.entries) {
+      const RecordedKey& key = header_.entries[entry.entry];
+      if (key.writers.empty() && entry.value) {
+        words_.changes.push_back({key.key, *entry.value, tick.tick});
+      }
+    }
+  }
+
+  void finish() {
+    std::erase_if(words_.leaves, [](const auto& it) { return it.second.empty(); });
+  }
+
+ private:
+  struct Leaf {
+    NodeIndex node;
+    const LeafNode* leaf;
+    std::vector<LeafWord>* words;
+    double progress = 0;  // that it had last
+  };
+
+  void add(const RecordedTick& tick, Leaf& it) const {
+    const RecordedState& state = tick.nodes[it.node];
+    // Progress is that before the tick: what the word before has led to.
+    if (!it.words->empty() && state.progress != it.progress) {
+      LeafWord& last = it.words->back();
+      if (state.held) {
+        it.words->push_back({.kind = LeafWord::Kind::Held, .progress = state.progress});
+      } else if (last.status == Status::Running && last.kind != LeafWord::Kind::Fault) {
+        last.progress = state.progress;
+      }
+    }
+    it.progress = state.progress;
+    if (!state.ticked) return;
+    // One that is idle was halted after its tick.
+    const bool runs = state.status == Status::Running || state.status == Status::Idle;
+    LeafWord word{.status = runs ? Status::Running : state.status};
+    if (runs) word.progress = state.progress;
+    for (const RecordedFault& fault : tick.faults) {
+      if (fault.node == it.node) word.kind = LeafWord::Kind::Fault;
+    }
+    add_writes(tick, it, word);
+    it.words->push_back(std::move(word));
+  }
+
+  // Entries that have changed in a tick of a leaf that may write them.
+  void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) const {
+    for (const RecordedEntry& entry : tick.entries) {
+      const RecordedKey& key = header_.entries[entry.entry];
+      const bool is_writer = std::ranges::find(key.writers, it.node) != key.writers.end();
+      if (!is_writer || !entry.value) continue;
+      const auto& parameters = it.leaf->type->parameters;
+      for (std::size_t port = 0; port < parameters.size(); ++port) {
+        const std::uint32_t slot = tree_.ports[it.leaf->first_port + port].slot;
+        if (slot == PortBinding::kUnbound || tree_.slots[slot].name != key.key) continue;
+        if (parameters[port].direction == Direction::Input) continue;
+        word.written.emplace_back(parameters[port].name, *entry.value);
+      }
+    }
+  }
+
+  const RecordingHeader& header_;
+  const Tree& tree_;
+  RecordedWords& words_;
+  std::vector<Leaf> leaves_;
+};
+
+}  // namespace
+
+RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
+  RecordedWords words;
+  std::ifstream in(path);
+  if (!in) {
+    words.error = fmt::format("'{}' cannot be read: {}", path, std::strerror(errno));
+    return words;
+  }
+  RecordingReader reader(in, path);
+  if (reader.error().empty()) {
+    const RecordingHeader& header = reader.header();
+    words.tree_file = header.file;
+    words.arguments = header.arguments;
+    words.rate = header.rate_hz > 0 ? std::optional(header.rate_hz) : std::nullopt;
+    WordMaker maker(header, tree, words);
+    std::uint64_t ticks = 0;
+    while (const auto tick = reader.next()) {
+      maker.add(*tick);
+      ticks = tick->tick + 1;
+    }
+    maker.finish();
+    words.ticks = ticks;
+    if (reader.end()) words.result = reader.end()->result;
+  }
+  words.error = reader.error();
+  return words;
+}
+
+}  // namespace lockstep::host

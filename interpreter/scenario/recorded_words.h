@@ -1,0 +1,30 @@
+// What each leaf did in a recording, as words that it can do again.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/tree.h"
+#include "leaves/leaf_script.h"
+
+namespace lockstep::host {
+
+struct RecordedWords : LeafScripts {
+  std::string error;      // "": it could be read
+  std::string result;     // of the run; "": it is cut
+  std::string tree_file;  // as its user named it
+  std::map<std::string, std::string, std::less<>> arguments;
+  // What came into entries from outside: nobody in the tree writes them.
+  struct Change {
+    std::string key, value;
+    std::uint64_t tick;
+  };
+  std::vector<Change> changes;
+};
+
+// Words write to the ports of leaves in `tree`.
+RecordedWords read_recorded_words(const std::string& path, const Tree& tree);
+
+}  // namespace lockstep::host

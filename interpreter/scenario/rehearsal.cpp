@@ -1,0 +1,194 @@
+#include "scenario/rehearsal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/suggest.h"
+#include "core/wording.h"
+#include "document/reporter.h"
+#include "measure/live_ticks.h"
+#include "measure/measuring.h"
+
+namespace lockstep::host {
+namespace {
+
+using Kind = Expectation::Kind;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+struct LimitText {
+  std::string_view measure, relation, number;
+};
+
+// "spread < 0.1": a measure, a relation and a number. Nothing if it is none, as a property.
+std::optional<LimitText> split_limit(std::string_view text) {
+  const std::string_view name = text.substr(0, text.find_first_of(":[<>=! \t\r\n"));
+  if (std::ranges::find(all_measures(), name, &Measure::name) == all_measures().end()) {
+    return std::nullopt;
+  }
+  const auto at = text.find_first_of("<>!") != std::string_view::npos ? text.find_first_of("<>!")
+                                                                      : text.find("==");
+  if (at == std::string_view::npos) return LimitText{text, {}, {}};
+  const std::size_t size = at + 1 < text.size() && text[at + 1] == '=' ? 2 : 1;
+  return LimitText{trimmed(text.substr(0, at)), text.substr(at, size),
+                   trimmed(text.substr(at + size))};
+}
+
+// Of an entry without a declared type: a number or a truth value, if it reads as one.
+Value value_of_any_type(const std::string& text) {
+  if (const auto whole = parse_int(text)) return *whole;
+  if (const auto real = parse_double(text)) return *real;
+  if (text == "true" || text == "false") return text == "true";
+  return text;
+}
+
+std::optional<Relation> relation_of(std::string_view text) {
+  constexpr std::pair<std::string_view, Relation> kRelations[] = {
+      {"==", Relation::Equal},     {"!=", Relation::NotEqual}, {"<", Relation::Less},
+      {"<=", Relation::LessEqual}, {">", Relation::Greater},   {">=", Relation::GreaterEqual}};
+  for (const auto& [sign, relation] : kRelations) {
+    if (sign == text) return relation;
+  }
+  return std::nullopt;
+}
+
+class Rehearser {
+ public:
+  Rehearser(const Scenario& scenario, const Sources& sources, const Stage& stage,
+            Diagnostics& diagnostics)
+      : scenario_(scenario),
+        stage_(stage),
+        tree_(stage.tree()),
+        diagnostics_(diagnostics),
+        report_(sources, diagnostics) {}
+
+  Rehearsal rehearse(const LeafFile* file, MissingLeaves missing) {
+    rehearsal_.scenario = &scenario_;
+    rehearsal_.rate = scenario_.rate;
+    if (file != nullptr && file->rate && !scenario_.is_rate_given) rehearsal_.rate = *file->rate;
+    rehearsal_.cast =
+        make_cast(scenario_, rehearsal_.rate, tree_, file != nullptr, missing, report_);
+    if (file != nullptr) add_models(*file);
+    for (const SetEntry& it : scenario_.changes) add_change(it);
+    for (const Expectation& it : scenario_.expectations) add_expectation(it);
+    return std::move(rehearsal_);
+  }
+
+ private:
+  void add_models(const LeafFile& file) {
+    std::vector<NodeProblem> problems;
+    auto models = std::make_shared<LeafModels>(make_models(tree_, &file, diagnostics_, problems));
+    const auto& without = rehearsal_.cast.without_row;
+    for (const NodeProblem& it : problems) {
+      if (std::ranges::find(without, it.node) == without.end()) continue;
+      report_.at_value(scenario_.leaves_place,
+                       fmt::format("'{}': {}", tree_.path(it.node), it.message), it.hint);
+    }
+    rehearsal_.models = std::move(models);
+  }
+
+  void add_change(const SetEntry& change) {
+    const auto slot = std::ranges::find(tree_.slots, change.key, &Slot::name);
+    if (slot == tree_.slots.end()) {
+      std::vector<std::string_view> known;
+      for (const Slot& it : tree_.slots) known.emplace_back(it.name);
+      return report_.at_value(change.key_place,
+                              fmt::format("the tree has no entry '{}'", brief(change.key)),
+                              suggest(change.key, known, "its entries"));
+    }
+    std::optional<Value> value = slot->typing == Typing::Any
+                                     ? value_of_any_type(change.value)
+                                     : parse_value(slot->type, change.value);
+    if (!value) {
+      return report_.at_value(
+          change.value_place,
+          fmt::format("'{}' is no value of '{}'", brief(change.value), change.key),
+          fmt::format("expected {}", expected_text(slot->type)));
+    }
+    const auto place = static_cast<std::uint32_t>(slot - tree_.slots.begin());
+    rehearsal_.changes.push_back({place, std::move(*value), change.tick, change.time});
+  }
+
+  void add_expectation(const Expectation& it) {
+    if (it.kind == Kind::Text) {
+      if (const auto limit = split_limit(trimmed(it.texts[0]))) {
+        add_limit(it, *limit);
+      } else {
+        add_property(it, it.texts[0]);
+      }
+    }
+    if (it.kind == Kind::Order) add_order(it);
+    if (it.kind == Kind::Ending && !it.node.empty()) check_node(it);
+  }
+
+  void add_property(const Expectation& of, std::string_view text) {
+    auto property = Property::parse(text, stage_.names());
+    if (!property) {
+      const PropertyError& error = property.error();
+      if (of.kind == Kind::Text) {
+        report_.in_value(of.place, error.offset, error.message, error.hint);
+      } else {
+        report_.at_value(of.place, error.message, error.hint);
+      }
+      return;
+    }
+    rehearsal_.properties.push_back({std::move(*property), &of});
+  }
+
+  // Each only after the one before it, and the last one at all.
+  void add_order(const Expectation& it) {
+    for (std::size_t i = 0; i < it.texts.size(); ++i) {
+      const std::string_view event = trimmed(it.texts[i]);
+      if (i + 1 == it.texts.size()) add_property(it, fmt::format("sometimes ({})", event));
+      if (i == 0) continue;
+      add_property(it, fmt::format("({}) only after ({})", event, trimmed(it.texts[i - 1])));
+    }
+  }
+
+  void add_limit(const Expectation& it, const LimitText& text) {
+    auto measure = parse_measure(text.measure);
+    const auto relation = relation_of(text.relation);
+    const auto number = parse_double(text.number);
+    if (!measure) {
+      return report_.at_value(it.place, measure.error().message, measure.error().hint);
+    }
+    if (!relation || !number) {
+      return report_.at_value(
+          it.place, fmt::format("expected a limit of the measure '{}'", text.measure),
+          fmt::format("write {} &lt; 0.1; the relations are &lt; &lt;= == != > >=", text.measure));
+    }
+    const MeasureSpec specs[] = {*measure};
+    const Measuring measuring(measured_tree(tree_), specs);
+    if (!measuring.error().empty()) return report_.at_value(it.place, measuring.error());
+    rehearsal_.limits.push_back(
+        {std::move(*measure), *relation, *number, std::string(trimmed(it.texts[0])), &it});
+  }
+
+  void check_node(const Expectation& it) const {
+    const auto found = find_path(stage_.names().paths, it.node);
+    if (!found) report_.at_value(it.place, found.error().message, found.error().hint);
+  }
+
+  const Scenario& scenario_;
+  const Stage& stage_;
+  const Tree& tree_;
+  Diagnostics& diagnostics_;
+  const Reporter report_;
+  Rehearsal rehearsal_;
+};
+
+}  // namespace
+
+Rehearsal rehearse(const Scenario& scenario, const Sources& sources, const Stage& stage,
+                   const LeafFile* file, MissingLeaves missing, Diagnostics& diagnostics) {
+  return Rehearser(scenario, sources, stage, diagnostics).rehearse(file, missing);
+}
+
+}  // namespace lockstep::host

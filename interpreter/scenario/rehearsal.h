@@ -1,0 +1,52 @@
+// A scenario found in its tree: what its names mean there, ready for runs.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/measure_spec.h"
+#include "scenario/cast.h"
+#include "scenario/stage.h"
+
+namespace lockstep::host {
+
+// A value that an entry gets before a tick.
+struct PreparedChange {
+  std::uint32_t slot;
+  Value value;
+  std::uint64_t tick;
+  std::optional<double> time;
+};
+
+struct PreparedProperty {
+  Property property;
+  const Expectation* of;
+};
+
+// "spread < 0.1"
+struct PreparedLimit {
+  MeasureSpec measure;
+  Relation relation;
+  double limit;
+  std::string text;
+  const Expectation* of;
+};
+
+struct Rehearsal {
+  const Scenario* scenario = nullptr;
+  double rate = kScenarioRate;
+  Cast cast;
+  std::shared_ptr<const LeafModels> models;  // null: there is no leaf file
+  std::vector<PreparedChange> changes;
+  std::vector<PreparedProperty> properties;
+  std::vector<PreparedLimit> limits;
+};
+
+// Reports errors at their places. `file` is the scenario's leaf file, or null. All must outlive
+// what this returns.
+Rehearsal rehearse(const Scenario& scenario, const Sources& sources, const Stage& stage,
+                   const LeafFile* file, MissingLeaves missing, Diagnostics& diagnostics);
+
+}  // namespace lockstep::host

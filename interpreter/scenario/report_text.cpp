@@ -1,0 +1,111 @@
+#include "scenario/report_text.h"
+
+#include <fmt/format.h>
+
+#include "core/diagnostics.h"
+#include "core/wording.h"
+
+namespace lockstep::host {
+namespace {
+
+// For a shell.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      out += "'\\''";
+    } else {
+      out += c;
+    }
+  }
+  return out + "'";
+}
+
+std::string what_came(const ReportedScenario& it) {
+  if (it.runs > 1) return fmt::format("{}, {}", counted(it.runs, "run"), counted(it.ticks, "tick"));
+  return counted(it.ticks, "tick");
+}
+
+}  // namespace
+
+ReportedScenario reported(const ScenarioReport& report) {
+  const Sources& sources = report.file->sources;
+  ReportedScenario it{.file = report.file->path,
+                      .name = report.scenario->name,
+                      .place = to_text(sources.locate(report.scenario->place)),
+                      .outcome = !report.errors.empty() ? "invalid"
+                                 : report.was_stopped   ? "stopped"
+                                 : report.is_good()     ? "passed"
+                                                        : "failed",
+                      .runs = report.runs,
+                      .ticks = report.ticks,
+                      .seed = report.seed};
+  for (const Diagnostic& error : report.errors) {
+    if (error.severity != Severity::Error) continue;
+    it.failures.push_back({to_text(error.location), error.message, {}});
+    if (!error.hint.empty()) it.failures.back().more.push_back(error.hint);
+  }
+  for (const Surprise& surprise : report.surprises) {
+    it.failures.push_back(
+        {to_text(sources.locate_value(surprise.place)), surprise.message, surprise.more});
+  }
+  it.recording = report.recording;
+  if (!it.recording.empty()) it.replay = "lockstep replay " + shell_word(it.recording);
+  it.again = fmt::format("lockstep test {} --filter {}", shell_word(it.file), shell_word(it.name));
+  return it;
+}
+
+std::string to_text(const ScenarioReport& report, std::size_t width) {
+  const ReportedScenario it = reported(report);
+  const std::string_view sign = it.outcome == "passed"    ? "ok  "
+                                : it.outcome == "failed"  ? "FAIL"
+                                : it.outcome == "invalid" ? "BAD "
+                                                          : "stop";
+  std::string text = fmt::format("  {}  {:<{}}", sign, printable(it.name), width);
+  if (it.outcome == "passed" || it.outcome == "failed") text += "  " + what_came(it);
+  while (text.ends_with(' ')) text.pop_back();
+  text += '\n';
+  for (const Diagnostic& error : report.errors) {
+    if (error.severity == Severity::Error) text += render(error, false);
+  }
+  if (report.errors.empty()) {
+    for (const auto& failure : it.failures) {
+      text += fmt::format("        {}: {}\n", failure.place, printable(failure.message));
+      for (const std::string& line : failure.more) {
+        text += fmt::format("          {}\n", printable(line));
+      }
+    }
+  }
+  if (it.outcome == "failed" && it.runs > 1) {
+    text += fmt::format("        run {}, seed {}\n", it.runs, it.seed);
+  }
+  if (!it.replay.empty()) text += fmt::format("        {}\n", it.replay);
+  if (it.outcome == "failed") text += fmt::format("        {}\n", it.again);
+  return text;
+}
+
+void TestCounts::add(const ScenarioReport& report) {
+  if (!report.errors.empty()) {
+    ++invalid;
+  } else if (report.was_stopped) {
+    ++stopped;
+  } else {
+    ++(report.is_good() ? passed : failed);
+  }
+  runs += report.runs;
+  ticks += report.ticks;
+}
+
+std::string to_text(const TestCounts& counts) {
+  const std::size_t all = counts.passed + counts.failed + counts.invalid + counts.stopped;
+  std::string text = fmt::format("{}: {} passed", counted(all, "scenario"), counts.passed);
+  if (counts.failed > 0) text += fmt::format(", {} failed", counts.failed);
+  if (counts.invalid > 0) text += fmt::format(", {} invalid", counts.invalid);
+  if (counts.stopped > 0) text += fmt::format(", {} stopped", counts.stopped);
+  return text + fmt::format(", {:.2f} s\n", to_seconds(counts.took));
+}
+
+}  // namespace lockstep::host

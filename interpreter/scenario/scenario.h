@@ -1,0 +1,97 @@
+// A scenario, as the user has written it: a tree, what its leaves do, and what is to come of it.
+// docs/testing.md has the reference. Names are as written here; scenario/rehearsal.h finds what
+// they mean in a tree.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/place.h"
+#include "document/sources.h"
+#include "leaves/leaf_script.h"
+
+namespace lockstep::host {
+
+inline constexpr double kScenarioRate = 10;                  // Hz, when nothing is said
+inline constexpr std::uint64_t kMostScenarioTicks = 10'000;  // likewise
+
+struct NamedText {
+  std::string name, text;
+  Place place = {};  // of the text's attribute
+};
+
+// An entry and its value from a tick on, or from the first at a time or after it.
+struct SetEntry {
+  std::string key, value;
+  Place key_place = {}, value_place = {};
+  std::uint64_t tick = 0;
+  std::optional<double> time = {};  // s; if it is there, `tick` does not count
+};
+
+struct LateTick {
+  std::uint64_t tick = 0;
+  double by = 0;  // s
+};
+
+// What the leaves of a type, or with a path, do.
+struct CastRow {
+  enum class From : std::uint8_t { Words, Plugin, Recording } from = From::Words;
+  std::string of, path;  // one of both
+  Place place = {};      // of that attribute
+  std::vector<LeafWord> words = {};
+  bool restarts = false;               // in each activation
+  bool has_result = false;             // the words are made of a result and the time until it
+  std::optional<double> seconds = {};  // such a time, of which they are made for a rate
+  Status result = Status::Success;
+  bool is_fault = false;
+  std::vector<std::pair<std::string, std::string>> written = {};
+  std::string recording = {};
+  Place source = {};  // of what it does
+};
+
+struct NumberRange {
+  double least = 0;
+  std::optional<double> most;  // none: without end
+};
+
+struct Expectation {
+  enum class Kind : std::uint8_t { Ending, Order, SameAs, Text } kind = Kind::Ending;
+  Place place = {};  // of its first word
+  // Ending
+  std::string result = {};  // "": any
+  Place result_place = {};
+  std::optional<NumberRange> ticks = {}, time = {};
+  Place ticks_place = {}, time_place = {};
+  std::string node = {};
+  // Order: what comes true; SameAs: the recording; Text: a property or a measure with its limit
+  std::vector<std::string> texts = {};
+  double tolerance = 0;
+};
+
+struct Scenario {
+  std::string name;
+  Place place = {};
+  std::string tree, main, leaves;  // files, as they are found from the working directory
+  Place tree_place = {}, leaves_place = {};
+  double rate = kScenarioRate;
+  bool is_rate_given = false;
+  std::optional<std::uint64_t> max_ticks = {};
+  std::uint64_t seed = 0, runs = 1;
+  bool is_verified = false;
+  std::vector<NamedText> arguments = {};
+  std::vector<SetEntry> changes = {};
+  std::vector<CastRow> cast = {};
+  std::vector<LateTick> late = {};
+  std::vector<Expectation> expectations = {};
+};
+
+struct ScenarioFile {
+  std::string path;
+  Sources sources;
+  std::vector<Scenario> scenarios;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,279 @@
+#include "scenario/scenario_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <span>
+
+#include "core/pre_order.h"
+#include "core/suggest.h"
+#include "core/value.h"
+#include "core/wording.h"
+#include "document/document.h"
+#include "document/file.h"
+#include "document/reporter.h"
+#include "leaves/word_check.h"
+#include "scenario/cast_reader.h"
+#include "scenario/row_values.h"
+#include "scenario/scenario_words.h"
+
+namespace lockstep::host {
+namespace {
+
+using scenario_words::Tag;
+using Kind = Expectation::Kind;
+
+class Reader {
+ public:
+  Reader(Document& document, ScenarioFile& file, Diagnostics& diagnostics)
+      : document_(document),
+        elements_(document.elements()),
+        file_(file),
+        report_(file.sources, diagnostics),
+        cast_(document, file.path, report_) {}
+
+  bool read() {
+    const Element& root = elements_[0];
+    if (root.tag == "root") return read_tree();
+    if (root.tag != "scenarios") {
+      report_.at(root.place, fmt::format("'{}' is no file of scenarios", brief(root.tag)),
+                 "it begins with <scenarios lockstep=\"1\">");
+      return false;
+    }
+    check_words(document_, 0, "", scenario_words::kScenarios, report_);
+    if (const Attribute* version = attribute(0, "lockstep");
+        version != nullptr && version->value != "1") {
+      report_.at_value(version->place, fmt::format("unknown version '{}'", brief(version->value)),
+                       "this lockstep knows version 1");
+    }
+    read_head(0, common_);
+    for (const std::uint32_t child : children_in(elements_, 0)) {
+      if (elements_[child].tag == "scenario") continue;
+      read_part(child, common_, "elements of 'scenarios'");
+    }
+    read_all();
+    return true;
+  }
+
+ private:
+  const Attribute* attribute(std::uint32_t element, std::string_view name) const {
+    return document_.find_attribute(element, name);
+  }
+
+  // Its scenarios are about itself.
+  bool read_tree() {
+    common_.tree = file_.path;
+    if (&document_.rules() == &kLockstepRules) {
+      read_all();
+      return true;
+    }
+    for (const std::uint32_t child : children_in(elements_, 0)) {
+      if (elements_[child].tag != "scenario") continue;
+      report_.at(elements_[child].place,
+                 fmt::format("a file for {} has no scenarios", document_.rules().title),
+                 "put them into a file beside it, NAME.test.xml");
+    }
+    return true;
+  }
+
+  void read_all() {
+    for (const std::uint32_t child : children_in(elements_, 0)) {
+      if (elements_[child].tag == "scenario") read_scenario(child);
+    }
+  }
+
+  // Once for each row.
+  void read_scenario(std::uint32_t at) {
+    RowValues rows(document_, at, report_);
+    if (!rows.are_good()) return;
+    const Attribute* const name = attribute(at, "name");
+    const bool is_in_name = name != nullptr && name->value.find("${") != std::string_view::npos;
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+      rows.choose(row);
+      read_scenario(at, is_in_name ? std::string() : rows.text(row));
+    }
+  }
+
+  void read_scenario(std::uint32_t at, const std::string& row) {
+    if (!check_words(document_, at, "", scenario_words::kScenario, report_)) return;
+    Scenario scenario = common_;
+    const Attribute& name = *attribute(at, "name");
+    scenario.place = name.place;
+    scenario.name = name.value;
+    if (!row.empty()) scenario.name += fmt::format(" [{}]", row);
+    check_name(scenario, name);
+    read_head(at, scenario);
+    for (const std::uint32_t child : children_in(elements_, at)) {
+      if (elements_[child].tag == scenario_words::kRow) continue;
+      read_part(child, scenario, "elements of 'scenario'");
+    }
+    if (scenario.tree.empty()) {
+      report_.at(elements_[at].place, "the scenario has no tree",
+                 "write tree=\"FILE.xml\", here or in <scenarios>");
+    }
+    if (scenario.expectations.empty() && !scenario.is_verified) {
+      report_.at(elements_[at].place, "the scenario expects nothing",
+                 "write <expect result=\"success\"/>");
+    }
+    file_.scenarios.push_back(std::move(scenario));
+  }
+
+  void check_name(const Scenario& scenario, const Attribute& name) {
+    const auto same = std::ranges::find(file_.scenarios, scenario.name, &Scenario::name);
+    if (same == file_.scenarios.end()) return;
+    report_.at_value(name.place,
+                     fmt::format("a scenario '{}' exists already", brief(scenario.name)),
+                     fmt::format("the first is at {}", to_text(file_.sources.locate(same->place))));
+  }
+
+  // What a file and a scenario may both say.
+  void read_head(std::uint32_t at, Scenario& into) {
+    for (const Attribute& it : document_.attributes(at)) {
+      if (it.name == "tree") {
+        into.tree = beside(file_.path, it.value);
+        into.tree_place = it.place;
+      } else if (it.name == "main") {
+        into.main = it.value;
+      } else if (it.name == "leaves") {
+        into.leaves = beside(file_.path, it.value);
+        into.leaves_place = it.place;
+      } else if (it.name == "rate") {
+        into.rate = cast_.number(it, 0.001, 100000);
+        into.is_rate_given = true;
+      } else if (it.name == "max-ticks") {
+        into.max_ticks = cast_.count(it, 1);
+      } else if (it.name == "seed") {
+        into.seed = cast_.count(it, 0);
+      } else if (it.name == "runs") {
+        into.runs = cast_.count(it, 1);
+      } else if (it.name == "verify") {
+        into.is_verified = it.value == "yes";
+      }
+    }
+  }
+
+  void read_part(std::uint32_t at, Scenario& into, std::string_view known) {
+    const Element& element = elements_[at];
+    const auto* const tag = std::ranges::find(scenario_words::kTags, element.tag, &Tag::name);
+    if (tag == std::end(scenario_words::kTags)) {
+      std::vector<std::string_view> names{"scenario"};
+      for (const Tag& it : scenario_words::kTags) names.push_back(it.name);
+      report_.at(element.place, fmt::format("unknown element '{}'", brief(element.tag)),
+                 suggest(element.tag, names, known));
+      return;
+    }
+    if (element.end > at + 1) {
+      report_.at(elements_[at + 1].place, fmt::format("'{}' cannot contain elements", element.tag));
+    }
+    const std::string_view open = tag->name == "leaf" ? leaf_words::kOutput : std::string_view();
+    if (!check_words(document_, at, open, tag->words, report_)) return;
+    if (tag->name == "arg") read_argument(at, into);
+    if (tag->name == "set") read_change(at, into);
+    if (tag->name == "leaf") cast_.read_leaf(at, into);
+    if (tag->name == "late") read_late(at, into);
+    if (tag->name == "expect") read_expectation(at, into);
+  }
+
+  void read_argument(std::uint32_t at, Scenario& into) const {
+    const Attribute &name = *attribute(at, "name"), &value = *attribute(at, "value");
+    std::erase_if(into.arguments, [&](const NamedText& it) { return it.name == name.value; });
+    into.arguments.push_back({std::string(name.value), std::string(value.value), name.place});
+  }
+
+  void read_change(std::uint32_t at, Scenario& into) const {
+    const Attribute &key = *attribute(at, "key"), &value = *attribute(at, "value");
+    SetEntry change{std::string(key.value), std::string(value.value), key.place, value.place};
+    const Attribute *tick = attribute(at, "tick"), *time = attribute(at, "time");
+    if (tick != nullptr && time != nullptr) {
+      report_.at(time->place, "give one of 'tick' and 'time'");
+    }
+    if (tick != nullptr) change.tick = cast_.count(*tick, 0);
+    if (time != nullptr) change.time = cast_.number(*time, 0, 1e9);
+    into.changes.push_back(std::move(change));
+  }
+
+  void read_late(std::uint32_t at, Scenario& into) const {
+    into.late.push_back(
+        {cast_.count(*attribute(at, "tick"), 0), cast_.number(*attribute(at, "by"), 0, 1e6)});
+  }
+
+  void read_expectation(std::uint32_t at, Scenario& into) const {
+    Expectation expect{.place = elements_[at].place};
+    std::vector<Kind> kinds;
+    const auto is = [&](Kind kind, const Attribute& it) {
+      if (std::ranges::find(kinds, kind) == kinds.end()) {
+        kinds.push_back(kind);
+        expect.place = it.place;
+      }
+      expect.kind = kind;
+    };
+    for (const Attribute& it : document_.attributes(at)) {
+      if (it.name.empty()) {
+        is(Kind::Text, it);
+        expect.texts.emplace_back(it.value);
+      } else if (it.name == "order") {
+        is(Kind::Order, it);
+        for (const std::string_view part : split(it.value, ";")) expect.texts.emplace_back(part);
+      } else if (it.name == "same-as") {
+        is(Kind::SameAs, it);
+        expect.texts.push_back(beside(file_.path, it.value));
+      } else if (it.name == "tolerance") {
+        expect.tolerance = cast_.number(it, 0, 1);
+      } else {
+        is(Kind::Ending, it);
+        read_ending(it, expect);
+      }
+    }
+    if (kinds.size() == 1) return into.expectations.push_back(std::move(expect));
+    report_.at(elements_[at].place,
+               kinds.empty() ? "the expectation says nothing" : "an expectation says one thing",
+               "write result (with ticks, time), order, same-as, or a property as text");
+  }
+
+  void read_ending(const Attribute& it, Expectation& expect) const {
+    if (it.name == "result") {
+      expect.result = it.value;
+      expect.result_place = it.place;
+    } else if (it.name == "ticks") {
+      expect.ticks = cast_.range(it, "3, 2..10 or 5..inf");
+      expect.ticks_place = it.place;
+    } else if (it.name == "time") {
+      expect.time = cast_.range(it, "0.5, 0.5..2 or 2..inf, in seconds");
+      expect.time_place = it.place;
+    } else if (it.name == "node") {
+      expect.node = it.value;
+    }
+  }
+
+  Document& document_;
+  const std::span<const Element> elements_;
+  ScenarioFile& file_;
+  const Reporter report_;
+  const CastReader cast_;
+  Scenario common_;
+};
+
+}  // namespace
+
+std::unique_ptr<ScenarioFile> read_scenarios(const std::string& path, std::string text,
+                                             Diagnostics& diagnostics) {
+  const auto document = Document::parse(path, std::move(text), diagnostics);
+  if (document == nullptr) return nullptr;
+  auto file = std::make_unique<ScenarioFile>();
+  file->path = path;
+  file->sources.add(document->source());
+  // Lines are counted by one thread, before others ask for places.
+  static_cast<void>(file->sources.locate(document->source()->place_of(0)));
+  return Reader(*document, *file, diagnostics).read() ? std::move(file) : nullptr;
+}
+
+std::unique_ptr<ScenarioFile> read_scenarios(const std::string& path, Diagnostics& diagnostics) {
+  auto text = read_file(path, Document::kMaxBytes, FileKinds::Regular);
+  if (text) return read_scenarios(path, std::move(*text), diagnostics);
+  diagnostics.error({path}, "cannot be read: " + text.error().message, text.error().hint);
+  return nullptr;
+}
+
+}  // namespace lockstep::host

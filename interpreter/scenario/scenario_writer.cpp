@@ -1,0 +1,101 @@
+#include "scenario/scenario_writer.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "describe/xsd.h"
+#include "document/document.h"
+#include "document/file.h"
+#include "system/descriptors.h"
+#include "system/output_file.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::string_view kEnd = "</scenarios>";
+
+// "R0.1 R0.2*3 S"
+std::string words_text(const std::vector<LeafWord>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size();) {
+    std::size_t end = i + 1;
+    while (end < words.size() && words[end] == words[i]) ++end;
+    text += fmt::format("{}{}", i == 0 ? "" : " ", to_text(words[i]));
+    if (end - i > 1) text += fmt::format("*{}", end - i);
+    i = end;
+  }
+  return text;
+}
+
+std::string ending_text(const RecordedWords& words) {
+  const bool is_cut = words.result.empty() || words.result == "stopped";
+  return fmt::format("    <expect result=\"{}\" ticks=\"{}\"/>\n",
+                     is_cut ? "running" : words.result, words.ticks.value_or(0));
+}
+
+}  // namespace
+
+std::string to_text(const RecordedWords& words, const ScenarioText& about) {
+  std::string text;
+  for (const std::string& line : about.comments) {
+    std::string safe = line;
+    for (auto at = safe.find("--"); at != std::string::npos; at = safe.find("--")) safe[at] = ' ';
+    text += fmt::format("  <!-- {} -->\n", safe);
+  }
+  text += fmt::format("  <scenario name=\"{}\"", xsd_escaped(about.name));
+  if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
+  const bool is_cut = words.result.empty() || words.result == "stopped";
+  if (is_cut && words.ticks) text += fmt::format(" max-ticks=\"{}\"", *words.ticks);
+  text += ">\n";
+  for (const auto& [name, value] : words.arguments) {
+    text += fmt::format("    <arg name=\"{}\" value=\"{}\"/>\n", name, xsd_escaped(value));
+  }
+  for (const auto& it : words.changes) {
+    text += fmt::format("    <set key=\"{}\" value=\"{}\" tick=\"{}\"/>\n", xsd_escaped(it.key),
+                        xsd_escaped(it.value), it.tick);
+  }
+  for (const auto& [path, leaf] : words.leaves) {
+    text += fmt::format("    <leaf path=\"{}\" does=\"{}\"/>\n", xsd_escaped(path),
+                        xsd_escaped(words_text(leaf)));
+  }
+  for (const std::string& it : about.expected) {
+    text += fmt::format("    <expect>{}</expect>\n", xsd_escaped(it));
+  }
+  if (about.expected.empty()) text += ending_text(words);
+  return text + "  </scenario>\n";
+}
+
+std::string scenario_file(const std::string& tree, const std::string& scenarios) {
+  return fmt::format("<scenarios lockstep=\"1\" tree=\"{}\">\n{}{}\n", xsd_escaped(tree), scenarios,
+                     kEnd);
+}
+
+Result<void> add_to_scenario_file(const std::string& path, const std::string& tree,
+                                  const std::string& scenarios) {
+  std::string text;
+  if (std::filesystem::exists(path)) {
+    auto before = read_file(path, Document::kMaxBytes);
+    if (!before) return problem(fmt::format("cannot read '{}': {}", path, before.error().message));
+    const auto end = before->rfind(kEnd);
+    if (end == std::string::npos) {
+      return problem(fmt::format("'{}' is no file of scenarios", path),
+                     "it ends with </scenarios>");
+    }
+    text = before->insert(end, scenarios);
+  } else {
+    const auto folder = std::filesystem::path(path).parent_path();
+    const auto from = std::filesystem::proximate(tree, folder.empty() ? "." : folder);
+    text = scenario_file(from.string(), scenarios);
+  }
+  OutputFile file(path);
+  if (!file.error().empty()) return problem(file.error());
+  if (!write_all(file.descriptor(), text) || !file.take_name()) {
+    return problem(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+  }
+  return {};
+}
+
+}  // namespace lockstep::host

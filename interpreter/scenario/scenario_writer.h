@@ -1,0 +1,26 @@
+// Scenarios as text: a recording as a scenario in which the leaves do the same.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/problem.h"
+#include "scenario/recorded_words.h"
+
+namespace lockstep::host {
+
+struct ScenarioText {
+  std::string name;
+  std::vector<std::string> comments = {};  // lines
+  std::vector<std::string> expected = {};  // properties; if there are none, the recorded end
+};
+
+// <scenario>…</scenario>, indented by two blanks.
+std::string to_text(const RecordedWords& words, const ScenarioText& about);
+// A file with these scenarios about a tree.
+std::string scenario_file(const std::string& tree, const std::string& scenarios);
+// Adds them to the end of a file of scenarios, or makes it.
+Result<void> add_to_scenario_file(const std::string& path, const std::string& tree,
+                                  const std::string& scenarios);
+
+}  // namespace lockstep::host

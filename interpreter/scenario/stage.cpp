@@ -1,0 +1,65 @@
+#include "scenario/stage.h"
+
+#include <utility>
+
+#include "engine/compile.h"
+#include "measure/live_properties.h"
+
+namespace lockstep::host {
+namespace {
+
+// All leaves but these are played.
+Tree played_tree(const Definition& given, const std::set<NodeIndex>& real, PlayedLeaves& played) {
+  Definition definition = given;
+  played.take_over(definition);
+  for (const NodeIndex node : real) definition.nodes[node].type = given.nodes[node].type;
+  return compile(definition);
+}
+
+}  // namespace
+
+Stage::Key Stage::key_of(const Scenario& scenario) {
+  Key key{scenario.tree, scenario.main, {}};
+  for (const NamedText& it : scenario.arguments) key.arguments[it.name] = it.text;
+  return key;
+}
+
+std::shared_ptr<const Stage> Stage::load(const Key& key, const std::string* text,
+                                         const LoadOptions& options, Diagnostics& diagnostics,
+                                         const std::shared_ptr<PluginSet>& plugins,
+                                         LoadFailure& failure) {
+  LoadOptions load = options;
+  load.arguments = key.arguments;
+  load.main_tree = key.main;
+  load.main_file = MainFile::IsRegular;
+  load.unknown = MissingNodes::AreMocked;
+  auto loaded = text == nullptr ? host::load(key.tree, load, diagnostics, plugins)
+                                : load_text(key.tree, *text, load, diagnostics, plugins);
+  if (!loaded) {
+    failure = loaded.error();
+    return nullptr;
+  }
+  return std::shared_ptr<const Stage>(new Stage(key.tree, std::move(*loaded)));
+}
+
+Stage::Stage(std::string file, Loaded loaded)
+    : file_(std::move(file)),
+      loaded_(std::move(loaded)),
+      tree_(played_tree(loaded_.definition, {}, played_)),
+      names_(property_names(tree_)) {
+  // Lines are counted by one thread, before others ask for places.
+  for (const auto& source : sources().all()) static_cast<void>(source->locate(source->place_of(0)));
+}
+
+SourceLocation Stage::location_of(NodeIndex node) const {
+  return sources().locate(loaded_.definition.nodes[node].place);
+}
+
+std::string Stage::place_of(NodeIndex node) const {
+  return to_text(location_of(node));
+}
+
+Players::Players(std::shared_ptr<const Stage> stage, const std::set<NodeIndex>& real)
+    : stage_(std::move(stage)), tree_(played_tree(stage_->definition(), real, played_)) {}
+
+}  // namespace lockstep::host

@@ -1,0 +1,74 @@
+// A tree that scenarios are played on: loaded once for all of them, and compiled with leaves that
+// play words instead of those of plugins, for each thread.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "leaves/play/played_leaves.h"
+#include "loading/load.h"
+#include "property/property.h"
+#include "scenario/scenario.h"
+
+namespace lockstep::host {
+
+class Stage {
+ public:
+  // What a tree is loaded with; equal keys have the same stage.
+  struct Key {
+    std::string tree, main;
+    Arguments arguments;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+  static Key key_of(const Scenario& scenario);
+
+  // Null, with errors, if it cannot be loaded; `failure` says why. `text` is in place of the main
+  // file, or null. Several share `plugins`.
+  static std::shared_ptr<const Stage> load(const Key& key, const std::string* text,
+                                           const LoadOptions& options, Diagnostics& diagnostics,
+                                           const std::shared_ptr<PluginSet>& plugins,
+                                           LoadFailure& failure);
+
+  const std::string& file() const { return file_; }
+  const Definition& definition() const { return loaded_.definition; }
+  // The tree with all leaves as they are on the stage, and what properties may name in it.
+  const Tree& tree() const { return tree_; }
+  const PropertyNames& names() const { return names_; }
+  const std::vector<Property>& properties() const { return loaded_.properties; }
+  // "tree.xml:5:9"
+  std::string place_of(NodeIndex node) const;
+  SourceLocation location_of(NodeIndex node) const;
+  const Sources& sources() const { return loaded_.project->sources; }
+
+ private:
+  Stage(std::string file, Loaded loaded);
+
+  std::string file_;  // the main one
+  Loaded loaded_;
+  PlayedLeaves played_;
+  Tree tree_;
+  PropertyNames names_;
+};
+
+// The leaves on a stage, for one thread.
+class Players {
+ public:
+  // `real` are leaves that plugins play themselves.
+  Players(std::shared_ptr<const Stage> stage, const std::set<NodeIndex>& real);
+  Players(const Players&) = delete;
+  Players& operator=(const Players&) = delete;
+
+  const Stage& stage() const { return *stage_; }
+  const Tree& tree() const { return tree_; }
+  PlayedLeaves& leaves() { return played_; }
+
+ private:
+  std::shared_ptr<const Stage> stage_;
+  PlayedLeaves played_;
+  Tree tree_;
+};
+
+}  // namespace lockstep::host

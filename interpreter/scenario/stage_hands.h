@@ -1,0 +1,52 @@
+// What happens around the ticks of a scenario: entries that change, ticks that take long.
+#pragma once
+
+#include <vector>
+
+#include "core/clock.h"
+#include "runtime/observer.h"
+#include "runtime/run.h"
+#include "scenario/rehearsal.h"
+
+namespace lockstep::host {
+
+// A virtual clock on which ticks may take time. With such ticks it counts as real, so that
+// deadlines are missed as on a robot.
+class StageClock final : public Clock {
+ public:
+  explicit StageClock(bool is_real) : is_real_(is_real) {}
+  Nanoseconds now() override { return now_; }
+  void sleep_until(Nanoseconds deadline) override { now_ = std::max(now_, deadline); }
+  bool is_real() const override { return is_real_; }
+  void pass(Nanoseconds time) { now_ += time; }
+
+ private:
+  const bool is_real_;
+  Nanoseconds now_{0};
+};
+
+// Writes entries before ticks. The first of the observers.
+class EntryWriter final : public Observer {
+ public:
+  EntryWriter(const Rehearsal& rehearsal, Run& run)
+      : changes_(rehearsal.changes), is_done_(changes_.size()), run_(run) {}
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+
+ private:
+  const std::vector<PreparedChange>& changes_;
+  std::vector<bool> is_done_;
+  Run& run_;
+};
+
+// Lets time pass in ticks. The last of the observers.
+class LateTicks final : public Observer {
+ public:
+  LateTicks(const Scenario& scenario, StageClock& clock) : late_(scenario.late), clock_(clock) {}
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+
+ private:
+  const std::vector<LateTick>& late_;
+  StageClock& clock_;
+};
+
+}  // namespace lockstep::host

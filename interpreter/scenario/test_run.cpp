@@ -1,0 +1,145 @@
+#include "scenario/test_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <exception>
+#include <filesystem>
+#include <semaphore>
+#include <set>
+#include <thread>
+
+#include "document/file.h"
+#include "remote/json_lines/orphans.h"
+#include "runtime/plugin_thread.h"
+#include "scenario/worker.h"
+
+namespace lockstep::host {
+namespace {
+
+std::vector<Diagnostic> errors_of(Diagnostics& diagnostics) {
+  std::vector<Diagnostic> errors;
+  diagnostics.sort();
+  for (const Diagnostic& it : diagnostics.all()) {
+    if (it.severity == Severity::Error) errors.push_back(it);
+  }
+  return errors;
+}
+
+// Letters and digits; the rest is "-".
+std::string plain(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_') {
+      name += c;
+    } else if (!name.empty() && name.back() != '-') {
+      name += '-';
+    }
+  }
+  while (name.ends_with('-')) name.pop_back();
+  constexpr std::size_t kLongestName = 100;
+  return name.substr(0, kLongestName);
+}
+
+std::string stem_of(const ScenarioFile& file, const Scenario& scenario) {
+  std::string stem = std::filesystem::path(file.path).stem().string();
+  if (stem.ends_with(".test")) stem.resize(stem.size() - 5);
+  return plain(stem) + '.' + plain(scenario.name);
+}
+
+}  // namespace
+
+TestRun::TestRun(std::vector<const ScenarioFile*> files,
+                 const std::function<bool(const ScenarioFile&, const Scenario&)>& is_chosen,
+                 TestOptions options)
+    : options_(std::move(options)) {
+  watch_this_thread(options_.hang_limit);
+  for (const ScenarioFile* file : files) {
+    for (const Scenario& scenario : file->scenarios) {
+      if (is_chosen(*file, scenario)) parts_.push_back({file, &scenario});
+    }
+  }
+  std::map<std::string, int> stems;
+  for (Part& part : parts_) {
+    prepare(part);
+    part.stem = stem_of(*part.file, *part.scenario);
+    if (const int count = ++stems[part.stem]; count > 1) part.stem += fmt::format("-{}", count);
+  }
+  if (std::ranges::any_of(plugins_->list(), &PluginSet::Info::isolated)) take_over_orphans();
+}
+
+void TestRun::prepare(Part& part) {
+  load_stage(part);
+  if (!part.scenario->leaves.empty()) load_leaves(part);
+}
+
+void TestRun::load_stage(Part& part) {
+  const auto [it, is_new] = stages_.try_emplace(Stage::key_of(*part.scenario));
+  LoadedStage& loaded = it->second;
+  if (is_new) {
+    Diagnostics diagnostics;
+    const bool is_changed =
+        !options_.changed_tree.empty() && it->first.tree == options_.changed_tree;
+    loaded.stage = Stage::load(it->first, is_changed ? &options_.changed_text : nullptr,
+                               options_.load, diagnostics, plugins_, loaded.failure);
+    if (loaded.stage == nullptr) loaded.errors = errors_of(diagnostics);
+  }
+  part.stage = loaded.stage;
+  part.errors = loaded.errors;
+  part.failure = loaded.failure;
+}
+
+void TestRun::load_leaves(Part& part) {
+  const std::string& path = part.scenario->leaves;
+  const auto [it, is_new] = leaves_.try_emplace(path);
+  LoadedLeaves& loaded = it->second;
+  if (is_new) {
+    Diagnostics diagnostics;
+    constexpr std::size_t kMost = std::size_t{16} << 20u;
+    auto text = read_file(path, kMost);
+    if (text) {
+      loaded.file = read_leaf_file(path, std::move(*text), diagnostics);
+    } else {
+      diagnostics.error({path}, "cannot be read: " + text.error().message, text.error().hint);
+    }
+    loaded.errors = errors_of(diagnostics);
+  }
+  part.leaves = loaded.file.get();
+  part.errors.insert(part.errors.end(), loaded.errors.begin(), loaded.errors.end());
+}
+
+void TestRun::run(const std::function<void(const ScenarioReport&)>& report) {
+  std::vector<ScenarioReport> reports(parts_.size());
+  std::vector<std::atomic<bool>> ready(parts_.size());
+  std::atomic<std::size_t> next{0};
+  std::counting_semaphore<> made{0};
+  const auto work = [&] {
+    watch_this_thread(options_.hang_limit);
+    ScenarioWorker worker(options_, *plugins_);
+    for (std::size_t i = next++; i < parts_.size(); i = next++) {
+      const Part& part = parts_[i];
+      reports[i] = worker.play({.file = part.file,
+                                .scenario = part.scenario,
+                                .stage = part.stage,
+                                .leaves = part.leaves,
+                                .errors = part.errors,
+                                .failure = part.failure,
+                                .stem = part.stem});
+      ready[i] = true;
+      made.release();
+    }
+    leave_thread_to_plugins();
+  };
+  std::vector<std::jthread> threads;
+  const auto jobs = std::min<std::size_t>(options_.jobs, parts_.size());
+  for (std::size_t i = 0; i < jobs; ++i) threads.emplace_back(work);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    while (!ready[i]) made.acquire();
+    report(reports[i]);
+    reports[i] = {};
+  }
+}
+
+}  // namespace lockstep::host

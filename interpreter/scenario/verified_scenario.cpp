@@ -1,0 +1,90 @@
+#include "scenario/verified_scenario.h"
+
+#include <fmt/format.h>
+
+#include "core/wording.h"
+#include "verify/verdict.h"
+#include "verify/verifiable.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kMostMemory = std::size_t{1} << 30u;  // bytes
+
+Observed observed_by(const std::vector<Property>& properties) {
+  Observed observed;
+  for (const Property& property : properties) {
+    for (const ProgressComparison& it : property.progress_comparisons()) {
+      observed.progress.push_back({it.node, it.constant});
+    }
+    for (const EntryComparison& it : property.comparisons()) observed.entries.push_back(it.entry);
+  }
+  return observed;
+}
+
+// Of the property that it is about, if it is one of the scenario.
+Place place_of(const Finding& finding, const Rehearsal& rehearsal) {
+  for (const PreparedProperty& it : rehearsal.properties) {
+    if (finding.name == "property/" + it.property.name()) return it.of->place;
+  }
+  return rehearsal.scenario->place;
+}
+
+// An expected result is the only one that may come.
+void add_results(const Rehearsal& rehearsal, const SearchResult& found,
+                 std::vector<Surprise>& surprises) {
+  for (const Expectation& it : rehearsal.scenario->expectations) {
+    if (it.kind != Expectation::Kind::Ending || it.result.empty()) continue;
+    for (const Status status : {Status::Success, Status::Failure, Status::Skipped}) {
+      const auto& first = found.results[index_of(status)];
+      if (!first || to_string(status) == it.result) continue;
+      surprises.push_back({it.result_place,
+                           fmt::format("expected {}, {} may come, after {}", it.result,
+                                       to_string(status), counted(first->ticks, "tick")),
+                           {}});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Surprise> verify_scenario(const Rehearsal& rehearsal, const Stage& stage,
+                                      const LeafFile* file,
+                                      const std::function<int()>& stop_signal) {
+  const Tree& tree = stage.tree();
+  const Place place = rehearsal.scenario->place;
+  std::vector<Property> properties = stage.properties();
+  for (const PreparedProperty& it : rehearsal.properties) properties.push_back(it.property);
+  Diagnostics diagnostics;
+  std::vector<NodeProblem> problems = not_verifiable(tree);
+  const LeafModels models = make_models(tree, file, diagnostics, problems, observed_by(properties));
+  std::vector<Surprise> surprises;
+  for (const NodeProblem& it : problems) {
+    surprises.push_back({place,
+                         fmt::format("cannot be verified: {}", it.message),
+                         {stage.place_of(it.node) + ": " + tree.path(it.node), it.hint}});
+  }
+  if (!problems.empty()) return surprises;
+  const SearchResult found = search(tree, models, properties, from_seconds(1 / rehearsal.rate),
+                                    {.memory = kMostMemory, .stop_signal = stop_signal});
+  const Verdict verdict = make_verdict(
+      tree, models, properties, found,
+      {.rate = rehearsal.rate, .place = [&](NodeIndex node) { return stage.place_of(node); }});
+  for (const Finding& it : verdict.findings) {
+    if (!it.accepted.empty()) continue;
+    surprises.push_back(
+        {place_of(it, rehearsal), fmt::format("finding {}: {}", it.name, it.message), it.more});
+    surprises.back().more.push_back("lockstep verify shows a run to it");
+  }
+  add_results(rehearsal, found, surprises);
+  if (!found.is_complete() && surprises.empty()) {
+    surprises.push_back({place,
+                         fmt::format("not verified: nothing found in the first {}, and there are "
+                                     "more states",
+                                     counted(found.complete_depth(), "tick")),
+                         {"a lower rate or a leaf file makes them fewer"}});
+  }
+  return surprises;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,308 @@
+// lockstep test from outside: what it finds, prints and writes.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+constexpr auto kTree = R"(<root lockstep="1"><plugin name="motion"/>
+<arg name="barriers" default="0.5"/>
+<BehaviorTree ID="Main"><ParallelAbsolute name="both" barriers="${barriers}">
+<Advance name="left" step="0.1"/><Advance name="right" step="0.1"/>
+</ParallelAbsolute></BehaviorTree></root>)";
+
+std::string scenarios(const std::string& text) {
+  return "<scenarios lockstep=\"1\" tree=\"t.xml\">\n" + text + "\n</scenarios>\n";
+}
+
+// In a folder with t.xml and t.test.xml.
+class Folder {
+ public:
+  explicit Folder(const std::string& text, const std::string& tree = kTree) {
+    directory_.file("t.xml", tree);
+    file_ = directory_.file("t.test.xml", scenarios(text));
+  }
+  Outcome test(std::vector<std::string> more = {}) const {
+    std::vector<std::string> words{"test", file_, "--out", directory_.path("failed")};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_lockstep(words);
+  }
+  std::string path(const std::string& name) const { return directory_.path(name); }
+  const TemporaryDirectory& directory() const { return directory_; }
+  const std::string& file() const { return file_; }
+
+ private:
+  TemporaryDirectory directory_;
+  std::string file_;
+};
+
+struct Law {
+  std::string_view claim, scenario;
+  int code;
+  std::string_view out;  // is in it
+};
+
+// clang-format off
+const Law kLaws[] = {
+  {"a leaf of which nothing is said succeeds at once",
+   R"(<scenario name="a"><expect result="success" ticks="1"/></scenario>)", 0, "1 passed"},
+  {"another result", R"(<scenario name="a"><leaf path="left" does="F"/>
+   <expect result="success"/></scenario>)", 1, "expected success, came failure"},
+  {"another number of ticks", R"(<scenario name="a"><leaf path="*" does="R.5*3 S"/>
+   <expect result="success" ticks="2..3"/></scenario>)", 1, "expected 2 to 3 ticks, came 4"},
+  {"another time", R"(<scenario name="a" rate="10"><leaf path="*" result="success" seconds="0.4"/>
+   <expect time="1..2"/></scenario>)", 1, "expected 1 to 2 s, came 0.4 s"},
+  {"the last word stays", R"(<scenario name="a" max-ticks="9"><leaf path="left" does="R.2 R.3"/>
+   <expect result="running" ticks="9"/></scenario>)", 0, "1 passed"},
+  {"a result after ticks rises evenly", R"(<scenario name="a">
+   <leaf of="Advance" result="success" ticks="4"/>
+   <expect>never left.progress &gt; 0.76 and left.progress &lt; 0.99</expect>
+   <expect result="success" ticks="4"/></scenario>)", 0, "1 passed"},
+  {"a property", R"(<scenario name="a"><leaf path="left" does="R.6 R.7 S"/>
+   <expect>never left.held</expect></scenario>)", 1, "'never left.held' is violated in tick 1"},
+  {"a property at the end", R"(<scenario name="a"><leaf path="left" does="S"/>
+   <leaf path="right" does="R F"/><expect>finally right.success</expect></scenario>)", 1,
+   "'finally right.success' is violated at the end, in tick 1"},
+  {"an order", R"(<scenario name="a"><leaf path="right" does="R S"/>
+   <expect order="left.success; right.success"/></scenario>)", 0, "1 passed"},
+  {"another order", R"(<scenario name="a"><leaf path="right" does="R S"/>
+   <expect order="right.success; left.success"/></scenario>)", 1,
+   "'(left.success) only after (right.success)' is violated in tick 0"},
+  {"a measure", R"(<scenario name="a"><leaf path="left" does="R.4 R.4 S"/>
+   <leaf path="right" does="R.1 R.3 S"/><expect>spread &lt; 0.31</expect></scenario>)", 0, "1 passed"},
+  {"a measure above its limit", R"(<scenario name="a"><leaf path="left" does="R.4 R.4 S"/>
+   <leaf path="right" does="R.1 R.3 S"/><expect>spread &lt; 0.2</expect></scenario>)", 1,
+   "expected spread < 0.2, came 0.3"},
+  {"a fault put in", R"(<scenario name="a"><leaf path="left" does="R X"/>
+   <expect result="fault" node="left" ticks="2"/></scenario>)", 0, "1 passed"},
+  {"a fault that nobody expects", R"(<scenario name="a"><leaf path="left" does="X"/>
+   <expect>never right.failure</expect></scenario>)", 1, "a leaf failed as a program"},
+  {"a run without an end", R"(<scenario name="a"><leaf path="left" does="R"/>
+   <expect>never right.failure</expect></scenario>)", 1, "does not end within 10000 ticks"},
+  {"an argument", R"(<scenario name="a"><arg name="barriers" value="0.25"/>
+   <leaf path="left" does="R.3 R.3 S"/><leaf path="right" does="R.1 R.2 S"/>
+   <expect>left.progress &gt; 0.2 leads to left.held</expect></scenario>)", 0, "1 passed"},
+  {"the real plugin", R"(<scenario name="a"><leaf of="Advance" from="plugin"/>
+   <expect result="success" ticks="10"/></scenario>)", 0, "1 passed"},
+  {"rows", R"(<scenario name="a"><row of="left" n="3"/><row of="right" n="5"/>
+   <leaf path="${of}" result="failure" ticks="${n}"/><expect result="failure" ticks="1..${n}"/>
+   </scenario>)", 0, "a [of=left, n=3]"},
+  {"late ticks skip deadlines", R"(<scenario name="a" rate="10"><leaf path="*" does="R*4 S"/>
+   <late tick="1" by="0.35"/><expect result="success" ticks="5" time="0.79..0.81"/></scenario>)", 0,
+   "1 passed"},
+  {"many runs", R"(<scenario name="a" runs="20"><leaf of="Advance" from="plugin"/>
+   <expect result="success"/></scenario>)", 0, "20 runs, 200 ticks"},
+  {"all behaviors", R"(<scenario name="a" verify="yes"><expect result="success"/></scenario>)", 1,
+   "expected success, failure may come"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST_CASE("what is expected of a scenario") {
+  for (const Law& law : kLaws) {
+    const Folder folder{std::string(law.scenario)};
+    const Outcome it = folder.test();
+    INFO(law.claim << '\n' << it.out << it.err);
+    CHECK(it.code == law.code);
+    CHECK(contains(it.out, std::string(law.out)));
+  }
+}
+
+TEST_CASE("a failure has its place, its tick, its node, a recording and the lines for a shell") {
+  const Folder folder(R"(<scenario name="the left one fails">
+<leaf path="left" does="R.2 F"/>
+<expect result="success"/></scenario>)");
+  const Outcome it = folder.test();
+  INFO(it.out);
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, folder.file() + ":4:17: expected success, came failure"));
+  CHECK(contains(it.out, "in tick 1: decided by Main/both/left"));
+  const std::string recording = folder.path("failed/t.the-left-one-fails.jsonl");
+  CHECK(contains(it.out, "lockstep replay " + recording));
+  CHECK(contains(it.out, "--filter 'the left one fails'"));
+  CHECK(run_lockstep({"log", "info", recording}).code == 0);
+  CHECK(contains(it.out, "1 scenario: 0 passed, 1 failed, "));
+}
+
+TEST_CASE("scenarios are found in folders, and in tree files") {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directories(directory.path("deep/er"));
+  directory.file("t.xml", kTree);
+  directory.file("deep/er/a.test.xml",
+                 R"(<scenarios lockstep="1" tree="../../t.xml"><scenario name="deep">
+                 <expect result="success"/></scenario></scenarios>)");
+  std::string with(kTree);
+  with.insert(with.rfind("</root>"),
+              R"(<scenario name="inside"><leaf path="left" does="F"/>
+              <expect result="failure"/></scenario>)");
+  const std::string tree = directory.file("with.xml", with);
+  const Outcome it = run_lockstep({"test", directory.path(".")});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+  CHECK(contains(it.out, "ok    deep"));
+  CHECK(contains(it.out, "ok    inside"));
+  CHECK(contains(it.out, "2 scenarios: 2 passed, "));
+  CHECK(run_lockstep({"check", tree}).code == 0);
+  const Outcome list = run_lockstep({"test", "--list", directory.path(".")});
+  CHECK(lines(list.out).size() == 2);
+  CHECK(run_lockstep({"test", "--filter", "deep", directory.path(".")}).code == 0);
+  const Outcome none = run_lockstep({"test", "--filter", "depe", directory.path(".")});
+  CHECK(none.code == 2);
+  CHECK(contains(none.err, "did you mean 'deep'?"));
+}
+
+TEST_CASE("what is wrong with scenarios is said at its place") {
+  struct Wrong {
+    std::string_view text, message;
+  };
+  // clang-format off
+  const Wrong kWrong[] = {
+    {R"(<scenario name="a"><leef/><expect result="success"/></scenario>)",
+     "2:20: error: unknown element 'leef'"},
+    {R"(<scenario name="a"><leaf paht="x" does="S"/><expect result="success"/></scenario>)",
+     "unknown attribute 'paht' of 'leaf'"},
+    {R"(<scenario name="a"><leaf path="lefd" does="S"/><expect result="success"/></scenario>)",
+     "2:32: error: the tree has no leaf 'lefd'"},
+    {R"(<scenario name="a"><leaf path="left" does="R Q"/><expect result="success"/></scenario>)",
+     "2:46: error: 'Q' is no word of a leaf"},
+    {R"(<scenario name="a"><leaf path="left" does="S[x=1]"/><expect result="success"/></scenario>)",
+     "'Advance' has no output 'x'"},
+    {R"(<scenario name="a"><expect>never lefd.held</expect></scenario>)", "no node 'lefd'"},
+    {R"(<scenario name="a"><expect>spread</expect></scenario>)", "expected a limit of the measure"},
+    {R"(<scenario name="a"><expect result="succes"/></scenario>)", "'result' cannot be 'succes'"},
+    {R"(<scenario name="a"/>)", "the scenario expects nothing"},
+    {R"(<scenario name="a"><set key="n" value="1"/><expect result="success"/></scenario>)",
+     "the tree has no entry 'n'"},
+    {R"(<scenario name="a"><expect result="success"/></scenario>
+     <scenario name="a"><expect result="success"/></scenario>)", "a scenario 'a' exists already"},
+    {R"(<scenario name="a"><expect ticks="${n}"/></scenario>)", "no row of the scenario has 'n'"},
+    {R"(<scenario name="a"><arg name="barrier" value="1"/><expect result="success"/></scenario>)",
+     "barrier"},
+    {R"(<scenario name="a" tree="u.xml"><expect result="success"/></scenario>)", "cannot be read"},
+  };
+  // clang-format on
+  for (const Wrong& wrong : kWrong) {
+    const Folder folder{std::string(wrong.text)};
+    const Outcome it = folder.test();
+    INFO(wrong.text << '\n' << it.out << it.err);
+    CHECK(it.code == 3);
+    CHECK(contains(it.out + it.err, std::string(wrong.message)));
+  }
+}
+
+TEST_CASE("a tree for BehaviorTree.CPP has its scenarios beside it") {
+  const TemporaryDirectory directory;
+  const std::string tree = R"(<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>
+    <Script code="n := 0"/><A/><B name="b"/></Sequence></BehaviorTree>)";
+  directory.file("t.xml", tree + "</root>");
+  const std::string file = directory.file("t.test.xml", scenarios(R"(<scenario name="a">
+    <leaf of="A" does="R S"/><leaf path="b" does="F"/><expect result="failure" ticks="2"/>
+    <expect>finally {n} == 0</expect></scenario>)"));
+  const Outcome it = run_lockstep({"test", file});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+  const std::string inside = directory.file("u.xml", tree + "<scenario name=\"a\"/></root>");
+  CHECK(contains(run_lockstep({"test", inside}).err, "has no scenarios"));
+}
+
+TEST_CASE("the order of the lines does not depend on the number of threads") {
+  std::string text;
+  for (int i = 0; i < 50; ++i) {
+    text += "<scenario name=\"s" + std::to_string(i) + "\"><leaf path=\"left\" does=\"R*" +
+            std::to_string(1 + i % 7) + " S\"/><expect result=\"success\"/></scenario>\n";
+  }
+  const Folder folder(text);
+  const auto result = [&](const std::string& jobs) {
+    auto json = nlohmann::json::parse(folder.test({"--json", "-j", jobs}).out);
+    json.erase("seconds");
+    return json.dump();
+  };
+  CHECK(result("1") == result("4"));
+}
+
+TEST_CASE("a golden recording is written by --update, and compared") {
+  const std::string head = R"(<scenario name="a"><leaf path="left" does="R.2 R.)";
+  const std::string rest =
+      R"( S"/><leaf path="right" does="R S"/><expect same-as="gold.jsonl" tolerance="0.05"/></scenario>)";
+  const Folder folder(head + "4" + rest);
+  CHECK(contains(folder.test().out, "cannot be read"));
+  CHECK(contains(folder.test({"--update"}).out, "1 recording written"));
+  CHECK(folder.test().code == 0);
+  static_cast<void>(folder.directory().file("t.test.xml", scenarios(head + "44" + rest)));
+  CHECK(folder.test().code == 0);
+  static_cast<void>(folder.directory().file("t.test.xml", scenarios(head + "49" + rest)));
+  const Outcome it = folder.test();
+  INFO(it.out);
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, "the run is not that of"));
+}
+
+TEST_CASE("a recording becomes a scenario that repeats it") {
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
+  const TemporaryDirectory directory;
+  const std::string run = directory.path("run.jsonl"), file = directory.path("door.test.xml");
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--arg", "barriers=0.9",
+                      "--record", run})
+            .code == 1);  // the door jams
+  const Outcome saved = run_lockstep({"log", "scenario", run, "--save", file, "--name", "the jam"});
+  INFO(saved.err);
+  CHECK(saved.code == 0);
+  const Outcome it = run_lockstep({"test", file});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+  // Word for word, too.
+  const std::string text =
+      R"(<scenarios lockstep="1" tree=")" + tree + R"("><scenario name="a" rate="100">
+    <arg name="barriers" value="0.9"/><leaf path="*" from="run.jsonl"/>
+    <expect same-as="run.jsonl" tolerance="0.000001"/></scenario></scenarios>)";
+  const Outcome same = run_lockstep({"test", directory.file("same.test.xml", text)});
+  INFO(same.out << same.err);
+  CHECK(same.code == 0);
+}
+
+TEST_CASE("coverage counts what is possible") {
+  const Folder folder(R"(<scenario name="a"><leaf path="*" result="success" ticks="4"/>
+    <expect result="success"/></scenario>)");
+  const std::string page = folder.path("c.html"), lcov = folder.path("c.info");
+  const Outcome some =
+      folder.test({"--coverage", "--fail-under", "90", "--coverage-html", page, "--lcov", lcov});
+  INFO(some.out << some.err);
+  CHECK(some.code == 1);
+  CHECK(contains(some.err, "less than 90 %"));
+  CHECK(contains(some.out, "of what verify proves possible"));
+  CHECK(contains(read_file(page), "<td class=\"a never\">never</td>"));
+  CHECK(contains(read_file(lcov), "SF:"));
+  const Folder full(R"(<scenario name="a"><leaf path="left" does="R.6 R.6 S"/>
+    <leaf path="right" does="R.1 R.2 R.6 S"/><expect result="success"/></scenario>
+    <scenario name="b"><leaf path="right" does="R.6 R.6 R.6 S"/><leaf path="left" does="R.1 R.2 R.6 S"/>
+    <expect result="success"/></scenario>
+    <scenario name="c"><leaf path="left" does="F"/><leaf path="right" does="R"/>
+    <expect result="failure"/></scenario>
+    <scenario name="d"><leaf path="right" does="F"/><leaf path="left" does="R"/>
+    <expect result="failure"/></scenario>)");
+  const Outcome all = full.test({"--coverage", "--fail-under", "100"});
+  INFO(all.out << all.err);
+  CHECK(all.code == 0);
+  CHECK(contains(all.out, "100.0 %"));
+}
+
+TEST_CASE("JUnit's XML is well-formed and counts") {
+  const Folder folder(R"(<scenario name="a &lt; &quot;b&quot;"><leaf path="left" does="F"/>
+    <expect result="success"/></scenario><scenario name="c"><expect result="success"/></scenario>)");
+  const std::string junit = folder.path("junit.xml");
+  CHECK(folder.test({"--junit", junit}).code == 1);
+  CHECK(run({.arguments = {"--noout", junit}, .program = "xmllint"}).code == 0);
+  CHECK(contains(read_file(junit), "tests=\"2\" failures=\"1\" errors=\"0\""));
+}
+
+TEST_CASE("the scenarios of trees/ are as expected, and fast") {
+  const Outcome it = run_lockstep({"test", LOCKSTEP_SOURCE_DIR "/trees"});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+}
