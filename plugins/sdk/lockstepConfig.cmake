@@ -39,3 +39,4 @@ if(TARGET lockstep::runtime AND EXISTS ${_lockstep_functions} AND NOT TARGET loc
 endif()
 unset(_lockstep_functions)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstep_add_plugin.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/lockstep_add_tree_tests.cmake)

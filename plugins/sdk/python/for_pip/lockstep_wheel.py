@@ -29,6 +29,7 @@ def _files():
     yield f"{_INFO}/METADATA", (f"Metadata-Version: 2.1\nName: {_NAME}\nVersion: {_VERSION}\n"
                                 f"Summary: {_field('description')}\n"
                                 f"Requires-Python: {_field('requires-python')}\n").encode()
+    yield f"{_INFO}/entry_points.txt", b"[pytest11]\nlockstep = lockstep.pytest_plugin\n"
     yield f"{_INFO}/WHEEL", b"Wheel-Version: 1.0\nGenerator: lockstep\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
 
 
