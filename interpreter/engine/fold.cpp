@@ -1,6 +1,5 @@
 // What Ticker::fold does beside NodeKind::fold.
 #include <algorithm>
-#include <vector>
 
 #include "engine/blackboard.h"
 #include "engine/groups.h"
@@ -11,14 +10,10 @@ namespace {
 
 // How often an entry was written is looked at by a few nodes. An entry that may be removed begins
 // at 0 again, so the counts of those are kept as they are.
-std::vector<bool> counted_slots(const Tree& tree) {
-  std::vector<bool> counted(tree.slots.size(), false);
-  for (const Node& node : tree.nodes) {
-    if (!node.kind->counts_writes) continue;
-    const std::uint32_t slot = tree.ports[node.params].slot;
-    if (slot != PortBinding::kUnbound) counted[slot] = true;
-  }
-  return counted;
+bool counts_writes(const Tree& tree, std::uint32_t slot) {
+  return std::ranges::any_of(tree.nodes, [&](const Node& node) {
+    return node.kind->counts_writes && tree.ports[node.params].slot == slot;
+  });
 }
 
 bool has_member(const Tree& tree, NodeIndex first, NodeIndex last) {
@@ -54,9 +49,9 @@ void Ticker::forget_below_ended() {
 
 // Parameters are read again, so they need no counts.
 void Ticker::fold_entries() {
-  const std::vector<bool> counted = counted_slots(tree_);
-  for (std::size_t slot = 0; slot < counted.size(); ++slot) {
-    if (!counted[slot]) board_.entries[slot].writes = 0;
+  for (std::uint32_t slot = 0; slot < board_.entries.size(); ++slot) {
+    std::uint32_t& writes = board_.entries[slot].writes;
+    if (writes != 0 && !counts_writes(tree_, slot)) writes = 0;
   }
   parameters_.reset();
 }

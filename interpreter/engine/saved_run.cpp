@@ -17,9 +17,37 @@ void Ticker::save(SavedRun& into) const {
   }
 }
 
+namespace {
+
+// To assign what is empty takes longer than to look, and nearly all of these are.
+template <class T>
+void take(T& to, const T& from) {
+  if (!to.empty() || !from.empty()) to = from;
+}
+
+void take_state(RunState& to, const RunState& from) {
+  to.activity = from.activity;
+  to.last_tick = from.last_tick;
+  to.bytes = from.bytes;
+  to.now = from.now;
+  to.tick_number = from.tick_number;
+  to.asked_by = from.asked_by;
+  to.in_last_halt = from.in_last_halt;
+  to.interrupted = from.interrupted;
+  if (to.faulted || from.faulted || to.fault != from.fault) to.fault = from.fault;
+  to.faulted = from.faulted;
+  take(to.failing, from.failing);
+  take(to.failed_leaves, from.failed_leaves);
+  take(to.tolerated, from.tolerated);
+  take(to.out_of_range, from.out_of_range);
+  take(to.kept_values, from.kept_values);
+}
+
+}  // namespace
+
 // What is compiled of scripts in entries follows from their texts, so it needs no restoring.
 void Ticker::restore(const SavedRun& from) {
-  state_ = from.run;
+  take_state(state_, from.run);
   board_.entries = from.entries;  // each stays where it is
   ports_.names().restore(from.named);
   parameters_.restore(from.parameters);

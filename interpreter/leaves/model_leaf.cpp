@@ -59,7 +59,8 @@ ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Write write
       facts_(models.facts.size(), FactState::Unknown),
       asked_(models.facts.size()),
       progress_(tree.leaves.size()),
-      marks_(tree.leaves.size()) {
+      marks_(tree.leaves.size()),
+      is_touched_(tree.leaves.size()) {
   static const CallSite kSite;
   for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
     selves_.push_back({this, i});
@@ -73,19 +74,34 @@ ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Write write
   }
 }
 
-void ModelLeaves::restored() {
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    progress_[i] = models_.leaves[i].levels[states_[i].level];
-    slots_[i].error = nullptr;
-  }
+void ModelLeaves::restore(const std::vector<LeafState>& states,
+                          const std::vector<FactState>& facts) {
+  states_ = states;
+  facts_ = facts;
+  for (std::uint32_t leaf = 0; leaf < states_.size(); ++leaf) restore_progress(leaf);
+}
+
+void ModelLeaves::restore_again(const std::vector<LeafState>& states,
+                                const std::vector<FactState>& facts) {
+  states_ = states;
+  facts_ = facts;
+  for (const std::uint32_t leaf : touched_) restore_progress(leaf);
+}
+
+void ModelLeaves::restore_progress(std::uint32_t leaf) {
+  progress_[leaf] = models_.leaves[leaf].levels[states_[leaf].level];
+  slots_[leaf].error = nullptr;
 }
 
 void ModelLeaves::begin_tick() {
-  for (LeafMark& mark : marks_) {
+  for (const std::uint32_t leaf : touched_) {
+    LeafMark& mark = marks_[leaf];
     mark.ticked = mark.ended = mark.faulted = mark.drifted = false;
     mark.result = Status::Idle;
     mark.written.clear();
+    is_touched_[leaf] = false;
   }
+  touched_.clear();
   std::fill(asked_.begin(), asked_.end(), false);
   for (const std::uint32_t leaf : drifting_) {
     if (states_[leaf].phase != Phase::Paused) continue;
@@ -96,16 +112,16 @@ void ModelLeaves::begin_tick() {
     const std::int64_t last = std::clamp<std::int64_t>(now + model.most_drift, 0, top);
     const std::int64_t to = first + answers_.choose(static_cast<std::uint32_t>(last - first + 1));
     set_level(leaf, to);
-    marks_[leaf].drifted = true;
-    marks_[leaf].held_progress = progress_[leaf];
+    mark(leaf).drifted = true;
+    mark(leaf).held_progress = progress_[leaf];
   }
 }
 
 // What only says how often something was counts no further than it matters.
 void ModelLeaves::fold() {
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    LeafState& state = states_[i];
-    const LeafModel& model = models_.leaves[i];
+  for (const std::uint32_t leaf : touched_) {
+    LeafState& state = states_[leaf];
+    const LeafModel& model = models_.leaves[leaf];
     if (state.phase == Phase::Idle) {
       state = {};
       continue;
@@ -135,6 +151,7 @@ void ModelLeaves::set_level(std::uint32_t leaf, std::int64_t level) {
 void ModelLeaves::start(std::uint32_t leaf) {
   is(leaf, states_[leaf].phase == Phase::Idle, "start, and it runs");
   states_[leaf] = {.phase = Phase::Running};
+  mark(leaf);
   set_level(leaf, 0);
   if (models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
 }
@@ -154,7 +171,7 @@ bool ModelLeaves::ask(std::uint32_t fact) {
 void ModelLeaves::write(std::uint32_t leaf) {
   for (const LeafModel::Output& output : models_.leaves[leaf].outputs) {
     const std::uint32_t which = answers_.choose(static_cast<std::uint32_t>(output.values.size()));
-    marks_[leaf].written.push_back(which);
+    mark(leaf).written.push_back(which);
     write_(leaf, output, output.values[which]);
   }
 }
@@ -162,7 +179,7 @@ void ModelLeaves::write(std::uint32_t leaf) {
 Status ModelLeaves::tick(std::uint32_t leaf) {
   LeafState& state = states_[leaf];
   const LeafModel& model = models_.leaves[leaf];
-  LeafMark& mark = marks_[leaf];
+  LeafMark& mark = this->mark(leaf);
   is(leaf, state.phase == Phase::Running, "tick without start, or while it is held");
   mark.ticked = true;
   ++state.ticks;
@@ -231,7 +248,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
 void ModelLeaves::halt(std::uint32_t leaf) {
   is(leaf, states_[leaf].phase != Phase::Idle, "halt, and it does not run");
   states_[leaf] = {};
-  marks_[leaf].ended = true;
+  mark(leaf).ended = true;
 }
 
 void ModelLeaves::pause(std::uint32_t leaf) {

@@ -60,16 +60,19 @@ class ModelLeaves {
   double progress(std::uint32_t leaf) const { return progress_[leaf]; }
 
   std::span<LeafSlot> slots() { return slots_; }
-  std::vector<LeafState>& states() { return states_; }
-  std::vector<FactState>& facts() { return facts_; }
-  // After states() or facts() were written.
-  void restored();
+  const std::vector<LeafState>& states() const { return states_; }
+  const std::vector<FactState>& facts() const { return facts_; }
+  void restore(const std::vector<LeafState>& states, const std::vector<FactState>& facts);
+  // The same after the first time: back to what was restored last, from one tick behind it.
+  void restore_again(const std::vector<LeafState>& states, const std::vector<FactState>& facts);
 
   // Before each tick of the tree. What is held may drift.
   void begin_tick();
-  // After it: what does not matter any more is 0.
+  // After it: what does not matter any more is 0, if it was so before the tick.
   void fold();
   std::span<const LeafMark> marks() const { return marks_; }
+  // The leaves that have marks, each once.
+  std::span<const std::uint32_t> touched() const { return touched_; }
   // What the engine did against the contract; "" for nothing.
   const std::string& broken() const { return broken_; }
 
@@ -81,6 +84,14 @@ class ModelLeaves {
   struct Functions;
   friend struct Functions;
 
+  LeafMark& mark(std::uint32_t leaf) {
+    if (!is_touched_[leaf]) {
+      is_touched_[leaf] = true;
+      touched_.push_back(leaf);
+    }
+    return marks_[leaf];
+  }
+  void restore_progress(std::uint32_t leaf);
   bool is(std::uint32_t leaf, bool expected, const char* what);
   bool ask(std::uint32_t fact);
   void write(std::uint32_t leaf);
@@ -97,6 +108,8 @@ class ModelLeaves {
   std::vector<bool> asked_;       // of each fact, in this tick
   std::vector<double> progress_;  // of each leaf
   std::vector<LeafMark> marks_;
+  std::vector<std::uint32_t> touched_;
+  std::vector<bool> is_touched_;
   std::vector<std::uint32_t> drifting_;  // the leaves that may
   std::string broken_;
 };

@@ -269,14 +269,6 @@ class FairCycle {
 
 }  // namespace
 
-std::uint32_t LabelTable::add(const Bits& bits) {
-  if (last_ != nullptr && *last_ == bits) return last_number_;
-  const auto [it, is_new] = numbers_.try_emplace(bits, static_cast<std::uint32_t>(labels_.size()));
-  if (is_new) labels_.push_back(&it->first);
-  last_ = &it->first;
-  return last_number_ = it->second;
-}
-
 std::vector<bool> can_end(const Graph& graph) {
   const std::size_t size = all_states(graph);
   std::vector<std::uint64_t> begins(size + 2);
@@ -326,6 +318,19 @@ std::vector<bool> reachable_from(const Graph& graph, StateId from) {
     }
   }
   return reached;
+}
+
+bool recurs(const Graph& graph, const EdgeFilter& is_wanted) {
+  std::vector<StateId> states(graph.expanded());
+  for (StateId i = 0; i < states.size(); ++i) states[i] = i;
+  ComponentFinder finder(graph, all_states(graph), [](StateId, const Edge&) { return true; });
+  finder.find(states);
+  for (const StateId state : states) {
+    for (const Edge& edge : graph.edges_of(state)) {
+      if (finder.of()[state] == finder.of()[edge.to] && is_wanted(edge)) return true;
+    }
+  }
+  return false;
 }
 
 LongestRow longest_row(const Graph& graph, std::size_t bit) {

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -16,20 +15,19 @@ namespace lockstep::host {
 // ended, and who was held. Few labels are different.
 class LabelTable {
  public:
-  using Bits = std::vector<std::uint64_t>;
+  using Bits = std::vector<std::byte>;
 
-  std::uint32_t add(const Bits& bits);
-  const Bits& operator[](std::uint32_t label) const { return *labels_[label]; }
-  static bool has(const Bits& bits, std::size_t bit) {
-    return (bits[bit / 64] >> bit % 64 & 1u) != 0;
+  std::uint32_t add(std::span<const std::byte> bits) { return bits_.add(bits).first; }
+  std::span<const std::byte> operator[](std::uint32_t label) const { return bits_[label]; }
+  std::size_t size() const { return bits_.size(); }
+  std::size_t memory() const { return bits_.memory(); }
+  static bool has(std::span<const std::byte> bits, std::size_t bit) {
+    return (bits[bit / 8] >> bit % 8 & std::byte{1}) != std::byte{0};
   }
-  static void set(Bits& bits, std::size_t bit) { bits[bit / 64] |= std::uint64_t{1} << bit % 64; }
+  static void set(Bits& bits, std::size_t bit) { bits[bit / 8] |= std::byte{1} << bit % 8; }
 
  private:
-  std::map<Bits, std::uint32_t> numbers_;
-  std::vector<const Bits*> labels_;
-  const Bits* last_ = nullptr;
-  std::uint32_t last_number_ = 0;
+  StateStore bits_;
 };
 
 struct Edge {
@@ -81,6 +79,9 @@ std::vector<CycleStep> any_cycle(const Graph& graph, const EdgeFilter& filter);
 
 // The states to which some way leads from this one, which is one of them.
 std::vector<bool> reachable_from(const Graph& graph, StateId from);
+
+// Whether some cycle has an edge like this.
+bool recurs(const Graph& graph, const EdgeFilter& is_wanted);
 
 // How many ticks in a row may have this bit: nothing if there is no end, for some leaf may work
 // as long as it likes meanwhile. Ask fair_cycle before.

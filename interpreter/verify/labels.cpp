@@ -22,13 +22,13 @@ Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t prope
       models_(models),
       held_(holdable(tree)),
       properties_(properties),
-      bits_((2 * tree.leaves.size() + held_.size() + properties) / 64 + 1) {}
+      bits_((2 * tree.leaves.size() + held_.size() + properties) / 8 + 1) {}
 
 const LabelTable::Bits& Labeller::of(Stepper& stepper) {
   const Ticker& ticker = stepper.ticker();
   const auto marks = stepper.leaves().marks();
-  std::ranges::fill(bits_, 0);
-  for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
+  std::ranges::fill(bits_, std::byte{0});
+  for (const std::uint32_t leaf : stepper.leaves().touched()) {
     if (!models_.leaves[leaf].ends) continue;
     if (marks[leaf].ended) {
       LabelTable::set(bits_, marks.size() + leaf);

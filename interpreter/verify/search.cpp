@@ -1,41 +1,43 @@
 #include "verify/search.h"
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <set>
 
-#include "engine/blackboard.h"
+#include "verify/crew.h"
 
 namespace lockstep::host {
 namespace {
+
+// The states of a round are looked at by all threads, while nothing is added. Neither size depends
+// on the number of threads.
+constexpr StateId kStatesOfRound = 8192, kStatesOfChunk = 32;
 
 class Searcher {
  public:
   Searcher(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
            Nanoseconds period, const SearchLimits& limits)
-      : tree_(tree),
-        limits_(limits),
-        stepper_(tree, models, properties, period),
-        labeller_(tree, models, properties.size()),
-        properties_(properties.size()),
-        result_(tree) {
-    result_.graph.leaves = tree.leaves.size();
-    result_.graph.held = labeller_.held().size();
-    result_.graph.properties = properties_;
-    for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
-      if (models.entries[slot]) values_.emplace_back(slot, std::set<std::string>());
+      : tree_(tree), limits_(limits), crew_(std::max(1u, limits.jobs)), result_(tree) {
+    for (unsigned i = 0; i < std::max(1u, limits.jobs); ++i) {
+      expanders_.push_back(std::make_unique<Expander>(tree, models, properties, period, limits));
     }
+    labels_.resize(expanders_.size());
+    result_.graph.leaves = tree.leaves.size();
+    result_.graph.held = holdable(tree).size();
+    result_.graph.properties = properties.size();
   }
 
   SearchResult search() {
-    add(stepper_.first_state(), {});
+    add(expanders_[0]->first_state(), {});
     result_.depths.push_back(0);
-    for (StateId state = 0; state < result_.store.size(); ++state) {
-      if (state == next_depth_) {
-        next_depth_ = static_cast<StateId>(result_.store.size());
-        if (state != 0) result_.depths.push_back(state);
-      }
-      if (is_over(state) || !expand(state)) break;
+    for (StateId done = 0; done < result_.store.size();) {
+      const StateId last =
+          std::min(static_cast<StateId>(result_.store.size()), done + kStatesOfRound);
+      if (!do_round(done, last)) break;
+      done = last;
     }
+    for (const auto& it : expanders_) result_.coverage.add(it->coverage());
     result_.took = monotonic_now() - began_;
     return std::move(result_);
   }
@@ -43,16 +45,131 @@ class Searcher {
  private:
   std::uint32_t depth() const { return static_cast<std::uint32_t>(result_.depths.size()) - 1; }
 
-  bool is_over(StateId state) {
-    const auto stop = [&](SearchEnd end) {
-      result_.end = end;
-      return true;
+  // False: a limit was reached.
+  bool do_round(StateId first, StateId last) {
+    if (has_ended(first)) return false;
+    const StateId count = (last - first + kStatesOfChunk - 1) / kStatesOfChunk;
+    if (chunks_.size() < count) chunks_.resize(count);
+    std::atomic<StateId> next{0}, cut{count};  // chunks; nothing behind one that is cut counts
+    const auto work = [&](unsigned thread) {
+      for (StateId i = next++; i < count && i <= cut; i = next++) {
+        const StateId from = first + i * kStatesOfChunk;
+        chunks_[i].thread = thread;
+        expanders_[thread]->expand(result_.store, from, std::min(last, from + kStatesOfChunk),
+                                   began_, chunks_[i]);
+        if (!chunks_[i].states.back().cut) continue;
+        for (StateId least = cut; i < least && !cut.compare_exchange_weak(least, i);) {
+        }
+      }
     };
+    // To wake the others takes longer than one chunk does.
+    count == 1 ? work(0) : crew_.work(work);
+    for (StateId i = 0; i < count; ++i) {
+      if (!put_together(chunks_[i])) return false;
+    }
+    return true;
+  }
+
+  // --- in the order of the states ----------------------------------------------------------------
+
+  bool put_together(const Chunk& chunk) {
+    numbers_.clear();
+    Chunk::State begin;
+    for (StateId i = 0; i < chunk.states.size(); ++i) {
+      const Chunk::State& it = chunk.states[i];
+      if (is_over(chunk.first + i)) return false;
+      result_.transitions += it.transitions;
+      for (std::size_t news = begin.news; news < it.news; ++news) {
+        take(chunk.news[news], chunk.first + i);
+      }
+      for (auto fresh = static_cast<StateId>(begin.fresh); fresh < it.fresh; ++fresh) {
+        numbers_.push_back(add(chunk.fresh[fresh], chunk.found_by[fresh], chunk.fresh.hash(fresh)));
+      }
+      if (it.ends) result_.graph.ends[chunk.first + i] = true;
+      if (it.cut) {
+        result_.end = *it.cut;
+        result_.signal = it.signal;
+        return false;
+      }
+      add_edges(chunk, begin.edges, it.edges);
+      begin = it;
+    }
+    return true;
+  }
+
+  void add_edges(const Chunk& chunk, std::size_t first, std::size_t last) {
+    const LabelTable& own = expanders_[chunk.thread]->labels();
+    edges_.assign(chunk.edges.begin() + static_cast<std::ptrdiff_t>(first),
+                  chunk.edges.begin() + static_cast<std::ptrdiff_t>(last));
+    for (Edge& it : edges_) {
+      if ((it.to & Chunk::kFresh) != 0) it.to = numbers_[it.to & ~Chunk::kFresh];
+    }
+    // By the bits, since each thread has its own numbers of labels.
+    std::ranges::sort(edges_, [&](const Edge& a, const Edge& b) {
+      if (a.to != b.to) return a.to < b.to;
+      return a.label != b.label && std::ranges::lexicographical_compare(own[a.label], own[b.label]);
+    });
+    std::vector<std::uint32_t>& numbers = labels_[chunk.thread];
+    numbers.resize(own.size(), kNoState);
+    Graph& graph = result_.graph;
+    for (Edge& it : edges_) {
+      std::uint32_t& label = numbers[it.label];
+      if (label == kNoState) label = graph.labels.add(own[it.label]);
+      graph.edges.push_back({it.to, label});
+    }
+    graph.begins.push_back(graph.edges.size());
+  }
+
+  StateId add(std::span<const std::byte> state, Step step) {
+    return add(state, step, hash_of(state));
+  }
+  StateId add(std::span<const std::byte> state, Step step, std::uint32_t hash) {
+    const auto [id, is_new] = result_.store.add(state, hash);
+    if (is_new) {
+      result_.before.push_back(step);
+      result_.graph.ends.push_back(false);
+    }
+    return id;
+  }
+
+  void take(const News& news, StateId from) {
+    const Occurrence here{{from, news.combination}, depth() + 1};
+    switch (news.kind) {
+      case News::Kind::Result:
+        if (auto& first = result_.results[news.which]; !first) first = here;
+        break;
+      case News::Kind::Fault:
+        result_.faults.try_emplace(news.which, news.text, here);
+        break;
+      case News::Kind::Broken:
+        if (!result_.broken) result_.broken.emplace(news.text, here);
+        break;
+      case News::Kind::Violated:
+        result_.violated.try_emplace(news.which, here);
+        break;
+      case News::Kind::EntryValue: {
+        std::set<std::string>& known = values_[news.which];
+        known.insert(news.text);
+        if (known.size() > limits_.values) result_.note = tree_.slots[news.which].name;
+        break;
+      }
+    }
+  }
+
+  // Before the edges of a state are put to the others.
+  bool is_over(StateId state) {
+    if (state == next_depth_) {
+      next_depth_ = static_cast<StateId>(result_.store.size());
+      if (state != 0) result_.depths.push_back(state);
+    }
     if (!result_.note.empty()) return stop(SearchEnd::Values);
     if (result_.store.size() > limits_.states) return stop(SearchEnd::States);
     if (limits_.depth && depth() >= *limits_.depth) return stop(SearchEnd::Depth);
-    if (result_.transitions < next_look_) return false;
-    next_look_ = result_.transitions + 1000;
+    return result_.transitions > limits_.transitions && stop(SearchEnd::Transitions);
+  }
+
+  // What depends on the machine, before a round.
+  bool has_ended(StateId state) {
     if (limits_.stop_signal && (result_.signal = limits_.stop_signal()) != 0) {
       return stop(SearchEnd::Signal);
     }
@@ -68,81 +185,22 @@ class Searcher {
     return false;
   }
 
-  StateId add(const StateBytes& bytes, Step step) {
-    const auto [id, is_new] = result_.store.add(bytes);
-    if (is_new) {
-      result_.before.push_back(step);
-      result_.graph.ends.push_back(false);
-    }
-    return id;
-  }
-
-  // False: a limit was reached before all of its answers were tried.
-  bool expand(StateId state) {
-    const auto from = result_.store[state];
-    loaded_.assign(from.begin(), from.end());
-    stepper_.load(loaded_, state == 0);
-    edges_.clear();
-    Step step{state, 0};
-    do {
-      take(step, stepper_.tick());
-      ++step.combination;
-      if (result_.transitions >= next_look_ && is_over(state)) return false;
-    } while (stepper_.next());
-    std::ranges::sort(edges_);
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    Graph& graph = result_.graph;
-    graph.edges.insert(graph.edges.end(), edges_.begin(), edges_.end());
-    graph.begins.push_back(graph.edges.size());
+  bool stop(SearchEnd end) {
+    result_.end = end;
     return true;
-  }
-
-  void take(const Step& step, Status status) {
-    ++result_.transitions;
-    Ticker& ticker = stepper_.ticker();
-    const Occurrence here{step, depth() + 1};
-    result_.coverage.after_tick(ticker);
-    for (const std::size_t it : stepper_.violated()) result_.violated.try_emplace(it, here);
-    if (!stepper_.leaves().broken().empty() && !result_.broken) {
-      result_.broken.emplace(stepper_.leaves().broken(), here);
-    }
-    if (const Fault* fault = ticker.fault()) {
-      result_.faults.try_emplace(fault->node, fault->message, here);
-      result_.graph.ends[step.from] = true;
-      return;
-    }
-    if (status != Status::Running) {
-      auto& first = result_.results[index_of(status)];
-      if (!first) first = here;
-      result_.graph.ends[step.from] = true;
-      return;
-    }
-    count_values(ticker);
-    const std::uint32_t label = result_.graph.labels.add(labeller_.of(stepper_));
-    edges_.push_back({add(stepper_.fold(), step), label});
-  }
-
-  // An entry with more and more values has no end of states.
-  void count_values(const Ticker& ticker) {
-    for (auto& [slot, known] : values_) {
-      const Value& value = ticker.blackboard().entries[slot].value;
-      if (std::holds_alternative<NoValue>(value) || known.size() > limits_.values) continue;
-      known.insert(to_text(value));
-      if (known.size() > limits_.values) result_.note = tree_.slots[slot].name;
-    }
   }
 
   const Tree& tree_;
   const SearchLimits& limits_;
-  Stepper stepper_;
-  Labeller labeller_;
-  const std::size_t properties_;
+  Crew crew_;
+  std::vector<std::unique_ptr<Expander>> expanders_;  // of each thread
+  std::vector<std::vector<std::uint32_t>> labels_;    // of each thread: the numbers of its labels
+  std::vector<Chunk> chunks_;                         // of a round
   SearchResult result_;
-  StateBytes loaded_;
+  std::vector<StateId> numbers_;  // of the fresh states of a chunk
   std::vector<Edge> edges_;
-  std::vector<std::pair<std::uint32_t, std::set<std::string>>> values_;
+  std::map<std::uint32_t, std::set<std::string>> values_;
   StateId next_depth_ = 0;
-  std::uint64_t next_look_ = 0;
   const Nanoseconds began_ = monotonic_now();
   Nanoseconds told_{0};
 };

@@ -3,41 +3,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 
-#include "core/clock.h"
-#include "verify/coverage.h"
-#include "verify/labels.h"
-#include "verify/stepper.h"
+#include "verify/expansion.h"
 
 namespace lockstep::host {
-
-struct SearchProgress {
-  std::uint64_t states = 0, waiting = 0, transitions = 0;
-  std::uint32_t depth = 0;
-  std::size_t memory = 0;
-};
-
-struct SearchLimits {
-  std::uint64_t states = 5'000'000;
-  std::size_t memory = std::size_t{1} << 30u;            // bytes
-  std::optional<Nanoseconds> time = {};                  // of a real clock
-  std::optional<std::uint32_t> depth = {};               // ticks
-  std::size_t values = 1000;                             // of one entry
-  std::function<int()> stop_signal = {};                 // nonzero: stop
-  std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
-};
-
-enum class SearchEnd : std::uint8_t { Complete, States, Memory, Time, Depth, Signal, Values };
-
-// A tick: the state before it and which of its combinations of answers.
-struct Step {
-  StateId from = kNoState;
-  std::uint32_t combination = 0;
-};
 
 struct Occurrence {
   Step step;

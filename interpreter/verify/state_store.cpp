@@ -4,7 +4,6 @@
 #include <cstring>
 
 namespace lockstep::host {
-namespace {
 
 // Eight bytes at a time, mixed as SplitMix64 does.
 std::uint32_t hash_of(std::span<const std::byte> state) {
@@ -26,16 +25,24 @@ std::uint32_t hash_of(std::span<const std::byte> state) {
   return static_cast<std::uint32_t>(hash >> 32u);
 }
 
-}  // namespace
-
-std::pair<StateId, bool> StateStore::add(std::span<const std::byte> state) {
-  const std::uint32_t hash = hash_of(state);
+std::size_t StateStore::place_of(std::span<const std::byte> state, std::uint32_t hash) const {
   const std::size_t mask = table_.size() - 1;
   std::size_t at = hash & mask;
   for (; table_[at] != kNoState; at = (at + 1) & mask) {
     const StateId id = table_[at];
-    if (hashes_[id] == hash && std::ranges::equal((*this)[id], state)) return {id, false};
+    if (hashes_[id] != hash) continue;
+    const std::span<const std::byte> known = (*this)[id];
+    if (known.size() == state.size() &&
+        std::memcmp(known.data(), state.data(), known.size()) == 0) {
+      break;
+    }
   }
+  return at;
+}
+
+std::pair<StateId, bool> StateStore::add(std::span<const std::byte> state, std::uint32_t hash) {
+  const std::size_t at = place_of(state, hash);
+  if (table_[at] != kNoState) return {table_[at], false};
   const auto id = static_cast<StateId>(size());
   table_[at] = id;
   hashes_.push_back(hash);
@@ -53,6 +60,13 @@ void StateStore::grow() {
     while (table_[at] != kNoState) at = (at + 1) & mask;
     table_[at] = id;
   }
+}
+
+void StateStore::clear() {
+  bytes_.clear();
+  begins_.resize(1);
+  hashes_.clear();
+  std::ranges::fill(table_, kNoState);
 }
 
 std::size_t StateStore::memory() const {

@@ -40,15 +40,14 @@ StateBytes Stepper::first_state() {
 
 void Stepper::load(std::span<const std::byte> state, bool is_first) {
   code_.decode(state, from_, from_leaves_, from_facts_, from_properties_);
+  leaves_.restore(from_leaves_, from_facts_);
   time_ = is_first ? Nanoseconds(0) : period_;
   odometer_.start_over();
 }
 
 Status Stepper::tick() {
   ticker_.restore(from_);
-  leaves_.states() = from_leaves_;
-  leaves_.facts() = from_facts_;
-  leaves_.restored();
+  leaves_.restore_again(from_leaves_, from_facts_);
   odometer_.begin();
   leaves_.begin_tick();
   if (!watch_.empty()) {

@@ -19,7 +19,8 @@ Step Tracer::step_of(const CycleStep& wanted) {
   do {
     const Status status = stepper_.tick();
     const bool goes_on = status == Status::Running && !stepper_.ticker().faulted();
-    const bool is_label = labeller_.of(stepper_) == found_.graph.labels[wanted.edge.label];
+    const bool is_label =
+        std::ranges::equal(labeller_.of(stepper_), found_.graph.labels[wanted.edge.label]);
     if (goes_on && is_label && std::ranges::equal(stepper_.fold(), to)) return step;
     ++step.combination;
   } while (stepper_.next());

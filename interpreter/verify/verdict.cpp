@@ -55,6 +55,9 @@ class VerdictMaker {
   void say(std::string name, std::string text) {
     verdict_.facts.push_back({std::move(name), std::move(text)});
   }
+  void say_good(std::string name, std::string text) {
+    verdict_.facts.push_back({std::move(name), std::move(text), true});
+  }
   std::string at(NodeIndex node) const {
     const std::string place = options_.place ? options_.place(node) : "";
     return place.empty() ? tree_.path(node) : fmt::format("{} ({})", tree_.path(node), place);
@@ -84,7 +87,7 @@ class VerdictMaker {
     if (!models_.tree_ends) return;
     const auto doomed = std::find(can_end_.begin(), can_end_.end(), false);
     if (doomed == can_end_.end()) {
-      if (found_.is_complete()) say("can always end", "yes");
+      if (found_.is_complete()) say_good("can always end", "yes");
       return;
     }
     const auto state = static_cast<StateId>(doomed - can_end_.begin());
@@ -172,7 +175,7 @@ class VerdictMaker {
     if (cycle.empty()) {
       if (!found_.is_complete()) return;
       const bool has_trap = !verdict_.findings.empty();
-      say("always ends", has_trap ? "NO: see 'can always end'" : "yes");
+      has_trap ? say("always ends", "NO: see 'can always end'") : say_good("always ends", "yes");
       return;
     }
     Finding finding{.name = "cycle", .message = {}};
@@ -264,7 +267,7 @@ class VerdictMaker {
                                    .node = node});
       node = tree_.nodes[node].end;
     }
-    say("never ticked", some_of(names));
+    names.empty() ? say_good("never ticked", "none") : say("never ticked", some_of(names));
   }
 
   void look_at_violations() {
@@ -299,7 +302,7 @@ class VerdictMaker {
       const auto cycle =
           fair_cycle(graph_, [&](const Edge& edge) { return graph_.has(edge, bit); });
       if (cycle.empty()) {
-        if (found_.is_complete()) say(fmt::format("property '{}'", name), "holds");
+        if (found_.is_complete()) say_good(fmt::format("property '{}'", name), "holds");
         return;
       }
       finding.run = found_.way_to(cycle.front().from);
@@ -399,6 +402,13 @@ class VerdictMaker {
 
 bool Verdict::has_findings() const {
   return std::ranges::any_of(findings, [](const Finding& it) { return it.accepted.empty(); });
+}
+
+void Verdict::keep_only(std::span<const std::string> patterns) {
+  std::erase_if(findings, [&](const Finding& finding) {
+    return std::ranges::none_of(patterns,
+                                [&](const auto& it) { return matches(it, finding.name); });
+  });
 }
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

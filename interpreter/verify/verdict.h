@@ -23,6 +23,7 @@ struct Finding {
 // A line of information.
 struct VerdictLine {
   std::string name, text;
+  bool is_good = false;  // the answer to a question that has a wrong one
 };
 
 struct Verdict {
@@ -31,6 +32,8 @@ struct Verdict {
   std::vector<std::string> assumed;
 
   bool has_findings() const;  // that are not accepted
+  // Leaves out the findings whose names none of these patterns means.
+  void keep_only(std::span<const std::string> patterns);
 };
 
 struct VerdictOptions {

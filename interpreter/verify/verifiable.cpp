@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace lockstep::host {
 namespace {
 
 class Unknowns {
  public:
-  explicit Unknowns(const Tree& tree) : tree_(tree) {}
+  explicit Unknowns(const Tree& tree)
+      : tree_(tree),
+        reads_entries_(std::ranges::any_of(entries_of_engine(tree), std::identity())) {}
 
   std::vector<NodeProblem> find() {
     for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) look_at(node);
@@ -25,6 +28,9 @@ class Unknowns {
  private:
   void look_at(NodeIndex node) {
     const NodeType& type = *tree_.labels[node].type;
+    if (type.opens_entries && reads_entries_) {
+      add(node, fmt::format("'{}' may write any entry, and the tree reads some", type.id));
+    }
     if (type.leaf != nullptr) return;
     if (type.reads_ports) {
       look_at_ports(node, tree_.nodes[node].params, type.parameters.size());
@@ -62,6 +68,7 @@ class Unknowns {
   }
 
   const Tree& tree_;
+  const bool reads_entries_;
   std::vector<NodeProblem> problems_;
 };
 

@@ -151,6 +151,63 @@ TEST_CASE("a verdict as JSON has what the text has") {
   CHECK(std::filesystem::exists(std::string(json["findings"][0]["recording"])));
 }
 
+namespace {
+
+// A tree with two findings: an action that may be halted again and again, and a node without ticks.
+std::string with_findings(const TemporaryDirectory& directory) {
+  return directory.file("t.xml", std::string(kHead) +
+                                     "<BehaviorTree ID=\"T\"><Sequence><Advance name=\"a&lt;b\"/>"
+                                     "<Fallback><AlwaysSuccess/><Advance name=\"dead\"/></Fallback>"
+                                     "<Advance/></Sequence></BehaviorTree></root>");
+}
+
+}  // namespace
+
+TEST_CASE("any number of threads writes the same bytes") {
+  const TemporaryDirectory directory;
+  const auto verdict = [&](const std::string& jobs) {
+    const std::string out = directory.path("out" + jobs);
+    const Outcome it = run_lockstep(
+        {"verify", with_findings(directory), "--jobs", jobs, "--out", out, "--format", "junit"});
+    CHECK(it.code == 1);
+    return it.out.substr(it.out.find("<testcase")) + read_file(out + "/t.cycle.leaves") +
+           read_file(out + "/t.cycle.jsonl").substr(0, 200);
+  };
+  CHECK(verdict("1") == verdict("3"));
+}
+
+TEST_CASE("a verdict in the formats of other programs") {
+  const TemporaryDirectory directory;
+  const auto verdict = [&](const std::string& format) {
+    return run_lockstep(
+        {"verify", with_findings(directory), "--out", directory.path("out"), "--format", format});
+  };
+  const Outcome junit = verdict("junit");
+  CHECK(junit.code == 1);
+  CHECK(contains(junit.out, "tests=\"3\" failures=\"2\" skipped=\"0\""));
+  CHECK(contains(junit.out, "name=\"can always end\"/>"));
+  CHECK(contains(junit.out, "name=\"never-ticked/T/Sequence/Fallback/dead\"><failure message="));
+  const auto sarif = nlohmann::json::parse(verdict("sarif").out);
+  const auto& results = sarif["runs"][0]["results"];
+  REQUIRE(results.size() == 2);
+  CHECK(results[1]["locations"][0]["physicalLocation"]["region"]["startLine"] == 1);
+  CHECK(verdict("json").out.starts_with("{"));
+  CHECK(verdict("xml").code == 2);
+}
+
+TEST_CASE("--only says which findings count") {
+  const TemporaryDirectory directory;
+  const auto only = [&](const std::string& pattern) {
+    return run_lockstep(
+        {"verify", with_findings(directory), "--out", directory.path("out"), "--only", pattern});
+  };
+  CHECK(only("trap").code == 0);
+  const Outcome dead = only("never-ticked/*");
+  CHECK(dead.code == 1);
+  CHECK(contains(dead.out, "finding never-ticked/T/Sequence/Fallback/dead"));
+  CHECK_FALSE(contains(dead.out, "finding cycle"));
+}
+
 TEST_CASE("run --leaves with a leaf file does what that allows, as the seed chooses") {
   const TemporaryDirectory directory;
   const std::string tree =

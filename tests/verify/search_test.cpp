@@ -1,4 +1,5 @@
 // How many states and transitions small trees have, and what ends a search.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -99,10 +100,45 @@ TEST_CASE("an entry with more and more values stops the search, and is named") {
   CHECK(it.found.note == "n");
 }
 
-TEST_CASE("a second search finds the same in the same order") {
-  const Verified one(absolute(2, 4)), two(absolute(2, 4));
-  CHECK(one.found.transitions == two.found.transitions);
-  CHECK(one.found.graph.edges == two.found.graph.edges);
+// All that a verdict is made of.
+void check_same(const SearchResult& a, const SearchResult& b) {
+  CHECK(a.end == b.end);
+  CHECK(a.store.size() == b.store.size());
+  CHECK(a.transitions == b.transitions);
+  CHECK(a.depths == b.depths);
+  CHECK(a.graph.begins == b.graph.begins);
+  CHECK(a.graph.edges == b.graph.edges);
+  CHECK(a.graph.ends == b.graph.ends);
+  REQUIRE(a.graph.labels.size() == b.graph.labels.size());
+  for (std::uint32_t i = 0; i < a.graph.labels.size(); ++i) {
+    CHECK(std::ranges::equal(a.graph.labels[i], b.graph.labels[i]));
+  }
+  for (StateId i = 1; i < a.before.size(); ++i) {
+    if (a.before[i].from != b.before[i].from ||
+        a.before[i].combination != b.before[i].combination) {
+      FAIL("state " << i << " was found by another tick");
+    }
+  }
+}
+
+TEST_CASE("any number of threads finds the same, in the same order") {
+  constexpr auto kReactive = "Fallback(Sequence(c? Parallel(a b)) Sequence[memory=true](d e f))";
+  for (const std::string& tree : {absolute(3, 8), std::string(kReactive)}) {
+    const Verified one(tree), again(tree), three(tree, "", {.jobs = 3});
+    check_same(one.found, again.found);
+    check_same(one.found, three.found);
+  }
+}
+
+TEST_CASE("a limit that counts ends a search of any number of threads at the same state") {
+  for (const SearchLimits& limits :
+       {SearchLimits{.states = 300}, SearchLimits{.depth = 1}, SearchLimits{.transitions = 3000}}) {
+    SearchLimits of_three = limits;
+    of_three.jobs = 3;
+    const Verified one(absolute(3, 8), "", limits), three(absolute(3, 8), "", of_three);
+    CHECK_FALSE(one.found.is_complete());
+    check_same(one.found, three.found);
+  }
 }
 
 }  // namespace lockstep::host::test

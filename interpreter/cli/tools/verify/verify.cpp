@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <thread>
 
 #include "cli/checks.h"
 #include "cli/command.h"
@@ -31,7 +32,10 @@ struct VerifyOptions {
   std::optional<std::uint64_t> memory_mib;
   std::optional<double> time;
   std::optional<std::uint64_t> depth;
+  unsigned jobs = 1;
   bool json = false;
+  std::string format = "text";
+  std::vector<std::string> only;
   bool mock = false;
   std::string out = ".";
   std::string save;  // a file of scenarios; "": none
@@ -75,7 +79,8 @@ class Places {
   explicit Places(const Loaded& loaded) : sources_(loaded.project->sources) {
     for (const DefinitionNode& node : loaded.definition.nodes) places_.push_back(node.place);
   }
-  std::string text(NodeIndex node) const { return to_text(sources_.locate(places_[node])); }
+  SourceLocation at(NodeIndex node) const { return sources_.locate(places_[node]); }
+  std::string text(NodeIndex node) const { return to_text(at(node)); }
   void report(const std::vector<NodeProblem>& problems, Diagnostics& diagnostics) const {
     const Reporter reporter(sources_, diagnostics);
     for (const NodeProblem& it : problems) reporter.at(places_[it.node], it.message, it.hint);
@@ -162,19 +167,26 @@ class VerifyCommand {
       SearchLine line;
       return search(runnable.tree, models, properties_, from_seconds(1 / rate), limits(line));
     }();
-    const Verdict verdict =
+    Verdict verdict =
         make_verdict(runnable.tree, models, properties_, found,
                      {.rate = rate, .place = [&](NodeIndex node) { return places.text(node); }});
+    if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
+    report.place_of = [&](NodeIndex node) { return places.at(node); };
     Tracer tracer(runnable.tree, models, properties_, from_seconds(1 / rate), found);
     if (!write_files(runnable, rate, tracer, verdict, report)) return kExitUsage;
     if (!options_.save.empty() &&
         !save_scenarios(options_.save, report, runnable.tree, properties_)) {
       return kExitUsage;
     }
-    const std::string text = options_.json ? to_json(report) : to_text(report);
-    return first_failure(write_results(text), exit_code(found, verdict));
+    return first_failure(write_results(written(report)), exit_code(found, verdict));
+  }
+
+  std::string written(const VerifyReport& report) const {
+    if (options_.json || options_.format == "json") return to_json(report);
+    if (options_.format == "junit") return to_junit(report);
+    return options_.format == "sarif" ? to_sarif(report) : to_text(report);
   }
 
   SearchLimits limits(SearchLine& line) const {
@@ -183,6 +195,7 @@ class VerifyCommand {
     if (options_.time) limits.time = from_seconds(*options_.time);
     if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
     limits.stop_signal = StopSignals::received;
+    limits.jobs = options_.jobs;
     limits.tell = [&line](const SearchProgress& it) { line.show(it); };
     return limits;
   }
@@ -259,6 +272,11 @@ std::function<int()> define_verify(CLI::App& app) {
   app.add_option("--depth", options->depth, "Look at the first N ticks only")
       ->type_name("N")
       ->transform(whole_number(1, 1'000'000'000));
+  options->jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("-j,--jobs", options->jobs, "Threads; the verdict does not depend on it")
+      ->type_name("N")
+      ->transform(whole_number(1, 1024))
+      ->capture_default_str();
   app.add_option("--out", options->out,
                  "Where recordings and scripts of what was found are written")
       ->type_name("DIR")
@@ -267,7 +285,15 @@ std::function<int()> define_verify(CLI::App& app) {
                  "Add what was found to this file of scenarios, or make it, for `lockstep test`")
       ->type_name("FILE.test.xml");
   add_property_options(app, options->properties);
-  app.add_flag("--json", options->json, "Print the verdict as JSON");
+  app.add_option(
+         "--only", options->only,
+         "Findings that count: a name as 'trap', in which * stands for any part (repeatable)")
+      ->type_name("FINDING");
+  app.add_option("--format", options->format,
+                 "text, json, junit (a test for each question) or sarif (2.1.0)")
+      ->check(one_of({"text", "json", "junit", "sarif"}))
+      ->capture_default_str();
+  app.add_flag("--json", options->json, "The same as --format json");
   app.add_flag("--mock", options->mock, "Take nodes that no plugin has for leaves");
   add_load_options(app, options->load);
   add_program_option(app, options->load.plugins);

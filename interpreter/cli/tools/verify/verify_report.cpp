@@ -17,8 +17,8 @@ std::size_t count_findings(const Verdict& verdict) {
 
 // Why a search did not look at everything.
 std::string_view limit_of(SearchEnd end) {
-  constexpr std::string_view kWords[] = {"",        "--states", "--memory", "--time",
-                                         "--depth", "a signal", "--values"};
+  constexpr std::string_view kWords[] = {"",       "--states", "transitions", "--memory",
+                                         "--time", "--depth",  "a signal",    "--values"};
   return kWords[static_cast<std::size_t>(end)];
 }
 

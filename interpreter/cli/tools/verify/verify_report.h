@@ -1,9 +1,11 @@
 // A verdict as `lockstep verify` prints it.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
+#include "core/diagnostics.h"
 #include "verify/counter_example.h"
 #include "verify/verdict.h"
 
@@ -15,11 +17,14 @@ struct VerifyReport {
   std::string tree, leaves;  // files; "": there is no leaf file
   std::size_t leaf_count = 0;
   std::map<std::string, CounterExample> files = {};  // of findings, by their names
+  std::function<SourceLocation(NodeIndex)> place_of = {};
 };
 
 // "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …".
 std::string conclusion(const VerifyReport& report);
 std::string to_text(const VerifyReport& report);
 std::string to_json(const VerifyReport& report);
+std::string to_junit(const VerifyReport& report);
+std::string to_sarif(const VerifyReport& report);
 
 }  // namespace lockstep::host

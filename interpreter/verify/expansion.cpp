@@ -1,0 +1,134 @@
+#include "verify/expansion.h"
+
+#include <algorithm>
+
+#include "engine/blackboard.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::uint64_t kTicksBetweenLooks = 1000;
+
+void sort_edges(Chunk& chunk, std::size_t first) {
+  const auto begin = chunk.edges.begin() + static_cast<std::ptrdiff_t>(first);
+  std::sort(begin, chunk.edges.end());
+  chunk.edges.erase(std::unique(begin, chunk.edges.end()), chunk.edges.end());
+}
+
+}  // namespace
+
+void Chunk::clear() {
+  states.clear();
+  edges.clear();
+  fresh.clear();
+  found_by.clear();
+  news.clear();
+}
+
+Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+                   Nanoseconds period, const SearchLimits& limits)
+    : tree_(tree),
+      limits_(limits),
+      stepper_(tree, models, properties, period),
+      labeller_(tree, models, properties.size()),
+      coverage_(tree) {
+  for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
+    if (models.entries[slot]) values_.emplace_back(slot, std::set<std::string>());
+  }
+}
+
+void Expander::expand(const StateStore& known, StateId first, StateId last, Nanoseconds began,
+                      Chunk& into) {
+  known_ = &known;
+  began_ = began;
+  into.clear();
+  into.first = first;
+  for (StateId state = first; state < last; ++state) {
+    expand(state, into);
+    if (into.states.back().cut) return;
+  }
+}
+
+void Expander::expand(StateId state, Chunk& into) {
+  stepper_.load((*known_)[state], state == 0);
+  const std::size_t first_edge = into.edges.size();
+  Chunk::State& at = into.states.emplace_back();
+  next_look_ = kTicksBetweenLooks;
+  std::size_t most_edges = first_edge + 10 * kTicksBetweenLooks;
+  Step step{state, 0};
+  do {
+    take(step, stepper_.tick(), into);
+    ++step.combination;
+    if (++at.transitions < next_look_) continue;
+    next_look_ += kTicksBetweenLooks;
+    if (into.edges.size() > most_edges) {
+      sort_edges(into, first_edge);
+      most_edges = 2 * into.edges.size() + kTicksBetweenLooks;
+    }
+    at.cut = why_cut(at, into);
+  } while (!at.cut && stepper_.next());
+  sort_edges(into, first_edge);
+  at.edges = into.edges.size();
+  at.fresh = into.fresh.size();
+  at.news = into.news.size();
+}
+
+// Of one state with very many answers. Where a chunk begins does not depend on the threads, so what
+// counts states and ticks ends at the same one.
+std::optional<SearchEnd> Expander::why_cut(Chunk::State& at, const Chunk& chunk) {
+  if (known_->size() + chunk.fresh.size() > limits_.states) return SearchEnd::States;
+  if (at.transitions > limits_.transitions) return SearchEnd::Transitions;
+  if (limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0) return SearchEnd::Signal;
+  if (limits_.time && monotonic_now() - began_ > *limits_.time) return SearchEnd::Time;
+  const std::size_t memory = chunk.fresh.memory() + chunk.edges.capacity() * sizeof(Edge);
+  if (memory > limits_.memory) return SearchEnd::Memory;
+  return std::nullopt;
+}
+
+void Expander::take(const Step& step, Status status, Chunk& into) {
+  Ticker& ticker = stepper_.ticker();
+  coverage_.after_tick(ticker);
+  for (const std::size_t it : stepper_.violated()) tell(News::Kind::Violated, it, step, into);
+  if (!stepper_.leaves().broken().empty()) {
+    tell(News::Kind::Broken, 0, step, into, stepper_.leaves().broken());
+  }
+  if (const Fault* fault = ticker.fault()) {
+    tell(News::Kind::Fault, fault->node, step, into, fault->message);
+    into.states.back().ends = true;
+    return;
+  }
+  if (status != Status::Running) {
+    tell(News::Kind::Result, index_of(status), step, into);
+    into.states.back().ends = true;
+    return;
+  }
+  look_at_values(step, into);
+  const std::uint32_t label = labels_.add(labeller_.of(stepper_));
+  const StateBytes& state = stepper_.fold();
+  const std::uint32_t hash = hash_of(state);
+  StateId to = known_->find(state, hash);
+  if (to == kNoState) {
+    const auto [number, is_new] = into.fresh.add(state, hash);
+    if (is_new) into.found_by.push_back(step);
+    to = number | Chunk::kFresh;
+  }
+  into.edges.push_back({to, label});
+}
+
+void Expander::tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
+                    const std::string& text) {
+  if (!told_.insert({kind, which}).second) return;
+  into.news.push_back({kind, static_cast<std::uint32_t>(which), step.combination, text});
+}
+
+// An entry with more and more values has no end of states.
+void Expander::look_at_values(const Step& step, Chunk& into) {
+  for (auto& [slot, known] : values_) {
+    const Value& value = stepper_.ticker().blackboard().entries[slot].value;
+    if (std::holds_alternative<NoValue>(value) || known.size() > limits_.values) continue;
+    const auto [it, is_new] = known.insert(to_text(value));
+    if (is_new) into.news.push_back({News::Kind::EntryValue, slot, step.combination, *it});
+  }
+}
+
+}  // namespace lockstep::host

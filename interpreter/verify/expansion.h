@@ -1,0 +1,91 @@
+// What the ticks from some states do. Several threads make chunks of these at a time; the search
+// puts them together in the order of the states, so that all is the same with any number of
+// threads.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "verify/coverage.h"
+#include "verify/labels.h"
+#include "verify/search_limits.h"
+#include "verify/stepper.h"
+
+namespace lockstep::host {
+
+// A tick: the state before it and which of its combinations of answers.
+struct Step {
+  StateId from = kNoState;
+  std::uint32_t combination = 0;
+};
+
+// What a thread sees for the first time: in the order of the states, the first of all threads is
+// among these.
+struct News {
+  enum class Kind : std::uint8_t { Result, Fault, Broken, Violated, EntryValue };
+  Kind kind;
+  std::uint32_t which;        // a status, node, property or entry
+  std::uint32_t combination;  // of answers
+  std::string text = {};
+};
+
+// A row of states. What they lead to and was not known when the row was begun is in `fresh`.
+struct Chunk {
+  struct State {
+    std::uint64_t transitions = 0;
+    std::size_t edges = 0, fresh = 0, news = 0;  // where those of the next state begin
+    bool ends = false;                           // some tick ends the run
+    std::optional<SearchEnd> cut = {};           // why not all of its ticks were made
+    int signal = 0;
+  };
+  static constexpr StateId kFresh = 0x80000000;  // of an edge: its goal is in `fresh`
+
+  StateId first = 0;
+  unsigned thread = 0;  // whose labels the edges have
+  std::vector<State> states;
+  std::vector<Edge> edges;
+  StateStore fresh;
+  std::vector<Step> found_by;  // of each of those
+  std::vector<News> news;
+
+  void clear();
+};
+
+// One for each thread.
+class Expander {
+ public:
+  // All must outlive this.
+  Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+           Nanoseconds period, const SearchLimits& limits);
+
+  StateBytes first_state() { return stepper_.first_state(); }
+  // All ticks from these states. They can be cut by limits: then the chunk ends there.
+  void expand(const StateStore& known, StateId first, StateId last, Nanoseconds began, Chunk& into);
+
+  const LabelTable& labels() const { return labels_; }
+  const SearchCoverage& coverage() const { return coverage_; }
+
+ private:
+  void expand(StateId state, Chunk& into);
+  void take(const Step& step, Status status, Chunk& into);
+  void tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
+            const std::string& text = {});
+  void look_at_values(const Step& step, Chunk& into);
+  std::optional<SearchEnd> why_cut(Chunk::State& at, const Chunk& chunk);
+
+  const Tree& tree_;
+  const SearchLimits& limits_;
+  const StateStore* known_ = nullptr;
+  Nanoseconds began_{0};
+  Stepper stepper_;
+  Labeller labeller_;
+  LabelTable labels_;
+  SearchCoverage coverage_;
+  std::set<std::pair<News::Kind, std::size_t>> told_;
+  std::vector<std::pair<std::uint32_t, std::set<std::string>>> values_;
+  std::uint64_t next_look_ = 0;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,43 @@
+// What ends a search, and what is told while it goes on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "core/clock.h"
+
+namespace lockstep::host {
+
+struct SearchProgress {
+  std::uint64_t states = 0, waiting = 0, transitions = 0;
+  std::uint32_t depth = 0;
+  std::size_t memory = 0;
+};
+
+struct SearchLimits {
+  std::uint64_t states = 5'000'000;
+  std::uint64_t transitions = std::numeric_limits<std::uint64_t>::max();
+  std::size_t memory = std::size_t{1} << 30u;            // bytes
+  std::optional<Nanoseconds> time = {};                  // of a real clock
+  std::optional<std::uint32_t> depth = {};               // ticks
+  std::size_t values = 1000;                             // of one entry
+  std::function<int()> stop_signal = {};                 // nonzero: stop; any thread calls it
+  std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
+  unsigned jobs = 1;                                     // threads; all find the same
+};
+
+enum class SearchEnd : std::uint8_t {
+  Complete,
+  States,
+  Transitions,
+  Memory,
+  Time,
+  Depth,
+  Signal,
+  Values
+};
+
+}  // namespace lockstep::host
