@@ -11,7 +11,11 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "core/wording.h"
+#include "document/reporter.h"
+#include "engine/compile.h"
+#include "leaves/play/played_leaves.h"
 #include "runtime/outlet.h"
+#include "verify/certain.h"
 
 namespace lockstep::host {
 namespace {
@@ -35,6 +39,22 @@ CheckWriter writer_of(const std::string& format) {
 std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
   diagnostics.sort();
   return diagnostics.all();
+}
+
+// What a short search over all of its behaviors is sure of. The plugins are not called. Other
+// arguments make another tree.
+void add_certainties(Loaded& loaded, Diagnostics& diagnostics) {
+  if (!loaded.project->arguments.empty()) return;
+  std::vector<Place> places;
+  for (const DefinitionNode& node : loaded.definition.nodes) places.push_back(node.place);
+  PlayedLeaves played;
+  Definition definition = std::move(loaded.definition);
+  played.take_over(definition);
+  const Tree tree = compile(definition);
+  const Reporter reporter(loaded.project->sources, diagnostics);
+  for (Certainty& it : certainties_of(tree, places)) {
+    reporter.at(places[it.node], std::move(it.message), std::move(it.hint), it.severity);
+  }
 }
 
 // For people. `written` is the exit code of what went to stdout so far.
@@ -69,7 +89,8 @@ int check(const CheckOptions& options) {
       print_diagnostics(diagnostics, Severity::Note);
       continue;
     }
-    const auto loaded = load_given(tree, load, diagnostics);
+    auto loaded = load_given(tree, load, diagnostics);
+    if (loaded) add_certainties(*loaded, diagnostics);
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
     if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;

@@ -43,6 +43,19 @@ std::string doubtful(const std::string& nodes) {
 
 }  // namespace
 
+TEST_CASE("check warns of a branch that can never run") {
+  const TemporaryDirectory directory;
+  const std::string dead =
+      directory.file("dead.xml", doubtful("<Fallback><AlwaysSuccess/>\n<Advance name=\"late\"/>"
+                                          "</Fallback>"));
+  const Outcome outcome = run_lockstep({"check", dead});
+  CHECK(outcome.code == 0);
+  CHECK(
+      contains(outcome.err, "dead.xml:3:1: warning: 'late' can never run, whatever the leaves do"));
+  CHECK(contains(outcome.err, "hint: 'AlwaysSuccess' before it never fails"));
+  CHECK(run_lockstep({"check", "--strict", dead}).code == 3);
+}
+
 TEST_CASE("check --strict takes warnings for errors, and notes not") {
   const TemporaryDirectory directory;
   const std::string fine = directory.file("fine.xml", tree_text("<Advance/>"));

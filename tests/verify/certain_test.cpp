@@ -1,0 +1,73 @@
+// What `check` says of a tree without knowing its leaves: only what no behavior can do.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "support/tree_text.h"
+#include "verify/certain.h"
+
+namespace lockstep::host::test {
+namespace {
+
+struct Row {
+  std::string_view claim, tree, said;
+};
+
+// clang-format off
+constexpr Row kRows[] = {
+  {"what may run is not spoken of", "Fallback[memory=true](a Sequence(c? b))", ""},
+  {"behind what never fails", "Fallback(AlwaysSuccess a)",
+   "'a' can never run, whatever the leaves do: 'AlwaysSuccess' before it never fails\n"},
+  {"of a subtree its root, once", "Sequence(Inverter(AlwaysSuccess) Fallback(a b) c)",
+   "'Fallback' can never run, whatever the leaves do: 'Inverter' before it never succeeds\n"
+   "'c' can never run, whatever the leaves do: 'Fallback' before it never succeeds\n"},
+  {"a rate decides, so nothing is certain", "Fallback(Timeout[seconds=100](AlwaysSuccess) a)", ""},
+  {"what a script has written is known", "Sequence[memory=true](Script[code=n:=1] Check[code=n==2] a)",
+   "'a' can never run, whatever the leaves do: 'Check' before it never succeeds\n"},
+  {"a circle of barriers that may be, but need not", "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
+   "SyncProgress[barrier=coarse](Sequence[memory=true](b SyncProgress[barrier=fine](c)))) "
+   "barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]", ""},
+  {"a barrier that waits for what never comes",
+   "Sequence(Parallel(ForceSuccess(SyncProgress[barrier=g](a)) SyncProgress[barrier=g](AlwaysRunning)) b) "
+   "barrier[name=g barriers=.5]",
+   "'b' can never run, whatever the leaves do: 'Parallel' before it never succeeds\n"
+   "this tree can never end: whatever its leaves do, it stands still: `lockstep verify` shows how\n"},
+  {"an endless tree", "Repeat(ForceSuccess(a))", "this tree never ends, whatever its leaves do\n"},
+};
+// clang-format on
+
+std::string said_of(std::string_view text) {
+  const Tree tree = tree_from_text(text);
+  std::vector<Place> places;
+  for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) places.push_back({node});
+  std::string said;
+  for (const Certainty& it : certainties_of(tree, places)) {
+    said += it.message + (it.hint.empty() ? "" : ": " + it.hint) + '\n';
+  }
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("check says what is certain, whatever the leaves do") {
+  for (const Row& row : kRows) {
+    INFO(row.claim << ": " << row.tree);
+    CHECK(said_of(row.tree) == row.said);
+  }
+}
+
+TEST_CASE("a node that is dead in one of its SubTrees only is not spoken of") {
+  const Tree tree = tree_from_text("Sequence[memory=true](a Fallback(AlwaysSuccess b))");
+  std::vector<Place> places;
+  for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) places.push_back({node});
+  CHECK(certainties_of(tree, places).size() == 1);
+  places.back() = places[1];  // b is written where a is
+  CHECK(certainties_of(tree, places).empty());
+}
+
+TEST_CASE("of a tree with more states than the bound nothing is said") {
+  std::string leaves;
+  for (int i = 0; i < 12; ++i) leaves += " a" + std::to_string(i);
+  CHECK(said_of("Sequence(Parallel(" + leaves.substr(1) + ") Inverter(AlwaysSuccess) z)").empty());
+}
+
+}  // namespace lockstep::host::test
