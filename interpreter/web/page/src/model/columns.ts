@@ -10,7 +10,7 @@ function grown<T extends Uint32Array | Float64Array | Uint8Array>(old: T, Type: 
 const NO_LINES = new Uint32Array(0), NO_NUMBERS = new Float64Array(0), NO_BYTES = new Uint8Array(0);
 
 // The place of the last change at or before `line`, or -1.
-export function placeOf(lines: Uint32Array, length: number, line: number): number {
+function placeOf(lines: Uint32Array, length: number, line: number): number {
   if (length === 0 || lines[0] > line) return -1;
   if (lines[length - 1] <= line) return length - 1;
   let low = 0, high = length - 1; // lines[low] <= line < lines[high]

@@ -17,7 +17,7 @@ export interface RunEvent {
 }
 
 // Those that the keys for the next and the previous event stop at.
-export const LANDMARKS: ReadonlySet<EventKind> = new Set<EventKind>([
+const LANDMARKS: ReadonlySet<EventKind> = new Set<EventKind>([
   "success", "failure", "hold", "release", "fault", "entry", "overrun", "lost", "end",
 ]);
 

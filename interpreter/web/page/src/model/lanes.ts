@@ -12,7 +12,7 @@ export interface LaneSpan {
 
 export const HELD_STATE = 5;
 
-export function stateNumber(flags: number): number {
+function stateNumber(flags: number): number {
   return flags & HELD ? HELD_STATE : flags & STATUS;
 }
 
@@ -37,7 +37,7 @@ export function laneSpans(run: Run, node: number, from: number, to: number): Lan
   return spans;
 }
 
-export interface Activation {
+interface Activation {
   from: number; // lines
   to: number | null; // where it ended
   result: number; // status; RUNNING when it has not ended, IDLE when it was halted

@@ -1,7 +1,7 @@
 // What does not change during a run: the nodes, who holds whom, what is drawn under what.
 import type { Header, HeaderNode } from "./recording";
 
-export type Synchronization = "absolute" | "relative" | "resources" | null;
+type Synchronization = "absolute" | "relative" | "resources" | null;
 
 export interface ShapeNode {
   index: number;

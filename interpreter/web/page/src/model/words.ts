@@ -4,7 +4,7 @@ import { STATUSES } from "./recording";
 import { owned, ownersText, waitOf } from "./waiting";
 
 const SYMBOLS = ["·", "▶", "✓", "✗", "»"];
-export const HELD_SYMBOL = "‖";
+const HELD_SYMBOL = "‖";
 
 export function symbolOf(moment: Moment, node: number): string {
   return moment.held[node] ? HELD_SYMBOL : SYMBOLS[moment.status[node]];

@@ -3,7 +3,7 @@
 export type Connection = "connecting" | "open" | "lost" | "ended" | "asleep";
 export type When = "begins" | "completes" | "barrier";
 
-export interface Breakpoint {
+interface Breakpoint {
   node: number;
   when: When;
 }

@@ -2,7 +2,7 @@
 import type { Store } from "../../store/store";
 import { LANE } from "./draw_lanes";
 
-export const LEAST = 3 * LANE;
+const LEAST = 3 * LANE;
 
 // As much as leaves room for the tree.
 function most(): number {

@@ -43,7 +43,7 @@ function useSize(): [Size, preact.RefObject<HTMLDivElement | null>, () => void] 
 
 const px = (value: number) => `${value}px`;
 
-export function labelWidth(): number {
+function labelWidth(): number {
   return innerWidth < 720 ? 92 : 170;
 }
 

@@ -2,7 +2,7 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Box, Layout } from "./layout";
 
-export interface Sight {
+interface Sight {
   x: number;
   y: number;
   width: number;
