@@ -34,7 +34,7 @@ Run::Run(const Tree& tree, const RunOptions& options)
       watch_(options.watch),
       leaves_((prepare(), tree), blackboard_, time_, options.seed, options.log, boards_.get()),
       ticker_(tree, leaves_.slots(), blackboard_, options.on_fault, options.watch) {
-  leaves_.set_ticker(ticker_);
+  leaves_.set_node_context(ticker_);
 }
 
 void Run::prepare() {

@@ -30,12 +30,11 @@ const NodeType* plugin_node_type(std::string_view id) {
   return nullptr;
 }
 
-PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots,
-                         Ticker& ticker)
+PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots)
     : time{.period = std::chrono::milliseconds(100), .thread = this_thread_id()},
       tree_(tree),
       slots_(slots),
-      run_{.log = &log_, .tree = &tree, .ticker = &ticker} {
+      run_{.log = &log_, .tree = &tree} {
   for (const LeafNode& node : tree.leaves) paths_.push_back(tree.path(node.node));
   for (std::size_t index = 0; index < slots_.size(); ++index) {
     const LeafNode& node = tree.leaves[index];

@@ -22,11 +22,13 @@ const NodeType* plugin_node_type(std::string_view id);
 // The nodes of plugins in one run.
 class PluginNodes {
  public:
-  // `ticker` ticks them; it may be constructed later.
-  PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots, Ticker& ticker);
+  PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSlot>& slots);
   ~PluginNodes();
   PluginNodes(const PluginNodes&) = delete;
   PluginNodes& operator=(const PluginNodes&) = delete;
+
+  // As LeafSet has it.
+  void set_node_context(NodeContext& context) { run_.node_context = &context; }
 
   // Every node is created again.
   void restart();

@@ -31,8 +31,9 @@ ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy)
     : tree_(std::move(tree)),
       board_(tree_),
       slots_(tree_.leaves.size()),
-      plugin_nodes_(tree_, board_, slots_, ticker_),
+      plugin_nodes_(tree_, board_, slots_),
       ticker_(tree_, slots_, board_, policy) {
+  plugin_nodes_.set_node_context(ticker_);
   const auto by_name = scripts(leaves);
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {
     if (slots_[number].self != nullptr) continue;

@@ -2,7 +2,7 @@
 // breach of the contract is an error of the node, which ends its call as set_error does.
 #include <fmt/format.h>
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 #include "plugin/contract/host.h"
 
 namespace lockstep::host {
@@ -17,7 +17,7 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
   if (caller->is_foreign()) return false;
   const LeafSlot& slot = *caller->slot;
   if (slot.access >= access) [[likely]]
-    return slot.error == nullptr && !slot.failed && !caller->run->ticker->faulted();
+    return slot.error == nullptr && !slot.failed && !caller->run->node_context->faulted();
   if (caller->children == 0) {
     breach(caller, fmt::format("{} a child, but has none", what));
   } else if (access == ChildAccess::Tick) {
@@ -50,28 +50,29 @@ lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Func
   if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
   LeafSlot& slot = *caller->slot;
   const NodeIndex node = caller->child(child);
-  const bool at_most_once = !caller->run->ticker->tree().rules->may_tick_again;
-  if (at_most_once && caller->run->ticker->ticked(node)) {
+  const bool at_most_once = !caller->run->node_context->tree().rules->may_tick_again;
+  if (at_most_once && caller->run->node_context->ticked(node)) {
     breach(caller, fmt::format("ticks child {} twice in one tick", child));
     return LOCKSTEP_RUNNING;
   }
   // Code of the child that knows this caller must not use it.
   slot.access = ChildAccess::None;
   const InEngine scope(caller->run->lock);
-  const Status status = function(*caller->run->ticker, node);
+  const Status status = function(*caller->run->node_context, node);
   slot.access = ChildAccess::Tick;
   return static_cast<lockstep_status>(status);
 }
 
 lockstep_status tick(const lockstep_caller* caller, std::uint32_t child) {
-  return tick_by(caller, child, [](Ticker& ticker, NodeIndex node) { return ticker.tick(node); });
+  return tick_by(caller, child,
+                 [](NodeContext& context, NodeIndex node) { return context.tick(node); });
 }
 
 lockstep_status tick_unreset(const lockstep_caller* caller, std::uint32_t child) {
-  return tick_by(caller, child, [](Ticker& ticker, NodeIndex node) {
-    const Status before = ticker.status(node);
+  return tick_by(caller, child, [](NodeContext& context, NodeIndex node) {
+    const Status before = context.status(node);
     const bool has_completed = before == Status::Success || before == Status::Failure;
-    return has_completed ? ticker.tick_unreset(node) : ticker.tick(node);
+    return has_completed ? context.tick_unreset(node) : context.tick(node);
   });
 }
 
@@ -80,7 +81,7 @@ void halt(const lockstep_caller* caller, std::uint32_t child) {
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
   const InEngine scope(caller->run->lock);
-  caller->run->ticker->halt(caller->child(child));
+  caller->run->node_context->halt(caller->child(child));
   slot.access = ChildAccess::Tick;
 }
 
@@ -89,13 +90,13 @@ void pause(const lockstep_caller* caller, std::uint32_t child) {
   LeafSlot& slot = *caller->slot;
   slot.access = ChildAccess::None;
   const InEngine scope(caller->run->lock);
-  caller->run->ticker->pause(caller->child(child));
+  caller->run->node_context->pause(caller->child(child));
   slot.access = ChildAccess::Tick;
 }
 
 lockstep_status status(const lockstep_caller* caller, std::uint32_t child) {
   if (!may(caller, ChildAccess::Look, "asks for", child)) return LOCKSTEP_RUNNING;
-  return static_cast<lockstep_status>(caller->run->ticker->status(caller->child(child)));
+  return static_cast<lockstep_status>(caller->run->node_context->status(caller->child(child)));
 }
 
 double progress(const lockstep_caller* caller, std::uint32_t child) {
@@ -103,7 +104,7 @@ double progress(const lockstep_caller* caller, std::uint32_t child) {
   LeafSlot& slot = *caller->slot;
   const ChildAccess access = std::exchange(slot.access, ChildAccess::None);
   const InEngine scope(caller->run->lock);
-  const double value = caller->run->ticker->progress(caller->child(child));
+  const double value = caller->run->node_context->progress(caller->child(child));
   slot.access = access;
   return value;
 }

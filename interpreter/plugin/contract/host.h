@@ -13,7 +13,6 @@
 #include "core/random.h"
 #include "core/shortened.h"
 #include "core/value.h"
-#include "engine/blackboard.h"
 #include "engine/call_mark.h"
 #include "engine/leaf_slot.h"
 #include "lockstep/leaf.h"
@@ -30,7 +29,7 @@ class BoardsOfRun;
 struct CallerRun {
   const LeafLog* log;
   const Tree* tree = nullptr;               // null: its leaves are in no tree
-  Ticker* ticker = nullptr;                 // null while leaves are made
+  NodeContext* node_context = nullptr;      // null while leaves are made
   const lockstep_plugin* plugin = nullptr;  // of a run: whose run context it is
   // Collects the entries that are set, for a process that only mirrors them; null: not collected.
   std::vector<Entry*>* written = nullptr;

@@ -292,8 +292,8 @@ void LeafSet::create_all(std::uint64_t seed) {
 std::span<LeafSlot> LeafSet::slots() {
   return it_->slots_;
 }
-void LeafSet::set_ticker(Ticker& ticker) {
-  it_->run_.ticker = &ticker;
+void LeafSet::set_node_context(NodeContext& context) {
+  it_->run_.node_context = &context;
 }
 const std::optional<Fault>& LeafSet::fault() const {
   return it_->fault_;

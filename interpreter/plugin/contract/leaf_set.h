@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "engine/blackboard.h"
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep::host {
@@ -66,8 +66,8 @@ class LeafSet {
   LeafSet& operator=(const LeafSet&) = delete;
 
   std::span<LeafSlot> slots();
-  // Sets what ticks them, and the children of control nodes among them. Call before the first tick.
-  void set_ticker(Ticker& ticker);
+  // Sets the run that ticks them, as node kinds see it. Call before the first tick.
+  void set_node_context(NodeContext& context);
   const std::optional<Fault>& fault() const;
 
  private:

@@ -1,6 +1,6 @@
 // What a node of a plugin may ask about its place in the tree and its ports: lockstep_place.
 #include "engine/node_ports.h"
-#include "engine/ticker.h"
+#include "engine/tree.h"
 #include "plugin/contract/host.h"
 #include "plugin/contract/object_type.h"
 #include "plugin/contract/wake_up.h"
@@ -129,7 +129,8 @@ std::size_t first_opened(const lockstep_caller& caller) {
 }
 
 bool may_open(const lockstep_caller& caller) {
-  if (caller.is_foreign() || caller.run->ticker == nullptr || caller.type == nullptr) return false;
+  if (caller.is_foreign() || caller.run->node_context == nullptr || caller.type == nullptr)
+    return false;
   return caller.type->opens_entries && !caller.run->tree->boards.empty();
 }
 
@@ -144,7 +145,7 @@ void open_port(lockstep_caller& caller, std::string_view key) {
     rest.ports.give_to(caller);
   }
   const std::string& kept = rest.opened.emplace_back(key);
-  rest.ports.add(opened_port(caller.run->ticker->ports().at(caller.node, kept), kept));
+  rest.ports.add(opened_port(caller.run->node_context->ports().at(caller.node, kept), kept));
   rest.ports.give_to(caller);
 }
 
@@ -167,14 +168,14 @@ void unset(const lockstep_caller* caller, std::uint32_t port) {
   const BoundPort* const it = port_of(*caller, port);
   if (it == nullptr || port < first_opened(*caller)) return;
   const InEngine scope(caller->run->lock);
-  Entry* const own = caller->run->ticker->ports().own_at(caller->node, it->entry);
+  Entry* const own = caller->run->node_context->ports().own_at(caller->node, it->entry);
   if (own != nullptr) unset_entry(*own);
 }
 
 void ask_for_tick(const lockstep_caller* caller) {
-  if (caller->is_foreign() || caller->run->ticker == nullptr) return;
-  const bool may_ask = caller->run->ticker->tree().rules->may_tick_again;
-  if (may_ask) caller->run->ticker->ask_for_another_tick(caller->node);
+  if (caller->is_foreign() || caller->run->node_context == nullptr) return;
+  const bool may_ask = caller->run->node_context->tree().rules->may_tick_again;
+  if (may_ask) caller->run->node_context->ask_for_another_tick(caller->node);
 }
 
 void wake(const lockstep_caller* caller) {

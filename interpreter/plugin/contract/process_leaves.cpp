@@ -8,10 +8,10 @@ void ProcessLeaves::remove(const ProcessLeaf& leaf) {
   std::erase_if(all_, [&](const Entry& it) { return it.leaf == &leaf; });
 }
 
-void ProcessLeaves::look(Ticker& ticker) {
+void ProcessLeaves::look(NodeContext& context) {
   for (const auto& [node, leaf] : all_) {
-    if (!ticker.held(node) || ticker.leaf(node).failed || ticker.faulted()) continue;
-    if (std::string what = leaf->trouble(); !what.empty()) ticker.set_fault(node, std::move(what));
+    if (!context.held(node) || context.leaf(node).failed || context.faulted()) continue;
+    if (std::string what = leaf->trouble(); !what.empty()) context.set_fault(node, std::move(what));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/ticker.h"
+#include "engine/node_context.h"
 
 namespace lockstep::host {
 
@@ -23,7 +23,7 @@ class ProcessLeaves {
   void add(NodeIndex node, ProcessLeaf& leaf) { all_.push_back({node, &leaf}); }
   void remove(const ProcessLeaf& leaf);
   // A fault for each that is held and has trouble.
-  void look(Ticker& ticker);
+  void look(NodeContext& context);
 
  private:
   struct Entry {

@@ -181,7 +181,7 @@ void ProgramLeaf::halt() {
   send(Asked::Halt);
   if (std::exchange(is_held_, false)) conversation_.process().go_on();
   // At the end of a run there is no tick to lose, and whether the leaf stands still counts.
-  if (listener_ != nullptr && !caller_.run->ticker->in_last_halt()) return;
+  if (listener_ != nullptr && !caller_.run->node_context->in_last_halt()) return;
   const auto limit = conversation_.options().halt_limit;
   if (!conversation_.await(number_, Asked::Halt, limit)) {
     conversation_.check_deadline(monotonic_now());
