@@ -7,6 +7,7 @@
 
 #include "core/plugin_exception.h"
 #include "engine/call_mark.h"
+#include "plugin/contract/host.h"
 #include "remote/shared_memory/answer.h"
 #include "remote/shared_memory/remote_entries.h"
 

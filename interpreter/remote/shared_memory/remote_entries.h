@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "core/value.h"
-#include "plugin/contract/host.h"
+#include "plugin/contract/bound_port.h"
+#include "plugin/contract/packed_object.h"
 #include "remote/shared_memory/message.h"
 
 namespace lockstep::host {
