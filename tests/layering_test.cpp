@@ -32,8 +32,8 @@ struct Layer {
 // Files that are in no room, and what they may include.
 const std::vector<Layer> kOutside{
     {"interpreter/embedding/",
-     {"core/", "system/", "expression/", "engine/", "plugin/", "loading/", "runtime/", "live/",
-      "recording/write/", "web/", "groot/", "embedding/"}},
+     {"core/", "system/", "expression/", "engine/", "measure/", "plugin/", "loading/", "leaves/",
+      "runtime/", "live/", "recording/write/", "web/", "groot/", "embedding/"}},
     {"interpreter/main.cpp", {"system/", "runtime/", "cli/"}},
     {"interpreter/leafhost.cpp", {"system/", "remote/", "runtime/"}},
     {"plugins/sdk/btcpp/", {"lockstep/", "behaviortree_cpp/"}},

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "embedding/lockstep/runtime.h"
+#include "leaves/play/played_leaves.h"
 #include "loading/load.h"
 #include "system/own_process.h"
 
@@ -31,9 +32,15 @@ struct TreeTexts {
 // What a project has loaded. Runs, on any threads, share it.
 class Program {
  public:
-  Program(Runnable loaded, std::string from, std::shared_ptr<const GrootTree> shown)
-      : runnable(std::move(loaded)), file(std::move(from)), groot(std::move(shown)) {}
+  // `leaves` are those to which the tree refers, or null.
+  Program(std::shared_ptr<const PlayedLeaves> leaves, Runnable loaded, std::string from,
+          std::shared_ptr<const GrootTree> shown)
+      : played(std::move(leaves)),
+        runnable(std::move(loaded)),
+        file(std::move(from)),
+        groot(std::move(shown)) {}
 
+  const std::shared_ptr<const PlayedLeaves> played;
   const Runnable runnable;
   const std::string file;                        // of the tree, as the program named it
   const std::shared_ptr<const GrootTree> groot;  // null: Groot2 is not to see it
@@ -58,7 +65,9 @@ struct lockstep_project {
   std::shared_ptr<const lockstep::host::Program> program;  // null until it is loaded
   bool load_tried = false;
   bool shows_groot = false;
-  lockstep::host::OwnProcess process;  // that has loaded it, or made it
+  std::shared_ptr<lockstep::host::PlayedLeaves> played;  // null: leaves are those of plugins
+  lockstep::host::LeafScripts scripts;                   // of those
+  lockstep::host::OwnProcess process;                    // that has loaded it, or made it
 };
 
 namespace lockstep::host::embedding {

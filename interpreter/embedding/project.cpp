@@ -71,10 +71,12 @@ bool load_with(lockstep_project* project, const char* name, const void* argument
            project->load_tried = true;
            project->process = OwnProcess();
            auto loaded = load();
-           if (loaded && project->plugins->initialize(project->diagnostics)) {
+           const bool plays = project->played != nullptr;  // then no plugin is called
+           if (loaded && (plays || project->plugins->initialize(project->diagnostics))) {
              auto shown = project->shows_groot ? groot_of(loaded->definition) : nullptr;
-             project->program = std::make_shared<Program>(make_runnable(std::move(*loaded)), name,
-                                                          std::move(shown));
+             if (plays) project->played->take_over(loaded->definition);
+             project->program = std::make_shared<Program>(
+                 project->played, make_runnable(std::move(*loaded)), name, std::move(shown));
            }
            project->diagnostics.sort();
            return project->program != nullptr ||

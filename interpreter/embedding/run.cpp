@@ -220,6 +220,10 @@ bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
     run->end();
     run->last = Nanoseconds(0);
     run->warnings.begin_again();
+    if (!run->properties.empty()) {
+      run->properties.begin_again();
+      run->watchers.watch(run->properties);
+    }
     run->run.restart(seed);
     return run->run.fault() == nullptr || fail(fault_text(*run, *run->run.fault()));
   });

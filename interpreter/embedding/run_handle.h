@@ -11,6 +11,7 @@
 #include "embedding/handles.h"
 #include "embedding/node_calls.h"
 #include "embedding/run_limits.h"
+#include "embedding/run_properties.h"
 #include "embedding/run_watchers.h"
 #include "embedding/warnings.h"
 #include "runtime/run.h"
@@ -31,6 +32,7 @@ struct lockstep_run {
                   .rate_hz = 1 / lockstep::host::to_seconds(options.period),
                   .seed = options.seed},
                  {.period = options.period, .real_time = !options.virtual_time}),
+        properties(program->runnable.tree),
         run(program->runnable.tree, with_own(std::move(options))),
         warnings(program->runnable.tree, leaf_log()) {}
   ~lockstep_run() { end(); }
@@ -68,6 +70,7 @@ struct lockstep_run {
   const lockstep::host::LeafLog log;                               // the program's
   lockstep::host::embedding::RunLimitsWatch limits;
   lockstep::host::embedding::RunWatchers watchers;
+  lockstep::host::embedding::RunProperties properties;
   lockstep::host::Run run;
   lockstep::host::Warnings warnings;
   std::vector<ObserverCall> observers;

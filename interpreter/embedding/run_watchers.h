@@ -31,6 +31,9 @@ class RunWatchers {
   void show_groot(std::unique_ptr<Observer> groot, Ticker& ticker);
   bool has_groot() const { return groot_ != nullptr; }
 
+  // Before the first tick. It must live until the end.
+  void watch(Observer& observer) { observers_.push_back(&observer); }
+
   // What a leaf logs; from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 

@@ -84,6 +84,18 @@ LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bo
 /* Since 1.4: keeps what lockstep_run_groot2 shows of the tree. */
 LOCKSTEP_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);
 
+/* Since 1.4, for tests of trees: all leaves of plugins, also of such as are not there, play
+ * scripts. No plugin is called. A leaf without a script runs for ever; a condition without one
+ * fails. */
+LOCKSTEP_EXPORT bool lockstep_project_play_leaves(lockstep_project* project);
+/* Since 1.4, after loading: what a leaf does in runs that are made or restarted from then on, tick
+ * by tick: "R0.25 R0.5 S" (docs/verify.md has the words; the last one stays). `path` is its path,
+ * in which * stands for any part, so several leaves may have it; a later call wins.
+ * `in_each_activation`: it begins with the first word whenever it starts. Not while a run of the
+ * project is used in another thread. */
+LOCKSTEP_EXPORT bool lockstep_project_play(lockstep_project* project, const char* path,
+                                           const char* words, bool in_each_activation);
+
 /* Loads the tree, once. False when there are errors; the diagnostics have them, and warnings too
  * when there are none. */
 LOCKSTEP_EXPORT bool lockstep_project_load_file(lockstep_project* project, const char* path);
@@ -333,6 +345,16 @@ LOCKSTEP_EXPORT const char* lockstep_run_monitor(lockstep_run* run, const char* 
  * above, and the port after it too; NULL: not any more. Only for a project that was loaded with
  * lockstep_project_show_groot2. */
 LOCKSTEP_EXPORT bool lockstep_run_groot2(lockstep_run* run, const char* address);
+
+/* Since 1.4: a property of the run, from its first tick to the first result of the root, a fault,
+ * the end of a loop or a restart, after which it is checked again: "arm.running leads to arm.done
+ * within 9 ticks" (docs/properties.md). NULL: those of the tree file, which are not checked else.
+ * Before the first tick. */
+LOCKSTEP_EXPORT bool lockstep_run_check(lockstep_run* run, const char* property);
+/* Since 1.4: of the properties that are violated so far, in the order in which that was found: what
+ * and when ("never arm.failure: violated in tick 3, at 0.300 s"); NULL: no more. Valid until the
+ * next tick or restart. */
+LOCKSTEP_EXPORT const char* lockstep_run_violation(lockstep_run* run, uint32_t index);
 
 /* Since 1.4: what is told of a node that is watched, while the tree is ticked. */
 enum {

@@ -135,6 +135,17 @@ class Project {
   // Keeps what Run::groot2 shows of the tree.
   Project& show_groot2() { return check(lockstep_project_show_groot2(it_.get())); }
 
+  // For tests of trees, before loading: leaves play scripts, and no plugin is called.
+  Project& play_leaves() { return check(lockstep_project_play_leaves(it_.get())); }
+  // After loading: what the leaves with this path, in which * stands for any part, do in runs that
+  // are made or restarted from then on: "R0.25 R0.5 S". `play_each`: in each activation again.
+  Project& play(const std::string& path, const std::string& words) {
+    return check(lockstep_project_play(it_.get(), path.c_str(), words.c_str(), false));
+  }
+  Project& play_each(const std::string& path, const std::string& words) {
+    return check(lockstep_project_play(it_.get(), path.c_str(), words.c_str(), true));
+  }
+
   // Both throw an Error with all error messages; diagnostics() has them as data. Once in the life
   // of a project.
   void load_file(const std::string& path) {
@@ -358,6 +369,22 @@ class Run {
   }
   void groot2(const std::string& address) {
     detail::require(lockstep_run_groot2(it_.get(), address.c_str()));
+  }
+
+  // A property of the run (docs/properties.md), before its first tick.
+  void check(const std::string& property) {
+    detail::require(lockstep_run_check(it_.get(), property.c_str()));
+  }
+  // Those of the tree file.
+  void check_properties_of_file() { detail::require(lockstep_run_check(it_.get(), nullptr)); }
+  // What is violated so far, and when.
+  std::vector<std::string> violations() const {
+    std::vector<std::string> list;
+    for (std::uint32_t i = 0;; ++i) {
+      const char* const text = lockstep_run_violation(it_.get(), i);
+      if (text == nullptr) return list;
+      list.emplace_back(text);
+    }
   }
 
   // Halts every leaf that runs, in the order of the tree.

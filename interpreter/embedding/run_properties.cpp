@@ -1,0 +1,66 @@
+#include "embedding/run_properties.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/wording.h"
+#include "engine/ticker.h"
+
+namespace lockstep::host::embedding {
+
+std::optional<Problem> RunProperties::add(std::string_view text) {
+  auto property = Property::parse(text, property_names(tree_));
+  if (!property) {
+    const PropertyError& it = property.error();
+    return Problem{fmt::format("'{}', column {}: {}", brief(text), it.offset + 1, it.message),
+                   it.hint};
+  }
+  add(std::span(&*property, 1));
+  return std::nullopt;
+}
+
+void RunProperties::add(std::span<const Property> properties) {
+  properties_.insert(properties_.end(), properties.begin(), properties.end());
+  begin_again();
+}
+
+void RunProperties::begin_again() {
+  live_.reset();
+  checks_.emplace(properties_);
+  live_.emplace(tree_, *checks_);
+  is_over_ = false;
+  violations_.clear();
+}
+
+void RunProperties::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
+  if (!is_over_) live_->before_tick(ticker);
+}
+
+void RunProperties::after_tick(Ticker& ticker, const TickReport& report) {
+  if (is_over_) return;
+  for (const std::size_t i : live_->after_tick(ticker, report.tick)) {
+    violations_.push_back(fmt::format("{}: violated in tick {}, at {:.3f} s",
+                                      checks_->all()[i].name(), report.tick,
+                                      to_seconds(report.time)));
+  }
+  if (report.status != Status::Running || ticker.fault() != nullptr) {
+    end(RunIsOver::ByItself, report.tick + 1);
+  }
+}
+
+void RunProperties::run_ended(Ticker&, const RunEnd& end_of_run) {
+  const bool by_itself =
+      end_of_run.reason == StopReason::Completed || end_of_run.reason == StopReason::Fault;
+  end(by_itself ? RunIsOver::ByItself : RunIsOver::FromOutside, end_of_run.ticks);
+}
+
+void RunProperties::end(RunIsOver how, std::uint64_t ticks) {
+  if (std::exchange(is_over_, true)) return;
+  for (const std::size_t i : checks_->end(how)) {
+    violations_.push_back(fmt::format("{}: violated at the end, after {}", checks_->all()[i].name(),
+                                      counted(ticks, "tick")));
+  }
+}
+
+}  // namespace lockstep::host::embedding

@@ -1,0 +1,47 @@
+// The properties of a run that a program ticks: checked until its root has a result, a fault or a
+// loop ends it, or it is restarted. Only within embedding/.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/problem.h"
+#include "measure/live_properties.h"
+#include "runtime/observer.h"
+
+namespace lockstep::host::embedding {
+
+class RunProperties final : public Observer {
+ public:
+  // The tree must outlive this.
+  explicit RunProperties(const Tree& tree) : tree_(tree) {}
+
+  // Before the first tick. What is wrong with the text, or nothing.
+  std::optional<Problem> add(std::string_view text);
+  void add(std::span<const Property> properties);
+  bool empty() const { return properties_.empty(); }
+  // The run is as new.
+  void begin_again();
+
+  // A text for each property that is violated, in the order in which that was found.
+  std::span<const std::string> violations() const { return violations_; }
+
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+ private:
+  void end(RunIsOver how, std::uint64_t ticks);
+
+  const Tree& tree_;
+  std::vector<Property> properties_;
+  std::optional<PropertyChecks> checks_;
+  std::optional<LiveProperties> live_;
+  bool is_over_ = false;
+  std::vector<std::string> violations_;
+};
+
+}  // namespace lockstep::host::embedding
