@@ -225,8 +225,10 @@ static void from_threads() {
   constexpr int kThreads = 4, kTimes = 500;
   std::atomic<bool> goes_on = true;
   std::thread reader([&] {
+    int number = 0;
     while (goes_on)
-      static_cast<void>(board->getKeys().size() + ExportBlackboardToJSON(*board).size());
+      static_cast<void>(board->get("of_0", number) + board->getKeys().size() +
+                        ExportBlackboardToJSON(*board).size());
   });
   std::vector<std::thread> threads;
   for (int i = 0; i < kThreads; ++i) {

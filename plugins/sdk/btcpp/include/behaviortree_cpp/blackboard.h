@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -146,8 +147,8 @@ class Blackboard : public lockstep_detail::BoardCasts,
   };
   LockstepFound lockstep_find(const std::string& key) const;
   void lockstep_set(const std::string& key, Any value, TypeInfo type);
-  // A value that has its type already, as a script gives it.
-  void lockstep_store(const std::string& key, Any value, const TypeInfo& type);
+  // A value that has its type already, as a script gives it. How often it was written then.
+  std::uint64_t lockstep_store(const std::string& key, Any value, const TypeInfo& type);
   void lockstep_create(const std::string& key, const TypeInfo& type);
   void lockstep_unset(const std::string& key);
   static AnyPtrLocked lockstep_locked(LockstepFound found);
@@ -188,6 +189,8 @@ class Blackboard : public lockstep_detail::BoardCasts,
     if (lockstep_is_closed_) lockstep_refuse();
   }
   [[noreturn]] void lockstep_refuse() const;
+  template <class T>
+  std::optional<T> lockstep_value(const LockstepFound& found) const;
 
   std::shared_ptr<const lockstep_detail::BoardLink> lockstep_link() const {
     const std::lock_guard lock(lockstep_mutex_);
@@ -200,6 +203,13 @@ class Blackboard : public lockstep_detail::BoardCasts,
   static void lockstep_push(const LockstepFound& found);
   static void lockstep_assign(const LockstepFound& found, Any value, const TypeInfo& type,
                               bool is_new);
+  // What an entry has now; others may write it at the same time.
+  struct Seen {
+    Any value;
+    TypeInfo info;
+    std::uint64_t writes;
+  };
+  static Seen lockstep_seen(const Entry& entry);
   // Where a key that is not its own is made.
   void lockstep_give_to_parents(const lockstep_detail::BoardLink& link);
   void lockstep_take(const std::string& key, LockstepFound found);

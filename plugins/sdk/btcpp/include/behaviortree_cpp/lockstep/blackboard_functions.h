@@ -91,21 +91,30 @@ Expected<Timestamp> Blackboard::getStamped(const std::string& key, T& value) con
 
 template <class T>
 T Blackboard::get(const std::string& key) const {
-  auto found = getStamped<T>(key);
-  if (found) return std::move(found->value);
-  const std::string message = "Blackboard::get: " + found.error();
-  const auto entry = lockstep_find(key).entry;
-  if (entry != nullptr && !entry->value.empty()) throw std::runtime_error(message);  // another type
-  throw RuntimeError(message);
+  lockstep_open<T>();
+  const LockstepFound found = lockstep_find(key);
+  if (found.entry == nullptr) throw RuntimeError("Blackboard::get: there is no entry '", key, "'");
+  if (auto value = lockstep_value<T>(found)) return std::move(*value);
+  throw RuntimeError("Blackboard::get: ", lockstep_detail::no_value(key));
 }
 
 template <class T>
 bool Blackboard::get(const std::string& key, T& value) const {
   lockstep_open<T>();
-  const auto entry = lockstep_find(key).entry;
-  if (entry == nullptr || entry->value.empty()) return false;
-  value = get<T>(key);
-  return true;
+  const LockstepFound found = lockstep_find(key);
+  auto held = found.entry == nullptr ? std::nullopt : lockstep_value<T>(found);
+  if (held) value = std::move(*held);
+  return held.has_value();
+}
+
+// Nothing: nothing has written it. Throws when it has another type.
+template <class T>
+std::optional<T> Blackboard::lockstep_value(const LockstepFound& found) const {
+  const Locked lock(found);
+  if (found.entry->value.empty()) return std::nullopt;
+  auto value = lockstep_detail::value_as<T>(*this, found.entry->value);
+  if (!value) throw std::runtime_error("Blackboard::get: " + value.error());
+  return std::move(*value);
 }
 
 template <class T>

@@ -260,8 +260,8 @@ LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_create(const std::string& key,
   }
 }
 
-LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_store(const std::string& key, Any value,
-                                                      const TypeInfo& type) {
+LOCKSTEP_BTCPP_INLINE std::uint64_t Blackboard::lockstep_store(const std::string& key, Any value,
+                                                               const TypeInfo& type) {
   auto found = lockstep_find(key);
   if (found.entry == nullptr) {
     lockstep_create(key, type);
@@ -274,6 +274,7 @@ LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_store(const std::string& key, An
   ++entry.sequence_id;
   entry.stamp = lockstep_detail::stamp_now();
   lockstep_push(found);
+  return entry.sequence_id;
 }
 
 LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_unset(const std::string& key) {
@@ -545,6 +546,11 @@ LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_take_from_parents() {
   }
 }
 
+LOCKSTEP_BTCPP_INLINE Blackboard::Seen Blackboard::lockstep_seen(const Entry& entry) {
+  const std::lock_guard lock(entry.entry_mutex);
+  return {entry.value, entry.info, entry.lockstep_writes};
+}
+
 // What the tree has made of it.
 LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_give_to_parents(
     const lockstep_detail::BoardLink& link) {
@@ -553,22 +559,25 @@ LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_give_to_parents(
     const bool is_theirs =
         lockstep_detail::is_of_root(key) || (lockstep_remaps_all_ && !StartWith(key, '_'));
     if (!is_theirs || lockstep_from_parents_.count(key) != 0) continue;
-    const auto own = lockstep_pull(link, key);
-    if (own == nullptr || own->value.empty()) continue;
-    lockstep_parent_->lockstep_store(key, own->value, own->info);
+    const auto entry = lockstep_pull(link, key);
+    if (entry == nullptr) continue;
+    const Seen own = lockstep_seen(*entry);
+    if (own.value.empty()) continue;
+    const std::uint64_t theirs = lockstep_parent_->lockstep_store(key, own.value, own.info);
     auto outside = lockstep_parent_->lockstep_find(key);
-    const std::uint64_t theirs = outside.entry->sequence_id;
     const std::lock_guard lock(lockstep_mutex_);
-    lockstep_from_parents_[key] = {std::move(outside), theirs, own->lockstep_writes};
+    lockstep_from_parents_[key] = {std::move(outside), theirs, own.writes};
   }
   for (auto& [key, known] : lockstep_from_parents_) {
     if (known.outside.entry == nullptr) continue;
-    const auto own = lockstep_pull(link, key);
-    if (own == nullptr || own->lockstep_writes == known.ours) continue;
-    known.ours = own->lockstep_writes;
+    const auto entry = lockstep_pull(link, key);
+    if (entry == nullptr) continue;
+    Seen own = lockstep_seen(*entry);
+    if (own.writes == known.ours) continue;
+    known.ours = own.writes;
     const Locked lock(known.outside);
     Entry& outside = *known.outside.entry;
-    outside.value = own->value;
+    outside.value = std::move(own.value);
     outside.stamp = lockstep_detail::stamp_now();
     ++outside.sequence_id;
     lockstep_push(known.outside);
