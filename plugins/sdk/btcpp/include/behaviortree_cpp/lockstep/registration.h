@@ -59,6 +59,23 @@ inline constexpr bool opens_by_class = false;
 template <class T>
 inline constexpr bool opens_by_class<T, std::void_t<typename T::LockstepOpens>> = true;
 
+template <class Node, class From, class = void>
+inline constexpr bool is_static_cast = false;
+template <class Node, class From>
+inline constexpr bool
+    is_static_cast<Node, From, std::void_t<decltype(static_cast<Node&>(std::declval<From&>()))>> =
+        true;
+
+// A node as its class, which may derive virtually from the library's.
+template <class Node, class From>
+Node& as_class(From& node) {
+  if constexpr (is_static_cast<Node, From>) {
+    return static_cast<Node&>(node);
+  } else {
+    return dynamic_cast<Node&>(node);
+  }
+}
+
 template <class T>
 ClassHooks hooks_of() {
   ClassHooks hooks;
@@ -66,14 +83,14 @@ ClassHooks hooks_of() {
   hooks.is_at_once = std::is_base_of_v<SyncActionNode, T>;
   if constexpr (has_progress<T>) {
     hooks.progress = [](const TreeNode& node) -> double {
-      return static_cast<const T&>(node).progress();
+      return as_class<const T>(node).progress();
     };
   }
   if constexpr (has_on_paused<T>) {
-    hooks.pause = [](TreeNode& node) { static_cast<T&>(node).onPaused(); };
+    hooks.pause = [](TreeNode& node) { as_class<T>(node).onPaused(); };
   }
   if constexpr (has_on_resumed<T>) {
-    hooks.resume = [](TreeNode& node) { static_cast<T&>(node).onResumed(); };
+    hooks.resume = [](TreeNode& node) { as_class<T>(node).onResumed(); };
   }
   return hooks;
 }
