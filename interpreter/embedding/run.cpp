@@ -288,6 +288,23 @@ void lockstep_run_halt(lockstep_run* run) {
   });
 }
 
+bool lockstep_run_recover(lockstep_run* run) {
+  return guarded([&] {
+    if (run == nullptr) return fail("an argument is NULL");
+    const Busy busy(*run);
+    if (busy.is_refused()) return false;
+    const Fault fault = run->run.fault() == nullptr ? Fault() : *run->run.fault();
+    if (!run->run.recover()) return fail(fault_text(*run, fault));
+    if (!fault.message.empty()) {
+      run->leaf_log()(tree_of(*run).path(fault.node), LOCKSTEP_LOG_WARNING,
+                      fault.message + "; the run goes on");
+    }
+    Ticker& ticker = run->run.ticker();
+    run->warnings.tell(ticker, ticker.take_tolerated(), ticker.tick_number());
+    return true;
+  });
+}
+
 const char* lockstep_run_fault(lockstep_run* run, uint32_t* node) {
   return shielded([&]() -> const char* {
     const Fault* const fault = run == nullptr ? nullptr : run->run.fault();

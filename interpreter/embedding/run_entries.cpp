@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/parameter_value.h"
@@ -71,7 +72,7 @@ bool get(lockstep_run* run, Where where, T* value) {
   });
 }
 
-// An entry that is "int or double" may have an int.
+// A whole number is also a real one.
 template <class Where>
 bool get_number(lockstep_run* run, Where where, double* value) {
   return guarded([&] {
@@ -80,7 +81,7 @@ bool get_number(lockstep_run* run, Where where, double* value) {
     const Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return false;
     const auto* const whole = std::get_if<std::int64_t>(&entry->value);
-    if (whole != nullptr && entry->type == ValueType::Number) {
+    if (whole != nullptr) {
       *value = static_cast<double>(*whole);
       return true;
     }
@@ -137,6 +138,22 @@ bool set(lockstep_run* run, Where where, T value) {
     if (!is_finite(value)) return fail("a number must be finite");
     return write(*entry, Value(std::move(value)));
   });
+}
+
+// A whole number where the entry has a real one, if it is that exactly.
+template <class Where>
+bool set_whole(lockstep_run* run, Where where, std::int64_t value) {
+  const bool is_real = guarded([&] {
+    const InEngine scope(lock_of(run));
+    const Entry* const entry = find_entry(run, where);
+    return entry != nullptr &&
+           (entry->typing == Typing::Any ? std::holds_alternative<double>(entry->value)
+                                         : entry->type == ValueType::Double);
+  });
+  const auto real = static_cast<double>(value);
+  constexpr auto kExact = std::int64_t{1} << std::numeric_limits<double>::digits;
+  return is_real && value <= kExact && value >= -kExact ? set(run, where, real)
+                                                        : set(run, where, value);
 }
 
 template <class T, class Item, class Where>
@@ -288,7 +305,7 @@ bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value) {
   return set(run, key, value);
 }
 bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value) {
-  return set(run, key, value);
+  return set_whole(run, key, value);
 }
 bool lockstep_run_set_double(lockstep_run* run, const char* key, double value) {
   return set(run, key, value);
@@ -348,7 +365,7 @@ bool lockstep_run_set_bool_at(lockstep_run* run, uint32_t entry, bool value) {
   return set(run, entry, value);
 }
 bool lockstep_run_set_int_at(lockstep_run* run, uint32_t entry, int64_t value) {
-  return set(run, entry, value);
+  return set_whole(run, entry, value);
 }
 bool lockstep_run_set_double_at(lockstep_run* run, uint32_t entry, double value) {
   return set(run, entry, value);

@@ -52,6 +52,13 @@ void Ticker::halt_all() {
   state_.in_last_halt = false;
 }
 
+void Ticker::recover() {
+  halt_all();
+  state_.faulted = false;
+  state_.fault = {};
+  state_.interrupted = !state_.failing.empty();
+}
+
 void Ticker::watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch) {
   if (watches_ == nullptr) watches_ = std::make_unique<NodeWatches>(tree_);
   watches_->watch(nodes, watch);

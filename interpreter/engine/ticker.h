@@ -49,6 +49,9 @@ class Ticker : public NodeContext {
   // the new one.
   void halt_all();
 
+  // After a fault: halts what runs, and the next tick begins the tree.
+  void recover();
+
   // Resets everything without a call to the leaves: call halt_all first.
   void reset();
 

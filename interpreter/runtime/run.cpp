@@ -51,6 +51,13 @@ void Run::halt() {
   ticker_.halt_all();
 }
 
+bool Run::recover() {
+  if (leaves_.fault()) return false;
+  adopt_thread();
+  ticker_.recover();
+  return true;
+}
+
 // A run may be ticked by one thread now and by another later. Written only then, for the sake of
 // threads that have no business to look.
 void Run::adopt_thread() {

@@ -61,6 +61,8 @@ class Run {
   }
   // Halts every running leaf, in order.
   void halt();
+  // After a fault: halts, and the next tick begins the tree. False: a leaf could not be created.
+  bool recover();
   // Who waits for the next tick of this run; null: nobody ends that wait.
   WakeUp* wake_up() { return may_wake_ ? &wake_up_ : nullptr; }
   // From any thread: as if a leaf wanted a tick.

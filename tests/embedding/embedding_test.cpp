@@ -396,6 +396,16 @@ TEST_CASE("entries are read and written by key") {
         "the entry 'n' is of type int: expected a whole number");
   CHECK(error_of([&] { run.get<bool>("n"); }) == "the entry 'n' has another type");
   CHECK(error_of([&] { run.set("step", 1.0 / 0.0); }) == "a number must be finite");
+  // A whole number is also a real one, and of any size.
+  run.set("step", 2);
+  CHECK(run.get<double>("step") == 2.0);
+  CHECK(run.get<double>("n") == 11.0);
+  run.set("n", 3U);
+  run.set("step", std::size_t{4});
+  CHECK(run.get<std::int64_t>("n") == 3);
+  CHECK(run.get<double>("step") == 4.0);
+  CHECK(error_of([&] { run.set("n", UINT64_MAX); }) == "a number is too large for an entry");
+  CHECK(error_of([&] { run.set("step", INT64_MAX); }) == "the entry 'step' is of type double");
 }
 
 TEST_CASE("an entry that was found once is read and written by its handle, in all runs") {
@@ -572,6 +582,32 @@ TEST_CASE("a fault of a leaf is an error with everything halted, or a failure") 
 
   runtime::Run tolerant(project, {0, 0.01, true});
   CHECK(tolerant.tick(0) == Status::Failure);
+}
+
+TEST_CASE("after a fault a run recovers: its next tick begins the tree") {
+  const runtime::Project project =
+      project_of("<Parallel><Step/><Step step=\"{step}\"/></Parallel>");
+  runtime::RunSettings settings;
+  Strings told;
+  settings.log = [&](const std::string&, lockstep::LogLevel, const std::string& line) {
+    told.push_back(line);
+  };
+  runtime::Run run(project, settings);
+  run.set("step", -1);
+  CHECK(error_of([&] { run.tick(0); }) == "Main/Parallel/Step#2: cannot go back");
+  run.set("step", 0.5);
+  CHECK(error_of([&] { run.tick(1); }) == "Main/Parallel/Step#2: cannot go back");
+  calls.clear();
+  run.recover();
+  CHECK_FALSE(run.fault());
+  CHECK(calls.empty());  // all was halted
+  CHECK(run.get<double>("step") == 0.5);
+  CHECK(run.tick(2) == Status::Running);
+  CHECK(told == Strings{"cannot go back; the run goes on"});
+  run.recover();  // no fault: as halt
+  CHECK(calls == Strings{"halt", "halt"});
+  CHECK(run.tick(3) == Status::Running);
+  CHECK_FALSE(lockstep_run_recover(nullptr));
 }
 
 TEST_CASE("a run whose leaves cannot be made again says so, and is not ticked") {

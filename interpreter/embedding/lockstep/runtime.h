@@ -224,6 +224,11 @@ LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
  * `node` may be NULL. Valid until the next call for this run. */
 LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
 
+/* Since 1.4: after a fault, halts what runs. The run goes on: the next tick begins the tree, with
+ * the entries and the leaves as they are. The fault is told with what leaves log, and so is in a
+ * recording. False: a leaf could not be created; only lockstep_run_restart is of use then. */
+LOCKSTEP_EXPORT bool lockstep_run_recover(lockstep_run* run);
+
 typedef struct lockstep_node_state {
   uint32_t struct_size; /* set by the program */
   lockstep_status status;
@@ -237,10 +242,11 @@ LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
                                        lockstep_node_state* state);
 
 /* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
- * while nothing has written the entry. Numbers, flags and lists need an entry of their type; one
- * that is "int or double" is for both, and get_double reads whichever it is. Text is written as in
- * XML and works for all, also for objects whose type has texts. A text or list that get gives is
- * valid until the next call for this run; set copies. */
+ * while nothing has written the entry. Numbers, flags and lists need an entry of their type; but
+ * get_double also reads an int, and set_int sets a double where the entry is one (since 1.4;
+ * before, only where it is "int or double"). Text is written as in XML and works for all, also for
+ * objects whose type has texts. A text or list that get gives is valid until the next call for this
+ * run; set copies. */
 LOCKSTEP_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
 LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
 LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);

@@ -14,6 +14,7 @@
 #include <lockstep/runtime.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <lockstep/leaf.hpp>
@@ -21,6 +22,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -392,6 +394,9 @@ class Run {
     lockstep_run_halt(it_.get());
     throw_refusal();
   }
+  // After a fault, when tick has thrown: the next tick begins the tree, with the entries and the
+  // leaves as they are.
+  void recover() { detail::require(lockstep_run_recover(it_.get())); }
   // Begins again, as a new run with this seed would.
   void restart(std::uint64_t seed) { detail::require(lockstep_run_restart(it_.get(), seed)); }
   // Ticks at the run's period until the tree completes or has to stop.
@@ -429,17 +434,21 @@ class Run {
   // An entry of the blackboard, by key, "height" or "Deliver/height", or by the handle that
   // Project::find_entry gives, which saves the search: a bool, std::int64_t, double, a std::vector
   // of one of these or of std::string, or as text (std::string), which works for every type, also
-  // for objects whose type has texts. get throws while nothing has written the entry. A double is
-  // also what an entry that is "int or double" has.
+  // for objects whose type has texts. get throws while nothing has written the entry. A whole
+  // number is also a double.
   template <class T>
   T get(const EntryName& entry) const;
   void set(const EntryName& entry, bool value) {
     write(entry, lockstep_run_set_bool, lockstep_run_set_bool_at, value);
   }
-  void set(const EntryName& entry, std::int64_t value) {
-    write(entry, lockstep_run_set_int, lockstep_run_set_int_at, value);
+  // A whole number, also where the entry has a real one.
+  template <class T, std::enable_if_t<std::is_integral_v<T>, int> = 0>
+  void set(const EntryName& entry, T value) {
+    if constexpr (std::is_unsigned_v<T> && sizeof(T) == sizeof(std::int64_t)) {
+      if (value > static_cast<T>(INT64_MAX)) throw Error("a number is too large for an entry");
+    }
+    write(entry, lockstep_run_set_int, lockstep_run_set_int_at, static_cast<std::int64_t>(value));
   }
-  void set(const EntryName& entry, int value) { set(entry, std::int64_t{value}); }
   void set(const EntryName& entry, double value) {
     write(entry, lockstep_run_set_double, lockstep_run_set_double_at, value);
   }

@@ -104,17 +104,17 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     is_busy_ = is_inner;
     source_.blackboard->lockstep_refresh();
     if (watch_->has_thrown()) {
-      halt();
+      halt_all();
+      lockstep_run_recover(run_.get());
       watch_->rethrow();
     }
     throw_fault();
     return status;
   }
+  // All that runs; then it throws what one has thrown.
   void halt() {
-    const bool is_inner = is_busy_.exchange(true);
-    lockstep_run_halt(run_.get());
-    is_busy_ = is_inner;
-    if (!is_inner) watch_->forget_all();
+    halt_all();
+    throw_fault();
   }
 
   // Ends a sleep between two ticks; nodes emit it from any thread.
@@ -208,12 +208,21 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     void operator()(lockstep_run* run) const { lockstep_run_free(run); }
   };
 
+  void halt_all() {
+    const bool is_inner = is_busy_.exchange(true);
+    lockstep_run_halt(run_.get());
+    is_busy_ = is_inner;
+    if (!is_inner) watch_->forget_all();
+  }
+
+  // The next tick begins the tree again.
   void throw_fault() {
     std::uint32_t index = 0;
     const char* const fault = lockstep_run_fault(run_.get(), &index);
     if (fault == nullptr) return;
     std::string text = fault;
-    halt();
+    halt_all();
+    lockstep_run_recover(run_.get());
     if (index >= places_->nodes.size()) throw RuntimeError(text);
     const NodePlace& node = places_->nodes[index];
     const std::string path = node.own_path + ": ";
@@ -284,11 +293,12 @@ LOCKSTEP_BTCPP_INLINE Tree::Tree(std::shared_ptr<lockstep_detail::Program> progr
 }
 
 LOCKSTEP_BTCPP_INLINE lockstep_detail::Program& Tree::lockstep_program() const {
-  if (program_ == nullptr) throw LogicError("this BT::Tree is empty");
+  if (program_ == nullptr) throw RuntimeError("this BT::Tree is empty");
   return *program_;
 }
 LOCKSTEP_BTCPP_INLINE const std::vector<TreeNode::Ptr>& Tree::lockstep_nodes() const {
-  return lockstep_program().nodes();
+  static const std::vector<TreeNode::Ptr> kNone;
+  return program_ == nullptr ? kNone : program_->nodes();
 }
 
 LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickOnce() {
@@ -306,7 +316,7 @@ LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickWhileRunning(std::chrono::millisecond
   return status;
 }
 LOCKSTEP_BTCPP_INLINE void Tree::haltTree() {
-  lockstep_program().halt();
+  if (program_ != nullptr) program_->halt();
 }
 LOCKSTEP_BTCPP_INLINE bool Tree::lockstep_sleep(std::chrono::microseconds duration) {
   return wakeUpSignal()->waitFor(duration);
@@ -321,14 +331,14 @@ LOCKSTEP_BTCPP_INLINE Blackboard::Ptr Tree::rootBlackboard() const {
   return subtrees.empty() ? nullptr : subtrees.front()->blackboard;
 }
 LOCKSTEP_BTCPP_INLINE TreeNode* Tree::rootNode() const {
-  return lockstep_program().root();
+  return program_ == nullptr ? nullptr : program_->root();
 }
 LOCKSTEP_BTCPP_INLINE void Tree::applyVisitor(
     const std::function<void(const TreeNode*)>& visitor) const {
-  for (const auto& node : lockstep_nodes()) visitor(node.get());
+  for (const auto& node : lockstep_program().nodes()) visitor(node.get());
 }
 LOCKSTEP_BTCPP_INLINE void Tree::applyVisitor(const std::function<void(TreeNode*)>& visitor) {
-  for (const auto& node : lockstep_nodes()) visitor(node.get());
+  for (const auto& node : lockstep_program().nodes()) visitor(node.get());
 }
 
 LOCKSTEP_BTCPP_INLINE std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree) {
