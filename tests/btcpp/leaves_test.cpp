@@ -211,3 +211,13 @@ TEST_CASE(
   CHECK(no_position.code == 1);
   CHECK(contains(no_position.out, "failure"));
 }
+
+TEST_CASE(
+    "leaves for BehaviorTree.CPP: entries by name are not in trees of lockstep's own language") {
+  const TemporaryDirectory directory;
+  const auto tree = directory.file(
+      "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Put/></BehaviorTree></root>");
+  const Outcome outcome = run_tree(tree, "entries");
+  CHECK(outcome.code == 5);
+  CHECK(contains(outcome.out, "Main/Put: entries cannot be used by their names here"));
+}

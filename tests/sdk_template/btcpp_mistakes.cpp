@@ -73,5 +73,7 @@ BT_REGISTER_NODES(factory) {
 #include "behaviortree_cpp/loggers/bt_zmq_publisher.h"
 #elif MISTAKE == 11
   factory.registerPolymorphicCast<Good, Abstract>();
+#elif MISTAKE == 12
+  const PortInfo port(PortDirection::INPUT, typeid(int), [](StringView) { return Any(1); });
 #endif
 }
