@@ -120,6 +120,15 @@ static void show_nodes() {
   });
 }
 
+static void show_reactive() {
+  ReactiveSequence::EnableException(false);
+  ReactiveFallback::EnableException(false);
+  show("ReactiveSequence::EnableException(true)", [] {
+    ReactiveSequence::EnableException(true);
+    return "is taken";
+  });
+}
+
 static void show_boards() {
   World world;
   auto tree = world.make("<Sequence><Script code=\"n := 1; m := 2\"/></Sequence>");
@@ -260,6 +269,7 @@ static void show_trees() {
 
 int main() {
   show_nodes();
+  show_reactive();
   show_boards();
   show_trees();
   return 0;

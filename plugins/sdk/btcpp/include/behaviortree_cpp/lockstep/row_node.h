@@ -66,6 +66,15 @@ class LockstepReactiveRowNode : public ControlNode {
   LockstepReactiveRowNode(const std::string& name, NodeStatus goes_on)
       : ControlNode(name, {}), lockstep_goes_on_(goes_on) {}
 
+  // False, as it is at first: another child may run than in the tick before.
+  static void EnableException(bool enable) {
+    if (enable) {
+      throw LogicError(
+          "a reactive node of lockstep halts the child that ran when another one runs, and never "
+          "throws: EnableException(true) has no effect on it");
+    }
+  }
+
  protected:
   NodeStatus tick() override {
     setStatus(NodeStatus::RUNNING);
