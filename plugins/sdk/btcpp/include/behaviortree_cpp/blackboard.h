@@ -188,6 +188,14 @@ class Blackboard : public lockstep_detail::BoardCasts,
     lockstep_detail::note_opening<Use>();
     if (lockstep_is_closed_) lockstep_refuse();
   }
+  // To read an entry as a T. A plugin may know a type of objects by this alone.
+  template <class T>
+  void lockstep_open_as() const {
+    lockstep_open<T>();
+    if constexpr (lockstep_detail::port_type<T>() == LOCKSTEP_OBJECT) {
+      lockstep_detail::object_type<T>();
+    }
+  }
   [[noreturn]] void lockstep_refuse() const;
   template <class T>
   std::optional<T> lockstep_value(const LockstepFound& found) const;

@@ -68,7 +68,7 @@ class Blackboard::Locked {
 
 template <class T>
 Expected<StampedValue<T>> Blackboard::getStamped(const std::string& key) const {
-  lockstep_open<T>();
+  lockstep_open_as<T>();
   const LockstepFound found = lockstep_find(key);
   if (found.entry == nullptr) {
     return nonstd::make_unexpected(StrCat("there is no entry '", key, "'"));
@@ -91,7 +91,7 @@ Expected<Timestamp> Blackboard::getStamped(const std::string& key, T& value) con
 
 template <class T>
 T Blackboard::get(const std::string& key) const {
-  lockstep_open<T>();
+  lockstep_open_as<T>();
   const LockstepFound found = lockstep_find(key);
   if (found.entry == nullptr) throw RuntimeError("Blackboard::get: there is no entry '", key, "'");
   if (auto value = lockstep_value<T>(found)) return std::move(*value);
@@ -100,7 +100,7 @@ T Blackboard::get(const std::string& key) const {
 
 template <class T>
 bool Blackboard::get(const std::string& key, T& value) const {
-  lockstep_open<T>();
+  lockstep_open_as<T>();
   const LockstepFound found = lockstep_find(key);
   auto held = found.entry == nullptr ? std::nullopt : lockstep_value<T>(found);
   if (held) value = std::move(*held);
