@@ -1,8 +1,8 @@
 // Barriers across branches from outside: what a run says of them, its recording says too.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 
@@ -53,7 +53,7 @@ double barrier_measure(const BarrierRun& recorded, const std::string& measure) {
       barrier_command({"log", "measure", recorded.file, "--measure", measure, "--json"});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
-  for (const auto& row : nlohmann::json::parse(outcome.out)) {
+  for (const auto& row : parse_json(outcome.out)) {
     if (row["node"] != "Main/Parallel") return row["value"];
   }
   return -1;

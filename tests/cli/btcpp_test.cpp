@@ -1,8 +1,8 @@
 // Trees for BehaviorTree.CPP on the command line: without their plugins, and with models.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 
@@ -49,12 +49,11 @@ TEST_CASE("run --mock runs a tree before its plugins exist") {
   const std::string tree = directory.file("tree.xml", document(kNodes));
   const Outcome outcome = run_mocked(tree, {});
   CHECK(outcome.code == 0);
-  const auto summary = nlohmann::json::parse(outcome.out);
+  const auto summary = parse_json(outcome.out);
   CHECK(summary["result"] == "success");
   const int ticks = summary["ticks"];
   CHECK(run_mocked(tree, {"--mock-leaf", "Dock=success:2"}).code == 0);
-  CHECK(nlohmann::json::parse(run_mocked(tree, {"--mock-leaf", "Dock=success:2"}).out)["ticks"] >
-        ticks);
+  CHECK(parse_json(run_mocked(tree, {"--mock-leaf", "Dock=success:2"}).out)["ticks"] > ticks);
   CHECK(run_mocked(tree, {"--mock-leaf", "IsOpen=failure"}).code == 1);
   CHECK(run_mocked(tree, {"--mock-leaf", "Pick=running", "--max-ticks", "50"}).code == 124);
 }
@@ -196,7 +195,7 @@ TEST_CASE("a root that is skipped ends the run, not with Success") {
   const std::string tree = directory.file("tree.xml", document("<Dock _skipIf=\"true\"/>"));
   const Outcome outcome = run_mocked(tree, {});
   CHECK(outcome.code == 1);
-  CHECK(nlohmann::json::parse(outcome.out)["result"] == "skipped");
+  CHECK(parse_json(outcome.out)["result"] == "skipped");
 }
 
 TEST_CASE("what asks for another tick for ever is a fault, unless a period is one tick") {

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -26,7 +26,7 @@ TEST_CASE("check --format json is an array on stdout") {
   const Outcome outcome = run_lockstep({"check", "--format", "json", bad});
   CHECK(outcome.code == 3);
   CHECK(outcome.err.empty());
-  const auto messages = nlohmann::json::parse(outcome.out);
+  const auto messages = parse_json(outcome.out);
   REQUIRE(messages.size() == 1);
   CHECK(messages[0]["severity"] == "error");
   CHECK(messages[0]["file"] == bad);
@@ -69,7 +69,7 @@ TEST_CASE("check --strict takes warnings for errors, and notes not") {
   CHECK(contains(outcome.err, warned + ": 1 warning, an error with --strict\n"));
   const Outcome json = run_lockstep({"check", "--strict", "--format", "json", warned});
   CHECK(json.code == 3);
-  CHECK(nlohmann::json::parse(json.out)[0]["severity"] == "warning");
+  CHECK(parse_json(json.out)[0]["severity"] == "warning");
 }
 
 TEST_CASE("check --format github is a workflow command for each message") {
@@ -104,7 +104,7 @@ TEST_CASE("check --format sarif is a log that code scanners read") {
       run_lockstep({"check", "--format", "sarif", path, warned, "--plugin-path", "/none"});
   CHECK(outcome.code == 3);
   CHECK(outcome.err.empty());
-  const auto log = nlohmann::json::parse(outcome.out);
+  const auto log = parse_json(outcome.out);
   CHECK(log["version"] == "2.1.0");
   const auto& run = log["runs"][0];
   CHECK(run["tool"]["driver"]["name"] == "lockstep");

@@ -1,8 +1,8 @@
 // lockstep convert: the same tree in the other language.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 
@@ -51,7 +51,7 @@ std::string ticks(const std::string& tree) {
       {"run", tree, "--clock", "virtual", "--view", "none", "--json", "--set", "step=0.25"});
   INFO(outcome.err);
   REQUIRE(!outcome.out.empty());
-  const auto summary = nlohmann::json::parse(outcome.out);
+  const auto summary = parse_json(outcome.out);
   return summary["result"].get<std::string>() + " " + summary["ticks"].dump();
 }
 

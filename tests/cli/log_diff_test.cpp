@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;
@@ -35,7 +35,7 @@ TEST_CASE("two recordings of the same run do not differ, though their files have
   CHECK(outcome.err == "");
   const Outcome as_json = call({"log", "diff", a, b, "--json"});
   CHECK(as_json.code == 0);
-  CHECK(json::parse(as_json.out)["same"] == true);
+  CHECK(parse_json(as_json.out)["same"] == true);
 }
 
 TEST_CASE("the first tick in which two runs differ, as text and as JSON") {
@@ -51,7 +51,7 @@ TEST_CASE("the first tick in which two runs differ, as text and as JSON") {
   CHECK(contains(outcome.out,
                  "\n Main/Sequence/base\n-  success, progress 0.5, ticked\n"
                  "+  running, progress 0.25, ticked\n"));
-  const json told = json::parse(call({"log", "diff", a, b, "--json"}).out);
+  const json told = parse_json(call({"log", "diff", a, b, "--json"}).out);
   CHECK(told["same"] == false);
   CHECK(told["first_tick"]["nodes"].back()["path"] == "Main/Sequence/base");
   CHECK(told["first_tick"]["nodes"].back()["b"]["progress"] == 0.25);

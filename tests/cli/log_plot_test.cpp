@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 
@@ -41,7 +41,7 @@ Outcome log(std::vector<std::string> arguments) {
 double measure(const std::string& recording, const std::string& name) {
   const Outcome outcome = log({"measure", recording, "--measure", name, "--json"});
   REQUIRE(outcome.code == 0);
-  const auto json = nlohmann::json::parse(outcome.out);
+  const auto json = parse_json(outcome.out);
   REQUIRE(json.size() == 1);
   CHECK(json[0]["measure"] == name);
   return json[0]["value"];
@@ -105,7 +105,7 @@ TEST_CASE("log measure: what was not reached has no value, a far target has a ga
         "Main/Fallback/Sequence/leap       predictability:leap@0.7  1      0.3\n");
   auto with_json = measures;
   with_json.emplace_back("--json");
-  const auto json = nlohmann::json::parse(log(with_json).out);
+  const auto json = parse_json(log(with_json).out);
   CHECK(json.at(0)["value"].is_null());
   CHECK_FALSE(json.at(0).contains("gap"));
   CHECK(json.at(2)["value"].is_null());
@@ -332,7 +332,7 @@ TEST_CASE(
                  "barrier 0.4\n"));
   std::vector<std::string> limits;
   for (const std::string& line : lines(read_file(file))) {
-    const auto json = nlohmann::json::parse(line);
+    const auto json = parse_json(line);
     if (json.contains("limits")) limits.push_back(json["tick"].dump() + json["limits"].dump());
   }
   CHECK(limits == std::vector<std::string>{"0[[2,0.5]]", "100[[2,0.4]]", "200[[2,0.55]]",

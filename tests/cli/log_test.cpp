@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -139,7 +139,7 @@ TEST_CASE("the summary, log info and log measure agree on how long a run took") 
     REQUIRE(from != std::string::npos);
     const std::string took = summary.substr(from, summary.find(" s\n") - from);
     CHECK(contains(log({"info", file}).out, took + " s; "));
-    const auto measured = json::parse(
+    const auto measured = parse_json(
         log({"measure", file, "--measure", "duration", "--measure", "ticks", "--json"}).out);
     CHECK(took == fmt::format("after {} ticks, {:.3f}", measured[1]["value"].get<int>(),
                               measured[0]["value"].get<double>()));

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -15,7 +15,7 @@ json listed(std::vector<std::string> more) {
   const Outcome outcome = run_lockstep(arguments);
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
-  return json::parse(outcome.out);
+  return parse_json(outcome.out);
 }
 
 std::size_t characters(const std::string& line) {

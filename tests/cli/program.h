@@ -65,7 +65,6 @@ class Process {
  private:
   bool has_more(int milliseconds) const;  // or the end
   bool read_more();                       // false at the end of both
-  void write_input(const std::string& input);
 
   pid_t pid_ = -1;
   int out_ = -1, err_ = -1;

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "core/random.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;
@@ -81,8 +81,8 @@ TEST_CASE("log check --json has the same in one line") {
   const Outcome outcome =
       check(record(directory), {"h: base.held at most 1 tick", "never arm.failure"}, {"--json"});
   CHECK(outcome.code == 1);
-  CHECK(json::parse(outcome.out) ==
-        json::parse(R"([{"name":"h","property":"base.held at most 1 tick","verdict":"violated",
+  CHECK(parse_json(outcome.out) ==
+        parse_json(R"([{"name":"h","property":"base.held at most 1 tick","verdict":"violated",
                          "tick":3},
                         {"name":"never arm.failure","property":"never arm.failure",
                          "verdict":"holds","tick":null}])"));
@@ -141,11 +141,11 @@ TEST_CASE("run --property tells a violation in its tick, records it and goes on"
   CHECK(contains(outcome.err,
                  "warning: property wait is violated in tick 3, at 0.030 s: base.held at most 1 "
                  "tick\n"));
-  CHECK(verdicts(json::parse(outcome.out).at("properties")) ==
-        json::parse(R"([["wait", "violated", 3]])"));
-  const json tick = json::parse(lines(read_file(file)).at(4));
+  CHECK(verdicts(parse_json(outcome.out).at("properties")) ==
+        parse_json(R"([["wait", "violated", 3]])"));
+  const json tick = parse_json(lines(read_file(file)).at(4));
   CHECK(tick.at("tick") == 3);
-  CHECK(tick.at("logs") == json::parse(R"([["property wait", "warning",
+  CHECK(tick.at("logs") == parse_json(R"([["property wait", "warning",
                          "violated in tick 3, at 0.030 s: base.held at most 1 tick"]])"));
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("run --on-violation end ends the run with exit code 10") {
       tree, {"--property", "base.held at most 1 tick", "--on-violation", "end", "--record", file});
   CHECK(outcome.code == 10);
   CHECK(contains(outcome.out, "stopped: a property is violated after 4 ticks"));
-  const json end = json::parse(lines(read_file(file)).back()).at("end");
+  const json end = parse_json(lines(read_file(file)).back()).at("end");
   CHECK(end.at("reason") == "property");
   CHECK(end.at("ticks") == 4);
 }
@@ -172,7 +172,7 @@ TEST_CASE("run --on-violation end also counts what only the end shows") {
   CHECK(contains(outcome.err,
                  "warning: property is violated at the end, after 10 ticks: "
                  "sometimes arm.failure\n"));
-  const json end = json::parse(lines(read_file(file)).back()).at("end");
+  const json end = parse_json(lines(read_file(file)).back()).at("end");
   CHECK(end.at("reason") == "completed");
   CHECK(end.at("logs").size() == 1);
   // A limit ends the run from outside: nothing is decided.
@@ -201,8 +201,8 @@ TEST_CASE("run checks the properties of the tree file, and then those of the opt
                             "'base'.progress > 0.5]]></property>"));
   CHECK(run_lockstep({"check", tree}).code == 0);
   const Outcome outcome = run_tree(tree, {"--json", "--property", "never pull.failure"});
-  CHECK(verdicts(json::parse(outcome.out).at("properties")) ==
-        json::parse(R"([["wait", "violated", 3], ["far", "holds", null], ["far2", "holds", null],
+  CHECK(verdicts(parse_json(outcome.out).at("properties")) ==
+        parse_json(R"([["wait", "violated", 3], ["far", "holds", null], ["far2", "holds", null],
                         ["never pull.failure", "holds", null]])"));
   CHECK(contains(outcome.err, ": base.held at most 1 tick\n"));  // on one line
 }
@@ -257,8 +257,8 @@ TEST_CASE("the entries of a tree are compared alike in a run and in its recordin
   words.insert(words.end(), {"--json", "--record", file});
   const Outcome live = run_tree(tree, words);
   const Outcome recorded = check(file, properties, {"--json"});
-  const json expected = verdicts(json::parse(live.out).at("properties"));
-  CHECK(verdicts(json::parse(recorded.out)) == expected);
+  const json expected = verdicts(parse_json(live.out).at("properties"));
+  CHECK(verdicts(parse_json(recorded.out)) == expected);
   CHECK(expected[0][1] == "holds");
   CHECK(expected[1][1] == "holds");
   CHECK(expected[2][1] == "violated");
@@ -281,7 +281,7 @@ TEST_CASE("the examples of docs/properties.md hold for the door") {
   words.emplace_back("--json");
   const Outcome outcome = run_tree(LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml", words);
   INFO(outcome.err);
-  for (const json& it : json::parse(outcome.out).at("properties")) {
+  for (const json& it : parse_json(outcome.out).at("properties")) {
     CHECK(it.at("verdict") == "holds");
   }
 }
@@ -333,8 +333,8 @@ TEST_CASE("run --property and log check agree on random trees") {
     const Outcome live = run_tree(tree, words);
     const Outcome recorded = check(file, properties, {"--json"});
     INFO(nodes << "\n" << live.err << recorded.err);
-    const json expected = verdicts(json::parse(live.out).at("properties"));
-    CHECK(verdicts(json::parse(recorded.out)) == expected);
+    const json expected = verdicts(parse_json(live.out).at("properties"));
+    CHECK(verdicts(parse_json(recorded.out)) == expected);
     for (const json& it : expected) violated += it[1] == "violated" ? 1 : 0;
   }
   CHECK(violated > 20);

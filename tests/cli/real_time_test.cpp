@@ -1,8 +1,8 @@
 // Leaves that work in real time, on a clock where no tick waits for them: a warning names them.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 
@@ -67,5 +67,5 @@ TEST_CASE("nodes says which leaves work in real time") {
   CHECK(contains(listed("text"),
                  "It works in real time: on the virtual clock no tick waits for it."));
   CHECK(contains(listed("markdown"), "it works in real time"));
-  CHECK(nlohmann::json::parse(listed("json"))[0]["real_time"] == true);
+  CHECK(parse_json(listed("json"))[0]["real_time"] == true);
 }

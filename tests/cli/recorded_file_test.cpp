@@ -2,9 +2,9 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -61,7 +61,7 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
     CHECK(run_lockstep(more).code == 0);
     std::vector<std::string> found;
     for (const std::string& line : lines(read_file(file))) {
-      const auto json = nlohmann::json::parse(line);
+      const auto json = parse_json(line);
       if (json.contains("tick") && json.contains(key)) {
         found.push_back(json["tick"].dump() + json[key].dump());
       }
@@ -73,9 +73,8 @@ TEST_CASE("a recording has the entries that changed and what leaves logged, of e
   CHECK(all[0] == R"(0[[1,"0.1"]])");
   CHECK(contains(all[1], R"([[0,"0.5"]])"));
   CHECK(contains(all[2], R"([[0,"0.4;0.8"]])"));
-  const auto header = nlohmann::json::parse(lines(read_file(file))[0]);
-  CHECK(header["entries"] ==
-        nlohmann::json::parse(R"([{"key":"plan","type":"list of double","writers":[3]},
+  const auto header = parse_json(lines(read_file(file))[0]);
+  CHECK(header["entries"] == parse_json(R"([{"key":"plan","type":"list of double","writers":[3]},
                                                        {"key":"s","type":"double"}])"));
   CHECK(recorded("logs", {"--log-level", "none"}) ==
         std::vector<std::string>{R"(0[["Main/Sequence/Say","info","says: a \"word\""]])"});
@@ -99,7 +98,7 @@ TEST_CASE("a recording says which nodes may write an entry: by a port or a scrip
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     std::map<std::string, std::vector<int>> found;
-    const auto header = nlohmann::json::parse(lines(read_file(file))[0]);
+    const auto header = parse_json(lines(read_file(file))[0]);
     for (const auto& entry : header["entries"]) {
       found[entry["key"]] = entry.value("writers", std::vector<int>());
     }

@@ -6,6 +6,16 @@ using namespace lockstep::host::test;
 
 namespace {
 
+// Types keys, and waits for what the terminal shows then.
+auto keys_of(Process& process) {
+  return [&process](const std::string& keys, const std::string& text) {
+    process.clear_output();
+    process.type(keys);
+    CAPTURE(keys, text);
+    REQUIRE(process.wait_for(text));
+  };
+}
+
 Outcome call(std::vector<std::string> arguments) {
   return run_lockstep(std::move(arguments));
 }
@@ -113,12 +123,7 @@ TEST_CASE("keys on a terminal: steps, jumps, the end, and the terminal as it was
   const std::string file = record(directory, kTree);
   // Slow enough that it stays where the keys put it.
   Process process({.arguments = {"replay", file, "--speed", "0.001"}}, Process::Output::Terminal);
-  const auto expect = [&process](const std::string& keys, const std::string& text) {
-    process.clear_output();
-    process.type(keys);
-    CAPTURE(keys, text);
-    REQUIRE(process.wait_for(text));
-  };
+  const auto expect = keys_of(process);
   REQUIRE(process.wait_for("plays\x1b[0m  tick 0 of 3"));
   expect(" ", "paused\x1b[0m  tick 0 of 3");
   expect("n", "tick 1 of 3");
@@ -146,12 +151,7 @@ TEST_CASE(
   Process process(
       {.arguments = {"replay", file, "--speed", "0.001"}, .environment = {{"NO_COLOR", "1"}}},
       Process::Output::Terminal);
-  const auto expect = [&process](const std::string& keys, const std::string& text) {
-    process.clear_output();
-    process.type(keys);
-    CAPTURE(keys, text);
-    REQUIRE(process.wait_for(text));
-  };
+  const auto expect = keys_of(process);
   REQUIRE(process.wait_for("plays  tick 0 of 3"));
   expect(" ", "paused");
   expect("\x1b[B", "*   > arm");

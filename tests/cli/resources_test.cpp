@@ -1,8 +1,8 @@
 // Resources from outside: every room knows who owns what, and who waits for whom.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;
@@ -60,7 +60,7 @@ TEST_CASE("resources: the summary says who waited how long, as text and as JSON"
                                                   "    P/…/eat  waited 9 times"));
   const Outcome outcome = dinner.run({"--view", "none", "--json"});
   CHECK(outcome.code == 0);
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   REQUIRE(summary["pools"].size() == 1);
   CHECK(summary["synchronized_nodes"].empty());
   const json& pool = summary["pools"][0];

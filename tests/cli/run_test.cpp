@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -68,7 +68,7 @@ TEST_CASE(
 
 TEST_CASE("run --json is the summary as one object on stdout") {
   const Outcome outcome = Simulation(kSynchronized).run({"--json"});
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   CHECK(summary["result"] == "success");
   CHECK(summary["reason"] == "completed");
   CHECK(summary["ticks"] > 5);
@@ -112,7 +112,7 @@ TEST_CASE("a value that a built-in node does not take is a fault that names node
 
 TEST_CASE("run --rate is ticks per second") {
   const Outcome outcome = Simulation("<Wait seconds=\"1\"/>").run({"--rate", "20", "--json"});
-  CHECK(json::parse(outcome.out)["ticks"] == 21);
+  CHECK(parse_json(outcome.out)["ticks"] == 21);
 }
 
 TEST_CASE("run --arg, --set and --tree choose what runs") {
@@ -126,7 +126,7 @@ TEST_CASE("run --arg, --set and --tree choose what runs") {
   const auto ticks = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"run", file, "--clock", "virtual", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return json::parse(run_lockstep(arguments).out)["ticks"].get<int>();
+    return parse_json(run_lockstep(arguments).out)["ticks"].get<int>();
   };
   CHECK(ticks({}) == 1);
   CHECK(ticks({"--arg", "n=3"}) == 3);
@@ -150,14 +150,14 @@ TEST_CASE("a recording holds the whole run: header, ticks, end") {
   const std::string file = it.directory.path("run.jsonl");
   const Outcome outcome = it.run({"--record", file, "--seed", "3", "--json"});
   const auto recording = lines(read_file(file));
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   REQUIRE(recording.size() == summary["ticks"].get<std::size_t>() + 2);
-  const json header = json::parse(recording.front());
+  const json header = parse_json(recording.front());
   CHECK(header["seed"] == 3);
   CHECK(header["clock"] == "virtual");
   CHECK(header["file"] == it.file);
   CHECK(header["nodes"][1]["path"] == "Main/pull/arm");
-  const json end = json::parse(recording.back())["end"];
+  const json end = parse_json(recording.back())["end"];
   CHECK(end["reason"] == "completed");
   CHECK(end["ticks"] == summary["ticks"]);
 }
@@ -167,7 +167,7 @@ TEST_CASE("a whole number is taken as it is written, or refused") {
   const std::string file = it.directory.path("run.jsonl");
   const auto seed = [&](const std::string& text) {
     REQUIRE(it.run({"--seed", text, "--record", file}).code == 0);
-    return json::parse(lines(read_file(file)).front())["seed"].get<std::uint64_t>();
+    return parse_json(lines(read_file(file)).front())["seed"].get<std::uint64_t>();
   };
   CHECK(seed("18446744073709551615") == 18446744073709551615u);
   CHECK(seed("010") == 10);
@@ -201,7 +201,7 @@ TEST_CASE("who stood still is in the notes of the summary") {
       "<Advance name=\"base\" step=\"0.3\"/></ParallelRelative>");
   const Outcome outcome =
       it.run({"--stall", "2", "--max-ticks", "500", "--view", "none", "--json"});
-  const json notes = json::parse(outcome.out)["notes"];
+  const json notes = parse_json(outcome.out)["notes"];
   REQUIRE(notes.size() == 1);
   CHECK(outcome.err == "warning: " + notes[0].get<std::string>() + "\n");
   CHECK(contains(it.run({"--stall", "2", "--max-ticks", "500", "--view", "none"}).out,
@@ -299,7 +299,7 @@ TEST_CASE("a leaf that fails as a program is 5, it is named, the others are halt
   }
   const Outcome fault = Simulation("<Profile shape=\"zigzag\"/>").run({"--json"});
   CHECK(fault.code == 5);
-  CHECK(json::parse(fault.out)["reason"] == "fault");
+  CHECK(parse_json(fault.out)["reason"] == "fault");
 }
 
 TEST_CASE("a port whose entry nobody has written has its default, or the fault names the entry") {
@@ -317,11 +317,11 @@ TEST_CASE("a port whose entry nobody has written has its default, or the fault n
     more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--json", "--view", "none"});
     return run_lockstep(more);
   };
-  const auto ticks = nlohmann::json::parse(run_tree(plain, {}).out)["ticks"];
+  const auto ticks = parse_json(run_tree(plain, {}).out)["ticks"];
   for (const auto& more : {std::vector<std::string>{}, std::vector<std::string>{"--isolate"}}) {
     const Outcome with_default = run_tree(bound, more);
     CHECK(with_default.code == 0);
-    CHECK(nlohmann::json::parse(with_default.out)["ticks"] == ticks);
+    CHECK(parse_json(with_default.out)["ticks"] == ticks);
     const Outcome without = run_tree(unwritten, more);
     CHECK(without.code == 5);
     CHECK(
@@ -376,9 +376,9 @@ TEST_CASE("the result of a run that a fault ended is fault, whatever its sibling
   const std::string recording = it.directory.path("run.jsonl");
   const Outcome outcome =
       it.run({"--plugin", abi_plugin("throws_exception"), "--json", "--record", recording});
-  CHECK(json::parse(outcome.out)["result"] == "fault");
-  CHECK(json::parse(outcome.out)["reason"] == "fault");
-  const json end = json::parse(lines(read_file(recording)).back())["end"];
+  CHECK(parse_json(outcome.out)["result"] == "fault");
+  CHECK(parse_json(outcome.out)["reason"] == "fault");
+  const json end = parse_json(lines(read_file(recording)).back())["end"];
   CHECK(end["result"] == "fault");
   CHECK(end["reason"] == "fault");
   CHECK(contains(run_lockstep({"log", "info", recording}).out, "  fault after 1 tick"));

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -45,7 +45,7 @@ TEST_CASE("a stop signal halts the running leaves in order and ends the recordin
     CHECK(second != std::string::npos);
     CHECK(first < second);
     const auto recording = lines(read_file(file));
-    const json end = json::parse(recording.back())["end"];
+    const json end = parse_json(recording.back())["end"];
     CHECK(end["reason"] == "signal");
     CHECK(end["signal"] == number);
   }

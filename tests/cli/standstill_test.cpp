@@ -1,9 +1,9 @@
 // Standstills from outside: what a run says of them, and how --stall-fail ends them.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;
@@ -182,7 +182,7 @@ TEST_CASE("standstill: the summary has it, and the exit code is that of the run"
 TEST_CASE("standstill: the summary as JSON has its links") {
   const Outcome outcome =
       StandingProject(kKeptAtBarrier).run({"--stall", "1", "--view", "none", "--json"});
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   REQUIRE(summary["standstills"].size() == 1);
   const json& it = summary["standstills"][0];
   CHECK(it["cause"] == "circle");
@@ -229,7 +229,7 @@ TEST_CASE(
     const Outcome outcome = project.run({"--stall-fail", "1", "--stall", stall, "--json"});
     INFO(stall);
     CHECK(outcome.code == 0);
-    const json summary = json::parse(outcome.out);
+    const json summary = parse_json(outcome.out);
     CHECK(summary["ticks"] == 108);
     REQUIRE(summary["standstills"].size() == 1);
     CHECK(summary["standstills"][0]["failed"] == "Main/Fallback/pull");
@@ -245,7 +245,7 @@ TEST_CASE("standstill: of a circle, the lowest node that contains it fails") {
     const Outcome outcome =
         StandingProject(project).run({"--stall-fail", "1", "--view", "none", "--json"});
     CHECK(outcome.code == 1);
-    const json summary = json::parse(outcome.out);
+    const json summary = parse_json(outcome.out);
     CHECK(summary["why_failed"].back()["stood_still"] == true);
     return summary["standstills"][0]["failed"].get<std::string>();
   };
@@ -262,7 +262,7 @@ TEST_CASE("standstill: the recording has the node's Failure, and a line about it
   project.run({"--stall-fail", "1", "--record", file, "--view", "none"});
   const auto recorded = lines(read_file(file));
   REQUIRE(recorded.size() > 107);
-  const json tick = json::parse(recorded[107]);
+  const json tick = parse_json(recorded[107]);
   CHECK(tick["tick"] == 106);
   REQUIRE(tick["logs"].size() == 1);
   CHECK(tick["logs"][0][0] == "Main/Retry/pull");
@@ -290,7 +290,7 @@ TEST_CASE("standstill: however often it comes, the messages are bounded") {
       project.run({"--stall-fail", "0.001", "--max-ticks", "2000", "--json", "--view", "none"});
   CHECK(outcome.code == 124);
   CHECK(lines(outcome.err).size() < 30);
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   CHECK(summary["standstills"].size() == 20);
   REQUIRE(summary["notes"].size() == 6);
   CHECK(contains(summary["notes"][5].get<std::string>(), " standstills more"));

@@ -1,13 +1,11 @@
 // Names and texts of trees, plugins, recordings and the command line never reach a terminal raw:
 // not as text, in the live view, in a replay, in JSON, nor in a message of what is wrong with them.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "core/diagnostics.h"
+#include "core/wording.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -57,7 +55,7 @@ void check_clean(const Outcome& outcome, const std::string& what, bool on_termin
 
 void check_all(const std::vector<Strings>& commands) {
   for (const Strings& command : commands) {
-    check_clean(run_lockstep(command), fmt::format("{}", fmt::join(command, " ")));
+    check_clean(run_lockstep(command), joined(command, " "));
   }
 }
 
@@ -278,9 +276,9 @@ TEST_CASE("what programs read is exact: CSV in a pipe, and JSON as it parses") {
   const TemporaryDirectory directory;
   const std::string file = directory.file("run.jsonl", recording());
   CHECK(contains(run_lockstep({"log", "csv", file}).out, "T/x/" + kWorse));
-  const auto values = json::parse(run_lockstep({"log", "measure", file, "--json"}).out);
+  const auto values = parse_json(run_lockstep({"log", "measure", file, "--json"}).out);
   CHECK(values[0]["node"] == "T/" + kWorse);
-  const auto summary = json::parse(
+  const auto summary = parse_json(
       run_lockstep({"run", directory.file("good.xml", kGood), "--clock", "virtual", "--json"}).out);
   CHECK(summary["synchronized_nodes"][0]["path"] == "A/" + kEvil);
 }

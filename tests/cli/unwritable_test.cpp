@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -115,7 +115,7 @@ TEST_CASE("a run says how many of its messages could not be written") {
   const Outcome outcome =
       shell.call("lockstep run tree.xml --clock virtual --view plain --json 2>/dev/full");
   CHECK(outcome.code == 0);
-  CHECK(json::parse(outcome.out)["notes"] ==
+  CHECK(parse_json(outcome.out)["notes"] ==
         json::array({"4 lines of stderr are lost: No space left on device"}));
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("a reader who stops reading stderr holds nothing up") {
                                        " --rate 1000 --timeout 0.5 --view " + view +
                                        " --json --record stuck.jsonl 2>&" + stuck.number());
     CHECK(outcome.code == 124);
-    const json summary = json::parse(outcome.out);
+    const json summary = parse_json(outcome.out);
     CHECK(summary["ticks"] > 100);
     CHECK(contains(summary["notes"].dump(), "of stderr are lost: nobody read them"));
     CHECK(contains(lines(read_file(shell.path("stuck.jsonl"))).back(), "\"reason\":\"timeout\""));

@@ -37,7 +37,7 @@ json statuses(int all, int first, int second) {
 TEST_CASE("a breakpoint pauses the run after the tick, and says so to all who listen") {
   GrootRun it(kTree, {"--groot2-control"});
   CHECK(it.ask("I:" + hook(3))["parts"] == 1);
-  CHECK(json::parse(it.ask("D")["value"].get<std::string>()).size() == 1);
+  CHECK(parse_json(it.ask("D")["value"].get<std::string>()).size() == 1);
   it.order({{"do", "resume"}});
   it.wait_for("S", statuses(1, 2, 1));
   CHECK(it.ask("U:" + key(3, "SUCCESS")).contains("error"));

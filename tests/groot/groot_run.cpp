@@ -33,7 +33,7 @@ std::vector<nlohmann::json> ask_groot(unsigned port, std::vector<std::string> re
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   std::vector<nlohmann::json> answers;
-  for (const std::string& line : lines(outcome.out)) answers.push_back(nlohmann::json::parse(line));
+  for (const std::string& line : lines(outcome.out)) answers.push_back(parse_json(line));
   return answers;
 }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/program.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 

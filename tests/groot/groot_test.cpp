@@ -109,7 +109,7 @@ TEST_CASE("a client that asks gets the statuses after the last tick") {
   CHECK(it.resume().code == 0);
   const Outcome outcome = client.finish();
   INFO(outcome.err);
-  CHECK(json::parse(lines(outcome.out).back())["value"] ==
+  CHECK(parse_json(lines(outcome.out).back())["value"] ==
         statuses({kSuccess, kSuccess, kSuccess, kSuccess, kSuccess}));
 }
 

@@ -1,7 +1,6 @@
 // docs/language.md itself: its examples load, its traces are what a run does, its tables are
 // complete, its links lead somewhere.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -10,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/wording.h"
 #include "definition/check/models.h"
 #include "definition/definition.h"
 #include "dialect/btcpp/hints.h"
@@ -198,10 +198,10 @@ std::string foreign_row(const btcpp::NodePair& pair, const std::vector<std::stri
     }
   }
   const std::regex tag("((?:<[^>]+>)+)");
-  return fmt::format("| {}{}{} | {}{}{} | {} |\n", fmt::join(names, ", "),
-                     theirs.empty() ? "" : ": ", fmt::join(theirs, ", "),
+  return fmt::format("| {}{}{} | {}{}{} | {} |\n", joined(names, ", "), theirs.empty() ? "" : ": ",
+                     joined(theirs, ", "),
                      pair.ours.empty() ? "none" : in_code(btcpp::instead_of(pair)),
-                     ours.empty() ? "" : ": ", fmt::join(ours, ", "),
+                     ours.empty() ? "" : ": ", joined(ours, ", "),
                      std::regex_replace(std::string(pair.remark), tag, "`$1`"));
 }
 
@@ -227,9 +227,9 @@ std::string foreign_table() {
   for (const std::string_view it : kLockstepRules.hooks) ours.push_back(in_code(it));
   for (const std::string_view it : btcpp::kMarks) marks.push_back(in_code(it));
   return table +
-         fmt::format("| any node: {} | any node: {} |  |\n", fmt::join(theirs, ", "),
-                     fmt::join(ours, ", ")) +
-         fmt::format("| any node: {} | none | a mark of an editor |\n", fmt::join(marks, ", "));
+         fmt::format("| any node: {} | any node: {} |  |\n", joined(theirs, ", "),
+                     joined(ours, ", ")) +
+         fmt::format("| any node: {} | none | a mark of an editor |\n", joined(marks, ", "));
 }
 
 TEST_CASE("what is generated: what to write instead of the nodes of other libraries") {
@@ -313,7 +313,7 @@ inline const std::set<std::string>& node_ids() {{
 
 }}  // namespace BT::lockstep_detail
 )",
-          fmt::join(ids, ",\n" + indent)));
+          joined(ids, ",\n" + indent)));
 }
 
 std::string cpp_text(std::string_view text) {

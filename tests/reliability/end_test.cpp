@@ -2,9 +2,9 @@
 // before its work is done, and none ends without naming who kept it from ending.
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -81,11 +81,11 @@ TEST_CASE(
       CHECK(in_process.code == 6);
       CHECK(contains(in_process.err, "hostile.so'"));
       CHECK(contains(in_process.err, "its destructors or exit handlers"));
-      CHECK(json::parse(in_process.out)["result"] == "success");
+      CHECK(parse_json(in_process.out)["result"] == "success");
       const Outcome isolated = run_hostile({""}, Where::Isolated, options, environment);
       INFO(isolated.err);
       CHECK(isolated.code == 0);
-      CHECK(json::parse(isolated.out)["result"] == "success");
+      CHECK(parse_json(isolated.out)["result"] == "success");
     }
   }
 }
@@ -180,7 +180,7 @@ TEST_CASE("a child that a leaf forks off never comes back into the run") {
         INFO(with.err);
         CHECK(with.code == 0);
         CHECK(recorded == expected);
-        CHECK(json::parse(with.out)["ticks"] == json::parse(without.out)["ticks"]);
+        CHECK(parse_json(with.out)["ticks"] == parse_json(without.out)["ticks"]);
         CHECK(with.err.find("run ends") == with.err.rfind("run ends"));
         // The end of the plugin's process may come before the child's words.
         if (where == Where::Isolated) continue;

@@ -3,9 +3,9 @@
 #include <signal.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -52,7 +52,7 @@ TEST_CASE("an isolated leaf that hangs can be a Failure") {
         run_hostile({"hang", where}, Where::Isolated, with({"--on-fault", "fail", "--json"}));
     INFO(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(json::parse(outcome.out)["faults"] == 1);
+    CHECK(parse_json(outcome.out)["faults"] == 1);
   }
 }
 
@@ -101,11 +101,11 @@ TEST_CASE("a plugin that refuses to finish does not keep the program from ending
   const Outcome in_process = run_hostile({""}, Where::InProcess, with({"--json"}), environment);
   CHECK(in_process.code == 6);
   CHECK(contains(in_process.err, "deinit"));
-  CHECK(json::parse(in_process.out)["result"] == "success");  // what was to be told has been told
+  CHECK(parse_json(in_process.out)["result"] == "success");  // what was to be told has been told
 
   const Outcome isolated = run_hostile({""}, Where::Isolated, with({"--json"}), environment);
   CHECK(isolated.code == 0);
-  CHECK(json::parse(isolated.out)["result"] == "success");
+  CHECK(parse_json(isolated.out)["result"] == "success");
 }
 
 TEST_CASE("a plugin that crashes or hangs in init is named") {

@@ -3,9 +3,9 @@
 #include <signal.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -63,13 +63,13 @@ TEST_CASE("a leaf that cannot be halted at a limit is a fault, with any policy, 
         if (!where.empty()) options.push_back(where);
         const Outcome outcome = run_lockstep(it.arguments(options));
         check(outcome);
-        const json summary = json::parse(outcome.out);
+        const json summary = parse_json(outcome.out);
         CHECK(summary["result"] == "fault");
         CHECK(summary["fault"] ==
               "Main/Parallel/arm: " + kTold + ": threw an exception: out of reach");
         CHECK(summary["ticks"] == 3);
         CHECK(summary["notes"][0] == "the leaf 'Main/Parallel/lift' " + kTold + ": lost the arm");
-        const json end = json::parse(lines(read_file(file)).back())["end"];
+        const json end = parse_json(lines(read_file(file)).back())["end"];
         CHECK(end["result"] == "fault");
         CHECK(end["fault"] == summary["fault"]);
       }
@@ -98,7 +98,7 @@ TEST_CASE("a leaf that cannot be halted after a fault is told beside the leaf at
                     LOCKSTEP_HOSTILE_DIRECTORY, "--clock", "virtual", "--view", "none", "--json"});
   INFO(outcome.err);
   CHECK(outcome.code == kFault);
-  CHECK(contains(json::parse(outcome.out)["fault"], "culprit: returned status 7"));
+  CHECK(contains(parse_json(outcome.out)["fault"], "culprit: returned status 7"));
   CHECK(lines(outcome.err).size() == 3);
   CHECK(contains(outcome.err, "'Main/Parallel/arm' (Misbehave of plugin 'hostile') " + kTold));
   CHECK(contains(outcome.err, "'Main/Parallel/lift' (Misbehave of plugin 'hostile') " + kTold));

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -44,7 +44,7 @@ void check_fault(const Misdeed& misdeed, const std::string& message) {
     const Outcome outcome =
         run_hostile(misdeed, where, with(kFast, {"--on-fault", "fail", "--json"}));
     check(outcome, 0, {});
-    CHECK(json::parse(outcome.out)["result"] == "success");
+    CHECK(parse_json(outcome.out)["result"] == "success");
     CHECK(contains(outcome.out, message));
   }
 }
@@ -61,7 +61,7 @@ void check_crash(const Misdeed& misdeed, const std::string& in_process,
   const Outcome outcome =
       run_hostile(misdeed, Where::Isolated, with(kFast, {"--on-fault", "fail", "--json"}));
   check(outcome, 0, {});
-  CHECK(json::parse(outcome.out)["result"] == "success");
+  CHECK(parse_json(outcome.out)["result"] == "success");
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ TEST_CASE("a progress that is not a number is a fault, one out of range is clamp
             {"warning: the leaf 'Main/plan/ParallelRelative/arm' (Misbehave of plugin 'hostile') " +
              told});
       CHECK(outcome.err.find(told) == outcome.err.rfind(told));
-      const json notes = json::parse(outcome.out)["notes"];
+      const json notes = parse_json(outcome.out)["notes"];
       REQUIRE(notes.size() == 1);
       CHECK(contains(notes[0], leaf + told));
       CHECK(contains(run_lockstep({"log", "info", file}).out, "  note: " + leaf + told));
@@ -165,8 +165,8 @@ TEST_CASE("a leaf that cannot be created ends the run before its first tick") {
     const Outcome outcome =
         run_hostile({"throw exception", "create"}, where,
                     with(kFast, {"--record", file, "--view", "plain", "--json"}));
-    const json summary = json::parse(outcome.out),
-               end = json::parse(lines(read_file(file)).back())["end"];
+    const json summary = parse_json(outcome.out),
+               end = parse_json(lines(read_file(file)).back())["end"];
     CHECK(contains(summary["fault"], "/arm: could not be created: threw an exception"));
     CHECK(end["fault"] == summary["fault"]);
     CHECK(contains(run_lockstep({"log", "info", file}).out,

@@ -3,9 +3,9 @@
 #include <signal.h>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -30,7 +30,7 @@ TEST_CASE("what a leaf prints does not mix with the results") {
     const Outcome outcome = run_hostile({"print"}, where, {"--clock", "virtual", "--json"});
     INFO(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(json::parse(outcome.out)["result"] == "success");
+    CHECK(parse_json(outcome.out)["result"] == "success");
     CHECK(contains(outcome.err, "printed by a leaf"));
     CHECK(contains(outcome.err, "written by a leaf"));
   }
@@ -155,7 +155,7 @@ TEST_CASE("a thread of an isolated plugin that logs without end keeps nobody") {
                                           "--isolate", "--clock", clock, "--rate", "3000",
                                           "--max-ticks", std::to_string(ticks), "--json"});
     CHECK(outcome.code == 124);
-    CHECK(json::parse(outcome.out)["ticks"] == ticks);
+    CHECK(parse_json(outcome.out)["ticks"] == ticks);
     CHECK(contains(outcome.err, "still here"));
     CHECK(contains(outcome.err, " lines of leaves left out"));
     std::size_t taken = 0;
@@ -241,7 +241,7 @@ TEST_CASE("after a crash in this process, the recording is whole up to the last 
     CHECK(contains(outcome.err, "tick 7"));
     const auto recording = lines(read_file(file));
     REQUIRE(recording.size() == 8);  // the header and the ticks 0 to 6
-    CHECK(json::parse(recording.back())["tick"] == 6);
+    CHECK(parse_json(recording.back())["tick"] == 6);
   }
 }
 

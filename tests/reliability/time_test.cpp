@@ -1,9 +1,9 @@
 // The loop and its time as a user sees it: overruns, budgets, real time. The laws of the loop
 // itself are in tests/unit/runtime, on a clock that the test moves.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -19,20 +19,20 @@ Outcome run_late(Strings options) {
 }  // namespace
 
 TEST_CASE("a late tick skips deadlines, makes up for them, or ends the run") {
-  const json skip = json::parse(run_late({"--json"}).out);
+  const json skip = parse_json(run_late({"--json"}).out);
   CHECK(skip["overruns"] >= 1);  // a busy machine makes other ticks late, too
   CHECK(skip["skipped"] >= 29);
-  const json catch_up = json::parse(run_late({"--json", "--overrun", "catch-up"}).out);
+  const json catch_up = parse_json(run_late({"--json", "--overrun", "catch-up"}).out);
   CHECK(catch_up["overruns"] >= 4);  // the leaf needs four more ticks, all of them late
   CHECK(catch_up["skipped"] == 0);
   const Outcome fail = run_late({"--json", "--overrun", "fail"});
   CHECK(fail.code == 7);
-  CHECK(json::parse(fail.out)["reason"] == "overrun");
-  CHECK(json::parse(fail.out)["ticks"] == 1);
+  CHECK(parse_json(fail.out)["reason"] == "overrun");
+  CHECK(parse_json(fail.out)["ticks"] == 1);
 }
 
 TEST_CASE("the summary names the worst tick and the leaf that used most of it") {
-  const json worst = json::parse(run_late({"--json"}).out)["worst_tick"];
+  const json worst = parse_json(run_late({"--json"}).out)["worst_tick"];
   CHECK(worst["tick"] == 0);
   CHECK(worst["leaf"] == "Main/plan/arm");
   CHECK(worst["took_s"] >= 0.3);
@@ -43,7 +43,7 @@ TEST_CASE("a leaf over its budget is named while the run goes on, and in the sum
   const Outcome outcome = run_late({"--json", "--tick-budget", "250"});
   CHECK(contains(outcome.err, "the leaf 'Main/plan/arm' (Misbehave of plugin 'hostile') took "));
   CHECK(contains(outcome.err, "more than the budget of 250.000 ms"));
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   CHECK(summary["tick_budget_s"] == 0.25);
   REQUIRE(summary["over_budget"].size() == 1);
   CHECK(summary["over_budget"][0]["leaf"] == "Main/plan/arm");
@@ -52,10 +52,10 @@ TEST_CASE("a leaf over its budget is named while the run goes on, and in the sum
 }
 
 TEST_CASE("the budget is the period by default, and 0 is none") {
-  CHECK(json::parse(run_late({"--json", "--rate", "50"}).out)["tick_budget_s"] == 0.02);
+  CHECK(parse_json(run_late({"--json", "--rate", "50"}).out)["tick_budget_s"] == 0.02);
   const Outcome outcome = run_late({"--json", "--tick-budget", "0"});
   CHECK_FALSE(contains(outcome.err, "budget"));
-  CHECK(json::parse(outcome.out)["over_budget"].empty());
+  CHECK(parse_json(outcome.out)["over_budget"].empty());
 }
 
 TEST_CASE("a processor that there is not is refused before the first tick") {
@@ -75,7 +75,7 @@ TEST_CASE("a recording that cannot be written is told at once, the run stops or 
   CHECK(contains(going_on.out, "cannot write '/dev/full'"));
   const Outcome stopped = run_hostile({""}, Where::InProcess, stop);
   CHECK(stopped.code == 8);
-  CHECK(json::parse(stopped.out)["reason"] == "recording");
+  CHECK(parse_json(stopped.out)["reason"] == "recording");
 }
 
 }  // namespace lockstep::host::test

@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "reliability/hostile_tree.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -39,7 +39,7 @@ TEST_CASE("unread: time limits and signals end a run, its recording is closed") 
     const Outcome outcome = run(unread(
         stuck, {"run", tree, "--timeout", "0.3", "--view", view, "--record", file, "--json"}));
     CHECK(outcome.code == 124);
-    CHECK(json::parse(outcome.out)["ticks"] > 1);
+    CHECK(parse_json(outcome.out)["ticks"] > 1);
     CHECK(contains(lines(read_file(file)).back(), "\"reason\":\"timeout\""));
   }
   Process process(unread(stuck, {"run", tree, "--view", "plain", "--record",
@@ -48,7 +48,7 @@ TEST_CASE("unread: time limits and signals end a run, its recording is closed") 
   }
   const Outcome outcome = process.end_by(SIGINT);
   CHECK(outcome.code == 130);
-  CHECK(contains(json::parse(outcome.out)["notes"].dump(), "of stderr are lost: nobody read them"));
+  CHECK(contains(parse_json(outcome.out)["notes"].dump(), "of stderr are lost: nobody read them"));
 }
 
 TEST_CASE("unread: a fault, a crash and a hang have their codes") {

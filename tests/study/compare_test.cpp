@@ -1,9 +1,9 @@
 // `lockstep study compare`, from outside.
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "study/study_case.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -39,7 +39,7 @@ nlohmann::json compared(const StudyCase& it, const std::string& out, const std::
   const Outcome outcome = compare(it, out, {"--json", "--cells", first, second});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
-  return nlohmann::json::parse(outcome.out);
+  return parse_json(outcome.out);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ nlohmann::json Comparisons::between(const Words& from, const Words& to) {
                       std::to_string(cells.first), std::to_string(cells.second)});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
-    measures = nlohmann::json::parse(outcome.out)["measures"];
+    measures = parse_json(outcome.out)["measures"];
   }
   const auto found = std::ranges::find_if(measures, [&](const nlohmann::json& it) {
     return it["node"] == from.at(summary_.at("node")) &&

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "study/choice.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 

@@ -2,10 +2,10 @@
 // program.
 #include <catch2/catch.hpp>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "study/study_case.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -123,14 +123,14 @@ TEST_CASE("studies: the seed of a run gives the same run to lockstep run, bit fo
                                       "none", "--json", "--arg", "noise=" + row.at(1), "--seed",
                                       row.at(3), "--record", it.path("run.jsonl")});
     REQUIRE(run.code == 0);
-    const auto summary = nlohmann::json::parse(run.out);
+    const auto summary = parse_json(run.out);
     CHECK(summary["ticks"] == std::stoull(row.at(4)));
     const Outcome measured = run_lockstep({"log", "measure", it.path("run.jsonl"), "--json",
                                            "--measure", "progress-distance", "--measure",
                                            "step-length", "--measure", "predictability:a2@0.6"});
     INFO(measured.err);
     REQUIRE(measured.code == 0);
-    const auto values = nlohmann::json::parse(measured.out);
+    const auto values = parse_json(measured.out);
     for (std::size_t i = 0; i < 3; ++i) CHECK(values.at(i)["value"] == std::stod(row.at(6 + i)));
   }
 }
@@ -148,7 +148,7 @@ TEST_CASE("studies: no run sees what the run before it did to its world or its e
       const auto row = fields(rows[i]);  // cell,run,seed,ticks,result,…
       const Outcome run = run_lockstep({"run", tree, "--clock", "virtual", "--view", "none",
                                         "--json", "--max-ticks", "3000", "--seed", row.at(2)});
-      const auto summary = nlohmann::json::parse(run.out);
+      const auto summary = parse_json(run.out);
       CHECK(summary["ticks"] == std::stoull(row.at(3)));
       const std::map<std::string, int> codes{{"success", 0}, {"failure", 1}, {"limit", 124}};
       CHECK(run.code == codes.at(row.at(4)));
@@ -161,7 +161,7 @@ TEST_CASE("studies: the JSON has the intervals of summary.csv") {
   const Outcome printed = it.study(
       {kPaper + "example5.xml", "--runs", "20", "--json", "--grid", "noise=0.01,0.05"}, "out");
   REQUIRE(printed.code == 0);
-  const auto json = nlohmann::json::parse(printed.out);
+  const auto json = parse_json(printed.out);
   const std::string csv = it.read("out", "summary.csv");
   REQUIRE(json.size() == 2);
   for (const std::string name : {"median-low", "median-high", "success-low", "success-high",
@@ -257,7 +257,7 @@ TEST_CASE("studies: a target that the progress leaps over is far") {
   const StudyCase it;
   const auto tree = it.file("tree.xml", tree_text("<Advance name=\"a\" step=\"1\"/>"));
   auto study = Strings{tree, "--runs", "2", "--measure", "predictability:a@0.6", "--json"};
-  const auto json = nlohmann::json::parse(it.study(study, "out").out).at(0);
+  const auto json = parse_json(it.study(study, "out").out).at(0);
   CHECK(json["n"] == 2);
   CHECK(json["median"] == 1);
   CHECK(json["gap"] == 0.4);

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "study/study_case.h"
+#include "support/json.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -194,7 +194,7 @@ TEST_CASE("until a precision, cells of one study may have another number of pair
       run_lockstep({"study", "compare", it.path("out"), "--json", "--cells", "0", "2"});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
-  const auto distance = nlohmann::json::parse(outcome.out)["measures"][0];
+  const auto distance = parse_json(outcome.out)["measures"][0];
   CHECK(distance["n_a"] == 100);
   CHECK(distance["n_b"] == 100);
 }

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -63,7 +63,7 @@ std::vector<std::string> told(const std::string& file, int& code) {
   code = outcome.code;
   CHECK(outcome.err.empty());
   std::vector<std::string> messages;
-  for (const json& it : json::parse(outcome.out)) {
+  for (const json& it : parse_json(outcome.out)) {
     const std::string in = it["file"];
     messages.push_back(without_directory(
         it["severity"].get<std::string>() + " " + (in == file ? "" : in + ":") +
@@ -85,7 +85,7 @@ std::string result_of(const std::string& file) {
   const Outcome outcome = run_lockstep(arguments);
   INFO(outcome.err);
   REQUIRE(!outcome.out.empty());
-  const json summary = json::parse(outcome.out);
+  const json summary = parse_json(outcome.out);
   const std::string result = summary["result"];
   CHECK(outcome.code == (result == "success" ? 0 : 1));
   const int ticks = summary["ticks"];

@@ -1,10 +1,10 @@
 // lockstep verify from outside, and that what it found comes again with run --leaves.
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/program.h"
+#include "support/json.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -143,7 +143,7 @@ TEST_CASE("a verdict as JSON has what the text has") {
   const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml",
                                    "--json", "--out", directory.path("out")});
   CHECK(it.code == 1);
-  const auto json = nlohmann::json::parse(it.out);
+  const auto json = parse_json(it.out);
   CHECK(json["complete"] == true);
   CHECK(json["results"]["success"] == 1);
   REQUIRE(json["findings"].size() == 1);

@@ -1,7 +1,7 @@
 // A run that is controlled from a browser, from outside.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "web/client.h"
 
 using namespace lockstep::host::test;
@@ -101,9 +101,9 @@ TEST_CASE("an entry is set between ticks, if its type takes the value") {
   CHECK(it.order({{"do", "set"}, {"entry", "pause"}, {"value", "0.03"}}).status == 204);
   const Response wrong = it.order({{"do", "set"}, {"entry", "pause"}, {"value", "soon"}});
   CHECK(wrong.status == 400);
-  CHECK(json::parse(wrong.body)["error"] == "'soon' is not a number, which 'pause' holds");
+  CHECK(parse_json(wrong.body)["error"] == "'soon' is not a number, which 'pause' holds");
   const Response unknown = it.order({{"do", "set"}, {"entry", "pauze"}, {"value", "1"}});
-  CHECK(json::parse(unknown.body)["error"] == "the tree has no entry 'pauze'");
+  CHECK(parse_json(unknown.body)["error"] == "the tree has no entry 'pauze'");
   it.order({{"do", "resume"}});
   it.events().finish();
   CHECK(it.run().process().finish().code == 0);
@@ -138,7 +138,7 @@ TEST_CASE("what is no order is refused with a sentence") {
     const Response response = post(it.run().port(), "/control", body, it.token());
     CHECK(response.status == 400);
     CHECK(contains(response.head, "Content-Type: application/json\r\n"));
-    return json::parse(response.body)["error"].get<std::string>();
+    return parse_json(response.body)["error"].get<std::string>();
   };
   CHECK(error("") == "not JSON");
   CHECK(error("{") == "not JSON");

@@ -1,7 +1,7 @@
 // The monitor of a run from outside, with plain sockets.
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "support/json.h"
 #include "web/client.h"
 
 using namespace lockstep::host::test;
@@ -30,7 +30,7 @@ struct EndlessRun : MonitoredRun {
 std::vector<json> lines_of(const std::string& events) {
   std::vector<json> all;
   for (const std::string& line : lines(events)) {
-    if (line.starts_with("data: {")) all.push_back(json::parse(line.substr(6)));
+    if (line.starts_with("data: {")) all.push_back(parse_json(line.substr(6)));
   }
   return all;
 }

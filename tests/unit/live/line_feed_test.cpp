@@ -6,12 +6,12 @@
 #include <catch2/catch.hpp>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
 #include "recording/write/json_lines.h"
 #include "recording/write/recorder.h"
+#include "support/json.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
@@ -65,7 +65,7 @@ std::map<int, Known> known_after(const std::string& lines) {
   Known known;
   std::istringstream in(lines);
   for (std::string text; std::getline(in, text);) {
-    const json line = json::parse(text);
+    const json line = test::parse_json(text);
     if (!line.contains("tick")) continue;
     known.take(line);
     Known& after = all[line["tick"]] = known;
@@ -160,7 +160,7 @@ TEST_CASE("a line with the whole state has what the run has had until then") {
   std::istringstream in(watched.lines);
   int full = 0;
   for (std::string text; std::getline(in, text);) {
-    const json line = json::parse(text);
+    const json line = test::parse_json(text);
     if (!line.value("full", false)) continue;
     ++full;
     std::map<int, json> counts;
@@ -181,7 +181,7 @@ TEST_CASE("a node that fails in each tick has failed as often as there were tick
   REQUIRE(last != std::string::npos);
   const std::size_t begin = watched.lines.rfind('\n', last) + 1;
   const json line =
-      json::parse(watched.lines.substr(begin, watched.lines.find('\n', begin) - begin));
+      test::parse_json(watched.lines.substr(begin, watched.lines.find('\n', begin) - begin));
   const int tick = line["tick"];
   CHECK(tick > 50);
   CHECK(line["counts"][0] == json{1, 0, tick + 1, 0, 0, 0, 0});

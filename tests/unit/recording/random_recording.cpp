@@ -77,7 +77,7 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
   for (std::size_t node = 1; node < options.nodes; ++node) {
     recording.header.nodes.push_back({.path = fmt::format("Main/root/{}", node),
                                       .kind = "Advance",
-                                      .name = fmt::to_string(node),
+                                      .name = std::to_string(node),
                                       .parent = 0});
   }
   std::uint64_t tick = 0;
