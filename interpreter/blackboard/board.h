@@ -18,7 +18,7 @@ struct Board {
   std::uint32_t parent = kNone;  // of a SubTree: the board outside
   std::uint32_t node = 0;        // the SubTree
   bool autoremap = false;
-  // Of the main tree: "@key" is another entry than "key", one of a board outside.
+  // The board of the main tree: "@key" names another entry than "key", one of a board outside.
   bool has_outside = false;
   std::map<std::string, std::string, std::less<>> remapped = {};  // to a key outside
   std::set<std::string, std::less<>> own = {};  // keys that have a start value here

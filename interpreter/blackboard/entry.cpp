@@ -13,8 +13,8 @@ bool is_of(const Entry& entry, ValueType type, const ObjectType* object) {
          entry.object == nullptr || object->name() == entry.object->name();
 }
 
-// What a script has put into an entry decides whether its numbers are whole or real. False: the
-// value is none of that kind.
+// A script decides with the first number that it puts into an entry whether the entry's numbers are
+// whole or real. Returns false if the value cannot be of that kind.
 bool keep_kind(const Entry& entry, Value& value) {
   const bool is_whole = std::holds_alternative<std::int64_t>(entry.value);
   if (!is_whole && !std::holds_alternative<double>(entry.value)) return true;

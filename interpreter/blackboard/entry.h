@@ -36,8 +36,9 @@ inline void unset_entry(Entry& entry) {
   entry.is_present = false;
 }
 
-// What a port of that type writes, counted: an entry without a type gets this one. Into one of
-// another type goes what converts to it; else returns false, and the entry is as it was.
+// Writes the value of a port of that type, and counts it. An entry without a type gets this type.
+// For an entry of another type the value is converted; if it cannot be, returns false, and the
+// entry stays as it was.
 bool write_entry(Entry& entry, ValueType type, const ObjectType* object, Value value);
 
 }  // namespace lockstep::host
