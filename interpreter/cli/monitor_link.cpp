@@ -8,7 +8,7 @@ namespace lockstep::host {
 
 namespace {
 
-// What `make` gives. An error names the option.
+// Returns the result of `make`, if this build has a monitor. An error names the option.
 template <class Make>
 auto if_built(const std::string& option, Make make) -> decltype(make()) {
   if (!has_http_server()) {

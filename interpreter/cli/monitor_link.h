@@ -1,5 +1,5 @@
-// What `run --monitor` and `replay --monitor` have in common: where they listen, and the link that
-// they show.
+// The options that `run --monitor` and `replay --monitor` share: where they listen, and the link
+// that they show.
 #pragma once
 
 #include <string>

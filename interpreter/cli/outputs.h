@@ -18,7 +18,7 @@ struct NamedFile {
 
 // A file that the command line names; - is stdin.
 NamedFile named_file(const std::string& path);
-// What was read to load a tree: its documents and its plugins.
+// The files that were read to load a tree: its documents and its plugins.
 std::vector<NamedFile> inputs_of(std::span<const std::string> documents, const PluginSet& plugins);
 // The two that a command writes to anyway.
 std::vector<NamedFile> standard_outputs();

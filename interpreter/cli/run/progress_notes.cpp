@@ -11,7 +11,8 @@
 namespace lockstep::host {
 namespace {
 
-// What gives a child its progress: the leaf below its decorators. Null: it is not a leaf.
+// The leaf below the decorators of a child: it gives the child its progress. Null if there is a
+// control node.
 const NodeLabel* source_of(const Tree& tree, NodeIndex child) {
   const auto category = [&] { return tree.labels[child].type->category; };
   while (tree.nodes[child].children == 1 && category() != NodeCategory::Control) ++child;

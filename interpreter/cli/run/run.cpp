@@ -53,7 +53,7 @@ int exit_code_of(const RunEnd& end) {
   return kExitLeafFault;
 }
 
-// Whose fault it was, for a person who has to find the culprit.
+// Says which leaf was at fault, and when.
 std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
   const bool in_tick = !fault.in_last_halt && end.ticks > 0;
   return fmt::format("{} {}{}: {}", describe_node(tree, fault.node), failure_text(fault, end.ticks),
@@ -115,7 +115,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     }
     watchers_.tell();
     Diagnostics refused;
-    // Whose leaves are played is not asked.
+    // A plugin whose leaves are played is not asked to begin.
     if (options_.leaves.empty() && !plugins->initialize(refused)) {
       view_.close();
       print_diagnostics(refused, Severity::Warning);
@@ -308,7 +308,7 @@ void last_words() {
   View::last_words();
 }
 
-// What a recording must not overwrite.
+// The files that a recording must not overwrite.
 std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
   std::vector<std::string> documents{options.tree};
   for (const auto& source : loaded.project->sources.all()) documents.push_back(source->path());

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMuchMemory = 64u << 20;  // bytes; a run needs far less
 
-// What is in memory of this process, in bytes; 0 when the system does not tell.
+// The memory of this process, in bytes; 0 when the system does not tell.
 std::size_t resident_memory() {
   std::FILE* file = std::fopen("/proc/self/statm", "re");
   if (file == nullptr) return 0;

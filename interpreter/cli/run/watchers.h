@@ -34,9 +34,9 @@ class Watchers {
 
   // Says where the monitor is, before the run starts.
   void tell();
-  // What they may order; null: nothing.
+  // The orders that the watchers may give; null if they may give none.
   RunControl* control() { return control_ ? &*control_ : nullptr; }
-  // What a leaf logs; from any thread.
+  // Passes on a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
   void add_to(std::vector<Observer*>& observers);
   // After all that the run prints: see --monitor-linger.

@@ -63,7 +63,7 @@ std::filesystem::path image_of(const LogPlotOptions& options, const ProgressPlot
   return image.replace_filename(stem + image.extension().string());
 }
 
-// What is drawn is written to three files: none may be the recording.
+// A plot is written to three files. None may be the recording.
 bool would_replace_recording(const LogPlotOptions& options, std::filesystem::path image) {
   const NamedFile recording[] = {named_file(options.file)};
   for (const std::string& extension :

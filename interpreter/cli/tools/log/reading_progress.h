@@ -10,7 +10,7 @@ namespace lockstep::host {
 
 class ReadingProgress {
  public:
-  // Of this file; "-" is stdin.
+  // Begins a line for this file; "-" is stdin.
   explicit ReadingProgress(const std::string& path);
   // Removes the line.
   ~ReadingProgress();

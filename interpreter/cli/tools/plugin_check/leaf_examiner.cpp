@@ -26,7 +26,7 @@ constexpr int kTicks = 20;
 constexpr std::uint32_t kMostChildren = 2;
 constexpr std::size_t kLong = 64 * 1024;
 
-// What is done to a run, one after the other.
+// The steps of a scenario.
 enum class Do : std::uint8_t { Tick, Pause, Halt, Restart };
 
 struct Exercise {
@@ -139,7 +139,7 @@ class Examiner {
   }
 
  private:
-  // What came of it.
+  // The result of a scenario.
   struct Finding {
     std::string fault;   // "" for none
     std::string breach;  // of the contract

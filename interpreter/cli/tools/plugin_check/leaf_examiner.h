@@ -1,5 +1,5 @@
-// What a leaf of a shared object does when a run asks of it all that runs ask. It is in this
-// process: a leaf that crashes or hangs ends it.
+// Asks a leaf of a shared object for everything that runs ask for, in this process: a leaf that
+// crashes or hangs ends it.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@
 namespace lockstep::host {
 
 struct LeafReport {
-  // What was found: whether it is as lockstep/leaf.h says, and in words.
+  // A finding: whether the leaf keeps to lockstep/leaf.h, and in words.
   std::function<void(bool is_good, const std::string& text)> note;
-  // What comes next, of which the leaf may not come back: "with level=-1".
+  // Names the next step before it begins, since the leaf may not return from it: "with level=-1".
   std::function<void(const std::string& what)> about_to;
 };
 
