@@ -74,7 +74,7 @@ class Converter {
  private:
   bool to_ours() const { return &conversion_.to == &kLockstepRules; }
 
-  // What a part of the text has become.
+  // An element of the text that is not closed yet.
   struct Open {
     std::uint32_t element;
     std::size_t begin;
@@ -106,7 +106,7 @@ class Converter {
     return std::ranges::any_of(open_, [](const Open& it) { return it.is_left_out; });
   }
 
-  // What editors read: it stays as it is.
+  // Models are for editors, so they stay as they are.
   bool is_in_models() const { return open_.size() > 1 && open_[1].tag == kModels; }
 
   void open(const XmlToken& token) {
@@ -429,7 +429,7 @@ class Converter {
                "it is for editors", Severity::Note);
   }
 
-  // What only the lenient grammar takes is written as XML.
+  // A value that only the lenient grammar accepts is written as XML.
   void keep(const XmlToken& token, const Attribute& attribute) {
     const bool is_glued = !is_xml_blank(text_[token.begin - 1]);
     if (to_ours() && is_glued) edits_.insert(token.begin, " ");
