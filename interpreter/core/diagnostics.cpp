@@ -43,7 +43,7 @@ std::string visible(std::string_view text, Tabs tabs) {
   return out;
 }
 
-// What lies before the caret: a tab for a tab, and blanks for all else that is shown.
+// The text before the caret: a tab for a tab, and blanks for everything else that is shown.
 std::string caret_padding(std::string_view before) {
   std::string padding;
   for (std::string shown; !before.empty(); shown.clear()) {

@@ -14,7 +14,7 @@ namespace lockstep::host {
 
 class EndBudget {
  public:
-  // What anybody may wait, whoever has waited before.
+  // Everybody may wait so long, however long others have waited before.
   static constexpr Nanoseconds kLeast = std::chrono::milliseconds(100);
 
   // Nothing: it has no limit.

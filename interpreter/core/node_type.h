@@ -1,5 +1,5 @@
-// What a node kind declares: id, arity, parameters, and the rules between them. Built-in nodes and
-// leaves of plugins use the same description. The checker, `lockstep nodes`, the XSD and
+// NodeType declares a node kind: id, arity, parameters, and the rules between them. Built-in nodes
+// and leaves of plugins use the same description. The checker, `lockstep nodes`, the XSD and
 // docs/nodes.md are all made from these rows.
 #pragma once
 
@@ -68,7 +68,7 @@ struct Arity {
   std::uint32_t max = std::numeric_limits<std::uint32_t>::max();
 };
 
-// What is wrong with the parameters of a node.
+// A mistake in the parameters of a node.
 struct RuleBreak {
   int parameter = -1;  // its index, or -1: the node itself
   std::string message;
@@ -87,8 +87,8 @@ struct ParameterValues {
   }
 };
 
-// What a stand-in for a node that no plugin has does: the result of an action after a time, of a
-// condition at once.
+// A stand-in for a node that no plugin has returns this result: an action after a time, a condition
+// at once.
 struct Mock {
   Status result = Status::Success;
   double seconds = 1;
@@ -103,7 +103,7 @@ struct NodeType {
   // Checks rules between parameters, and fills in values that follow from others. May be null.
   // Called when the tree is loaded, and during a run after an entry was written.
   std::optional<RuleBreak> (*rule)(const ParameterValues& parameters) = nullptr;
-  // What advice and drawings need to know.
+  // The rest is for advice and drawings.
   std::string_view sign = {};  // as papers draw it, "→"; "": by its id
   Synchronization synchronization = Synchronization::None;
   Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result

@@ -16,8 +16,8 @@ std::string_view type_name(ValueType type, const ObjectType* object);
 // parse_value and expected_text, also of objects.
 std::optional<Value> parse_value(ValueType type, const ObjectType* object, std::string_view text);
 std::string expected_text(ValueType type, const ObjectType* object);
-// What the plugin says of a text that is none of its objects, as a hint; "" when nothing, and of a
-// null type.
+// The plugin's own words about a text that is none of its objects, as a hint. "" if it has none,
+// and for a null type.
 std::string why_no_object(const ObjectType* object, std::string_view text);
 
 // The error in `value`, which has the parameter's type: outside of its range, or not among its

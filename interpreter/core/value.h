@@ -60,7 +60,7 @@ std::string_view to_string(ValueType type);
 // Nothing for an object; see ObjectType::from_text.
 std::optional<Value> parse_value(ValueType type, std::string_view text);
 
-// What parse_value accepts for `type`, for a message: "a number", "true or false", …
+// A description of the texts that parse_value accepts for `type`: "a number", "true or false", …
 std::string_view expected_text(ValueType type);
 
 // The value as text that parse_value reads back to the same value; "" for no value. Of an object
