@@ -51,7 +51,7 @@ struct CheckedNode {
   std::uint32_t scripts = Port::kNone;  // its first in CheckedTrees::scripts
 };
 
-// What a SubTree gives to a key of its tree: an outer entry, or a start value.
+// A SubTree binds a key of its tree to this: an outer entry, or a start value.
 struct Remapping {
   std::string_view key;
   std::string_view value;  // the key outside, or the text

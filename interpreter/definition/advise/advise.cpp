@@ -46,7 +46,7 @@ class Adviser {
     report_.at(at(node).place, std::move(message), std::move(hint), severity);
   }
 
-  // What is known of a node, or of the children of a node together.
+  // The properties of a node, or of all children of a node together.
   struct Conduct {
     bool has_action : 1 = false;
     bool can_run : 1 = false;  // return Running
@@ -81,7 +81,7 @@ class Adviser {
     it.has_action |= type.category == NodeCategory::Action;
     it.can_run |= type.can_run;
     if (type.category == NodeCategory::Action || type.category == NodeCategory::Control) {
-      // What a control node returned, its children need not have returned.
+      // The children of a control node need not have returned what it has returned.
       it.again_after_success = it.again_after_failure = type.category == NodeCategory::Action ||
                                                         children.again_after_success ||
                                                         children.again_after_failure;

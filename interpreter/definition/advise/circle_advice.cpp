@@ -53,7 +53,7 @@ class CircleReport {
     return fmt::format("{} {:.4g}", by_delta ? "beyond" : "at", link.limit);
   }
 
-  // What the awaited node has to do with the one that is held next.
+  // Says how the awaited node and the one that is held next belong together.
   std::string why(const HoldingLink& link, const HoldingLink& next) const {
     std::string text;
     if (link.sequence != link.awaited) {

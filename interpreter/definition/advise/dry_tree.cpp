@@ -25,7 +25,7 @@ class DryTreeBuilder {
   }
 
  private:
-  // What is known of a node and all that is in it.
+  // The properties of a node and of all that is in it.
   struct Conduct {
     std::uint32_t keeper = DryNode::kNone;  // of a member: its barrier
     bool has_member : 1 = false;

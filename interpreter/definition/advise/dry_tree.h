@@ -1,5 +1,6 @@
-// What of a tree decides whether its barriers open: their members and what is around these. All
-// else is put together into leaves, so that the dry run of a large tree has little to do.
+// The part of a tree that decides whether its barriers open: their members and what is around
+// these. Everything else is put together into leaves, so that the dry run of a large tree has
+// little to do.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct DryNode {
   std::uint32_t end;     // one past the last descendant, in the dry tree, which is in pre-order
   std::uint32_t parent;  // the root is its own
   std::uint32_t keeper = kNone;  // who may hold it, in DryTree::keepers
-  // What it adds to the progress of its parent: (place + progress) / parts.
+  // It adds this to the progress of its parent: (place + progress) / parts.
   double place = 0, parts = 1;
   // The rest is for leaves.
   double last = 1;       // the progress from which it jumps to 1

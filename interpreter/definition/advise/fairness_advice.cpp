@@ -47,7 +47,7 @@ class FairnessAdviser {
     for (const std::uint32_t member : pool.members) {
       const auto withheld = nearest_holder(member);
       if (!withheld) continue;
-      // What is held together with the member gains nothing from that.
+      // Nodes that are held together with the member gain nothing from that.
       const std::uint32_t child = withheld->child;
       if (!users.has_rival_outside(member, child, at(child).end)) continue;
       if (count++ == 0) first = withheld;

@@ -26,7 +26,7 @@ class IdleMemberAdviser {
 
   const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
 
-  // What is around all of the members keeps all of them from running.
+  // Only nodes below the common ancestor are named: those around it keep all members from running.
   void advise(const DefinitionGroup& barrier) const {
     const std::uint32_t ancestor = definition_.common_ancestor(barrier.members);
     const bool repeats = may_repeat(ancestor);

@@ -1,5 +1,5 @@
-// Who needs which resource of a pool. What an entry without a start value names is not known, and
-// counts as nothing.
+// Finds which nodes need which resource of a pool. An entry without a start value counts as no
+// resource.
 #pragma once
 
 #include <algorithm>

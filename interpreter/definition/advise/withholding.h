@@ -1,5 +1,5 @@
-// Who may withhold ticks from a node: a synchronized node from its children, a barrier from the
-// children of its SyncProgress nodes.
+// Finds the nodes that may withhold ticks from a node: a synchronized node from its children, a
+// barrier from the children of its SyncProgress nodes.
 #pragma once
 
 #include <algorithm>

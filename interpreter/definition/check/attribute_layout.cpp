@@ -24,7 +24,7 @@ void look_up_names(const NodeType& type, const LanguageRules& rules, AttributeLa
   for (std::uint32_t i = 0; i < layout.names.size(); ++i) {
     const std::string_view name = layout.names[i];
     if (name == "name") layout.name = i;
-    // What is declared beside the trees is never ticked.
+    // Nodes that are declared beside the trees are never ticked.
     const bool is_hook = type.category != NodeCategory::Group && hook_named(name, rules);
     layout.has_hooks |= is_hook;
     const bool names_type = layout.is_explicit && name == "ID";
@@ -57,7 +57,7 @@ bool AttributeLayout::fits(const NodeElement& element) const {
   if (is_explicit != element.is_explicit || names.size() != attributes.size()) return false;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string_view other = attributes[i].name;
-    // What == asks, without a call for it: this is done for each attribute of a tree.
+    // This is == without a call, since it is done for each attribute of a tree.
     if (other.size() != names[i].size()) return false;
     if (std::memcmp(other.data(), names[i].data(), other.size()) != 0) return false;
   }

@@ -1,6 +1,6 @@
-// What the attributes of a node are to its type. Nodes of one type mostly have the same attributes,
-// so their names are only compared with those of the node before; what they are is looked up, and
-// the defaults of the others are read, when that differs.
+// The meaning of a node's attributes for its type. Nodes of one type mostly have the same
+// attributes, so their names are only compared with those of the node before. Where these differ,
+// the attributes are looked up, and the defaults of the others are read.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct NodeElement {
   bool is_explicit;  // its ID attribute names the type
 };
 
-// What every node may have.
+// Every node may have these.
 constexpr bool is_common_attribute(std::string_view name) {
   return name == "name" || name == "_description";
 }
@@ -40,9 +40,9 @@ struct AttributeLayout {
   bool has_unknown = false;    // an attribute that the type does not have
   bool has_hooks = false;      // an attribute with a script around ticks
   std::vector<Given> given;    // in the order of the parameters
-  // Of all parameters; complete where it is not in `given`.
+  // One for each parameter; complete where the parameter is not in `given`.
   std::vector<CheckedPort> ports;
-  // Of each parameter: its default in CheckedTrees::values, or kNone.
+  // For each parameter its default in CheckedTrees::values, or kNone.
   std::vector<std::uint32_t> defaults;
 
   bool fits(const NodeElement& element) const;
@@ -50,7 +50,8 @@ struct AttributeLayout {
 
 class AttributeLayouts {
  public:
-  // Of a node of this type. Valid until the next call. Appends defaults to trees.values.
+  // Returns the layout of a node of this type. Valid until the next call. Appends defaults to
+  // trees.values.
   const AttributeLayout& of(const NodeElement& element, const NodeType& type, CheckedTrees& trees);
 
  private:

@@ -100,7 +100,8 @@ class AttributeChecker {
     if (good && node_.type->rule != nullptr) apply_rule();
   }
 
-  // What one parameter is: a value, a key with its default, a script. False after an error.
+  // Reads a parameter as a value, a key with its default, or a script. Returns false after an
+  // error.
   bool check_parameter(AttributeLayout::Given given) {
     const Parameter& parameter = node_.type->parameters[given.parameter];
     CheckedPort& port = trees_.ports[node_.first + given.parameter];
@@ -216,7 +217,7 @@ class AttributeChecker {
     return nullptr;
   }
 
-  // What is declared beside the trees is never ticked.
+  // Nodes that are declared beside the trees are never ticked.
   bool has_hooks() const { return node_.type->category != NodeCategory::Group; }
   bool is_hook(std::string_view name) const {
     return has_hooks() && hook_named(name, rules_).has_value();

@@ -26,7 +26,7 @@ bool is_read_elsewhere(std::string_view tag) {
   return std::ranges::find(kTags, tag) != std::end(kTags);
 }
 
-// Whose files have this attribute of the root.
+// The language whose files have this attribute of the root.
 const LanguageRules* language_marked(std::string_view attribute) {
   const auto found = std::ranges::find(languages(), attribute, &LanguageRules::root_attribute);
   return found == languages().end() ? nullptr : *found;
@@ -147,7 +147,7 @@ class TreeChecker {
     }
   }
 
-  // What it says is checked against the expanded tree (loading/tree_properties.h).
+  // Its text is checked later, against the expanded tree (loading/tree_properties.h).
   void check_property(std::uint32_t index) {
     const Place place = element(index).place;
     if (element(index).end > index + 1) {
@@ -288,7 +288,7 @@ class TreeChecker {
     trees_.nodes[self] = node;
   }
 
-  // What the attributes of a node say.
+  // Checks the attributes of a node.
   void check_content(const NodeElement& element, std::uint32_t self, CheckedNode& node) {
     const bool bare = element.attributes.empty();
     const Attribute* name = bare ? nullptr : find_attribute(element.attributes, "name");

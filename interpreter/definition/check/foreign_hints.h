@@ -1,4 +1,5 @@
-// What to write instead of nodes and attributes of other languages: their rooms hand in hints.
+// Hints for users of other languages, whose rooms hand them in: our words for a node or an
+// attribute.
 #pragma once
 
 #include <span>
@@ -9,7 +10,8 @@
 
 namespace lockstep::host {
 
-// What a language hands in. `tag` is "" if the node only shares its name with one of that language.
+// The hints of one language. `tag` is "" if the node only shares its name with one of that
+// language.
 struct ForeignHints {
   std::string (*for_node)(std::string_view tag, std::span<const Attribute> attributes);
   std::string (*for_attribute)(std::string_view tag, const Attribute& attribute);

@@ -1,5 +1,5 @@
-// What both languages check of a node and its element: the explicit form and the number of
-// children.
+// The checks of a node and its element that both languages share: the explicit form and the number
+// of children.
 #pragma once
 
 #include <cstdint>

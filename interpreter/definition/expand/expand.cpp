@@ -208,7 +208,7 @@ class Expander {
     return first;
   }
 
-  // What is not a constant.
+  // Binds a parameter that is not a constant.
   Port bind(const CheckedPort& port, const Parameter& parameter, const NodeType& type,
             Scope& scope) {
     if (port.key.empty()) return {.script = bind_script(trees_.scripts[port.value], scope)};

@@ -20,11 +20,11 @@ struct StaticType {
   friend bool operator==(const StaticType&, const StaticType&) = default;
 };
 
-// What a script does with types.
+// Hears how a script uses types.
 struct TypeListener {
   // An assignment: the entry, in Expression::names(), and what it gets.
   std::function<void(std::uint32_t name, const StaticType& type)> assigned;
-  // What fails whenever it is reached: where in the text, and why.
+  // A part of the script that fails whenever it is reached: where in the text, and why.
   std::function<void(std::size_t offset, std::string message)> wrong;
 };
 
