@@ -15,7 +15,7 @@ std::string element(const Tag& tag) {
   std::string text = fmt::format("        <xs:element name=\"{}\">\n    {}\n    <xs:complexType>\n",
                                  tag.name, xsd_documented(tag.doc));
   for (const Word& word : tag.words) text += xsd_attribute(word);
-  // Of a leaf, out.PORT: XSD cannot say how a name begins.
+  // A leaf has attributes out.PORT. XSD cannot say how a name begins.
   if (tag.name == "leaf") {
     text += "      <xs:anyAttribute namespace=\"##local\" processContents=\"skip\"/>\n";
   }

@@ -28,7 +28,7 @@ std::string barriers_text(const std::vector<double>& barriers) {
   return fmt::format("{{{}}}", joined(texts, ", "));
 }
 
-// What the sign of a control node does not say.
+// The parameters of a control node that its sign does not show.
 std::vector<std::string> control_lines(const Definition& definition, const DefinitionNode& node) {
   const Synchronization synchronization = definition.synchronization(node);
   if (synchronization == Synchronization::Absolute) {

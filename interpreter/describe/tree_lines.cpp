@@ -25,7 +25,7 @@ std::string tree_as_text(const Definition& definition, bool ascii) {
   const Strokes& strokes = ascii ? kAscii : kBoxes;
   const auto& nodes = definition.nodes;
   std::string text = printable(definition.id) + "\n";
-  // What stands before the children of each node: they come after it.
+  // The text before the children of each node, which come after it.
   std::vector<std::string> before(nodes.size());
   for (std::uint32_t index = 0; index < nodes.size(); ++index) {
     const DefinitionNode& node = nodes[index];

@@ -10,7 +10,7 @@
 namespace lockstep::host {
 namespace {
 
-// What every schema begins with. XSD cannot keep a node from being the first element, but it can
+// The beginning of every schema. XSD cannot keep a node from being the first element, but it can
 // keep the elements of 'root' out of trees: an abstract element is never valid.
 constexpr std::string_view kPrologue = R"xsd(<?xml version="1.0" encoding="UTF-8"?>
 <!-- The tree language of lockstep. Made by `lockstep schema`; do not edit. -->
