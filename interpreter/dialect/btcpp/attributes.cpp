@@ -93,7 +93,7 @@ class PortChecker {
     return suggest(name, all, fmt::format("ports of '{}'", brief(node_.type->id)));
   }
 
-  // What one port is: a value, a key with its default, or nothing. False after an error.
+  // Reads a port as a value, a key with its default, or nothing. Returns false after an error.
   bool check(const Parameter& parameter, CheckedPort& port, Value& value) {
     const Attribute* attribute = find_attribute(element_.attributes, parameter.name);
     if (attribute == nullptr) return absent(parameter, port, value);
@@ -141,7 +141,7 @@ class PortChecker {
     });
   }
 
-  // What is written to the entry without a name, nothing can read.
+  // Nothing can read an entry without a name.
   bool empty_name(const Parameter& parameter, const Attribute& attribute) const {
     report_.at_value(attribute.place, fmt::format("'{}' names no entry", parameter.name),
                      parameter.is_key ? fmt::format("write {}=\"key\"", parameter.name)
@@ -220,7 +220,7 @@ Remapping remapping(std::string_view name, std::string_view value, Place place) 
   return {name, key.empty() ? value : key, !key.empty(), place};
 }
 
-// What the model declares and the element does not give.
+// Adds the ports that the model declares and the element does not give.
 void add_defaults(const NodeElement& element, const Model& model, const Reporter& report,
                   std::string_view id, CheckedTrees& trees) {
   for (const ModelPort& port : model.ports) {

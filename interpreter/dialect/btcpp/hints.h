@@ -13,7 +13,7 @@ extern const ForeignHints kHints;
 
 // Whether it is called otherwise here than `tag`, or an attribute of it is.
 bool needs_hint(const NodePair& pair, std::string_view tag);
-// What to write instead, as a start tag without its brackets: `Sequence memory="true"`.
+// Our words for it, as a start tag without its brackets: `Sequence memory="true"`.
 std::string instead_of(const NodePair& pair);
 
 }  // namespace lockstep::host::btcpp

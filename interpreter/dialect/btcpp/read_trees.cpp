@@ -200,7 +200,7 @@ class TreeReader {
     return node.type != nullptr && node.type->category == NodeCategory::SubTree;
   }
 
-  // What the attributes of a node say.
+  // Reads the attributes of a node.
   void read_content(const NodeElement& element, std::uint32_t self, CheckedNode& node) {
     const Attribute* name = find_attribute(element.attributes, "name");
     const bool is_named = name != nullptr && !name->value.empty();

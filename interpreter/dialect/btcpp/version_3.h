@@ -25,7 +25,7 @@ std::string_view node_since_4(std::string_view id);
 std::vector<Attribute> attributes_since_4(std::span<const Attribute> attributes,
                                           const NodeType& type, const Reporter& report);
 
-// What to write instead of a node that is gone; "" if it is none.
+// The replacement of a node that version 4 does not have; "" for every other node.
 std::string_view hint_for_gone(std::string_view id);
 
 // Whether it is one of both.

@@ -5,7 +5,7 @@
 
 namespace lockstep::host::btcpp {
 
-// What editors write. It has no meaning here.
+// Editors write these. They have no meaning here.
 inline constexpr std::string_view kMarks[] = {"_uid",       "_fullpath", "_collapsed",  "_favorite",
                                               "_hardcoded", "_external", "_subtreeOnly"};
 

@@ -8,7 +8,7 @@ namespace {
 
 using ordered::State;  // its place is 0 before the first child
 
-// What stays when an activation ends without Success, or is halted.
+// Whether the place stays when an activation ends without Success, or is halted.
 enum class Place : bool { Forgotten, Kept };
 
 void begin(NodeContext& context, NodeIndex self, State& state, Place place) {
