@@ -49,7 +49,7 @@ Result<std::string> read_file(const std::string& path, std::size_t limit, FileKi
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return failed(errno);
   if (const auto kind = check_kind(status, kinds); !kind) return tl::unexpected(kind.error());
-  // What is a regular file may be a named pipe by now: then its writer is not waited for.
+  // A regular file may have become a named pipe meanwhile: its writer is not waited for.
   const int blocks = S_ISFIFO(status.st_mode) ? 0 : O_NONBLOCK;
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | blocks));
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) return failed(errno);
