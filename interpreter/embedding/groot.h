@@ -15,7 +15,8 @@ struct Tree;
 
 namespace embedding {
 
-// What it is to see of a tree; null where this lockstep, or Groot2, cannot show the tree.
+// The picture that Groot2 gets of a tree. Null where this lockstep, or Groot2, cannot show the
+// tree.
 std::shared_ptr<const GrootTree> groot_of(const Definition& definition);
 // Begins to answer. `address` is that of --groot2.
 Result<std::unique_ptr<Observer>> show_groot(const Tree& tree, const GrootTree& shown,

@@ -29,7 +29,7 @@ struct TreeTexts {
   std::vector<std::string> paths, names, ids, types;
 };
 
-// What a project has loaded. Runs, on any threads, share it.
+// The plugins and the tree of a project. Runs share it, on any threads.
 class Program {
  public:
   // `leaves` are those to which the tree refers, or null.

@@ -34,8 +34,8 @@ thread_local std::string t_error;
 constexpr std::size_t kLongestError = 2000;  // bytes
 constexpr std::uint32_t kVersion = LOCKSTEP_RUNTIME_MAJOR << 16 | LOCKSTEP_RUNTIME_MINOR;
 
-// What is installed with lockstep is found from this library, whatever program it is in: in a build
-// directory beside it, else as seen from the directory of programs.
+// Files that are installed with lockstep are found from this library, whatever program it is in: in
+// a build directory beside it, else as seen from the directory of programs.
 std::string program_directory() {
   Dl_info info{};
   if (dladdr(&kVersion, &info) == 0 || info.dli_fname == nullptr) return {};

@@ -37,7 +37,7 @@ struct lockstep_run {
         warnings(program->runnable.tree, leaf_log()) {}
   ~lockstep_run() { end(); }
 
-  // What leaves log goes to the program, and to who watches.
+  // Lines of leaves go to the program, and to those who watch.
   lockstep::host::LeafLog leaf_log() {
     return [this](std::string_view who, lockstep_log_level level, std::string_view line) {
       watchers.log(who, lockstep::host::name_of(level), line);

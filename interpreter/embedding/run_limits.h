@@ -24,7 +24,7 @@ class RunLimitsWatch {
 
   // Null: calls are not timed.
   LeafWatch* leaf_watch() { return leaves_ ? &*leaves_ : nullptr; }
-  // Of the thread that ticks from now on.
+  // Watches the calling thread, which ticks from now on.
   void watch_this_thread() {
     if (limits_.on_hang && limits_.hang_limit > Nanoseconds(0) && thread_ != this_thread_id())
       begin();

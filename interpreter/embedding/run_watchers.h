@@ -1,5 +1,5 @@
-// Who watches the run of a program as the command's runs are watched: a recording, browsers,
-// Groot2. Only within embedding/.
+// Watches the run of a program as the command's runs are watched: a recording, browsers, Groot2.
+// Only within embedding/.
 #pragma once
 
 #include <memory>
@@ -34,7 +34,7 @@ class RunWatchers {
   // Before the first tick. It must live until the end.
   void watch(Observer& observer) { observers_.push_back(&observer); }
 
-  // What a leaf logs; from any thread.
+  // Passes on a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
   bool empty() const { return observers_.empty(); }

@@ -13,7 +13,7 @@ struct lockstep_script {
   lockstep::host::Evaluator evaluator = {};
   std::vector<lockstep::host::Entry> entries = {};  // of its names
   lockstep::host::Entry result = {};
-  // Of lists of texts that the last run has given.
+  // Holds the lists of texts that the last run has given.
   std::list<std::vector<lockstep_text>> texts = {};
 };
 

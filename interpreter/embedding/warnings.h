@@ -1,5 +1,5 @@
-// What a program is told about its run beside faults, with the lines that leaves log: what the
-// command prints while it runs.
+// The warnings that a program gets about its run beside faults, with the lines that leaves log: the
+// command prints the same while it runs.
 #pragma once
 
 #include <cstddef>

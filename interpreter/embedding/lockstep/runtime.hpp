@@ -115,7 +115,7 @@ class Project {
         std::make_unique<lockstep_leaf_type>(lockstep::detail::leaf_type<T>(id, doc)));
     return *this;
   }
-  // What the leaves of the program share in a run; they reach it with context<Context>().
+  // An object that the leaves of the program share in a run; they reach it with context<Context>().
   template <class Context>
   Project& set_run_context() {
     require_unloaded();
@@ -358,7 +358,7 @@ class Run {
   // The loop of the run ticks at once, if it waits for its next period. From any thread.
   void wake() { lockstep_run_wake(it_.get()); }
 
-  // Who else watches the run, each from before its first tick to its end: a file for `lockstep
+  // Lets others watch the run, each from before its first tick to its end: a file for `lockstep
   // replay` and `lockstep log`, browsers (the link is returned), Groot2 (after
   // Project::show_groot2). `address` is "8080", "0.0.0.0:8080", or "0" for a free port.
   void record(const std::string& file) {
@@ -529,8 +529,8 @@ class Run {
     return std::vector<T>(values, values + count);
   }
 
-  // What the C functions call back. No exception may pass through them: it is kept and thrown after
-  // the tick.
+  // The functions that the C interface calls back. No exception may pass through it: it is kept and
+  // thrown after the tick.
   struct Hooks {
     decltype(RunSettings::log) log;
     decltype(RunSettings::hang) hang;
@@ -567,7 +567,7 @@ class Run {
     void operator()(lockstep_run* run) const { lockstep_run_free(run); }
   };
 
-  // What has no other result.
+  // Throws the error of a function that has no other result.
   static void throw_refusal() {
     const char* const why = lockstep_last_error();
     if (*why != '\0') throw Error(why);
