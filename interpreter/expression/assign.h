@@ -1,4 +1,4 @@
-// What an assignment in a script does to an entry.
+// The assignment of a script to an entry.
 #pragma once
 
 #include <optional>

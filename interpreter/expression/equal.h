@@ -15,7 +15,7 @@ inline bool is_equal(double left, double right) {
   return std::abs(left - right) <= kEqualWithin;
 }
 
-// What `value == 'text'` is in a script; false where it would be an error.
+// The result of `value == 'text'` in a script; false where that is an error.
 bool equals_text(const Value& value, const std::string& text);
 
 }  // namespace lockstep::host

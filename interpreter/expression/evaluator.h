@@ -29,7 +29,7 @@ class Evaluator {
   bool execute(const Expression& expression, std::span<Entry* const> entries);
   // The same, of an expression that is a condition.
   Truth test(const Expression& expression, std::span<Entry* const> entries);
-  // What was wrong in the last one that failed.
+  // The error of the last script that failed.
   const std::string& error() const { return error_; }
   // For an error before that: keeps it and gives false.
   bool fail(std::string message) {

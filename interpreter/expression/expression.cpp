@@ -88,7 +88,7 @@ class ExpressionParser {
   }
 
  private:
-  // What an operand is, as a left side: a name, and where its code begins.
+  // An operand as a left side: a name, and where its code begins.
   struct Operand {
     std::string_view name = {};
     std::size_t offset;

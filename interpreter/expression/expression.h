@@ -24,7 +24,7 @@ class Expression {
     std::string hint;
     std::size_t offset;  // bytes into the text
   };
-  // What a script does with an entry.
+  // How a script uses an entry.
   struct Use {
     bool is_read = false;
     bool is_assigned = false;
@@ -42,7 +42,7 @@ class Expression {
   std::span<const std::string> names() const { return names_; }
   // The uses of each of them.
   std::span<const Use> uses() const { return uses_; }
-  // What fails when it is reached: an assignment to what is not a name.
+  // The places that fail when they are reached: assignments to something that is not a name.
   std::span<const Error> remarks() const { return remarks_; }
 
   const ScriptProgram& program() const { return program_; }

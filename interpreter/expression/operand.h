@@ -1,5 +1,5 @@
-// What a running script computes with: a view of a value. Texts and others belong to the program,
-// to an entry, or to the evaluator.
+// The values with which a running script computes, each a view. Texts and others belong to the
+// program, to an entry, or to the evaluator.
 #pragma once
 
 #include <cstdint>

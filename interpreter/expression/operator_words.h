@@ -1,4 +1,4 @@
-// What messages call the operators of scripts.
+// The names of the operators of scripts in messages.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@ namespace lockstep::host {
 
 // As it is written. `relation` is that of a comparison.
 std::string_view sign_of(Operation operation, Relation relation);
-// What it takes: "two numbers".
+// The operands that it takes: "two numbers".
 std::string_view operands_of(Operation operation);
 
 }  // namespace lockstep::host
