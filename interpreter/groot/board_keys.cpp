@@ -48,7 +48,7 @@ std::vector<GrootBoardKeys> groot_board_keys(const Definition& definition,
                                              std::span<const GrootSubtree> subtrees) {
   std::vector<GrootBoardKeys> boards;
   for (const GrootSubtree& it : subtrees) boards.push_back({it.name(), it.node});
-  // What is inside first: it says which entries the keys outside are.
+  // The inner trees come first: they say which entries the keys outside are.
   for (std::size_t number = subtrees.size(); number-- > 0;) {
     const GrootSubtree& subtree = subtrees[number];
     Slots& slots = boards[number].slots;

@@ -26,7 +26,7 @@ class GrootBoards {
 
  private:
   enum class What : std::uint8_t { Progress, Held, Limit };
-  // What a node shows as an entry.
+  // A number of a node that is shown as an entry.
   struct Shown {
     std::string key;
     NodeIndex node;

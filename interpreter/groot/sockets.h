@@ -15,7 +15,7 @@ class GrootSockets {
  public:
   // Takes sockets that listen already. Starts the threads of ZeroMQ.
   GrootSockets(FileDescriptor requests, FileDescriptor events);
-  // What was sent has a moment to go out.
+  // Gives messages that were sent a moment to go out.
   ~GrootSockets();
   GrootSockets(GrootSockets&&) noexcept;
   GrootSockets& operator=(GrootSockets&&) noexcept;

@@ -1,4 +1,4 @@
-// What Groot2 knows of the statuses of nodes: those of now, and the changes while it records. A
+// Groot2's picture of the statuses of nodes: the present ones, and the changes while it records. A
 // node is known by its uid, which counts from 1 in pre-order.
 #pragma once
 

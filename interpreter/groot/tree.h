@@ -1,4 +1,4 @@
-// What Groot2 is to see of a tree: its document, and the keys of its blackboards.
+// Groot2's picture of a tree: its document, and the keys of its blackboards.
 #pragma once
 
 #include <cstdint>
