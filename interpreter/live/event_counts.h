@@ -29,7 +29,7 @@ class EventCounts {
 
   // --- for the format ----------------------------------------------------------------------------
 
-  // What the end of a tick's line says. No value: it is too long.
+  // The end of a tick's line. No value: it is too long.
   void take_fault(NodeIndex node);
   void take_entry(std::size_t entry, std::optional<std::string_view> value);
 

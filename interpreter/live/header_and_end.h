@@ -1,4 +1,4 @@
-// What is said of a run before its first tick and after its last, as data.
+// The facts about a run before its first tick and after its last.
 #pragma once
 
 #include <cstdint>

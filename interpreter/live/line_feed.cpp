@@ -46,8 +46,8 @@ void LineFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
   packets_.before_tick(ticker);
 }
 
-// That a tick began late is seen from the one before it, so both have lines. Of that one nothing
-// but its time is left to tell.
+// Only the time of the tick before shows that a tick began late, so both have lines. Everything
+// else of that tick is known already.
 void LineFeed::publish_before_late(Nanoseconds time) {
   if (!has_ticked_ || 2 * (time - last_.time) < 3 * deadlines_.at(1)) return;
   std::string text;

@@ -34,7 +34,7 @@ class LineFeed final : public Observer {
 
   // The next tick gets a line, however soon it comes.
   void hurry() { published_ = Nanoseconds(0); }
-  // What a leaf logs; from any thread.
+  // Passes on a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
   void run_started(Ticker& ticker, const RunStart& start) override;

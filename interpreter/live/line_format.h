@@ -18,7 +18,7 @@
 
 namespace lockstep::host {
 
-// What a tick has besides its nodes.
+// The facts of a tick besides its nodes.
 struct TickEnd {
   std::span<const LimitChange> limits = {};
   std::span<const RoundChange> rounds = {};
@@ -31,7 +31,7 @@ struct TickEnd {
 
 class LineFormat {
  public:
-  // What the put functions may write at once: put_lost and put_tick together, one node.
+  // The most that the put functions may write at once: put_lost and put_tick together, one node.
   static constexpr std::size_t kMostAtOnce = 512;
 
   // --- on the tick thread; what they return waits in the ring as it is

@@ -15,7 +15,7 @@
 
 namespace lockstep::host {
 
-// What listeners get at once: a line, or something beside the lines.
+// An event for listeners: a line, or something beside the lines.
 struct LoggedEvent {
   std::string text;                  // as it is sent
   std::size_t line = 0, length = 0;  // where in it the line is; no length: it has none

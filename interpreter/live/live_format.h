@@ -29,7 +29,7 @@ class LiveFormat : public LineFormat {
   virtual bool is_end(std::string_view line) const = 0;
   // How each line ends that has the whole state, and no other.
   virtual std::string_view full_end() const = 0;
-  // What goes before that: the counts up to this tick.
+  // The text that goes before that: the counts up to this tick.
   virtual std::string counts_text(const EventCounts& counts, std::uint64_t tick) const = 0;
   virtual std::unique_ptr<TickEndReader> tick_end_reader() const = 0;
 

@@ -1,4 +1,4 @@
-// What a client orders, as JSON: {"do":"step","ticks":1}.
+// The orders of a client, as JSON: {"do":"step","ticks":1}.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What the tick thread passes to the threads of those who watch: numbers, which these print or
-// count. Only in the memory of one process, never in a file.
+// The numbers that the tick thread passes to the threads of those who watch, which print or count
+// them. Only in the memory of one process, never in a file.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace lockstep::host {
 
-// What a tick line says of one node.
+// The part of a tick's line about one node.
 struct NodeChange {
   static constexpr std::uint8_t kTicked = 16;  // above the bits of an Activity
 
@@ -24,7 +24,7 @@ struct NodeChange {
   bool ticked() const { return (state & kTicked) != 0; }
 };
 
-// What a tick line says of the limit of a synchronized node (engine/synchronized.h).
+// The part of a tick's line about the limit of a synchronized node (engine/synchronized.h).
 struct LimitChange {
   NodeIndex node = 0;
   double limit = 0;

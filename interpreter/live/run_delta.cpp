@@ -143,7 +143,7 @@ void RunDelta::set_progress(NodeIndex node, double progress) {
   moved_[node] = progress != kept_progress_[node] ? kMoved : 0;
 }
 
-// What a synchronized node has seen counts more than what was seen before its tick.
+// The numbers that a synchronized node has used replace those from before its tick.
 void RunDelta::take_snapshots(Ticker& ticker) {
   for (const NodeIndex node : synchronized_nodes_) {
     if (!compares_progress(synchronization(ticker.node(node)))) continue;

@@ -1,7 +1,6 @@
-// What a recording says of a run, as packets: the header, the changes of a tick, the end. Where
-// they go, and which ticks get one, is the caller's business. A tick allocates only for lines that
-// leaves log, for faults, and for entries whose text grows. Used by recorder and by the web
-// monitor.
+// The content of a recording, as packets: the header, the changes of a tick, the end. The caller
+// decides where they go, and which ticks get one. A tick allocates only for lines that leaves log,
+// for faults, and for entries whose text grows. Used by recorder and by the web monitor.
 #pragma once
 
 #include <map>
@@ -35,7 +34,7 @@ class RunPackets {
 
   // Before a tick that is to become a packet: asks every running node for its progress.
   void before_tick(Ticker& ticker) { delta_.before_tick(ticker); }
-  // What has changed since the last packet that was kept. Valid until the next call.
+  // The changes since the last packet that was kept. Valid until the next call.
   Packet tick(Ticker& ticker, const TickReport& report);
   // The last packet has more than other progress: a node begins, completes, is held, goes on or is
   // ticked again, or there is a limit, a round, a fault, an entry or a line of a leaf.
@@ -49,7 +48,7 @@ class RunPackets {
 
   std::string end(const Ticker& ticker, const RunEnd& end, std::uint64_t lost);
 
-  // What a leaf logs: from any thread.
+  // Takes a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
  private:

@@ -1,4 +1,4 @@
-// What listeners get about the run as a whole: whether it is paused, its speed, where it will
+// The state of the run as a whole, for listeners: whether it is paused, its speed, where it will
 // pause, how long ticks take.
 #pragma once
 

@@ -23,12 +23,13 @@ class SnapshotFeed final : public Observer {
   // Watches all entries of the tree. `real_time` is for tests.
   explicit SnapshotFeed(const Tree& tree, RealTime real_time = monotonic_now);
 
-  // What a leaf logs, for a consumer that shows it from snapshots. From any thread.
+  // Takes a line that a leaf has logged, for a consumer that shows it from snapshots. May be called
+  // from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
   void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
-  // What was held back is due: nothing follows for a while.
+  // Publishes a snapshot that was held back: no tick follows for a while.
   void standing(Ticker& ticker) override;
   // Everything has been halted by then; the last snapshot is that of the last tick.
   void run_ended(Ticker& ticker, const RunEnd& end) override;
