@@ -12,7 +12,7 @@
 namespace lockstep::host {
 namespace {
 
-// What is wrong with the options has no place in a file.
+// An error in the options has no place in a file.
 std::optional<LoadFailure> failure_of(const Project* project, const Diagnostics& diagnostics) {
   const bool in_file = std::ranges::any_of(diagnostics.all(), [](const Diagnostic& it) {
     return it.severity == Severity::Error && !it.location.file.empty();

@@ -102,7 +102,7 @@ struct PluginSet::Plugin {
     return is_hopeless ? std::move(first) : std::nullopt;
   }
 
-  // What keeps two plugins from living in one set.
+  // The reason why two plugins cannot live in one set.
   static std::optional<Problem> check_against(const Plugin& newcomer, const Plugin& other);
 };
 

@@ -77,7 +77,7 @@ class PluginSet {
   // The words of all plugins that scripts know as numbers; of two of one name, the first.
   std::map<std::string, double, std::less<>> words() const;
 
-  // What is known of each plugin, in the order of loading.
+  // The facts about each plugin, in the order of loading.
   struct Info {
     std::string name, version, doc, path;
     bool isolated = false;

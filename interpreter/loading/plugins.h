@@ -31,7 +31,7 @@ bool is_plugin_file(const std::string& plugin);
 // Loads what `options` names. Returns false, with errors, on failure.
 [[nodiscard]] bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,
                                       Diagnostics& diagnostics);
-// What a plugin is that is not found: with AreTold, a warning.
+// A plugin that is not found is an error, or with AreTold a warning.
 enum class MissingPlugins : bool { AreErrors, AreTold };
 // The same for what the trees of `project` ask for.
 [[nodiscard]] bool load_requested_plugins(const PluginOptions& options, const Project& project,
