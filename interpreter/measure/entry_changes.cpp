@@ -61,7 +61,7 @@ std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
     const Entry& entry = board.entries[watched.slot];
     if (watched.writes == entry.writes) continue;
     if (std::holds_alternative<NoValue>(entry.value)) continue;
-    // What is too long may be another value: each time it is written it is shown.
+    // A text that is too long may be another value, so it is shown each time it is written.
     const bool is_short = put_short(entry.value, watched.next);
     if (is_short && watched.has_text && watched.next == watched.text) {
       watched.writes = entry.writes;

@@ -17,7 +17,7 @@ struct EntryChange {
   const std::string* text = nullptr;  // its value; null: it is too long
 };
 
-// What is known of an entry after a tick.
+// The state of an entry after a tick.
 struct EntryState {
   std::string text = {};                      // its value; "" if it is too long
   bool is_long = false;                       // it is

@@ -1,4 +1,4 @@
-// What keeps a node from coming on, from the state of the tree after a tick.
+// Finds why a node does not come on, from the state of the tree after a tick.
 #pragma once
 
 #include <cstdint>

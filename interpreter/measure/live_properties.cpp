@@ -56,7 +56,7 @@ std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uin
     seen[place].ticked = ticker.ticked(node);
     seen[place].held = ticker.held(node);
   }
-  // What a synchronized node has seen counts more than what was seen before its tick.
+  // The numbers that a synchronized node has used replace those from before its tick.
   for (const Used& it : used_) {
     if (!ticker.ticked(it.keeper)) continue;
     const double used = child_progress(ticker, it.keeper)[it.child];

@@ -74,7 +74,7 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
     const Node& node = nodes_[i];
     node_ticks_[i].ticked = ticker.ticked(node.index);
     node_ticks_[i].status = ticker.status(node.index);
-    // What a synchronized node has seen counts more than what was seen before its tick.
+    // The numbers that a synchronized node has used replace those from before its tick.
     if (node.parent && ticker.ticked(*node.parent)) {
       const double used = child_progress(ticker, *node.parent)[node.child];
       node_ticks_[i].progress = is_left_out(used) ? 0 : used;  // as in recordings

@@ -17,7 +17,7 @@ Result<MeasureSpec> parse_measure(std::string_view text);
 std::string to_text(const MeasureSpec& spec);
 // For the axis of a plot: "duration (s)".
 std::string axis_label(const MeasureSpec& spec);
-// What a measure measures, for people: "each parallel".
+// The objects of a measure, for people: "each parallel".
 std::string_view to_string(MeasureOf of);
 // "progress-distance[[K1:K2]], …, predictability:NODE@P[=T]": all measures.
 std::string measure_usages();

@@ -15,7 +15,7 @@
 
 namespace lockstep::host {
 
-// What can be measured.
+// The parts of a tree that can be measured.
 struct MeasuredTree {
   struct Node {
     NodeIndex parent = 0;  // the root is its own, and so is a group
@@ -45,7 +45,7 @@ class Measuring {
   };
   std::span<const Column> columns() const { return columns_; }
 
-  // What a TickView must contain, in this order.
+  // A TickView must contain these, in this order.
   std::span<const NodeIndex> parallels() const { return parallels_; }
   std::span<const NodeIndex> nodes() const { return nodes_; }
   std::span<const NodeIndex> users() const { return users_; }

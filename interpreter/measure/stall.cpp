@@ -83,7 +83,7 @@ void StandingNodes::describe_circle(Standstill& circle) {
   }
 }
 
-// What is to blame may be slow, and not stand.
+// The node that is to blame may be slow instead of standing still.
 void StandingNodes::describe_chain(Standstill& found, const Standing& at, const Tree& tree) {
   const std::size_t last = last_synchronized(tree, found.chain);
   const Standing& to_blame = *find(found.chain.links[last].node);

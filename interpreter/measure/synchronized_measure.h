@@ -22,11 +22,11 @@ class Ticker;
 
 // The nodes of the tree that keep their children in step, in pre-order, and the pools.
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
-// What the node holds: the children of a parallel, of a group what its members hold.
+// The nodes that the node may hold: the children of a parallel; of a group, what its members hold.
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
 // The ends of these paths, each as short as it can be and still differ from all others.
 std::vector<std::string> names_of(std::span<const std::string> paths);
-// What the node calls its children: the children of a parallel differ in their last segment.
+// The node's names for its children: the children of a parallel differ in their last segment.
 std::vector<std::string> child_names(const Tree& tree, NodeIndex node);
 
 // Finds from the states after each tick which children their node held in that tick.

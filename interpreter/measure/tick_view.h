@@ -1,4 +1,4 @@
-// What a measure sees of a run: each tick, after it, and the end. A live run (live_ticks.h) and a
+// A measure's view of a run: each tick, after it, and the end. A live run (live_ticks.h) and a
 // recording (recording/use/recording_measures.cpp) both provide it, so measures work the same for
 // both.
 #pragma once

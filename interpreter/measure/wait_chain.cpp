@@ -11,7 +11,8 @@
 namespace lockstep::host {
 namespace {
 
-// What a node calls its children; a barrier and a pool call them by the members around them.
+// Visits the children of a node by the nodes that name them; a barrier and a pool name the members
+// around them.
 template <class Visit>
 void for_each_named(const Tree& tree, NodeIndex node, Visit visit) {
   const bool is_group = tree.is_group(node);

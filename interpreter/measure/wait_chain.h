@@ -1,7 +1,7 @@
-// Who waits for whom where a synchronized node does not come on, from the state of the tree after a
-// tick. A link goes from what a node withholds ticks from to what that waits for. The next link is
-// of the node that withholds ticks from this, or of one that waits for something in it. The links
-// end in a circle, or where nobody withholds anything.
+// Finds which nodes wait for which where a synchronized node does not come on, from the state of
+// the tree after a tick. A link goes from what a node withholds ticks from to what that waits for.
+// The next link is of the node that withholds ticks from this, or of one that waits for something
+// in it. The links end in a circle, or where nobody withholds anything.
 #pragma once
 
 #include <vector>
