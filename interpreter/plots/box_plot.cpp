@@ -25,7 +25,7 @@ std::string measure_label(const std::string& text) {
   return measure ? axis_label(*measure) : text;
 }
 
-// What the plot is of, beside the grid name along x.
+// A plot without boxes: its titles, and what stays the same along x.
 BoxPlot empty_plot(const std::vector<GridAxis>& grid, const SummaryRow& row) {
   BoxPlot plot;
   plot.stem = last_segment(row.node) + "-" + row.measure;

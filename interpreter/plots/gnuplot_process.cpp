@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kMostSaid = 16384;  // bytes; a reader needs only the first error
 constexpr int kLookInterval = 100;        // ms between looks for a stop signal
 
-// What the child needs, made before it is there: it may not allocate.
+// The data of the child, made before it exists, since it may not allocate.
 struct Plan {
   std::string program, directory, script;
   char* const* environment = environ;

@@ -46,7 +46,7 @@ class Collector {
     const SynchronizedTick tick = probe_.read(recorded);
     if (tick.ticked) add(recorded.time, tick);
     running_ = tick.status == Status::Running;
-    // What the last tick of an activation led to is in no later sample of it.
+    // The last tick of an activation has no later sample that shows its result.
     if (tick.ticked && !running_) add_end(recorded, tick);
   }
 
