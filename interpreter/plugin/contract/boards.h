@@ -47,7 +47,7 @@ class BoardsOfRun {
   const Tree& tree() const { return *tree_; }
   std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
   std::uint64_t writes(const Entry& entry) const { return generation_ << 32 | entry.writes; }
-  // Of an entry that the tree names so: `name` is the slot's own. Null: it is none.
+  // The home of an entry of the tree: `name` is the slot's own. Null if the tree has no such entry.
   const Home* home_of_slot(std::string_view name) const {
     const auto found = homes_.find(name.data());
     return found == homes_.end() ? nullptr : &found->second;

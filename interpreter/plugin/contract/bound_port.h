@@ -15,11 +15,11 @@ struct lockstep_caller;
 
 namespace lockstep::host {
 
-// What a port has handed out or made of a value, until it does so again. Few ports need it.
+// The values that a port has handed out or made, until it does so again. Few ports need it.
 struct PortMemory {
   std::vector<lockstep_text> texts = {};
   Object packed = {}, unpacked = {};  // an object of another process, and what it was made into
-  // What the entry has, as a value of the port's type: it may have another in trees that say so.
+  // The value of the entry, in the port's type: in trees that say so, the entry may have another.
   Value converted = {};
   std::string given = {};  // for lockstep_place's `given`
 };
@@ -45,7 +45,8 @@ struct BoundPort {
   }
   // Each value that is read has to be compared with the limits.
   bool must_be_checked() const { return has_limits && !is_checked; }
-  // What a getter may hand out without a further look if it has the getter's type. Never null.
+  // The value that a getter may hand out without a further look if it has the getter's type. Never
+  // null.
   const Value* ordinary() const;
   PortMemory& remembered();
 };

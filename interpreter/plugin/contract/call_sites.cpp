@@ -76,7 +76,7 @@ std::size_t RecycledMemory<T>::bytes_of_all_owners() {
   return bytes;
 }
 
-// Who still reads the text that was there finds an end: that of the block at the latest.
+// A thread that still reads the text that was there finds an end: that of the block at the latest.
 const char* CallSites::keep(std::string_view text) {
   char* const kept = texts_.take(text.size() + 1);
   std::memcpy(kept, text.data(), text.size());

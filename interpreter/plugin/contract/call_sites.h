@@ -39,7 +39,7 @@ class CallSites {
  public:
   // The path need not live on.
   const CallSite& add(std::string_view path, const CallSite::Origin& origin);
-  // Of all sets that there have been: it does not grow when sets come and go.
+  // The memory of all sets, past ones too: it does not grow when sets come and go.
   static std::size_t bytes_of_all_sets();
 
  private:

@@ -1,5 +1,6 @@
-// What a control node or decorator of a plugin does with its children: lockstep_children. Each
-// breach of the contract is an error of the node, which ends its call as set_error does.
+// The functions with which a control node or decorator of a plugin uses its children:
+// lockstep_children. Each breach of the contract is an error of the node, which ends its call as
+// set_error does.
 #include <fmt/format.h>
 
 #include "engine/node_context.h"

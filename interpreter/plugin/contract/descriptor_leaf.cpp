@@ -18,7 +18,7 @@ constexpr std::string_view kReservedTags[] = {"root",    "BehaviorTree", "SubTre
                                               "plugin",  "arg",          "Action",  "Condition",
                                               "Control", "Decorator"};
 
-// What only one of the languages has is free in the others: 'Wait', 'Sleep'.
+// An ID that only one of the languages has is free in the others: 'Wait', 'Sleep'.
 bool is_taken(std::string_view id) {
   const auto has = [id](const LanguageRules* rules) {
     return std::ranges::any_of(rules->kinds,

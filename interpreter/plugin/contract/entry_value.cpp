@@ -88,7 +88,7 @@ std::optional<Value> value_of(const lockstep_entry_value& value, const ObjectTyp
   return Value(Object(*type, value.object));
 }
 
-// What the entry is declared as.
+// Gives the entry its declared type.
 void declare(Entry& entry, lockstep_type declared, const ObjectType* object) {
   entry.is_present = true;
   const bool is_any = declared == LOCKSTEP_ANY || declared == 0;

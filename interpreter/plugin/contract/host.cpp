@@ -81,8 +81,8 @@ const Value* found_otherwise(const lockstep_caller& caller, BoundPort& port, Val
   return value;
 }
 
-// What the port has in the ordinary case, if it is a T; else null. The getters of numbers try this
-// first and do the rest in another function, so that they need no stack.
+// The value of the port in the ordinary case, if it is a T; else null. The getters of numbers try
+// this first and do the rest in another function, so that they need no stack.
 template <class T>
 inline const T* ordinary(const lockstep_caller* caller, std::uint32_t port) {
   if (caller->is_foreign() || port >= caller->ports.size()) [[unlikely]]
@@ -196,7 +196,7 @@ void note_written(std::vector<Entry*>& written, Entry* entry) {
   if (std::ranges::find(written, entry) == written.end()) written.push_back(entry);
 }
 
-// What the caller is about to write; counted as written.
+// The value that the caller is about to write; it is counted as written.
 Value* writable(const lockstep_caller& caller, const BoundPort& port, ValueType type) {
   Entry* const entry = port.write;
   if (entry == nullptr || (port.is_generic ? entry->type : port.type) != type) return nullptr;
@@ -385,7 +385,7 @@ bool set_object(const lockstep_caller* caller, std::uint32_t port, void* object)
     auto held = settable(*caller, *it, Object(type, object));
     if (!held) return false;
     if (loose) return set_loose(*caller, *it, ValueType::Object, *std::move(held));
-    // What the entry had is released at the end: its release finds the entry as it will be.
+    // The old value is released at the end: its release finds the entry as it will be.
     const Value before = std::exchange(*target, *std::move(held));
   } catch (const std::exception&) {
     return false;

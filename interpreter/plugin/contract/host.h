@@ -25,7 +25,7 @@ constexpr std::size_t kLongestLogLine = std::size_t{32} << 10;  // bytes; the re
 
 class BoardsOfRun;
 
-// What the callers of a run share.
+// Shared by the callers of a run.
 struct CallerRun {
   const LeafLog* log;
   const Tree* tree = nullptr;               // null: its leaves are in no tree
@@ -36,7 +36,7 @@ struct CallerRun {
   BoardsOfRun* boards = nullptr;  // null: nobody uses entries by their names
   EntriesLock* lock = nullptr;    // Blackboard::lock
 
-  // What a leaf sets goes into its entry, and that is all.
+  // A value that a leaf sets goes into its entry, and nothing else has to be done.
   bool sets_plainly() const { return written == nullptr && lock == nullptr; }
 };
 
@@ -62,7 +62,7 @@ class TextsOnDemand {
   std::atomic<const NodeTexts*> texts_ = nullptr;
 };
 
-// What few callers need.
+// The members that few callers need.
 struct CallerRest {
   Shortened error = {};                // the last
   PortTable ports = {};                // all, when some were opened: those are the last
@@ -110,11 +110,11 @@ inline lockstep_caller& mine(const lockstep_caller* caller) {
   return const_cast<lockstep_caller&>(*caller);  // NOLINT: every caller is made non-constant
 }
 
-// What set_error does after shortening the message; the first error of a call is kept.
+// Sets an error whose message is short enough. The first error of a call is kept.
 void take_error(const lockstep_caller& caller, const Shortened& message);
 
-// What the getters and setters of the table do, of a port of any type but Object. The value is null
-// when there is none that the leaf may read.
+// The getters and setters of the table use these for a port of any type but Object. The value is
+// null when there is none that the leaf may read.
 const Value* read_port(const lockstep_caller& caller, std::uint32_t port);
 bool write_port(const lockstep_caller& caller, std::uint32_t port, const Value& value);
 

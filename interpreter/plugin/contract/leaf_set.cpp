@@ -58,7 +58,7 @@ std::size_t ports_of(const Tree& tree) {
 }  // namespace
 
 struct LeafSet::Implementation {
-  // What a run shares per plugin; seen by the plugin as its run context.
+  // The data of a run that the leaves of a plugin share; the plugin sees it as its run context.
   struct Context {
     const lockstep_plugin* plugin;
     NodeIndex node;  // the first leaf of the plugin
@@ -75,7 +75,7 @@ struct LeafSet::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
-  // What all leaves of a type share.
+  // Shared by all leaves of a type.
   struct Type {
     std::size_t context;  // in contexts_
     const CallSite::Origin* origin;
@@ -239,7 +239,7 @@ bool LeafSet::Implementation::create_context(Context& context) {
   if (plugin->create_run == nullptr) return true;
   std::string reason = call(*context.caller, *context.site, PluginFunction::CreateRun, [&] {
     context.slot.self = plugin->create_run(&host_table(), &*context.caller);
-    // What came with an error is a context that must go; NULL is one only without an error.
+    // A context that came with an error must go, too; NULL is a context only without an error.
     context.created = context.slot.self != nullptr || context.slot.error == nullptr;
   });
   if (reason.empty() && context.slot.error != nullptr) reason = context.slot.error;

@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t kSizeIn11 =
     offsetof(lockstep_object_type, from_text) + sizeof(lockstep_object_type::from_text);
 
-// What to_text and to_bytes fill: called with some room, and again if that was not enough. Returns
-// the length that they have given last.
+// Lets to_text or to_bytes fill the text: with some room, and again if that was not enough. Returns
+// the length that it has given last.
 template <class Fill>
 std::size_t fill(std::string& out, std::size_t room, std::size_t most, Fill function) {
   const std::size_t before = out.size();

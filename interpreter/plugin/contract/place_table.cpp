@@ -1,4 +1,5 @@
-// What a node of a plugin may ask about its place in the tree and its ports: lockstep_place.
+// The functions with which a node of a plugin asks about its place in the tree and its ports:
+// lockstep_place.
 #include "engine/node_ports.h"
 #include "engine/tree.h"
 #include "plugin/contract/host.h"

@@ -13,7 +13,7 @@ namespace lockstep::host {
 class ProcessLeaf {
  public:
   virtual ~ProcessLeaf() = default;
-  // What is wrong with it since it was called last; "" for nothing. Returns at once.
+  // The trouble of the process since the last call; "" if there was none. Returns at once.
   virtual std::string trouble() = 0;
 };
 
