@@ -1,5 +1,5 @@
-// What a property says of one tick: statuses, progress and entries, joined by and, or, not.
-// Compiled to a list of steps over a stack of bits.
+// A statement about one tick: statuses, progress and entries, joined by and, or, not. It is
+// compiled to a list of steps over a stack of bits.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct FormulaStep {
 };
 using FormulaCode = std::vector<FormulaStep>;
 
-// What formulas look at.
+// Several formulas, and the nodes and entries that they look at.
 struct Formula {
   static constexpr std::size_t kDeepest = 30;  // nested parentheses; each needs two bits of a word
 

@@ -20,7 +20,7 @@ bool Property::needs_progress(std::size_t place) const {
                              [place](const ProgressComparison& it) { return it.node == place; });
 }
 
-// What a state means, as a number in as few bytes as its largest value needs:
+// The state is a number in as few bytes as its largest value needs.
 //   Never      nothing
 //   Sometimes  1: it was so
 //   LeadsTo    0: nothing is owed; else how many ticks ago the oldest debt began, and 1

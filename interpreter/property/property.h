@@ -19,7 +19,7 @@
 
 namespace lockstep::host {
 
-// What a property may name.
+// The names that a property may use.
 struct PropertyNames {
   struct Entry {
     std::string key;
@@ -61,7 +61,7 @@ class Property {
   bool has_name() const { return name_ != text_; }
   const std::string& text() const { return text_; }  // without the name
 
-  // What it looks at. A node or a comparison comes once.
+  // The nodes and comparisons that it looks at, each once.
   std::span<const std::uint32_t> nodes() const { return formula_.nodes; }
   std::span<const EntryComparison> comparisons() const { return formula_.comparisons; }
   // The constants that it compares progress with, of nodes by their index in the tree.

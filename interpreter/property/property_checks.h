@@ -25,7 +25,7 @@ class PropertyChecks {
 
   std::span<const Property> all() const { return properties_; }
 
-  // What to fill in before each step: for each node that is looked at, in this order, what it did,
+  // To be filled in before each step: for each node that is looked at, in this order, what it did,
   // and for each comparison whether it is true. A node may come more than once.
   std::span<const std::uint32_t> nodes() const { return nodes_; }
   bool needs_progress(std::size_t place) const { return needs_progress_[place]; }

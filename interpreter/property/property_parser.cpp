@@ -37,7 +37,7 @@ std::string on_one_line(std::string_view text) {
 
 }  // namespace
 
-// What is around formulas: the pattern and its limit.
+// Parses everything around formulas: the pattern and its limit.
 class PropertyParser {
  public:
   PropertyParser(std::string_view text, const PropertyNames& names)

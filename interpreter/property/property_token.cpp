@@ -22,7 +22,7 @@ bool is_digit(char c) {
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
-// Of the name of a node that needs no quotes.
+// The characters of a node's name that needs no quotes.
 bool is_of_word(char c) {
   return is_letter(c) || is_digit(c) || c == '-' || c == '#' || c == '/' || c == '.' ||
          static_cast<unsigned char>(c) >= 0x80;
@@ -34,7 +34,7 @@ constexpr std::pair<std::string_view, Relation> kRelations[] = {
     {">=", Relation::GreaterEqual}, {"<", Relation::Less},      {">", Relation::Greater},
 };
 
-// What other languages write, and what it is here.
+// Words of other languages, and our words for them.
 constexpr std::pair<std::string_view, std::string_view> kForeign[] = {
     {"&&", "write 'and'"}, {"&", "write 'and'"},
     {"||", "write 'or'"},  {"|", "write 'or'"},
