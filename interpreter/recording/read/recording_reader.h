@@ -55,8 +55,8 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // The closing line, once it has been read.
   const std::optional<RecordedEnd>& end() const { return end_; }
-  // What is missing in the lines read so far: "" when no tick is lost, else "2 ticks are missing,
-  // the first is 7: the disk was too slow".
+  // The gaps in the lines read so far: "" when no tick is lost, else "2 ticks are missing, the
+  // first is 7: the disk was too slow".
   std::string gaps() const;
   // After the last tick: "" if the recording is complete, else how it ends.
   std::string cut() const;

@@ -16,7 +16,7 @@
 
 namespace lockstep::host {
 
-// What the ticks up to one leave behind.
+// The result of all ticks up to one.
 struct Past {
   std::vector<EntryState> entries = {};  // by number; shorter where none of the last has a value
   RecentLines logs = {};

@@ -32,8 +32,8 @@ class RecordedProbe {
   bool is_left_out(std::size_t child) const;
   bool is_in_skipped(std::size_t child, const RecordedTick& tick) const;
 
-  // What is around each member of a group, below the node that has all members, and whether some of
-  // it was skipped in the last tick.
+  // The nodes around each member of a group, below the node that has all members, and whether some
+  // of these nodes were skipped in the last tick.
   struct Skips {
     std::vector<std::vector<NodeIndex>> around;
     std::vector<bool> found;

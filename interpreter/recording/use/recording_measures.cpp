@@ -47,7 +47,7 @@ double number_of(const RecordedEntry& entry) {
   return parse_double(text).value_or(kNoValue);
 }
 
-// What measures see of a recording.
+// The ticks of a recording, as measures see them.
 class RecordedTicks {
  public:
   RecordedTicks(const RecordingHeader& header, const Measuring& measuring)

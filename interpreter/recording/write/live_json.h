@@ -1,4 +1,4 @@
-// What listeners need of the format of json_lines.h: which line is which, and counts.
+// The format of json_lines.h for listeners, who also need to know which line is which, and counts.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,8 @@ class Recorder final : public Observer {
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
-  // What a leaf logs: the recording has it in the line of its tick. From any thread.
+  // Takes a line that a leaf has logged: the recording has it in the line of its tick. May be
+  // called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
   // Cheap enough for every tick.
