@@ -15,7 +15,7 @@
 namespace lockstep::host {
 namespace {
 
-// What posix_spawn is to do in the child, before the program begins.
+// The steps that posix_spawn does in the child before the program begins.
 class SpawnPlan {
  public:
   SpawnPlan() {

@@ -17,7 +17,7 @@ namespace lockstep::host {
 // waitid has them.
 std::string describe_end(int code, int status);
 
-// What errno means.
+// The system's text for an errno.
 std::string error_text(int error);
 
 class ChildProcess {

@@ -41,7 +41,7 @@ class Trial {
   ProgramLeaf& leaf() { return *leaf_; }
   const std::string& name() const { return name_; }
   void pass_time() { time_.now += time_.period; }
-  // What the leaf has been blamed for; "" for nothing.
+  // The error that the leaf has been blamed for; "" for none.
   std::string take_error() {
     const char* const error = std::exchange(slot_.error, nullptr);
     return error == nullptr ? "" : error;
@@ -114,7 +114,7 @@ class Examiner {
                             ids.empty() ? "no leaves" : listed(ids)));
   }
 
-  // What a leaf has done, if it was not blamed.
+  // Notes that a leaf has done something, if it was not blamed.
   bool passed(Trial& trial, std::string_view what) {
     const std::string error = trial.take_error();
     if (error.empty()) return note(true, fmt::format("'{}' {}", trial.name(), what));

@@ -304,7 +304,7 @@ void Conversation::check_deadline(Nanoseconds now) {
   if (!late.empty()) end_late(late);
 }
 
-// What it does when it is asked to end is its own affair.
+// The program may do what it likes when it is asked to end.
 void Conversation::end_late(std::string_view leaf) {
   {
     const Lock lock(mutex_);

@@ -1,4 +1,4 @@
-// What lockstep and one program say to each other: which leaf was asked what, and what it has
+// The conversation of lockstep with one program: which leaf was asked what, and what it has
 // answered. Whatever the program does, nothing is kept that grows, and no answer is taken that was
 // not asked for: then the program is killed, and its leaves have an error.
 //
@@ -44,7 +44,7 @@ class Conversation {
   // Waits for the answer, at most so long; false when there is none. Not for a gone program.
   bool await(std::uint32_t leaf, Asked asked, std::optional<Nanoseconds> patience);
 
-  // What a leaf has said since the last call.
+  // The answers of a leaf since the last call.
   struct News {
     lockstep_status status = 0;  // 0: no answer to tick
     std::string set = {};        // the line that has "set", or ""
@@ -71,7 +71,7 @@ class Conversation {
   bool listen();
   // The same. Writes what was sent.
   void flush();
-  // What it says; -1: there will be no more.
+  // The descriptor from which its answers are read; -1: there will be no more.
   int output() const { return has_said_all_ ? -1 : process_.output(); }
   // It has closed its output or input, and not ended in the time for that.
   bool is_overdue() const { return dies_until_ && monotonic_now() >= *dies_until_; }

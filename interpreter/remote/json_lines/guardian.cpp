@@ -75,7 +75,7 @@ std::optional<pid_t> start_program(const std::string& path) {
   return std::nullopt;
 }
 
-// What the program's children have started outlives them as a child of ours.
+// Processes that the program's children have started outlive them as children of ours.
 void end_orphans() {
   do {
     for (const pid_t child : own_children()) kill(child, SIGKILL);

@@ -9,7 +9,7 @@
 
 namespace lockstep::host {
 
-// What the guardian finds under these numbers. 0 and 1 it gives to the program.
+// The descriptors that the guardian finds open. It gives 0 and 1 to the program.
 struct GuardianDescriptors {
   static constexpr int kRequests = 0;
   static constexpr int kAnswers = 1;

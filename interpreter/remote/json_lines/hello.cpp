@@ -38,7 +38,7 @@ lockstep_type type_of(std::string_view name) {
                   brief(name)));
 }
 
-// What it is in a tree.
+// A scalar as it is written in a tree.
 std::string scalar_text(JsonValue value) {
   std::string_view text;
   bool flag = false;

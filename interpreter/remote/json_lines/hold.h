@@ -4,7 +4,7 @@
 
 namespace lockstep::host {
 
-// What happens to a leaf of a program while a synchronized node withholds its ticks.
+// Decides what happens to a leaf of a program while a synchronized node withholds its ticks.
 enum class Hold : std::uint8_t {
   AsItSays,  // Message for leaves that say so, else None
   Signal,    // its process group is stopped; each leaf has its own process

@@ -1,4 +1,4 @@
-// What leaves a program has, in a file beside it: its first line, for commands that do not run it.
+// The leaves of a program, in a file beside it: its first line, for commands that do not run it.
 // grip.leaves.json for grip.py.
 #pragma once
 

@@ -11,8 +11,8 @@
 namespace lockstep::host {
 namespace {
 
-// What comes within this time is written, and read, at once. A tick asks many leaves, and each
-// thread that is woken for one of them may take the processor from the tick.
+// Answers that come within this time are written, and read, at once. A tick asks many leaves, and
+// each thread that is woken for one of them may take the processor from the tick.
 constexpr timespec kGather{.tv_sec = 0, .tv_nsec = 100'000};
 
 std::optional<Nanoseconds> first_deadline(const std::vector<Conversation*>& conversations) {

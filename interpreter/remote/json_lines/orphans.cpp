@@ -51,7 +51,7 @@ void mark_own_orphans() {
   setenv(kMark, fmt::format("{}", getpid()).c_str(), 1);
 }
 
-// What is killed leaves its children to us, too, until there are none.
+// A process that is killed leaves its children to us, too, until there are none.
 void end_orphans_of(pid_t guardian, pid_t group) {
   if (group <= 0) return;
   kill(-group, SIGKILL);

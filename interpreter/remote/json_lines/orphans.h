@@ -1,6 +1,6 @@
-// What a program has started outlives its guardian, if that is killed, unless somebody else takes
-// it over: this process, where it is the program lockstep. A program that embeds lockstep is not
-// made to, since it may have other children to wait for.
+// Processes that a program has started outlive its guardian, if that is killed, unless another
+// process takes them over: this one, where it is the program lockstep. A program that embeds
+// lockstep is not made to, since it may have other children to wait for.
 #pragma once
 
 #include <sys/types.h>

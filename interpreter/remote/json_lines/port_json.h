@@ -10,7 +10,7 @@
 
 namespace lockstep::host {
 
-// What the port has now; NoValue when it has none. After a refusal the caller has an error.
+// The value of the port; NoValue when it has none. After a refusal the caller has an error.
 Value port_value(const lockstep_caller& caller, std::uint32_t port);
 
 // Nothing is "null".

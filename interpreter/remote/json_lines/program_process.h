@@ -37,7 +37,7 @@ class ProgramProcess {
   // It can read the end of its input.
   void close_input();
 
-  // What it writes. `lines.fill(output())` takes what is there.
+  // The descriptor that it writes to. `lines.fill(output())` takes what is there.
   int output() const { return output_.number(); }
   // Waits until there is output, or its end, or that of the process, at most so long. False: there
   // is none yet.

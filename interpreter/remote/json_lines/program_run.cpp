@@ -82,7 +82,7 @@ class ProgramRun final : public RemoteRun {
     return patience ? std::optional(monotonic_now() + *patience) : std::nullopt;
   }
 
-  // That of all leaves that may share one.
+  // The conversation of all leaves that may share one.
   Conversation* shared(const lockstep_caller& caller) {
     if (shared_ == nullptr) shared_ = begin_another(caller);
     return shared_;

@@ -1,4 +1,4 @@
-// What a program says after its first line: one line of JSON each.
+// The lines of a program after its first: JSON, one object each.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What lockstep says to a program: lines of JSON, in which "do" and "leaf" come first, so that a
+// The lines that lockstep writes to a program: JSON, in which "do" and "leaf" come first, so that a
 // shell script can tell them apart. docs/programs.md has each.
 #pragma once
 

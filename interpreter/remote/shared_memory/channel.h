@@ -45,7 +45,7 @@ class Channel {
 
   // A copy of what the other side sent; nothing if it is not a message.
   std::optional<std::span<const std::byte>> received();
-  // What is logged by the thread that answers calls, and by all others.
+  // The lines that are logged by the thread that answers calls, and by all others.
   LogRing& call_log() { return control_->call_log; }
   LogRing& thread_log() { return control_->thread_log; }
 

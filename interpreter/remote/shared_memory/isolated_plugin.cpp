@@ -64,7 +64,7 @@ std::optional<Problem> IsolatedPlugin::start(Session& session) {
   return describe(answer);
 }
 
-// What the first process says, the others must say too.
+// Every further process must give the same description as the first.
 std::optional<Problem> IsolatedPlugin::describe(MessageReader description) {
   const auto bytes = description.rest();
   if (!description_.empty()) {

@@ -45,7 +45,7 @@ class IsolatedRun final : public RemoteRun {
 
   bool begin() {
     begin_call(PluginFunction::CreateRun, 0, caller_).put(caller_.random);
-    // What came there with an error and without a context is not destroyed there either.
+    // A result that came there with an error and without a context is not destroyed there either.
     return call(caller_, {}) != 0;
   }
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override;
@@ -90,7 +90,7 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
     ++run.leaves_;
     run.session_->add_listener(number_, caller);
   }
-  // What the entries have of other plugins does not outlive the leaves.
+  // Values of other plugins in the entries do not outlive the leaves.
   ~Leaf() override {
     if (--run_.leaves_ == 0) run_.entries_.forget();
   }

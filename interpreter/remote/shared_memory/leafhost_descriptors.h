@@ -1,5 +1,5 @@
-// What lockstep-leafhost finds under these numbers when it serves a plugin, beside 0 (empty), 1 and
-// 2 (our standard error).
+// The descriptors that lockstep-leafhost finds open when it serves a plugin, beside 0 (empty), 1
+// and 2 (our standard error).
 #pragma once
 
 namespace lockstep::host {

@@ -19,7 +19,7 @@ std::string put_packed(const Value& value, MessageWriter& message) {
   return packed ? "" : packed.error().message;
 }
 
-// What a port of that type can read; none: nothing.
+// The value as a port of that type can read it; no value if it cannot.
 Value readable_value(const Value& value, ValueType type, const ObjectType* object) {
   auto converted = convert_value(value, type, object);
   const auto* number = converted ? std::get_if<double>(&*converted) : nullptr;

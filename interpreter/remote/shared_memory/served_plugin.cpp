@@ -166,7 +166,7 @@ bool ServedPlugin::has_host() {
 }
 
 int ServedPlugin::serve(const std::string& path) {
-  // What the plugin starts does not inherit them.
+  // Processes that the plugin starts do not inherit them.
   const int bell = moved_up(LeafhostDescriptors::kBell);
   watch_host(moved_up(LeafhostDescriptors::kParent));
   // Never destroyed: threads of the plugin may log until the process ends.

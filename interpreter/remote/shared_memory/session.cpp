@@ -15,7 +15,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a killed process to be gone
-// What threads of a plugin may log: so many lines at once, and so many milliseconds in between.
+// Threads of a plugin may log so many lines at once, and so many milliseconds apart.
 constexpr std::size_t kMostLines = 100;
 constexpr int kPause = 100;
 
