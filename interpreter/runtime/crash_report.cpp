@@ -33,14 +33,14 @@ int g_exit_code = 1;
 pid_t g_process = 0;
 std::atomic<void (*)()> g_crash_words{nullptr};
 
-// What our own exit() is called with: of this number the system keeps the last byte, the exit code.
-// A plugin has no reason to call it with the same.
+// Our own exit() is called with this number: the system keeps its last byte, the exit code. A
+// plugin has no reason to call it with the same.
 constexpr int kOurExit = 0x6c730000;
 std::atomic<int> g_our_status{kOurExit - 1};
 
 std::atomic<pid_t> g_reporter{0};  // the thread that writes the report
 
-// What hang() passes to the hanging thread. Written before the flag.
+// The report that hang() passes to the hanging thread. Written before the flag.
 pthread_t g_hung_thread;
 Crash g_hang;
 std::atomic<bool> g_is_hung{false};

@@ -17,7 +17,7 @@ namespace lockstep::host {
 class RunControl;
 class StallFail;
 
-// What happens to missed deadlines.
+// Decides what happens to missed deadlines.
 enum class OverrunPolicy : std::uint8_t {
   Skip,     // skipped: the next tick is at the next future deadline
   CatchUp,  // each gets its tick, one right after the other, until the run has caught up

@@ -1,4 +1,4 @@
-// What is said of a leaf whose progress is not as it should be, or whose call takes long. Used by
+// Sentences about a leaf whose progress is not as it should be, or whose call takes long. Used by
 // all that tell it.
 #pragma once
 

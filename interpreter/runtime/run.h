@@ -63,7 +63,7 @@ class Run {
   void halt();
   // After a fault: halts, and the next tick begins the tree. False: a leaf could not be created.
   bool recover();
-  // Who waits for the next tick of this run; null: nobody ends that wait.
+  // The waiting for the next tick of this run, which a leaf may end; null if none may.
   WakeUp* wake_up() { return may_wake_ ? &wake_up_ : nullptr; }
   // From any thread: as if a leaf wanted a tick.
   void wake() { wake_up_.wake(); }

@@ -24,8 +24,8 @@ NodeIndex place_of(const Tree& tree, const WaitLink& link) {
   return tree.is_group(link.node) ? tree.group(link.node).ancestor : link.node;
 }
 
-// What a child of a node will count. Nothing: a member of a barrier completed in the last tick, so
-// the next one shows it.
+// The progress that a child of a node will count with. Nothing if a member of a barrier has
+// completed in the last tick: the next tick shows it.
 std::optional<double> progress_now(Ticker& ticker, NodeIndex node, NodeIndex child) {
   if (!ticker.tree().is_group(node)) return snapshot_of(ticker, child);
   const NodeIndex member = child - 1;
