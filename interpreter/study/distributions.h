@@ -1,4 +1,5 @@
-// What intervals and tests ask of distributions. Its .cpp is the only file that uses Boost.Math.
+// The functions of distributions that intervals and tests need. Its .cpp is the only file that uses
+// Boost.Math.
 #pragma once
 
 #include <cstdint>

@@ -15,8 +15,8 @@ constexpr double kLeastRate = 0.001, kMostRate = 100000;
 std::optional<std::uint64_t> count_from(std::string_view text);
 std::optional<double> rate_from(std::string_view text);
 
-// What is twice among axes that vary together and have as many values each, with ':' between the
-// values, or "".
+// A value that is there twice among axes that vary together and have as many values each, with ':'
+// between the values of the axes, or "".
 std::string value_twice(std::span<const GridAxis> together);
 
 // The error in the plan, or "".

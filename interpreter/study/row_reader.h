@@ -20,7 +20,7 @@ class RowReader {
   // The next line, with its line end. "" at the end of the file, before a cut last line, or before
   // a line that does not match the plan: then error() has the reason.
   std::string_view next();
-  // What the line that next() gave has.
+  // The content of the line that next() gave.
   const RowResult& row() const { return row_; }
   std::uint64_t cell() const { return cell_; }
 

@@ -26,7 +26,7 @@ class RowRules {
 
   const StudyPlan& plan_;
   std::vector<MeasureSpec> measures_;  // of each column
-  // What follows belongs to the cell.
+  // The rest belongs to the cell.
   double rate_ = 0;
   std::vector<bool> there_;  // each column
 };

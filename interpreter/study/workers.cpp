@@ -31,7 +31,7 @@ struct Chunk {
   std::atomic<std::uint64_t> ready{0};  // 1 + the number of the chunk that is in it
 };
 
-// What the threads have in common.
+// Shared by the threads.
 class Workshop {
  public:
   explicit Workshop(const StudyWork& work)
