@@ -55,7 +55,7 @@ class StandstillText {
                        chained(std::vector<std::string_view>(names.begin(), names.end())));
   }
 
-  // What the head waits for.
+  // The child that the head waits for.
   std::string child() const {
     const WaitLink& head = standstill_.link();
     const bool is_group = tree_.is_group(head.node);
@@ -107,7 +107,7 @@ class StandstillText {
                        it.waiting_at, what, state(place));
   }
 
-  // What is known of that which a link waits for: how far it is, and where the next link holds
+  // The state of a node that a link waits for: how far it is, and where the next link holds
   // something.
   std::string state(std::size_t place) const {
     const WaitLink& it = links_[place];

@@ -53,7 +53,8 @@ struct DecidingSummary {
 DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind);
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
                               std::string kind, const std::vector<std::string>& children);
-// What the bound and the end of a synchronized node do not hold for; `paths` are its children's.
+// Says for what the bound and the end of a synchronized node do not hold; `paths` are its
+// children's.
 void append_fall_notes(const FallWatch& falls, std::span<const std::string> paths,
                        std::vector<std::string>& notes);
 
