@@ -8,7 +8,7 @@ namespace lockstep::host {
 
 class OwnProcess {
  public:
-  // That of the caller.
+  // Remembers the process of the caller.
   OwnProcess();
   // False in a child of it. No system call.
   bool is_this() const { return forks_ == s_forks; }

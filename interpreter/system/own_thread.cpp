@@ -64,7 +64,8 @@ void adopt_thread() {
   // A thread that begins when there is no memory still has to say so: its place is taken already.
   alignas(EndingStack) static thread_local std::byte memory[sizeof(EndingStack)];
   auto* const stack = new (memory) EndingStack;
-  // That of the main thread is never destroyed: the last destructors of the process are of plugins.
+  // The stack of the main thread is never destroyed: the last destructors of the process are of
+  // plugins.
   if (gettid() != getpid()) pthread_setspecific(ending_key(), stack);
 }
 
