@@ -9,7 +9,7 @@ namespace {
 constexpr char kEscape = '\x1b';
 constexpr std::size_t kLongest = 16;  // no key's sequence is longer
 
-// What stands behind "ESC [" or "ESC O"; terminals differ.
+// Reads the characters behind "ESC [" or "ESC O"; terminals differ.
 std::optional<Key> key_of(std::string_view sequence) {
   constexpr std::pair<std::string_view, KeyKind> kKeys[] = {
       {"C", KeyKind::Right}, {"D", KeyKind::Left},    {"A", KeyKind::Up},

@@ -26,8 +26,8 @@ class RawTerminal {
   };
   // Call before drawing or reading, from one thread.
   State take();
-  // What was typed since the last call; does not wait. Nothing: the terminal is gone. The calling
-  // thread blocks SIGTTIN.
+  // The keys that were typed since the last call; does not wait. Nothing: the terminal is gone. The
+  // calling thread blocks SIGTTIN.
   static std::optional<std::string> read_keys();
 
   // Restores the terminal for an end of the process: take() returns Away from now on.
