@@ -50,7 +50,7 @@ void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
   after_tick(ticker, halts);
   tell_left_out();
   if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
-  // What the fault is, the message of the command says.
+  // The message of the command says which fault it is.
   print(fmt::format("run ends: {} after {}", ending(to_string(end.result()), to_string(end.reason)),
                     counted(end.ticks, "tick")));
 }

@@ -14,7 +14,7 @@
 
 namespace lockstep::host {
 
-// What the user has chosen.
+// The user's choices.
 struct Browsing {
   std::set<NodeIndex> folded = {};       // the nodes below these are not shown
   std::optional<NodeIndex> cursor = {};  // its surroundings are shown; none: what runs is

@@ -60,7 +60,7 @@ class View {
     return tree_.nodes[node].synchronization != Synchronization::None;
   }
   bool has_bar(NodeIndex node) const { return tree_.nodes[node].keeper.has_value(); }
-  // What is deep must not be out of sight.
+  // A deep node must not be out of sight.
   std::size_t indent(NodeIndex node) const {
     return std::min<std::size_t>(2 * (tree_.nodes[node].depth - outermost_), options_.width / 2);
   }
@@ -122,7 +122,7 @@ class View {
                            : fmt::format("  {}/{}", round.number, round.of));
   }
 
-  // What is below a node that is folded.
+  // Sums up the nodes below a node that is folded.
   void add_folded(TextLine& line, NodeIndex node) const {
     if (browsing_.folded.count(node) == 0) return;
     const Tally below = tally_below(tree_, snapshot_, node);
@@ -147,7 +147,7 @@ class View {
     return line.text() + "\n";
   }
 
-  // What the bars of all children of one node have in common.
+  // Shared by the bars of all children of one node.
   struct Children {
     std::vector<double> progress;
     std::vector<double> counted;  // not a number for those that nobody waits for
