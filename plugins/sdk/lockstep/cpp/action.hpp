@@ -1,4 +1,4 @@
-// What a leaf derives from: Action or Condition. Included by lockstep/leaf.hpp.
+// Action and Condition, from which leaves derive. Included by lockstep/leaf.hpp.
 #pragma once
 
 #include <stdexcept>
@@ -74,7 +74,7 @@ class ActionFunctions : public Leaf {
   virtual void before_start() {}
   // Where the host reads the progress without a call.
   virtual const double* kept_progress() const { return nullptr; }
-  // What must end before any part of a derived leaf is destroyed.
+  // Ends everything that must end before any part of a derived leaf is destroyed.
   virtual void before_destroy() {}
 };
 

@@ -1,5 +1,5 @@
-// What a leaf or a run may ask of its host: time, random numbers, log lines. Also the boundary that
-// turns C++ exceptions into leaf errors. Included by lockstep/leaf.hpp.
+// A leaf or a run may ask its host for these: time, random numbers, log lines. Also the boundary
+// that turns C++ exceptions into leaf errors. Included by lockstep/leaf.hpp.
 #pragma once
 
 #include <cstddef>

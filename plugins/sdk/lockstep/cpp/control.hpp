@@ -1,4 +1,4 @@
-// What a control node or a decorator derives from: Control or Decorator. Included by
+// Control and Decorator, from which control nodes and decorators derive. Included by
 // lockstep/leaf.hpp.
 #pragma once
 

@@ -224,8 +224,8 @@ constexpr lockstep_leaf_type leaf(const char* id, const char* doc) {
   return detail::leaf_type<T>(id, doc);
 }
 
-// What the leaves of a run share: one Context per run, made from a Run& or from nothing. Its leaves
-// reach it with context<Context>().
+// The object that the leaves of a run share: one Context per run, made from a Run& or from nothing.
+// Its leaves reach it with context<Context>().
 template <class Context>
 constexpr detail::RunContextPart run_context() {
   return {&detail::ContextHolder<Context>::create, &detail::ContextHolder<Context>::destroy};

@@ -39,8 +39,8 @@ class Ports {
   using InOut = sdk1::InOut<T>;
   static constexpr Required required{};
 
-  // What values a port takes. Anything else is an error of the tree, or of the run when an entry
-  // has it.
+  // The values that a port takes. Anything else is an error of the tree, or of the run when an
+  // entry has it.
   static constexpr Limits between(double min, double max) { return {nullptr, min, max}; }
   static constexpr Limits at_least(double min) { return {nullptr, min, kInfinity}; }
   static constexpr Limits at_most(double max) { return {nullptr, -kInfinity, max}; }

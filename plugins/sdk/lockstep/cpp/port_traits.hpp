@@ -70,7 +70,7 @@ class StringListView {
   std::size_t size_ = 0;
 };
 
-// What a port reads that takes an int or a double.
+// The value that a port reads which takes an int or a double.
 class Number {
  public:
   constexpr Number() = default;
@@ -91,7 +91,7 @@ class Number {
   bool is_int_ = true;
 };
 
-// What values a port takes. Made by the functions of Ports; the host checks them.
+// The values that a port takes. Made by the functions of Ports; the host checks them.
 struct Limits {
   const char* choices = nullptr;  // of a string, "soft;firm"
   double min = 0, max = 0;        // of numbers; both 0 for any
@@ -119,7 +119,7 @@ struct PortTraits {
       "these, lockstep::Number, an enum, or a std::shared_ptr<const T>");
 };
 
-// What `kGet` and `kSet` of the host exchange as they are.
+// Values that `kGet` and `kSet` of the host exchange as they are.
 template <class T, lockstep_type kOfType, auto kGet, auto kSet, bool (*kAccepts)(std::string_view)>
 struct ScalarTraits {
   using View = T;
@@ -202,7 +202,7 @@ struct PortTraits<Enum, std::enable_if_t<std::is_enum_v<Enum>>> {
   }
 };
 
-// What an object is for the host: a std::shared_ptr with a count of its references there.
+// An object as the host holds it: a std::shared_ptr with a count of its references there.
 template <class T>
 struct ObjectHolder {
   std::shared_ptr<const T> value;

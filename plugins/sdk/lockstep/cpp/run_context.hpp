@@ -1,5 +1,5 @@
-// What the leaves of one run share, such as a simulated world: any class of the plugin, made with
-// the run and gone with it. Included by lockstep/leaf.hpp.
+// The object that the leaves of one run share, such as a simulated world: any class of the plugin,
+// made with the run and gone with it. Included by lockstep/leaf.hpp.
 #pragma once
 
 #include <stdexcept>

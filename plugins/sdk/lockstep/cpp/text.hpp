@@ -1,5 +1,5 @@
-// What the compiler checks in names and default values, so that a mistake in a descriptor is a
-// compile error with a telling name. Included by cpp/port.hpp and cpp/plugin.hpp.
+// The compiler's checks of names and default values, so that a mistake in a descriptor is a compile
+// error with a telling name. Included by cpp/port.hpp and cpp/plugin.hpp.
 #pragma once
 
 #include <cstdlib>
