@@ -1,4 +1,4 @@
-// What a client asks of the monitor and what it gets, whatever brings it.
+// The requests of a client of the monitor and the answers, whatever brings them.
 #pragma once
 
 #include <cstdint>

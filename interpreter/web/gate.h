@@ -1,4 +1,4 @@
-// Who may ask the monitor at all: decided before anything else of a request is looked at.
+// Decides who may ask the monitor at all, before anything else of a request is looked at.
 #pragma once
 
 #include <optional>

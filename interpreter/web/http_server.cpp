@@ -286,7 +286,7 @@ bool HttpServer::serve(FileDescriptor connection) {
   return mhd().add_connection(it_->daemon, socket, &address, sizeof address.sa_family) == MHD_YES;
 }
 
-// What libmicrohttpd knows to be ready does not make its descriptor readable.
+// libmicrohttpd may know of work that does not make its descriptor readable.
 void HttpServer::run() {
   constexpr int kMostTurns = 64;
   it_->cut_off();

@@ -225,7 +225,8 @@ WebAnswer Monitor::answer(const WebRequest& request) {
   return {.type = "text/event-stream", .stream = std::make_unique<ServerSent>(log_, request.after)};
 }
 
-// What the recording has is followed by a line with the whole state: by a new one, if ticks come.
+// The lines of the recording are followed by a line with the whole state: by a new one, if ticks
+// come.
 std::unique_ptr<Stream> Monitor::history() {
   const bool is_paused = control_ != nullptr && control_->state().is_paused;
   const bool goes_on = !is_paused && !thread_.is_stopping();

@@ -46,7 +46,7 @@ class Monitor final : public Observer, private Answering {
   void open_when_asked(AttachSocket socket) { socket_.emplace(std::move(socket)); }
   // After the run, when nothing else is to be done: waits until those who linger have left.
   void linger();
-  // What a leaf logs; from any thread.
+  // Passes on a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
   void run_started(Ticker& ticker, const RunStart& start) override;

@@ -30,7 +30,8 @@ class RecordingPage {
   Gzip gzip_;
 };
 
-// What the page may load and run, for the header Content-Security-Policy. It is also in the page.
+// The sources from which the page may load and run, for the header Content-Security-Policy. It is
+// also in the page.
 std::string_view page_policy();
 
 }  // namespace lockstep::host

@@ -1,4 +1,4 @@
-// What listeners get over HTTP: the events of a log, as the browser's EventSource reads them.
+// The events of a log over HTTP, as the browser's EventSource reads them.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ LoggedEvent sent_line(const LiveFormat& format, std::string_view line);
 // Something beside the lines.
 LoggedEvent sent_event(std::string_view name, std::string_view json);
 
-// What follows a place in the log, for one listener.
+// The events behind a place in the log, for one listener.
 class ServerSent final : public Stream {
  public:
   // For one who has seen the ticks up to this one, or none.

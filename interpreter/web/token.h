@@ -1,4 +1,4 @@
-// What a client of the monitor must know: a number that nobody can guess, as text.
+// The secret of the monitor, which its clients must know: a number that nobody can guess, as text.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What changed, and in which line of the recording: a value holds until the next change. Columns of
-// numbers, since a long run has millions of changes.
+// Changes, and the lines of the recording that have them: a value holds until the next change. They are columns of numbers,
+// since a long run has millions of changes.
 
 function grown<T extends Uint32Array | Float64Array | Uint8Array>(old: T, Type: new (n: number) => T): T {
   const more = new Type(Math.max(4, old.length * 2));

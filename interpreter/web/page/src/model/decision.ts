@@ -10,7 +10,7 @@ export interface Deciding {
   agreeing: number; // how many of the children have the same result
 }
 
-// Of several children that agree with their parent, the last one.
+// The last one of the children that agree with their parent.
 function decidingChild(moment: Moment, children: number[], status: number): number | undefined {
   return [...children].reverse().find((child) => moment.ticked[child] === 1 && moment.status[child] > RUNNING &&
     (children.length === 1 || moment.status[child] === status));
@@ -29,8 +29,8 @@ export function decidingPath(moment: Moment): Deciding[] {
   return path;
 }
 
-// Of a success the first moment in which somebody is held, or a leaf was at fault, else the end; of all else the end, since
-// there it was decided. null: the newest.
+// The line at which a page of an ended run begins. After a success it is the first moment in which a node is held, or a leaf
+// was at fault, else the end; after everything else the end, since there it was decided. null: the newest.
 export function firstLine(run: Run): number | null {
   if (run.end?.result !== "success") return null;
   const found = run.events.all.find(({ kind }) => kind === "hold" || kind === "fault");

@@ -1,4 +1,4 @@
-// What happened, in order: for the log, and for going from one event to the next.
+// The events of a run, in order: for the log, and for going from one event to the next.
 import { HELD, STATUS } from "./columns";
 import { FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, type End, type LogLine } from "./recording";
 import type { Run } from "./run";

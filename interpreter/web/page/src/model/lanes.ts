@@ -1,4 +1,4 @@
-// What a node did over time, in spans of one state.
+// The states of a node over time, in spans of one state.
 import { HELD, STATUS, TICKED } from "./columns";
 import { RUNNING } from "./recording";
 import type { Run } from "./run";

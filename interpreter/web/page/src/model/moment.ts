@@ -4,7 +4,7 @@ import { decidingPath, type Deciding } from "./decision";
 import { IDLE, SUCCESS } from "./recording";
 import type { Run } from "./run";
 
-// Of a synchronized node.
+// The progress of the children of a synchronized node.
 export interface Span {
   least: number;
   most: number; // how far a child may be
@@ -45,7 +45,7 @@ export class Moment {
   get time(): number {
     return this.run.times[this.line] ?? 0;
   }
-  // Of a synchronized node; 0 when it has none yet, infinity when no barrier is left.
+  // The limit of a synchronized node; 0 when it has none yet, infinity when no barrier is left.
   limit(node: number): number {
     return this.run.limits.get(node)?.at(this.line) ?? 0;
   }

@@ -99,7 +99,7 @@ export class Run {
     this.thinner.events(this.events);
   }
 
-  // Of a line with the whole state, which leaves out what is idle.
+  // A line with the whole state leaves out the nodes that are idle.
   private forgetOthers(line: TickLine) {
     const named = new Set((line.nodes ?? []).map((node) => node[0]));
     this.nodes.forEach((node, index) => {
@@ -143,11 +143,11 @@ export class Run {
     this.events.end(this, end);
   }
 
-  // Of the whole run, also of what this page has no line of.
+  // The counts of the whole run, also of ticks that this page has no line of.
   countsOf(node: number): CountsOfNode {
     return this.counts.ofNode(node, this.ticks[this.last] ?? 0);
   }
-  // Of a node in a line.
+  // The status of a node in a line.
   status(node: number, line: number): number {
     const place = this.nodes[node].at(line);
     return place < 0 ? 0 : this.nodes[node].flags[place] & STATUS;

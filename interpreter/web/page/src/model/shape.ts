@@ -1,4 +1,4 @@
-// What does not change during a run: the nodes, who holds whom, what is drawn under what.
+// The part of a run that does not change: the nodes, which node holds which, how they are drawn.
 import type { Header, HeaderNode } from "./recording";
 
 type Synchronization = "absolute" | "relative" | "resources" | null;

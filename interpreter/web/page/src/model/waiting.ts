@@ -1,4 +1,4 @@
-// Who waits for whom, and where: the same sentences as those of `lockstep replay`.
+// Finds which node waits for which, and where: the same sentences as those of `lockstep replay`.
 import type { Moment, Span } from "./moment";
 import { IDLE, RUNNING, SKIPPED } from "./recording";
 import type { ShapeNode } from "./shape";
@@ -17,7 +17,7 @@ function isLeftOut(moment: Moment, keeper: ShapeNode, child: number): boolean {
   return (status === SKIPPED && !moment.held[child]) || (keeper.ignoresIdle && status === IDLE);
 }
 
-// Of a node that compares progress. Worked out once in a moment, however many it holds.
+// The span of a node that compares progress. Worked out once in a moment, however many it holds.
 export function spanOf(moment: Moment, keeper: ShapeNode): Span {
   const known = moment.spans.get(keeper.index);
   if (known) return known;
@@ -75,7 +75,7 @@ export function owned(moment: Moment, pool: ShapeNode, node: number): string {
   return limit > 0 ? `owns ${resourcesIn(pool, limit).join(";")}` : "";
 }
 
-// Of each resource of a pool the one that owns it; null: it is free.
+// The owner of each resource of a pool; null: it is free.
 export function ownersOf(moment: Moment, pool: ShapeNode): { resource: string; place: number | null }[] {
   const found = pool.resources.map((resource) => ({ resource, place: null as number | null }));
   pool.inStep.forEach((node, place) => {

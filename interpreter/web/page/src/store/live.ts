@@ -1,4 +1,4 @@
-// What the page knows of a program that runs, and what it can ask of it, whoever brings this.
+// The page's view of a program that runs, and the orders that it can give, whoever brings them.
 
 export type Connection = "connecting" | "open" | "lost" | "ended" | "asleep";
 export type When = "begins" | "completes" | "barrier";

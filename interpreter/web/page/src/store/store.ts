@@ -1,4 +1,4 @@
-// What the user looks at, and the run that is looked at. One object; what draws subscribes to it.
+// The run, and the part of it that the user looks at. One object; everything that draws subscribes to it.
 import { firstLine } from "../model/decision";
 import { LARGE, SMALL, opened, type Folds } from "../model/folds";
 import { Moment } from "../model/moment";

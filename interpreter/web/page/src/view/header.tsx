@@ -1,4 +1,4 @@
-// What runs, where it stands, and how the page looks.
+// The head of the page: which run it is, where it stands, and how the page looks.
 import { seconds } from "../model/words";
 import type { Connection } from "../store/live";
 import type { Store, Theme } from "../store/store";

@@ -6,7 +6,8 @@ import type { Store } from "../../store/store";
 
 export const MOST_SERIES = 12;
 
-// What the timeline shows; of the whole run the activation of the node that is going on, else the last or the first.
+// The span that the timeline shows. If that is the whole run, the activation of the node that is going on, else the last or
+// the first.
 export function chartSpan(store: Store, keeper: number): [number, number] {
   const { run, looking } = store;
   if (looking.span) return looking.span;

@@ -1,4 +1,4 @@
-// What the chart has beside its lines: barriers or the delta band, when each child was held, the moment.
+// The parts of the chart beside its lines: barriers or the delta band, when each child was held, the moment.
 import type uPlot from "uplot";
 import type { Run } from "../../model/run";
 import type { Store } from "../../store/store";
@@ -72,7 +72,7 @@ export function drawInFront(plot: uPlot, store: Store, keeper: number, paint: Co
   held(plot, store.run, keeper, paint);
   const x = plot.valToPos(store.moment.time, "x", true);
   if (x >= bbox.left && x <= bbox.left + bbox.width) {
-    // What comes after it is pale.
+    // Everything after the moment is pale.
     ctx.globalAlpha = 0.6;
     ctx.fillStyle = paint.panel;
     ctx.fillRect(x, bbox.top, bbox.left + bbox.width - x, bbox.height);

@@ -1,4 +1,4 @@
-// What an event says.
+// The text of an event.
 import type { RunEvent } from "../../model/events";
 import { Moment } from "../../model/moment";
 import type { Run } from "../../model/run";

@@ -1,4 +1,4 @@
-// What happened up to this moment, newest first.
+// The events up to this moment, newest first.
 import { useState } from "preact/hooks";
 import type { EventKind, RunEvent } from "../../model/events";
 import { seconds } from "../../model/words";

@@ -9,7 +9,7 @@ import { Bar } from "../parts/bar";
 import { eventText } from "./event_text";
 
 const MOST = 8;
-// What happened in the tree; how punctual it was is told elsewhere.
+// The events of the tree; how punctual it was is told elsewhere.
 const TOLD: ReadonlySet<EventKind> = new Set<EventKind>([
   "start", "success", "failure", "halt", "hold", "release", "fault", "lost", "end",
 ]);

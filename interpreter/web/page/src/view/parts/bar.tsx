@@ -54,7 +54,7 @@ function Marks({ moment, keeper, place }: { moment: Moment; keeper: number; plac
   );
 }
 
-// Of a synchronized node: where each of those that it holds is.
+// The race of a synchronized node: where each child is that it holds.
 export function Race({ moment, node, place }: { moment: Moment; node: number; place: Place }) {
   const { x, y, width, height } = place;
   return (

@@ -1,4 +1,4 @@
-// What joins the cards: edges, barriers through siblings, and arrows from who waits to whom.
+// The lines between the cards: edges, barriers through siblings, and arrows from a waiting node to the one that it waits for.
 import type { Moment } from "../../model/moment";
 import { IDLE } from "../../model/recording";
 import { marksOf, spanOf, waitOf } from "../../model/waiting";
