@@ -13,7 +13,6 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "core/status.h"
 #include "property/entry_comparison.h"
 #include "property/formula.h"
 
