@@ -1,5 +1,5 @@
-// JSON that tests read. What nlohmann's parser is made of is compiled once, in json.cpp: a unit that
-// compiles it takes half as long again.
+// JSON that tests read. What nlohmann's parser is made of is compiled once, in json.cpp: a unit
+// that compiles it takes half as long again.
 #pragma once
 
 #include <nlohmann/json.hpp>
