@@ -136,11 +136,10 @@ void ModelLeaves::fold() {
   }
 }
 
-bool ModelLeaves::is(std::uint32_t leaf, bool expected, const char* what) {
-  if (!expected && broken_.empty()) {
+void ModelLeaves::tell_broken(std::uint32_t leaf, const char* what) {
+  if (broken_.empty()) {
     broken_ = fmt::format("{}: {}", tree_.path(tree_.leaves[leaf].node), what);
   }
-  return expected;
 }
 
 void ModelLeaves::set_level(std::uint32_t leaf, std::int64_t level) {
@@ -183,7 +182,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   is(leaf, state.phase == Phase::Running, "tick without start, or while it is held");
   mark.ticked = true;
   ++state.ticks;
-  if (model.writes == Writes::InEachTick) write(leaf);
+  if (model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
 
   const auto levels = static_cast<std::int64_t>(model.levels.size());
   // Where it is done: at 1, which is behind all levels unless the last one is 1.
@@ -227,7 +226,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
         facts_[set.fact] = set.value ? FactState::True : FactState::False;
         asked_[set.fact] = true;
       }
-      if (model.writes == Writes::OnSuccess) write(leaf);
+      if (model.writes == Writes::OnSuccess && !model.outputs.empty()) write(leaf);
     }
     state = {};
     return mark.result;

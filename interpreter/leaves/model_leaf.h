@@ -92,7 +92,12 @@ class ModelLeaves {
     return marks_[leaf];
   }
   void restore_progress(std::uint32_t leaf);
-  bool is(std::uint32_t leaf, bool expected, const char* what);
+  bool is(std::uint32_t leaf, bool expected, const char* what) {
+    if (!expected) [[unlikely]]
+      tell_broken(leaf, what);
+    return expected;
+  }
+  void tell_broken(std::uint32_t leaf, const char* what);
   bool ask(std::uint32_t fact);
   void write(std::uint32_t leaf);
   void set_level(std::uint32_t leaf, std::int64_t level);

@@ -32,7 +32,8 @@ void SearchCoverage::after_tick(Ticker& ticker) {
 void SearchCoverage::look_at(Ticker& ticker, Synchronized& it) const {
   if (!ticker.ticked(it.node)) return;
   const double now = limit(ticker, it.node);
-  if (it.limits.size() < 1000) it.limits.insert(now);
+  if (now != it.last_limit && it.limits.size() < 1000) it.limits.insert(now);
+  it.last_limit = now;
   double least = 1, most = 0;
   for (const double progress : child_progress(ticker, it.node)) {
     if (is_left_out(progress)) continue;

@@ -29,6 +29,7 @@ class SearchCoverage {
   struct Synchronized {
     NodeIndex node;
     std::set<double> limits = {};
+    double last_limit = -1;  // which is in it; -1: none
     double largest_spread = 0;
   };
   const std::vector<Synchronized>& synchronized() const { return synchronized_; }

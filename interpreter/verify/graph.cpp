@@ -2,28 +2,66 @@
 
 #include <algorithm>
 #include <functional>
+#include <unordered_map>
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 
-// Tarjan's algorithm without recursion. `of` is kNone outside of `states`; a component has a
-// smaller number than those that lead to it.
-class ComponentFinder {
+std::size_t all_states(const Graph& graph) {
+  return graph.ends.size();
+}
+
+std::vector<StateId> expanded_states(const Graph& graph) {
+  std::vector<StateId> states(graph.expanded());
+  for (StateId i = 0; i < states.size(); ++i) states[i] = i;
+  return states;
+}
+
+// Tarjan's algorithm without recursion, of the whole graph or of some states again and again: no
+// two components have the same number, and one has a smaller number than those that lead to it.
+class Components {
  public:
-  using Uses = std::function<bool(StateId from, const Edge&)>;
+  explicit Components(const Graph& graph)
+      : graph_(graph),
+        of_(all_states(graph), kNone),
+        index_(all_states(graph), kNone),
+        low_(all_states(graph)) {}
 
-  ComponentFinder(const Graph& graph, std::size_t size, Uses uses)
-      : graph_(graph), uses_(std::move(uses)), of_(size, kNone), index_(size, kNone), low_(size) {}
+  std::uint32_t of(StateId state) const { return of_[state]; }
+  std::uint32_t count() const { return count_; }
 
-  std::uint32_t find(const std::vector<StateId>& states) {
+  // Of these states, over the edges that `uses` says, which do not lead out of them.
+  template <class Uses>
+  void find(const std::vector<StateId>& states, const Uses& uses) {
+    for (const StateId state : states) of_[state] = index_[state] = kNone;
     for (const StateId state : states) {
-      if (index_[state] == kNone) visit(state);
+      if (index_[state] == kNone) visit(state, uses);
     }
-    return count_;
   }
-  const std::vector<std::uint32_t>& of() const { return of_; }
+
+  // Those of the last call in which an edge goes from one state to another.
+  template <class Uses>
+  std::vector<std::vector<StateId>> with_cycles(const std::vector<StateId>& states,
+                                                const Uses& uses) const {
+    std::vector<std::vector<StateId>> found;
+    std::unordered_map<std::uint32_t, std::size_t> places;
+    for (const StateId state : states) {
+      for (const Edge& edge : graph_.edges_of(state)) {
+        if (of_[edge.to] != of_[state] || !uses(state, edge)) continue;
+        places.try_emplace(of_[state], places.size());
+        break;
+      }
+    }
+    found.resize(places.size());
+    for (const StateId state : states) {
+      if (const auto it = places.find(of_[state]); it != places.end()) {
+        found[it->second].push_back(state);
+      }
+    }
+    return found;
+  }
 
  private:
   struct Frame {
@@ -31,34 +69,35 @@ class ComponentFinder {
     std::size_t next;
   };
 
-  void visit(StateId root) {
-    std::vector<Frame> frames;
-    const auto enter = [&](StateId state) {
-      index_[state] = low_[state] = next_++;
-      stack_.push_back(state);
-      frames.push_back({state, 0});
-    };
+  template <class Uses>
+  void visit(StateId root, const Uses& uses) {
     enter(root);
-    while (!frames.empty()) {
-      Frame& frame = frames.back();
+    while (!frames_.empty()) {
+      Frame& frame = frames_.back();
       const StateId state = frame.state;
       const auto edges = graph_.edges_of(state);
       if (frame.next == edges.size()) {
-        frames.pop_back();
+        frames_.pop_back();
         if (low_[state] == index_[state]) close(state);
-        if (!frames.empty()) {
-          low_[frames.back().state] = std::min(low_[frames.back().state], low_[state]);
+        if (!frames_.empty()) {
+          low_[frames_.back().state] = std::min(low_[frames_.back().state], low_[state]);
         }
         continue;
       }
       const Edge& edge = edges[frame.next++];
-      if (!uses_(state, edge)) continue;
+      if (!uses(state, edge)) continue;
       if (index_[edge.to] == kNone) {
         enter(edge.to);
       } else if (of_[edge.to] == kNone) {
         low_[state] = std::min(low_[state], index_[edge.to]);
       }
     }
+  }
+
+  void enter(StateId state) {
+    index_[state] = low_[state] = next_++;
+    stack_.push_back(state);
+    frames_.push_back({state, 0});
   }
 
   void close(StateId root) {
@@ -72,41 +111,11 @@ class ComponentFinder {
   }
 
   const Graph& graph_;
-  const Uses uses_;
   std::vector<std::uint32_t> of_, index_, low_;
   std::vector<StateId> stack_;
+  std::vector<Frame> frames_;
   std::uint32_t next_ = 0, count_ = 0;
 };
-
-std::size_t all_states(const Graph& graph) {
-  return graph.ends.size();
-}
-
-// The states of a component in which an edge goes from one to another.
-std::vector<std::vector<StateId>> with_cycles(const Graph& graph,
-                                              const std::vector<StateId>& states,
-                                              const std::vector<std::uint32_t>& of,
-                                              std::uint32_t count,
-                                              const ComponentFinder::Uses& uses) {
-  std::vector<bool> has_cycle(count);
-  for (const StateId state : states) {
-    for (const Edge& edge : graph.edges_of(state)) {
-      if (of[edge.to] == of[state] && uses(state, edge)) has_cycle[of[state]] = true;
-    }
-  }
-  std::vector<std::vector<StateId>> found;
-  std::vector<std::uint32_t> place(count, kNone);
-  for (const StateId state : states) {
-    const std::uint32_t component = of[state];
-    if (!has_cycle[component]) continue;
-    if (place[component] == kNone) {
-      place[component] = static_cast<std::uint32_t>(found.size());
-      found.emplace_back();
-    }
-    found[place[component]].push_back(state);
-  }
-  return found;
-}
 
 // A way over some edges, breadth first.
 class Way {
@@ -159,66 +168,64 @@ class FairCycle {
  public:
   enum class Fairness : bool { Needed, Ignored };
   FairCycle(const Graph& graph, const EdgeFilter& filter, Fairness fairness)
-      : graph_(graph), filter_(filter), fairness_(fairness) {}
+      : graph_(graph),
+        filter_(filter),
+        fairness_(fairness),
+        components_(graph),
+        set_(all_states(graph), kNone) {}
 
-  std::vector<CycleStep> find() const {
-    std::vector<StateId> all(graph_.expanded());
-    for (StateId i = 0; i < all.size(); ++i) all[i] = i;
-    return find(all, std::vector<bool>(graph_.leaves));
-  }
+  std::vector<CycleStep> find() { return find(expanded_states(graph_), {}); }
 
  private:
-  bool uses(const Edge& edge, const std::vector<bool>& without) const {
+  using Leaves = std::vector<std::size_t>;
+
+  bool uses(const Edge& edge, const Leaves& without) const {
     if (filter_ && !filter_(edge)) return false;
-    for (std::size_t leaf = 0; leaf < without.size(); ++leaf) {
-      if (without[leaf] && graph_.has(edge, graph_.worked_bit(leaf))) return false;
-    }
-    return true;
+    return std::ranges::none_of(
+        without, [&](std::size_t leaf) { return graph_.has(edge, graph_.worked_bit(leaf)); });
   }
 
-  std::vector<CycleStep> find(const std::vector<StateId>& states,
-                              const std::vector<bool>& without) const {
-    std::vector<bool> in(all_states(graph_));
-    for (const StateId state : states) in[state] = true;
+  std::vector<CycleStep> find(const std::vector<StateId>& states, const Leaves& without) {
+    const std::uint32_t set = sets_++;
+    for (const StateId state : states) set_[state] = set;
     const auto inside = [&](StateId, const Edge& edge) {
-      return in[edge.to] && uses(edge, without);
+      return set_[edge.to] == set && uses(edge, without);
     };
-    ComponentFinder finder(graph_, all_states(graph_), inside);
-    const std::uint32_t count = finder.find(states);
-    auto found = with_cycles(graph_, states, finder.of(), count, inside);
+    components_.find(states, inside);
+    auto found = components_.with_cycles(states, inside);
     // The ones that a search finds first, first.
     std::ranges::sort(found, {}, [](const auto& it) { return std::ranges::min(it); });
     for (const auto& component : found) {
-      const std::uint32_t number = finder.of()[component.front()];
+      const std::uint32_t number = components_.of(component.front());
       const auto within = [&](StateId from, const Edge& edge) {
-        return finder.of()[from] == number && finder.of()[edge.to] == number && uses(edge, without);
+        return components_.of(from) == number && components_.of(edge.to) == number &&
+               uses(edge, without);
       };
-      std::vector<bool> more = without;
+      Leaves more = without;
       if (!add_those_that_only_work(component, within, more)) return walk(component, within);
       if (auto cycle = find(component, more); !cycle.empty()) return cycle;
     }
     return {};
   }
 
-  bool add_those_that_only_work(const std::vector<StateId>& component, const Way::Uses& within,
-                                std::vector<bool>& without) const {
-    std::vector<bool> works(graph_.leaves), ends(graph_.leaves);
+  template <class Within>
+  bool add_those_that_only_work(const std::vector<StateId>& component, const Within& within,
+                                Leaves& without) const {
+    if (fairness_ == Fairness::Ignored) return false;
+    std::vector<std::byte> all(graph_.labels.size() == 0 ? 0 : graph_.labels[0].size());
     for (const StateId state : component) {
       for (const Edge& edge : graph_.edges_of(state)) {
         if (!within(state, edge)) continue;
-        for (std::size_t leaf = 0; leaf < graph_.leaves; ++leaf) {
-          works[leaf] = works[leaf] || graph_.has(edge, graph_.worked_bit(leaf));
-          ends[leaf] = ends[leaf] || graph_.has(edge, graph_.ended_bit(leaf));
-        }
+        const auto bits = graph_.labels[edge.label];
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] |= bits[i];
       }
     }
-    if (fairness_ == Fairness::Ignored) return false;
-    bool any = false;
+    const std::size_t before = without.size();
     for (std::size_t leaf = 0; leaf < graph_.leaves; ++leaf) {
-      if (!works[leaf] || ends[leaf] || without[leaf]) continue;
-      without[leaf] = any = true;
+      if (!LabelTable::has(all, graph_.worked_bit(leaf))) continue;
+      if (!LabelTable::has(all, graph_.ended_bit(leaf))) without.push_back(leaf);
     }
-    return any;
+    return without.size() != before;
   }
 
   // All of the component is fair. A short cycle: from its first state back to it, by way of an end
@@ -265,6 +272,9 @@ class FairCycle {
   const Graph& graph_;
   const EdgeFilter& filter_;
   const Fairness fairness_;
+  Components components_;
+  std::vector<std::uint32_t> set_;  // of each state: the last set in which it was looked at
+  std::uint32_t sets_ = 0;
 };
 
 }  // namespace
@@ -321,28 +331,25 @@ std::vector<bool> reachable_from(const Graph& graph, StateId from) {
 }
 
 bool recurs(const Graph& graph, const EdgeFilter& is_wanted) {
-  std::vector<StateId> states(graph.expanded());
-  for (StateId i = 0; i < states.size(); ++i) states[i] = i;
-  ComponentFinder finder(graph, all_states(graph), [](StateId, const Edge&) { return true; });
-  finder.find(states);
-  for (const StateId state : states) {
-    for (const Edge& edge : graph.edges_of(state)) {
-      if (finder.of()[state] == finder.of()[edge.to] && is_wanted(edge)) return true;
-    }
-  }
-  return false;
+  const std::vector<StateId> states = expanded_states(graph);
+  Components components(graph);
+  components.find(states, [](StateId, const Edge&) { return true; });
+  return std::ranges::any_of(states, [&](StateId state) {
+    return std::ranges::any_of(graph.edges_of(state), [&](const Edge& edge) {
+      return components.of(state) == components.of(edge.to) && is_wanted(edge);
+    });
+  });
 }
 
 LongestRow longest_row(const Graph& graph, std::size_t bit) {
-  std::vector<StateId> states(graph.expanded());
-  for (StateId i = 0; i < states.size(); ++i) states[i] = i;
+  const std::vector<StateId> states = expanded_states(graph);
   const auto uses = [&](StateId, const Edge& edge) { return graph.has(edge, bit); };
-  ComponentFinder finder(graph, all_states(graph), uses);
-  const std::uint32_t count = finder.find(states);
-  if (!with_cycles(graph, states, finder.of(), count, uses).empty()) return {.is_endless = true};
+  Components components(graph);
+  components.find(states, uses);
+  if (!components.with_cycles(states, uses).empty()) return {.is_endless = true};
   // Without cycles each state is a component, and those that it leads to have smaller numbers.
-  std::vector<StateId> by_number(count, kNoState);
-  for (const StateId state : states) by_number[finder.of()[state]] = state;
+  std::vector<StateId> by_number(components.count(), kNoState);
+  for (const StateId state : states) by_number[components.of(state)] = state;
   std::vector<std::uint64_t> longest(all_states(graph));
   LongestRow row;
   for (const StateId state : by_number) {

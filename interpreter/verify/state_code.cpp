@@ -23,17 +23,26 @@ class Writer {
   }
   // Zero bytes as a zero and how many.
   void sparse(const std::byte* from, std::size_t size) {
+    const std::size_t begin = to_.size();
+    to_.resize(begin + 2 * size);  // at most
+    std::byte* to = to_.data() + begin;
     for (std::size_t at = 0; at < size;) {
       if (from[at] != std::byte{0}) {
-        to_.push_back(from[at++]);
+        *to++ = from[at++];
         continue;
       }
+      const std::size_t most = std::min<std::size_t>(size - at, 255);
       std::size_t count = 1;
-      while (at + count < size && count < 255 && from[at + count] == std::byte{0}) ++count;
-      to_.push_back(std::byte{0});
-      to_.push_back(static_cast<std::byte>(count));
+      for (std::uint64_t word = 0; count + sizeof word <= most; count += sizeof word) {
+        std::memcpy(&word, from + at + count, sizeof word);
+        if (word != 0) break;
+      }
+      while (count < most && from[at + count] == std::byte{0}) ++count;
+      *to++ = std::byte{0};
+      *to++ = static_cast<std::byte>(count);
       at += count;
     }
+    to_.resize(static_cast<std::size_t>(to - to_.data()));
   }
   void number(std::uint32_t value) {
     while (value >= 128) {
