@@ -1,0 +1,81 @@
+// What a search over all behaviors costs: ticks in a second, and bytes for each state.
+#include <benchmark/benchmark.h>
+
+#include "bench/bench_tree.h"
+#include "leaves/leaf_file.h"
+#include "verify/verdict.h"
+
+namespace {
+
+using namespace lockstep::host;
+
+constexpr auto kFull = R"(<leaf path="*" finish="full" result="success"/>)";
+constexpr auto kLeaf = "<BenchAdvance/>";
+
+std::string absolute(std::int64_t children, std::int64_t barriers) {
+  std::string list;
+  for (std::int64_t i = 1; i <= barriers; ++i) {
+    list += fmt::format("{}{}", i == 1 ? "" : ";",
+                        static_cast<double>(i) / static_cast<double>(barriers + 1));
+  }
+  return fmt::format("<ParallelAbsolute barriers=\"{}\">{}</ParallelAbsolute>", list,
+                     BenchTree::repeated(kLeaf, children));
+}
+
+// 50 nodes, half of them leaves: two arms, each with three ways to do its work.
+std::string mixed() {
+  const std::string way =
+      "<Sequence memory=\"true\"><Inverter><BenchAdvance/></Inverter><Timeout seconds=\"1\">"
+      "<BenchAdvance/></Timeout><ForceSuccess><BenchAdvance/></ForceSuccess><BenchAdvance/></"
+      "Sequence>";
+  const std::string arm =
+      "<Fallback memory=\"true\">" + BenchTree::repeated(way, 3) + "</Fallback>";
+  return "<Parallel>" + arm + arm + "</Parallel>";
+}
+
+void verify(benchmark::State& state, const std::string& text, const std::string& rows) {
+  const BenchTree bench(text);
+  const Tree& tree = bench.tree();
+  Diagnostics diagnostics;
+  std::vector<NodeProblem> problems;
+  const auto file =
+      read_leaf_file("l.xml", "<leaves lockstep=\"1\">" + rows + "</leaves>", diagnostics);
+  const LeafModels models = make_models(tree, file.get(), diagnostics, problems);
+  const auto jobs = static_cast<unsigned>(state.range(0));
+  double ticks = 0, states = 1, memory = 0, seconds = 0;
+  for (auto _ : state) {
+    const SearchResult found = search(tree, models, {}, from_seconds(0.1),
+                                      {.memory = std::size_t{4} << 30u, .jobs = jobs});
+    const Verdict verdict = make_verdict(tree, models, {}, found, {});
+    benchmark::DoNotOptimize(verdict.findings.data());
+    ticks += static_cast<double>(found.transitions);
+    seconds += to_seconds(found.took);
+    states = static_cast<double>(found.store.size());
+    memory = static_cast<double>(found.memory());
+  }
+  state.counters["nodes"] = static_cast<double>(tree.nodes.size());
+  state.counters["states"] = states;
+  state.counters["bytes/state"] = memory / states;
+  state.counters["ticks/s"] = ticks / seconds;
+}
+
+void add(const char* name, const std::string& tree, const std::string& rows = "") {
+  benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { verify(state, tree, rows); })
+      ->ArgName("jobs")
+      ->Arg(1)
+      ->Arg(2)
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  add("mixed", mixed());
+  add("absolute/4/8", absolute(4, 8), kFull);
+  add("absolute/6/4", absolute(6, 4), kFull);
+  add("sequence/400",
+      "<Sequence memory=\"true\">" + BenchTree::repeated(kLeaf, 400) + "</Sequence>");
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
