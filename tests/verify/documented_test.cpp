@@ -1,0 +1,115 @@
+// The tables of docs/verify.md: what verify says of all example trees, and of what the language
+// promises.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Cells = std::vector<std::string>;
+
+std::string trimmed(std::string text) {
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  text.erase(0, text.find_first_not_of(' '));
+  const bool is_code = text.size() > 1 && text.front() == '`' && text.back() == '`';
+  return is_code ? text.substr(1, text.size() - 2) : text;
+}
+
+Cells cells_of(const std::string& line) {
+  Cells cells;
+  std::string cell;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    if (line.compare(i, 2, "\\|") == 0) {
+      cell += line[++i];
+    } else if (line[i] == '|') {
+      cells.push_back(trimmed(std::exchange(cell, "")));
+    } else {
+      cell += line[i];
+    }
+  }
+  return cells;
+}
+
+// Of the first table below a heading, without its head.
+std::vector<Cells> table_below(const std::string& heading) {
+  std::istringstream text(read_file(LOCKSTEP_SOURCE_DIR "/docs/verify.md"));
+  std::vector<Cells> rows;
+  bool is_below = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line == heading) is_below = true;
+    if (!is_below) continue;
+    if (line.starts_with("|")) {
+      rows.push_back(cells_of(line));
+    } else if (!rows.empty()) {
+      break;
+    }
+  }
+  REQUIRE(rows.size() > 2);
+  rows.erase(rows.begin(), rows.begin() + 2);
+  return rows;
+}
+
+std::string leaf_file(const TemporaryDirectory& directory, const std::string& rows) {
+  return directory.file("rows.leaves.xml", "<leaves lockstep=\"1\">" + rows + "</leaves>");
+}
+
+}  // namespace
+
+TEST_CASE("each example tree is verified as docs/verify.md says") {
+  const TemporaryDirectory directory;
+  std::set<std::string> documented;
+  for (const Cells& row : table_below("## The trees of trees/, verified")) {
+    REQUIRE(row.size() == 4);
+    INFO(row[0] << ' ' << row[1]);
+    documented.insert(row[0]);
+    const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/" + row[0], "--leaves",
+                                     leaf_file(directory, row[1]), "--out", directory.path("out")});
+    INFO(it.out << it.err);
+    const std::string word = row[3].substr(0, row[3].find(':'));
+    if (word == "refused") {
+      CHECK(it.code == 3);
+      continue;
+    }
+    CHECK(contains(it.out, "\n  " + row[2] + " states, "));
+    CHECK(it.code == (word == "verified" ? 0 : 1));
+    CHECK(contains(it.out, word == "verified" ? "\nverified" : "\nfinding " + word + ": "));
+  }
+  for (const auto& file : fs::recursive_directory_iterator(LOCKSTEP_SOURCE_DIR "/trees")) {
+    if (file.path().extension() != ".xml") continue;
+    const std::string name = fs::relative(file.path(), LOCKSTEP_SOURCE_DIR).string();
+    INFO(name);
+    const bool has_tree = contains(read_file(file.path().string()), "<BehaviorTree");
+    CHECK((!has_tree || documented.contains(name)));
+  }
+}
+
+TEST_CASE("what the language promises is proved as docs/verify.md says") {
+  const TemporaryDirectory directory;
+  for (const Cells& row : table_below("## What the language promises, verified")) {
+    REQUIRE(row.size() == 4);
+    INFO(row[0]);
+    const std::string root = row[1].substr(1, row[1].find_first_of(" >") - 1);
+    const std::string tree = directory.file(
+        "t.xml",
+        "<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"fetch\"/>"
+        "<BehaviorTree ID=\"T\">" +
+            row[1] + "<Advance name=\"a\" step=\"0.05\"/><Advance name=\"b\" step=\"0.05\"/></" +
+            root + "></BehaviorTree></root>");
+    std::vector<std::string> arguments{
+        "verify", tree, "--leaves", leaf_file(directory, row[2]), "--out", directory.path("out")};
+    if (contains(row[1], "guard")) {
+      arguments.insert(arguments.end(),
+                       {"--property", "guarded: never " + root + ".running and not guard.ticked"});
+    }
+    const Outcome it = run_lockstep(arguments);
+    INFO(it.out << it.err);
+    CHECK(contains(it.out, row[3]));
+  }
+}
