@@ -7,6 +7,7 @@
 
 #include "core/wording.h"
 #include "engine/resources.h"
+#include "engine/synchronized.h"
 #include "measure/stall.h"
 #include "summary/standstill_text.h"
 #include "verify/trace.h"
@@ -331,10 +332,23 @@ class VerdictMaker {
     for (const auto& it : found_.coverage.synchronized()) say_spread(it);
   }
 
+  // What a spread is to be compared with: a step of a tick may come to it.
+  std::string bound_of(NodeIndex node) const {
+    if (const auto own = delta(tree_, node)) return fmt::format(" (delta {:.6g})", *own);
+    const auto list = barriers(tree_, node);
+    if (!list) return "";
+    double before = 0, widest = 0;
+    for (const double barrier : *list) {
+      widest = std::max(widest, barrier - before);
+      before = barrier;
+    }
+    return fmt::format(" (barriers up to {:.6g} apart)", std::max(widest, 1 - before));
+  }
+
   void say_spread(const SearchCoverage::Synchronized& it) {
     if (!found_.coverage.was_ticked(it.node) && !tree_.is_group(it.node)) return;
     const std::string name = tree_.path(it.node);
-    say("largest spread of " + name, fmt::format("{:.6g}", it.largest_spread));
+    say("largest spread of " + name, fmt::format("{:.6g}{}", it.largest_spread, bound_of(it.node)));
     const auto all = barriers(tree_, it.node);
     if (!all) return;
     std::vector<std::string> never;

@@ -195,6 +195,16 @@ TEST_CASE("a verdict in the formats of other programs") {
   CHECK(verdict("xml").code == 2);
 }
 
+TEST_CASE("a verdict is told also where its files cannot be written") {
+  const TemporaryDirectory directory;
+  const std::string tree = with_findings(directory);
+  const Outcome it = run_lockstep({"verify", tree, "--out", tree});
+  CHECK(it.code == 2);
+  CHECK(contains(it.err, "error: cannot "));
+  CHECK(contains(it.out, "finding never-ticked/T/Sequence/Fallback/dead"));
+  CHECK(it.out.ends_with("not verified: 2 findings\n"));
+}
+
 TEST_CASE("--only says which findings count") {
   const TemporaryDirectory directory;
   const auto only = [&](const std::string& pattern) {

@@ -175,12 +175,13 @@ class VerifyCommand {
                         runnable.tree.leaves.size()};
     report.place_of = [&](NodeIndex node) { return places.at(node); };
     Tracer tracer(runnable.tree, models, properties_, from_seconds(1 / rate), found);
-    if (!write_files(runnable, rate, tracer, verdict, report)) return kExitUsage;
-    if (!options_.save.empty() &&
-        !save_scenarios(options_.save, report, runnable.tree, properties_)) {
-      return kExitUsage;
-    }
-    return first_failure(write_results(written(report)), exit_code(found, verdict));
+    // A verdict may have taken long: it is told also where its files cannot be written.
+    const bool has_files = write_files(runnable, rate, tracer, verdict, report) &&
+                           (options_.save.empty() ||
+                            save_scenarios(options_.save, report, runnable.tree, properties_));
+    const int failed = write_results(written(report));
+    if (!has_files) return kExitUsage;
+    return first_failure(failed, exit_code(found, verdict));
   }
 
   std::string written(const VerifyReport& report) const {
