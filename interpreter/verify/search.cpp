@@ -10,9 +10,10 @@
 namespace lockstep::host {
 namespace {
 
-// The states of a round are looked at by all threads, while nothing is added. Neither size depends
-// on the number of threads.
+// The states of a round are looked at by all threads, while nothing is added. So a round is short
+// where states have many edges. None of these depends on the number of threads.
 constexpr StateId kStatesOfRound = 8192, kStatesOfChunk = 32;
+constexpr std::uint64_t kEdgesOfRound = 2'000'000;
 
 class Searcher {
  public:
@@ -33,7 +34,7 @@ class Searcher {
     result_.depths.push_back(0);
     for (StateId done = 0; done < result_.store.size();) {
       const StateId last =
-          std::min(static_cast<StateId>(result_.store.size()), done + kStatesOfRound);
+          std::min(static_cast<StateId>(result_.store.size()), done + states_of_round());
       if (!do_round(done, last)) break;
       done = last;
     }
@@ -44,6 +45,15 @@ class Searcher {
 
  private:
   std::uint32_t depth() const { return static_cast<std::uint32_t>(result_.depths.size()) - 1; }
+
+  // As many as have so many edges, if those are like the ones so far.
+  StateId states_of_round() const {
+    const Graph& graph = result_.graph;
+    const std::uint64_t edges_of_state =
+        graph.edges.size() / std::max<std::size_t>(1, graph.expanded());
+    return static_cast<StateId>(std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1),
+                                                          kStatesOfChunk, kStatesOfRound));
+  }
 
   // False: a limit was reached.
   bool do_round(StateId first, StateId last) {
