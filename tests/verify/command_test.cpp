@@ -205,7 +205,7 @@ TEST_CASE("a verdict is told also where its files cannot be written") {
   CHECK(it.out.ends_with("not verified: 2 findings\n"));
 }
 
-TEST_CASE("--only says which findings count") {
+TEST_CASE("which findings count is what --only says") {
   const TemporaryDirectory directory;
   const auto only = [&](const std::string& pattern) {
     return run_lockstep(
