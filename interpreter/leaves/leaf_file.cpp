@@ -10,6 +10,7 @@
 #include "core/value.h"
 #include "core/wording.h"
 #include "document/document.h"
+#include "document/file.h"
 #include "document/reporter.h"
 #include "leaves/leaf_words.h"
 #include "leaves/word_check.h"
@@ -221,6 +222,14 @@ std::unique_ptr<LeafFile> read_leaf_file(std::string path, std::string text,
   auto file = std::make_unique<LeafFile>();
   file->sources.add(document->source());
   return Reader(*document, *file, diagnostics).read() ? std::move(file) : nullptr;
+}
+
+std::unique_ptr<LeafFile> load_leaf_file(const std::string& path, Diagnostics& diagnostics) {
+  constexpr std::size_t kMost = std::size_t{16} << 20u;
+  auto text = read_file(path, kMost);
+  if (text) return read_leaf_file(path, std::move(*text), diagnostics);
+  diagnostics.error({path}, "cannot be read: " + text.error().message, text.error().hint);
+  return nullptr;
 }
 
 }  // namespace lockstep::host

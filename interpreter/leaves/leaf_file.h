@@ -88,5 +88,7 @@ struct LeafFile {
 // Reports all errors; null if the text is no XML, or is of something else.
 std::unique_ptr<LeafFile> read_leaf_file(std::string path, std::string text,
                                          Diagnostics& diagnostics);
+// The same of the file with this name; null, with an error, if it cannot be read.
+std::unique_ptr<LeafFile> load_leaf_file(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace lockstep::host

@@ -63,7 +63,7 @@ class CastMaker {
       rows[leaf] = &row;
       is_there = true;
     }
-    if (!is_there && missing_ == MissingLeaves::AreErrors) tell_no_match(row);
+    if (!is_there && !row.may_lack && missing_ == MissingLeaves::AreErrors) tell_no_match(row);
   }
 
   void tell_no_match(const CastRow& row) const {

@@ -1,8 +1,10 @@
 #include "scenario/coverage.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <numeric>
+#include <thread>
 
 #include "scenario/possible.h"
 
@@ -36,11 +38,12 @@ std::size_t CoveredTree::shown() const {
                                [](const CoveredNode& it) { return it.shown(); });
 }
 
-void Coverage::add(const std::shared_ptr<const Stage>& stage, double rate,
-                   const std::string& scenario, const NodeCoverage& coverage) {
+void Coverage::add(const ScenarioReport& report) {
+  const auto& stage = report.stage;
+  const NodeCoverage& coverage = *report.coverage;
   auto it = std::ranges::find(stages_, stage, &Played::stage);
   if (it == stages_.end()) {
-    stages_.push_back({stage, rate, NodeCoverage(stage->tree()), {}});
+    stages_.push_back({stage, report.leaves, report.rate, NodeCoverage(stage->tree()), {}});
     it = stages_.end() - 1;
   }
   Played& played = *it;
@@ -49,12 +52,27 @@ void Coverage::add(const std::shared_ptr<const Stage>& stage, double rate,
     auto& by = played.by[node];
     for (std::size_t aspect = 0; aspect < kAspectCount; ++aspect) {
       const bool is_shown = coverage.seen(node).has(static_cast<Aspect>(aspect));
-      if (is_shown && by[aspect].size() < kMostNames) by[aspect].push_back(scenario);
+      if (is_shown && by[aspect].size() < kMostNames) by[aspect].push_back(report.scenario->name);
     }
   }
 }
 
-std::vector<CoveredTree> Coverage::trees() {
+void Coverage::find_possible(unsigned jobs) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < stages_.size(); i = next++) {
+      Played& it = stages_[i];
+      const auto found = possible_coverage(it.stage->tree(), it.leaves, it.rate);
+      if (found) it.possible.emplace(*found);
+    }
+  };
+  std::vector<std::jthread> threads;
+  const auto count = std::min<std::size_t>(jobs, stages_.size());
+  for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
+}
+
+std::vector<CoveredTree> Coverage::trees(unsigned jobs) {
+  find_possible(jobs);
   struct Numbered {
     CoveredTree tree;
     std::map<std::string, std::size_t> numbers;  // of the nodes, by path
@@ -80,7 +98,7 @@ void Coverage::merge(const Played& played, CoveredTree& into,
                      std::map<std::string, std::size_t>& numbers) const {
   const Stage& stage = *played.stage;
   const Tree& tree = stage.tree();
-  const auto possible = possible_coverage(tree, played.rate);
+  const auto& possible = played.possible;
   into.is_proved &= possible.has_value();
   for (NodeIndex index = 0; index < tree.nodes.size(); ++index) {
     const auto waited = played.coverage.barriers().find(index);

@@ -10,6 +10,7 @@
 
 #include "scenario/node_coverage.h"
 #include "scenario/stage.h"
+#include "scenario/test_run.h"
 
 namespace lockstep::host {
 
@@ -38,19 +39,21 @@ struct CoveredTree {
 // Collects from one thread.
 class Coverage {
  public:
-  // Of a scenario in which `stage` was played at this rate.
-  void add(const std::shared_ptr<const Stage>& stage, double rate, const std::string& scenario,
-           const NodeCoverage& coverage);
-  // Searches for what is possible, once for each stage.
-  std::vector<CoveredTree> trees();
+  // Of a scenario that was played; its leaf file must outlive this.
+  void add(const ScenarioReport& report);
+  // Searches for what is possible, once for each stage, on so many threads.
+  std::vector<CoveredTree> trees(unsigned jobs);
 
  private:
   struct Played {
     std::shared_ptr<const Stage> stage;
+    const LeafFile* leaves;  // null: there is none
     double rate;
     NodeCoverage coverage;
     std::map<NodeIndex, std::array<std::vector<std::string>, kAspectCount>> by;
+    std::optional<NodeCoverage> possible = {};  // nothing: it is not known
   };
+  void find_possible(unsigned jobs);
   void merge(const Played& played, CoveredTree& into,
              std::map<std::string, std::size_t>& numbers) const;
 

@@ -11,7 +11,7 @@ namespace lockstep::host {
 namespace {
 
 // '+': a scenario shows it; '-': none does, and it can be; ' ': it cannot be.
-char sign_of(const CoveredNode& node, std::size_t aspect) {
+char aspect_sign(const CoveredNode& node, std::size_t aspect) {
   const auto it = static_cast<Aspect>(aspect);
   if (node.seen.has(it)) return '+';
   return node.possible.has(it) ? '-' : ' ';
@@ -46,7 +46,7 @@ std::string to_table(std::span<const CoveredTree> trees) {
     for (const CoveredNode& node : tree.nodes) {
       std::string line = fmt::format("  {:<{}}", printable(node.path), width);
       for (std::size_t aspect = 0; aspect < kAspectCount; ++aspect) {
-        line += fmt::format("  {:<{}}", sign_of(node, aspect), kAspects[aspect].size());
+        line += fmt::format("  {:<{}}", aspect_sign(node, aspect), kAspects[aspect].size());
       }
       line += barriers_text(node);
       while (line.ends_with(' ')) line.pop_back();

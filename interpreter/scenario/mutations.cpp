@@ -170,9 +170,10 @@ class Mutator {
     add(at, fmt::format("{} is left out", name_of(at)), std::move(without));
   }
 
+  // Not in a parallel, whose children move in the same tick.
   void swap_with_next(std::uint32_t at, std::uint32_t tree) {
     const std::uint32_t next = elements_[at].end;
-    if (next >= elements_[tree].end) return;
+    if (next >= elements_[tree].end || parent_of(at, tree).starts_with("Parallel")) return;
     const Extent one = extent_of(at), two = extent_of(next);
     // The next element is its sibling only if nothing is closed between them.
     const std::string between = text_.substr(one.end, two.begin - one.end);
@@ -181,6 +182,14 @@ class Mutator {
                              text_.substr(two.begin, two.end - two.begin) + between +
                              text_.substr(one.begin, one.end - one.begin) + text_.substr(two.end);
     add(at, fmt::format("{} and {} change places", name_of(at), name_of(next)), text);
+  }
+
+  std::string_view parent_of(std::uint32_t at, std::uint32_t tree) const {
+    std::uint32_t parent = tree;
+    for (std::uint32_t it = tree; it < at; ++it) {
+      if (elements_[it].end > at) parent = it;
+    }
+    return elements_[parent].tag;
   }
 
   const Document& document_;

@@ -30,10 +30,11 @@ std::vector<MeasureSpec> measures_of(const Rehearsal& rehearsal) {
   return measures;
 }
 
-RecorderOptions recorder_options(const Rehearsal& rehearsal, const PerformOptions& options) {
+RecorderOptions recorder_options(const Rehearsal& rehearsal, const Stage& stage,
+                                 const PerformOptions& options) {
   RunDescription run{
       .tree_file = rehearsal.scenario->tree, .rate_hz = rehearsal.rate, .seed = options.seed};
-  for (const NamedText& it : rehearsal.scenario->arguments) run.arguments[it.name] = it.text;
+  for (const DeclaredArgument& it : stage.arguments()) run.arguments[it.name] = it.value;
   return {.path = options.record, .run = std::move(run)};
 }
 
@@ -53,7 +54,8 @@ Performance Performer::perform(const PerformOptions& options) const {
   std::optional<RunMeasures> measured;
   if (!measures.empty()) measured.emplace(tree, measures, rehearsal_.rate);
   std::optional<Recorder> recorder;
-  if (!options.record.empty()) recorder.emplace(tree, recorder_options(rehearsal_, options));
+  if (!options.record.empty())
+    recorder.emplace(tree, recorder_options(rehearsal_, players_.stage(), options));
   Performance performance;
   if (recorder && !recorder->error().empty()) performance.problem = recorder->error();
 

@@ -10,18 +10,23 @@ namespace lockstep::host {
 namespace {
 
 constexpr std::uint64_t kMostStates = 50'000;
-constexpr Nanoseconds kLongestSearch = std::chrono::seconds(2);
+// Not a time, so that a busy machine sees the same.
+constexpr std::uint64_t kMostTransitions = 1'000'000;
 
 }  // namespace
 
-std::optional<NodeCoverage> possible_coverage(const Tree& tree, double rate) {
+std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* file, double rate) {
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems = not_verifiable(tree);
-  const LeafModels models = make_models(tree, nullptr, diagnostics, problems);
+  const LeafModels models = make_models(tree, file, diagnostics, problems);
   if (!problems.empty() || diagnostics.has_errors()) return std::nullopt;
   const Nanoseconds period = from_seconds(1 / rate);
+  constexpr std::uint64_t kBetweenLooks = 1000;  // of a search, at its stop signal
+  std::uint64_t looks = 0;
   const SearchResult found =
-      search(tree, models, {}, period, {.states = kMostStates, .time = kLongestSearch});
+      search(tree, models, {}, period, {.states = kMostStates, .stop_signal = [&looks] {
+                                          return ++looks > kMostTransitions / kBetweenLooks ? 1 : 0;
+                                        }});
   if (!found.is_complete()) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
@@ -39,6 +44,12 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, double rate) {
 
 AspectSet usual_aspects(const Tree& tree, NodeIndex node) {
   AspectSet aspects;
+  // What a built-in action does is its own.
+  const NodeType& type = *tree.labels[node].type;
+  if (type.category == NodeCategory::Action && type.leaf == nullptr) {
+    aspects.add(Aspect::Ticked);
+    return aspects;
+  }
   for (const Aspect it : {Aspect::Ticked, Aspect::Success, Aspect::Failure}) aspects.add(it);
   const NodeIndex parent = tree.labels[node].parent;
   const bool is_member_child = tree.labels[parent].type->id == "SyncProgress";

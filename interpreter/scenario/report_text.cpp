@@ -4,6 +4,7 @@
 
 #include "core/diagnostics.h"
 #include "core/wording.h"
+#include "terminal/style.h"
 
 namespace lockstep::host {
 namespace {
@@ -22,6 +23,12 @@ std::string shell_word(const std::string& text) {
     }
   }
   return out + "'";
+}
+
+std::string sign_of(std::string_view outcome, bool color) {
+  if (outcome == "passed") return styled("ok  ", Style::Good, color);
+  if (outcome == "failed") return styled("FAIL", Style::Bad, color);
+  return outcome == "invalid" ? styled("BAD ", Style::Bad, color) : "stop";
 }
 
 std::string what_came(const ReportedScenario& it) {
@@ -58,18 +65,15 @@ ReportedScenario reported(const ScenarioReport& report) {
   return it;
 }
 
-std::string to_text(const ScenarioReport& report, std::size_t width) {
+std::string to_text(const ScenarioReport& report, std::size_t width, bool color) {
   const ReportedScenario it = reported(report);
-  const std::string_view sign = it.outcome == "passed"    ? "ok  "
-                                : it.outcome == "failed"  ? "FAIL"
-                                : it.outcome == "invalid" ? "BAD "
-                                                          : "stop";
-  std::string text = fmt::format("  {}  {:<{}}", sign, printable(it.name), width);
+  std::string text =
+      fmt::format("  {}  {:<{}}", sign_of(it.outcome, color), printable(it.name), width);
   if (it.outcome == "passed" || it.outcome == "failed") text += "  " + what_came(it);
   while (text.ends_with(' ')) text.pop_back();
   text += '\n';
   for (const Diagnostic& error : report.errors) {
-    if (error.severity == Severity::Error) text += render(error, false);
+    if (error.severity == Severity::Error) text += render(error, color);
   }
   if (report.errors.empty()) {
     for (const auto& failure : it.failures) {

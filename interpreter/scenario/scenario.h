@@ -48,6 +48,7 @@ struct CastRow {
   Status result = Status::Success;
   bool is_fault = false;
   std::vector<std::pair<std::string, std::string>> written = {};
+  bool may_lack = false;  // the tree need not have such a leaf
   std::string recording = {};
   Place source = {};  // of what it does
 };

@@ -18,6 +18,7 @@
 #include "scenario/cast_reader.h"
 #include "scenario/row_values.h"
 #include "scenario/scenario_words.h"
+#include "scenario/substitutions.h"
 
 namespace lockstep::host {
 namespace {
@@ -173,6 +174,7 @@ class Reader {
     if (tag->name == "set") read_change(at, into);
     if (tag->name == "leaf") cast_.read_leaf(at, into);
     if (tag->name == "late") read_late(at, into);
+    if (tag->name == "substitutions") read_substitutions(*attribute(at, "from"), into);
     if (tag->name == "expect") read_expectation(at, into);
   }
 
@@ -197,6 +199,20 @@ class Reader {
   void read_late(std::uint32_t at, Scenario& into) const {
     into.late.push_back(
         {cast_.count(*attribute(at, "tick"), 0), cast_.number(*attribute(at, "by"), 0, 1e6)});
+  }
+
+  void read_substitutions(const Attribute& from, Scenario& into) const {
+    auto found = host::read_substitutions(beside(file_.path, from.value));
+    if (!found) {
+      return report_.at_value(from.place, found.error().message, found.error().hint);
+    }
+    for (const std::string& note : found->notes) {
+      report_.at_value(from.place, note, "write it into the scenario", Severity::Warning);
+    }
+    for (CastRow& row : found->rows) {
+      row.place = row.source = from.place;
+      into.cast.push_back(std::move(row));
+    }
   }
 
   void read_expectation(std::uint32_t at, Scenario& into) const {

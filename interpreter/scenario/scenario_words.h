@@ -60,6 +60,9 @@ inline constexpr Word kLeaf[] = {
     {"seconds", kRate, "After so many seconds of such ticks."},
     {"from", "", "plugin: it is the plugin's; or a recording, in which it does the same."},
 };
+inline constexpr Word kSubstitutions[] = {
+    {"from", "", "A file of JSON with TestNodeConfigs and SubstitutionRules.", true},
+};
 inline constexpr Word kExpect[] = {
     {"result", "success|failure|skipped|fault|running", "How the run ends."},
     {"ticks", kRange, "How many ticks it takes: 3, 2..10, 5..inf."},
@@ -75,6 +78,8 @@ inline constexpr Tag kTags[] = {
     {"set", kSet, "The value of an entry."},
     {"leaf", kLeaf, "What some leaves do. Later rows win. Leaves without a row succeed at once."},
     {"late", kLate, "A tick that takes longer than its period."},
+    {"substitutions", kSubstitutions,
+     "The substitution rules of BehaviorTree.CPP: what leaves do, by name, ID or path."},
     {"expect", kExpect,
      "What is to come of it. As text: a property, as 'never arm.failure' or 'finally {n} == 3', or "
      "a measure with its limit, as 'spread < 0.1'."},

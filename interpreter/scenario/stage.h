@@ -33,6 +33,8 @@ class Stage {
                                            LoadFailure& failure);
 
   const std::string& file() const { return file_; }
+  // With the values that are in force.
+  const std::vector<DeclaredArgument>& arguments() const { return loaded_.project->arguments; }
   const Definition& definition() const { return loaded_.definition; }
   // The tree with all leaves as they are on the stage, and what properties may name in it.
   const Tree& tree() const { return tree_; }

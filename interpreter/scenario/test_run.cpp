@@ -11,7 +11,6 @@
 #include <set>
 #include <thread>
 
-#include "document/file.h"
 #include "remote/json_lines/orphans.h"
 #include "runtime/plugin_thread.h"
 #include "scenario/worker.h"
@@ -97,13 +96,7 @@ void TestRun::load_leaves(Part& part) {
   LoadedLeaves& loaded = it->second;
   if (is_new) {
     Diagnostics diagnostics;
-    constexpr std::size_t kMost = std::size_t{16} << 20u;
-    auto text = read_file(path, kMost);
-    if (text) {
-      loaded.file = read_leaf_file(path, std::move(*text), diagnostics);
-    } else {
-      diagnostics.error({path}, "cannot be read: " + text.error().message, text.error().hint);
-    }
+    loaded.file = load_leaf_file(path, diagnostics);
     loaded.errors = errors_of(diagnostics);
   }
   part.leaves = loaded.file.get();

@@ -29,6 +29,7 @@ struct ScenarioReport {
   // Of all runs; null: nobody asks for it, or it has none.
   std::shared_ptr<const Stage> stage = {};
   std::shared_ptr<const NodeCoverage> coverage = {};
+  const LeafFile* leaves = nullptr;
   double rate = 0;
 
   bool is_good() const { return errors.empty() && surprises.empty() && !was_stopped; }

@@ -47,6 +47,7 @@ void ScenarioWorker::play(const PreparedScenario& part, const Rehearsal& rehears
   perform(part, rehearsal, report, coverage ? &*coverage : nullptr);
   if (!coverage) return;
   report.stage = part.stage;
+  report.leaves = part.leaves;
   report.rate = rehearsal.rate;
   report.coverage = std::make_shared<NodeCoverage>(coverage->coverage());
 }

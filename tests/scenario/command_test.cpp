@@ -64,7 +64,7 @@ const Law kLaws[] = {
    <expect>never left.progress &gt; 0.76 and left.progress &lt; 0.99</expect>
    <expect result="success" ticks="4"/></scenario>)", 0, "1 passed"},
   {"a property", R"(<scenario name="a"><leaf path="left" does="R.6 R.7 S"/>
-   <expect>never left.held</expect></scenario>)", 1, "'never left.held' is violated in tick 1"},
+   <leaf path="right" does="R.1*3 S"/><expect>never left.held</expect></scenario>)", 1, "'never left.held' is violated in tick 1"},
   {"a property at the end", R"(<scenario name="a"><leaf path="left" does="S"/>
    <leaf path="right" does="R F"/><expect>finally right.success</expect></scenario>)", 1,
    "'finally right.success' is violated at the end, in tick 1"},
@@ -86,14 +86,14 @@ const Law kLaws[] = {
    <expect>never right.failure</expect></scenario>)", 1, "does not end within 10000 ticks"},
   {"an argument", R"(<scenario name="a"><arg name="barriers" value="0.25"/>
    <leaf path="left" does="R.3 R.3 S"/><leaf path="right" does="R.1 R.2 S"/>
-   <expect>left.progress &gt; 0.2 leads to left.held</expect></scenario>)", 0, "1 passed"},
+   <expect>sometimes left.held</expect></scenario>)", 0, "1 passed"},
   {"the real plugin", R"(<scenario name="a"><leaf of="Advance" from="plugin"/>
    <expect result="success" ticks="10"/></scenario>)", 0, "1 passed"},
   {"rows", R"(<scenario name="a"><row of="left" n="3"/><row of="right" n="5"/>
    <leaf path="${of}" result="failure" ticks="${n}"/><expect result="failure" ticks="1..${n}"/>
    </scenario>)", 0, "a [of=left, n=3]"},
   {"late ticks skip deadlines", R"(<scenario name="a" rate="10"><leaf path="*" does="R*4 S"/>
-   <late tick="1" by="0.35"/><expect result="success" ticks="5" time="0.79..0.81"/></scenario>)", 0,
+   <late tick="1" by="0.35"/><expect result="success" ticks="5" time="0.69..0.71"/></scenario>)", 0,
    "1 passed"},
   {"many runs", R"(<scenario name="a" runs="20"><leaf of="Advance" from="plugin"/>
    <expect result="success"/></scenario>)", 0, "20 runs, 200 ticks"},
@@ -209,6 +209,23 @@ TEST_CASE("a tree for BehaviorTree.CPP has its scenarios beside it") {
   CHECK(it.code == 0);
   const std::string inside = directory.file("u.xml", tree + "<scenario name=\"a\"/></root>");
   CHECK(contains(run_lockstep({"test", inside}).err, "has no scenarios"));
+}
+
+TEST_CASE("the substitution rules of BehaviorTree.CPP say what leaves do") {
+  const TemporaryDirectory directory;
+  directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>
+    <A name="first"/><B/><C name="last"/></Sequence></BehaviorTree></root>)");
+  directory.file("rules.json", R"({"TestNodeConfigs": {
+    "Slow": {"async_delay": 500, "return_status": "SUCCESS"},
+    "Bad": {"return_status": "FAILURE", "post_script": "n = 1"}},
+    "SubstitutionRules": {"fir*": "Slow", "B": "Slow", "last": "Bad", "nobody": "Bad"}})");
+  const std::string file =
+      directory.file("t.test.xml", scenarios(R"(<substitutions from="rules.json"/>
+    <scenario name="a" rate="10"><expect result="failure" ticks="9"/></scenario>)"));
+  const Outcome it = run_lockstep({"test", file});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+  CHECK(contains(it.err, "warning: 'post_script' of 'Bad' is left out"));
 }
 
 TEST_CASE("the order of the lines does not depend on the number of threads") {

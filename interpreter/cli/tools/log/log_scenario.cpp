@@ -7,7 +7,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "cli/tools/log/log.h"
-#include "leaves/play/played_leaves.h"
+#include "cli/tools/log/recorded_tree.h"
 #include "scenario/recorded_words.h"
 #include "scenario/scenario_writer.h"
 
@@ -22,31 +22,10 @@ struct LogScenarioOptions {
   PluginOptions plugins;
 };
 
-// The tree of a recording, with the arguments that it was loaded with.
-tl::expected<Loaded, int> load_recorded(const LogScenarioOptions& options,
-                                        const RecordingHeader& header, std::string& tree_file) {
-  tree_file = options.tree.empty() ? header.file : options.tree;
-  LoadCommandOptions load;
-  load.plugins = options.plugins;
-  load.unknown = MissingNodes::AreMocked;
-  load.main_tree = header.tree;
-  load.main_file = MainFile::IsRegular;
-  for (const auto& [name, value] : header.arguments) load.arguments.push_back(name + '=' + value);
-  Diagnostics diagnostics;
-  auto loaded = load_given(tree_file, load, diagnostics);
-  print_diagnostics(diagnostics, Severity::Error);
-  if (!loaded) return tl::unexpected(exit_code_of(loaded.error()));
-  return std::move(*loaded);
-}
-
 int write_scenario(const LogScenarioOptions& options, const RecordingHeader& header) {
-  std::string tree_file;
-  auto loaded = load_recorded(options, header, tree_file);
-  if (!loaded) return loaded.error();
-  PlayedLeaves leaves;
-  leaves.take_over(loaded->definition);
-  const Runnable runnable = make_runnable(std::move(*loaded));
-  const RecordedWords words = read_recorded_words(options.file, runnable.tree);
+  const RecordedTree recorded(header, options.tree, options.plugins);
+  if (recorded.code() != kExitSuccess) return recorded.code();
+  const RecordedWords words = read_recorded_words(options.file, recorded.tree());
   if (!words.error.empty()) {
     print_error(words.error);
     return kExitInvalidTree;
@@ -56,8 +35,8 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
           ? fmt::format("as in {}", std::filesystem::path(options.file).filename().string())
           : options.name;
   const std::string text = to_text(words, {.name = name});
-  if (options.save.empty()) return write_results(scenario_file(tree_file, text));
-  const auto saved = add_to_scenario_file(options.save, tree_file, text);
+  if (options.save.empty()) return write_results(scenario_file(recorded.file(), text));
+  const auto saved = add_to_scenario_file(options.save, recorded.file(), text);
   if (saved) return kExitSuccess;
   print_error(saved.error().message, saved.error().hint);
   return kExitUsage;

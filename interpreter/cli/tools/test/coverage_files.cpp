@@ -39,8 +39,9 @@ void define_coverage_options(CLI::App& app, CoverageOptions& options) {
       ->check(number_between(0.0, 100.0));
 }
 
-int write_coverage(const CoverageOptions& options, Coverage& coverage, bool is_quiet) {
-  const auto trees = coverage.trees();
+int write_coverage(const CoverageOptions& options, Coverage& coverage, unsigned jobs,
+                   bool is_quiet) {
+  const auto trees = coverage.trees(jobs);
   int code = kExitSuccess;
   if (options.table && !is_quiet) code = write_results(to_table(trees));
   if (!options.page.empty() &&

@@ -23,6 +23,7 @@ struct CoverageOptions {
 void define_coverage_options(CLI::App& app, CoverageOptions& options);
 
 // Returns the exit code. `is_quiet`: nothing goes to stdout.
-int write_coverage(const CoverageOptions& options, Coverage& coverage, bool is_quiet);
+int write_coverage(const CoverageOptions& options, Coverage& coverage, unsigned jobs,
+                   bool is_quiet);
 
 }  // namespace lockstep::host

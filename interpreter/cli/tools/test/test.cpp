@@ -110,11 +110,23 @@ class TestCommand {
       print_diagnostics(diagnostics, Severity::Warning);
       if (diagnostics.has_errors() || file == nullptr) {
         code_ = first_failure(code_, kExitInvalidTree);
+        add_unreadable(path, diagnostics);
       } else {
         files_.push_back(std::move(file));
       }
     }
     return true;
+  }
+
+  // For programs that read the results: a file counts as one scenario.
+  void add_unreadable(const std::string& path, const Diagnostics& diagnostics) {
+    ++counts_.invalid;
+    ReportedScenario it{.file = path, .name = "the file", .place = path, .outcome = "invalid"};
+    for (const Diagnostic& error : diagnostics.all()) {
+      if (error.severity != Severity::Error) continue;
+      it.failures.push_back({to_text(error.location), error.message, {}});
+    }
+    reported_.push_back(std::move(it));
   }
 
   TestOptions test_options() const {
@@ -164,9 +176,7 @@ class TestCommand {
       invalid_ = first_failure(invalid_, is_refused ? kExitPluginRefused : kExitInvalidTree);
     }
     updated_ += report.written;
-    if (report.coverage != nullptr) {
-      coverage_.add(report.stage, report.rate, report.scenario->name, *report.coverage);
-    }
+    if (report.coverage != nullptr) coverage_.add(report);
     if (options_.json || !options_.junit.empty()) reported_.push_back(reported(report));
     if (options_.json) return;
     std::string text;
@@ -179,13 +189,13 @@ class TestCommand {
       }
       width_ = std::min<std::size_t>(width_, 50);
     }
-    written_ = first_failure(written_, write_results(text + to_text(report, width_)));
+    written_ = first_failure(written_, write_results(text + to_text(report, width_, wants_color(results_file()))));
   }
 
   int finish() {
     int covered = kExitSuccess;
     if (options_.coverage.is_wanted()) {
-      covered = write_coverage(options_.coverage, coverage_, options_.json);
+      covered = write_coverage(options_.coverage, coverage_, options_.jobs, options_.json);
     }
     std::string text = options_.json ? to_json(reported_, counts_) : to_text(counts_);
     if (updated_ > 0 && !options_.json) {

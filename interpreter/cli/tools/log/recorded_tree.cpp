@@ -1,0 +1,29 @@
+#include "cli/tools/log/recorded_tree.h"
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/load/load_options.h"
+
+namespace lockstep::host {
+
+RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& file,
+                           const PluginOptions& plugins)
+    : file_(file.empty() ? header.file : file), code_(kExitSuccess) {
+  LoadCommandOptions load;
+  load.plugins = plugins;
+  load.unknown = MissingNodes::AreMocked;
+  load.main_tree = header.tree;
+  load.main_file = MainFile::IsRegular;
+  for (const auto& [name, value] : header.arguments) load.arguments.push_back(name + '=' + value);
+  Diagnostics diagnostics;
+  auto loaded = load_given(file_, load, diagnostics);
+  print_diagnostics(diagnostics, Severity::Error);
+  if (!loaded) {
+    code_ = exit_code_of(loaded.error());
+    return;
+  }
+  played_.take_over(loaded->definition);
+  runnable_ = make_runnable(std::move(*loaded));
+}
+
+}  // namespace lockstep::host

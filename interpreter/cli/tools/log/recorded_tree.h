@@ -1,0 +1,31 @@
+// The tree of a recording, loaded again with the arguments that it had. Its leaves are played: none
+// of a plugin is asked.
+#pragma once
+
+#include <string>
+
+#include "leaves/play/played_leaves.h"
+#include "loading/load.h"
+#include "recording/recording.h"
+
+namespace lockstep::host {
+
+class RecordedTree {
+ public:
+  // `file`: the tree file; "": as the recording names it. The exit code is that of a failure, which
+  // is reported.
+  RecordedTree(const RecordingHeader& header, const std::string& file,
+               const PluginOptions& plugins);
+
+  int code() const { return code_; }
+  const std::string& file() const { return file_; }
+  const Tree& tree() const { return runnable_.tree; }
+
+ private:
+  std::string file_;
+  PlayedLeaves played_;
+  Runnable runnable_;
+  int code_;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,116 @@
+#include "scenario/leaf_audit.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/wording.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr double kStill = 1e-9;  // progress that differs by less has not moved
+
+struct AuditedLeaf {
+  NodeIndex node;  // in the recording
+  const LeafModel* model;
+  std::int64_t ticks = 0;  // of this activation
+  bool was_held = false;   // after the tick before
+  double progress = 0;     // before it
+  std::size_t breaches = 0;
+};
+
+bool may_have(const ResultSet& results, Status status) {
+  if (status == Status::Success) return results.success;
+  return status == Status::Failure ? results.failure : results.skipped;
+}
+
+std::string allowed_ticks(const LeafModel& model) {
+  if (model.most_ticks == 0) return fmt::format("{} or more", model.least_ticks);
+  if (model.most_ticks == model.least_ticks) return fmt::format("{}", model.least_ticks);
+  return fmt::format("{} to {}", model.least_ticks, model.most_ticks);
+}
+
+class Auditor {
+ public:
+  Auditor(const RecordingHeader& header, const Tree& tree, const LeafModels& models,
+          std::size_t most)
+      : header_(header), most_(most) {
+    std::map<std::string, const LeafModel*> by_path;
+    for (const LeafModel& model : models.leaves) by_path[tree.path(model.node)] = &model;
+    for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+      const auto model = by_path.find(header.nodes[node].path);
+      if (model != by_path.end()) leaves_.push_back({node, model->second});
+    }
+  }
+
+  void look(const RecordedTick& tick) {
+    for (AuditedLeaf& leaf : leaves_) look(tick.tick, tick.nodes[leaf.node], leaf);
+  }
+  std::vector<LeafBreach> take() { return std::move(found_); }
+
+ private:
+  void add(std::uint64_t tick, AuditedLeaf& leaf, std::string message) {
+    if (leaf.breaches++ >= most_) return;
+    found_.push_back({header_.nodes[leaf.node].path, tick, std::move(message)});
+  }
+
+  void look(std::uint64_t tick, const RecordedState& state, AuditedLeaf& leaf) {
+    const LeafModel& model = *leaf.model;
+    // Progress is that at the start of this tick: after the one before, and a tick without one.
+    const double moved = state.progress - leaf.progress;
+    if (leaf.was_held && !model.drifts() && std::abs(moved) > kStill && leaf.ticks > 0) {
+      add(tick, leaf,
+          fmt::format("moved from {:g} to {:g} while it was held, the leaf file says "
+                      "held=\"still\"",
+                      leaf.progress, state.progress));
+    }
+    leaf.progress = state.progress;
+    leaf.was_held = state.held;
+    if (state.ticked) {
+      ++leaf.ticks;
+      count(tick, state, leaf);
+    }
+    if (state.status != Status::Running) leaf.ticks = 0;
+  }
+
+  void count(std::uint64_t tick, const RecordedState& state, AuditedLeaf& leaf) {
+    const LeafModel& model = *leaf.model;
+    const bool has_result = has_ended(state.status);
+    if (has_result && !may_have(model.results, state.status)) {
+      add(tick, leaf,
+          fmt::format("had the result {}, which the leaf file does not allow",
+                      to_string(state.status)));
+    }
+    const bool is_early = has_result && leaf.ticks < model.least_ticks;
+    const bool is_late = model.most_ticks != 0 && leaf.ticks == model.most_ticks + 1;
+    if (is_early) {
+      add(tick, leaf,
+          fmt::format("took {}, the leaf file says {}",
+                      counted(static_cast<std::uint64_t>(leaf.ticks), "tick"),
+                      allowed_ticks(model)));
+    } else if (is_late) {
+      add(tick, leaf,
+          fmt::format("takes more than {}, the leaf file says {}",
+                      counted(static_cast<std::uint64_t>(model.most_ticks), "tick"),
+                      allowed_ticks(model)));
+    }
+  }
+
+  const RecordingHeader& header_;
+  const std::size_t most_;
+  std::vector<AuditedLeaf> leaves_;
+  std::vector<LeafBreach> found_;
+};
+
+}  // namespace
+
+std::vector<LeafBreach> audit_leaves(RecordingReader& reader, const Tree& tree,
+                                     const LeafModels& models, std::size_t most) {
+  Auditor auditor(reader.header(), tree, models, most);
+  while (const auto tick = reader.next()) auditor.look(*tick);
+  return auditor.take();
+}
+
+}  // namespace lockstep::host

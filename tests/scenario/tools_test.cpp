@@ -1,0 +1,121 @@
+// Scenarios and the other commands: counter-examples, leaf files, changes that nobody notices.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+constexpr auto kTwo = R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="Main"><Parallel name="both"><Advance name="left" step="0.25"/>
+<Advance name="right" step="0.25"/></Parallel></BehaviorTree></root>)";
+
+}  // namespace
+
+TEST_CASE("a counter-example of verify becomes a scenario that fails until the tree is better") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", kTwo), file = directory.path("t.test.xml");
+  const std::string property = "grip: never left.progress > 0.5 and right.progress < 0.5";
+  const Outcome verified = run_lockstep(
+      {"verify", tree, "--property", property, "--out", directory.path("found"), "--save", file});
+  INFO(verified.out << verified.err);
+  CHECK(verified.code == 1);
+  const Outcome bad = run_lockstep({"test", file, "--out", directory.path("failed")});
+  INFO(bad.out << bad.err);
+  CHECK(bad.code == 1);
+  CHECK(contains(bad.out, "'never left.progress > 0.5 and right.progress < 0.5' is violated"));
+  // One after the other, the same leaves do not bring it about.
+  static_cast<void>(directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="Main"><Sequence name="both" memory="true"><Advance name="right" step="0.25"/>
+<Advance name="left" step="0.25"/></Sequence></BehaviorTree></root>)"));
+  const Outcome good = run_lockstep({"test", file, "--out", directory.path("failed")});
+  INFO(good.out << good.err);
+  CHECK(good.code == 0);
+}
+
+TEST_CASE("log check says where the leaves of a recording broke their leaf file") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", kTwo), run = directory.path("run.jsonl");
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", run}).code ==
+        0);
+  const auto check = [&](const std::string& rows) {
+    return run_lockstep(
+        {"log", "check", run, "--leaves",
+         directory.file("t.leaves.xml", "<leaves lockstep=\"1\">" + rows + "</leaves>")});
+  };
+  const Outcome good = check(R"(<leaf of="Advance" ticks="2..4" result="success"/>)");
+  INFO(good.out << good.err);
+  CHECK(good.code == 0);
+  const Outcome late = check(R"(<leaf path="*/left" ticks="2..3"/>)");
+  INFO(late.out << late.err);
+  CHECK(late.code == 1);
+  CHECK(late.out ==
+        "Main/both/left: in tick 3: takes more than 3 ticks, the leaf file says 2 to 3\n");
+  CHECK(contains(check(R"(<leaf path="*/left" ticks="6"/>)").out,
+                 "took 4 ticks, the leaf file says 6"));
+  CHECK(contains(check(R"(<leaf of="Advance" result="failure"/>)").out,
+                 "had the result success, which the leaf file does not allow"));
+}
+
+TEST_CASE("changes that no scenario notices are named") {
+  const TemporaryDirectory directory;
+  static_cast<void>(directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="Main"><Sequence memory="true"><Advance name="a" step="0.5"/>
+<ParallelAbsolute name="both" barriers="0.5"><Advance name="b" step="0.5"/><Advance name="c" step="0.5"/>
+</ParallelAbsolute></Sequence></BehaviorTree></root>)"));
+  const std::string head = "<scenarios lockstep=\"1\" tree=\"t.xml\">", tail = "</scenarios>";
+  const std::string file = directory.file(
+      "t.test.xml", head + R"(<scenario name="x"><leaf path="*" result="success" ticks="3"/>
+      <expect result="success"/></scenario>)" +
+                        tail);
+  const Outcome weak = run_lockstep({"test", file, "--mutate", "--fail-under", "60"});
+  INFO(weak.out << weak.err);
+  CHECK(weak.code == 1);
+  CHECK(contains(weak.out, "no scenario notices: "));
+  CHECK(contains(weak.out, "has barriers=\"\" instead of \"0.5\""));
+  static_cast<void>(directory.file("t.test.xml", head + R"(
+    <scenario name="order"><leaf path="*" result="success" ticks="3"/>
+    <expect result="success" ticks="5"/><expect order="a.success; both.success"/></scenario>
+    <scenario name="step"><leaf path="b" each="R.6 R.7 R.8 S"/><leaf path="c" each="R.1 R.2 R.4 S"/>
+    <expect>never b.progress > 0.65 and c.progress &lt; 0.5</expect>
+    <expect>sometimes b.held and c.progress &lt; 0.3</expect></scenario>
+    <scenario name="a fails"><leaf path="a" does="F"/><expect result="failure" ticks="1"/></scenario>
+    <scenario name="b fails"><leaf path="b" does="F"/><expect result="failure"/></scenario>
+    <scenario name="c fails"><leaf path="c" does="F"/><expect result="failure"/></scenario>)" +
+                                                     tail));
+  const Outcome strong = run_lockstep({"test", file, "--mutate"});
+  INFO(strong.out << strong.err);
+  CHECK(strong.code == 0);
+  CHECK_FALSE(contains(strong.out, "no scenario notices"));
+}
+
+TEST_CASE(
+    "schema/scenarios.xsd is what the program prints, and describes the scenarios of trees/") {
+  const std::string schema = LOCKSTEP_SOURCE_DIR "/schema/scenarios.xsd";
+  INFO("schema/scenarios.xsd is stale: lockstep schema --tests > schema/scenarios.xsd");
+  CHECK((run_lockstep({"schema", "--tests"}).out == read_file(schema)));
+  const auto lint = [&](const std::string& file) {
+    const Outcome it =
+        run({.arguments = {"--noout", "--schema", schema, file}, .program = "xmllint"});
+    INFO(it.err);
+    return it.code;
+  };
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(LOCKSTEP_SOURCE_DIR "/trees")) {
+    if (!entry.path().string().ends_with(".test.xml")) continue;
+    INFO(entry.path());
+    CHECK(lint(entry.path().string()) == 0);
+    ++count;
+  }
+  CHECK(count >= 14);
+  const TemporaryDirectory directory;
+  for (const std::string wrong : {"<scenaro/>", "<scenario/>", "<leaf path=\"a\" ticks=\"x\"/>",
+                                  "<leaf path=\"a\" result=\"no\"/>"}) {
+    INFO(wrong);
+    CHECK(lint(directory.file("t.test.xml",
+                              "<scenarios lockstep=\"1\">" + wrong + "</scenarios>")) != 0);
+  }
+}
