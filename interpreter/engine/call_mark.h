@@ -112,12 +112,12 @@ class CallMark {
     set(*around.site, around.function);
     if (around.is_bounded) set_bounded();
   }
-  // The same for a call that is within no other.
-  void enter_alone(const CallSite& site, PluginFunction function) {
+  // The same for a call that is within no other, around each leaf in the loops of control nodes.
+  [[gnu::always_inline]] void enter_alone(const CallSite& site, PluginFunction function) {
     serial_.store(serial_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     set(site, function);
   }
-  void leave() {
+  [[gnu::always_inline]] void leave() {
     ForkGuard::check();
     function_.store(static_cast<std::uint8_t>(PluginFunction::None), std::memory_order_release);
   }

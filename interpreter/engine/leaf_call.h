@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "engine/blackboard.h"
@@ -35,14 +36,20 @@ class LeafCall {
   LeafCall(const LeafCall&) = delete;
   LeafCall& operator=(const LeafCall&) = delete;
 
-  // NodeContext::tick and progress of a child, with an action of a plugin in line. For the loops of
-  // control nodes over their children.
+  // NodeContext::tick of a child, with an action of a plugin in line. For the loops of control
+  // nodes over their children.
   [[gnu::always_inline]] static Status tick(NodeContext& context, NodeIndex node) {
     return tick_and_pass(context, node);
   }
   // The same, and `child` is the sibling after it then: of a leaf that is known at once.
   [[gnu::always_inline]] static Status tick_and_pass(NodeContext& context, NodeIndex& child);
-  [[gnu::always_inline]] static double progress(NodeContext& context, NodeIndex node);
+  // The usual case of a tick: an action of a plugin that runs. Idle: it is not that, or something
+  // is to be done around the call, and nothing was done; else its result, and `child` is the
+  // sibling.
+  [[gnu::always_inline]] static Status tick_running(NodeContext& context, NodeIndex& child);
+  // The same of NodeContext::progress, also of one that is held. False: nothing was done.
+  [[gnu::always_inline]] static bool progress_of_running(NodeContext& context, NodeIndex& child,
+                                                         double& progress);
 
   // A call with nothing around it but a mark and its time, for a leaf while can_be_in_line. After
   // an exception, which is a fault then, it returns -1.
@@ -52,6 +59,11 @@ class LeafCall {
   static bool can_be_in_line(const NodeContext& context) { return context.in_line_ != nullptr; }
 
  private:
+  // Of an action.
+  static bool is_result(lockstep_status status) {
+    return static_cast<unsigned>(status - LOCKSTEP_RUNNING) < static_cast<unsigned>(kLastStatus);
+  }
+
   // In nodes/leaf.cpp: what did not go well.
   static Status spoiled_tick(NodeContext& context, NodeIndex node, lockstep_status result);
   static double spoiled_progress(NodeContext& context, NodeIndex node, double reported);
@@ -85,6 +97,47 @@ inline Result LeafCall::in_line(NodeContext& context, NodeIndex node, const Leaf
   return result;
 }
 
+inline Status LeafCall::tick_running(NodeContext& context, NodeIndex& child) {
+  const NodeIndex node = child;
+  if (context.state_.activity[node] != Activity::Running) return Status::Idle;
+  const Node& it = context.nodes_[node];
+  if (it.kind != &kPluginAction || context.in_line_ == nullptr) return Status::Idle;
+  LeafSlot& leaf = context.leaves_.data()[it.params];
+  if (leaf.failed) return Status::Idle;
+  ++child;
+  const lockstep_status result =
+      in_line<PluginFunction::Tick>(context, node, leaf, leaf.type->tick);
+  if (result != LOCKSTEP_RUNNING || leaf.error != nullptr) {
+    if (leaf.error != nullptr || !is_result(result)) return spoiled_tick(context, node, result);
+    context.state_.activity[node] = static_cast<Activity>(result);
+  }
+  context.state_.last_tick[node] = context.state_.tick_number;
+  return static_cast<Status>(result);
+}
+
+inline bool LeafCall::progress_of_running(NodeContext& context, NodeIndex& child,
+                                          double& progress) {
+  const NodeIndex node = child;
+  const Node& it = context.nodes_[node];
+  if (it.kind != &kPluginAction || context.first_tick(node)) return false;
+  const LeafSlot& leaf = context.leaves_.data()[it.params];
+  double reported = 0.0;
+  if (leaf.failed) return false;
+  if (leaf.kept_progress != nullptr) {
+    reported = leaf.read_progress();
+  } else if (leaf.type->progress == nullptr || context.in_line_ == nullptr) {
+    return false;
+  } else {
+    reported = in_line<PluginFunction::Progress>(context, node, leaf, leaf.type->progress);
+  }
+  ++child;
+  // From 0 to 1, but not -0: the bits of such numbers are ordered as the numbers are.
+  const bool is_usual = std::bit_cast<std::uint64_t>(reported) <= std::bit_cast<std::uint64_t>(1.0);
+  progress =
+      leaf.error == nullptr && is_usual ? reported : spoiled_progress(context, node, reported);
+  return true;
+}
+
 inline Status LeafCall::tick_and_pass(NodeContext& context, NodeIndex& child) {
   const NodeIndex node = child;
   const Node& it = context.nodes_[node];
@@ -101,35 +154,11 @@ inline Status LeafCall::tick_and_pass(NodeContext& context, NodeIndex& child) {
   leaf.started = true;
   const lockstep_status result =
       in_line<PluginFunction::Tick>(context, node, leaf, leaf.type->tick);
-  constexpr auto kResults = static_cast<unsigned>(kLastStatus);
-  const bool is_result = static_cast<unsigned>(result - LOCKSTEP_RUNNING) < kResults;
-  if (leaf.error != nullptr || !is_result) [[unlikely]]
+  if (leaf.error != nullptr || !is_result(result)) [[unlikely]]
     return spoiled_tick(context, node, result);
   context.state_.activity[node] = static_cast<Activity>(result);
   context.state_.last_tick[node] = context.state_.tick_number;
   return static_cast<Status>(result);
-}
-
-inline double LeafCall::progress(NodeContext& context, NodeIndex node) {
-  const Activity activity = context.activity(node);
-  if (status_of(activity) != Status::Running) return activity == Activity::Success ? 1.0 : 0.0;
-  const Node& it = context.nodes_[node];
-  if (it.kind != &kPluginAction) return it.kind->progress(context, node);
-  const LeafSlot& leaf = context.leaves_.data()[it.params];
-  if (leaf.failed) return 0.0;
-  double reported = 0.0;
-  if (leaf.kept_progress != nullptr) {
-    reported = leaf.read_progress();
-  } else if (leaf.type->progress == nullptr) {
-    return 0.0;
-  } else if (context.in_line_ != nullptr) {
-    reported = in_line<PluginFunction::Progress>(context, node, leaf, leaf.type->progress);
-  } else {
-    return it.kind->progress(context, node);
-  }
-  if (leaf.error == nullptr && reported >= 0.0 && reported <= 1.0) [[likely]]
-    return reported;
-  return spoiled_progress(context, node, reported);
 }
 
 }  // namespace lockstep::host

@@ -77,13 +77,15 @@ inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
 // `child` is the sibling after it then.
 inline double snapshot_and_pass(NodeContext& context, NodeIndex& child) {
+  double progress = 0;
+  if (LeafCall::progress_of_running(context, child, progress)) return progress;
   const NodeIndex node = child;
   const Node& it = context.node(node);
-  child = it.kind == &kPluginAction ? node + 1 : it.end;
+  child = it.end;
   const Activity activity = context.activity(node);
   if (activity == Activity::Skipped) return kLeftOut;
   if (activity == Activity::Failure && it.is_latched != 0) return 1.0;
-  return LeafCall::progress(context, node);
+  return context.progress(node);
 }
 inline double snapshot_of(NodeContext& context, NodeIndex child) {
   return snapshot_and_pass(context, child);

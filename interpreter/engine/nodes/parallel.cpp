@@ -19,7 +19,11 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
   const NodeIndex end = context.end_of(self);
   parallel::Tally tally;
   for (NodeIndex child = self + 1; child != end;) {
-    if (parallel::is_over(context, child)) {
+    const Status status = LeafCall::tick_running(context, child);
+    if (status == Status::Running) continue;
+    if (status != Status::Idle) {
+      tally.add(status);
+    } else if (parallel::is_over(context, child)) {
       tally.add(context.status(child));
       child = context.end_of(child);
     } else {

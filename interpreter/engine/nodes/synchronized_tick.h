@@ -26,6 +26,14 @@ inline Status tick_each(NodeContext& context, NodeIndex self, const parallel::Co
   parallel::Tally tally;
   NodeIndex child = self + 1;
   for (const double reached : context.child_states<double>(self)) {
+    if (reached < held_from) {
+      const Status status = LeafCall::tick_running(context, child);
+      if (status == Status::Running) continue;
+      if (status != Status::Idle) {
+        tally.add(status);
+        continue;
+      }
+    }
     if (context.faulted()) return Status::Running;
     const bool is_over = parallel::is_over(context, child);
     if (is_over || (reached >= held_from && !context.is_guard(child) && context.hold(child))) {

@@ -57,20 +57,28 @@ std::optional<RuleBreak> all_rule(const ParameterValues& given) {
   return check_count(given, kMaxFailures, "max_failures");
 }
 
+// `child` is the sibling after it then. Running: also of one that has completed before.
+Status tick_unless_over(NodeContext& context, NodeIndex& child) {
+  if (!is_complete(context.status(child))) return LeafCall::tick_and_pass(context, child);
+  child = context.end_of(child);
+  return Status::Running;
+}
+
 // Decides after each child, so that those to the right of the one that decides are not ticked. The
 // counts wanted may be others than in the last tick.
 Status tick_parallel(NodeContext& context, NodeIndex self) {
   Tally& tally = begin_tick(context, self);
   const std::int64_t all = context.node(self).children;
+  const NodeIndex end = context.end_of(self);
   bool may_decide = true;
-  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
-    if (!is_complete(context.status(child))) {
-      const Status status = LeafCall::tick(context, child);
-      if (context.faulted()) return Status::Running;
-      if (status != Status::Running) {
-        may_decide = true;
-        tally.add(status);
-      }
+  for (NodeIndex next = self + 1; next != end;) {
+    Status status = LeafCall::tick_running(context, next);
+    if (status == Status::Running && !may_decide) continue;
+    if (status == Status::Idle) status = tick_unless_over(context, next);
+    if (context.faulted()) return Status::Running;
+    if (status != Status::Running) {
+      may_decide = true;
+      tally.add(status);
     }
     if (!std::exchange(may_decide, false)) continue;
     const std::int64_t given = context.parameter(self, kSuccessCount).integer;
@@ -91,8 +99,8 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
 Status tick_all(NodeContext& context, NodeIndex self) {
   Tally& tally = begin_tick(context, self);
   const std::int64_t all = context.node(self).children;
-  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
-    if (!is_complete(context.status(child))) tally.add(LeafCall::tick(context, child));
+  for (NodeIndex next = self + 1; next != context.end_of(self);) {
+    tally.add(tick_unless_over(context, next));
   }
   if (context.faulted()) return Status::Running;
   if (tally.of(Status::Skipped) == all) return Status::Skipped;
