@@ -60,6 +60,11 @@ MEMBER_AT(lockstep_entry_value, object_type, 56);
 MEMBER_AT(lockstep_entry_value, object_name, 64);
 MEMBER_AT(lockstep_entry_value, writes, 72);
 
+SIZE_IS(lockstep_lasting, 24);
+MEMBER_AT(lockstep_lasting, struct_size, 0);
+MEMBER_AT(lockstep_lasting, constant, 8);
+MEMBER_AT(lockstep_lasting, is_set, 16);
+
 SIZE_IS(lockstep_boards, 128);
 MEMBER_AT(lockstep_boards, struct_size, 0);
 MEMBER_AT(lockstep_boards, of, 8);

@@ -430,6 +430,7 @@ const void* get_extension(const char* id) {
   if (wanted == LOCKSTEP_WORKERS) return &workers_table();
   if (wanted == LOCKSTEP_PLACE) return &place_table();
   if (wanted == LOCKSTEP_BOARDS) return &boards_table();
+  if (wanted == LOCKSTEP_LASTING) return &lasting_table();
   return nullptr;
 }
 

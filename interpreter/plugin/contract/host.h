@@ -131,5 +131,6 @@ const NodeTexts& texts_of(const lockstep_caller& caller);
 const lockstep_children& children_table();
 // For all nodes of plugins.
 const lockstep_place& place_table();
+const lockstep_lasting& lasting_table();
 
 }  // namespace lockstep::host

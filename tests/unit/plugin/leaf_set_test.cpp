@@ -152,6 +152,26 @@ TEST_CASE("get leaves the value alone when there is none to get") {
   CHECK(number == 77);
 }
 
+TEST_CASE("a leaf is told where its constants are, and which ports nobody reads") {
+  lab = {};
+  Fixture fixture;
+  const auto& lasting = *static_cast<const lockstep_lasting*>(host.get_extension(LOCKSTEP_LASTING));
+  const auto constant = [&](std::uint32_t port, lockstep_type type) {
+    return lasting.constant(fixture.leaf(), port, type);
+  };
+  REQUIRE(constant(kFlag, LOCKSTEP_BOOL) != nullptr);
+  CHECK(*static_cast<const bool*>(constant(kFlag, LOCKSTEP_BOOL)));
+  REQUIRE(constant(kLimit, LOCKSTEP_DOUBLE) != nullptr);
+  CHECK(*static_cast<const double*>(constant(kLimit, LOCKSTEP_DOUBLE)) == 0.5);
+  CHECK(constant(kLimit, LOCKSTEP_INT) == nullptr);      // another type
+  CHECK(constant(kSpeed, LOCKSTEP_DOUBLE) == nullptr);   // an entry
+  CHECK(constant(kText, LOCKSTEP_STRING) == nullptr);    // no number
+  CHECK(constant(kResult, LOCKSTEP_DOUBLE) == nullptr);  // not bound
+  CHECK(constant(kResult + 1, LOCKSTEP_DOUBLE) == nullptr);
+  CHECK(lasting.is_set(fixture.leaf(), kSpeed));
+  CHECK_FALSE(lasting.is_set(fixture.leaf(), kResult));
+}
+
 TEST_CASE("set writes entries of the port's type, and nothing else") {
   lab = {};
   Fixture fixture(2);

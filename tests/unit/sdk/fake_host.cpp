@@ -104,8 +104,21 @@ void log(const lockstep_caller* caller, lockstep_log_level level, const char* me
   self(caller).add_line(std::to_string(level) + " " + message);
 }
 
+bool is_set(const lockstep_caller* caller, std::uint32_t port) {
+  return self(caller).writable[port];
+}
+
+const void* constant(const lockstep_caller* caller, std::uint32_t port, lockstep_type type) {
+  if (is_set(caller, port)) return nullptr;
+  if (type == LOCKSTEP_BOOL) return find<bool>(caller, port);
+  if (type == LOCKSTEP_INT) return find<std::int64_t>(caller, port);
+  return type == LOCKSTEP_DOUBLE ? find<double>(caller, port) : nullptr;
+}
+
 const void* get_extension(const char* id) {
   static const int kAnswer = 42;
+  static const lockstep_lasting kLasting = {sizeof(lockstep_lasting), constant, is_set};
+  if (FakeHost::tells_what_lasts && std::string(id) == LOCKSTEP_LASTING) return &kLasting;
   return std::string(id) == "test.answer" ? &kAnswer : nullptr;
 }
 

@@ -29,6 +29,8 @@ struct FakeHost {
 
   const lockstep_caller* caller() const { return reinterpret_cast<const lockstep_caller*>(this); }
   static const lockstep_host& table();
+  // It has LOCKSTEP_LASTING: what is not writable is a constant then.
+  static inline bool tells_what_lasts = false;
 
   std::string take_error() { return std::exchange(error, std::string()); }
 
@@ -45,10 +47,10 @@ struct FakeHost {
 class FakeLeaf {
  public:
   explicit FakeLeaf(const lockstep_leaf_type& type, std::vector<PortValue> ports = {},
-                    void* run_context = nullptr)
+                    void* run_context = nullptr, bool are_writable = true)
       : type_(type) {
     host.ports = std::move(ports);
-    host.writable.assign(host.ports.size(), true);
+    host.writable.assign(host.ports.size(), are_writable);
     self_ = type.create(&FakeHost::table(), host.caller(), run_context);
   }
   ~FakeLeaf() { destroy(); }

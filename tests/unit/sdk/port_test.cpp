@@ -8,6 +8,7 @@
 
 namespace {
 
+using sdk_test::FakeHost;
 using sdk_test::FakeLeaf;
 using sdk_test::PortValue;
 
@@ -70,6 +71,39 @@ TEST_CASE("each type of port is read", "[sdk]") {
             },
             leaf)
             .empty());
+}
+
+TEST_CASE("what lasts is read and dropped without the host", "[sdk]") {
+  FakeHost::tells_what_lasts = true;
+  FakeLeaf leaf(kProbe, values(), nullptr, false);
+  FakeHost::tells_what_lasts = false;
+  leaf.host.writable.assign(leaf.host.ports.size(), true);  // so that the host would take it
+  CHECK(error_of(
+            [](Probe& it) {
+              CHECK(it.flag.is_constant());
+              CHECK(it.flag.get() == true);
+              CHECK(it.count.get() == -5);
+              CHECK(it.length.try_get() == 0.25);
+              CHECK_FALSE(it.text.is_constant());
+              CHECK(it.text.get() == "door");
+              CHECK_FALSE(it.out.set(7.5));
+              CHECK_FALSE(it.text.set("window"));
+            },
+            leaf)
+            .empty());
+  CHECK(leaf.host.ports == values());
+}
+
+TEST_CASE("a host that does not tell what lasts is asked each time", "[sdk]") {
+  FakeLeaf leaf(kProbe, values());
+  Probe::work = [](Probe& it) {
+    CHECK_FALSE(it.length.is_constant());
+    CHECK(it.length.get() == 0.25);
+  };
+  leaf.tick();
+  leaf.host.ports[2] = 0.5;
+  Probe::work = [](Probe& it) { CHECK(it.length.get() == 0.5); };
+  leaf.tick();
 }
 
 TEST_CASE("ports are written, also with what they hold", "[sdk]") {

@@ -90,6 +90,10 @@ class Port {
     return *owner_->port_caller_;
   }
   std::uint32_t index() const { return index_; }
+  // The value, if it is a constant that the host has told; else null.
+  const void* constant() const { return constant_; }
+  // The tree binds it to no entry, as the host has told.
+  bool is_dropped() const { return is_dropped_; }
 
  private:
   friend struct PortsAccess;
@@ -108,7 +112,9 @@ class Port {
   lockstep_port description_;
   const Ports* owner_;
   std::uint32_t index_;
+  bool is_dropped_ = false;
   Port* next_ = nullptr;
+  const void* constant_ = nullptr;
 };
 
 template <class T>
@@ -189,6 +195,7 @@ class ReadablePort : public Port {
 
   // Nothing if there is no value: no default, and bound to an entry that nobody has written yet.
   std::optional<T> try_get() const {
+    if (const View* const known = constant_view()) return from_view<T>(*known);
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) return std::nullopt;
     return from_view<T>(value);
@@ -197,15 +204,33 @@ class ReadablePort : public Port {
   // As get, without a copy: a std::string_view or a view of a list, valid until a port is set or
   // the function of the leaf returns.
   View view() const {
+    const View* const known = constant_view();
+    return known != nullptr ? *known : view_of_now();
+  }
+
+  // The tree gives a number or a bool that stays the same. An older host does not tell.
+  bool is_constant() const { return constant() != nullptr; }
+
+ protected:
+  using Port::Port;
+
+ private:
+  View view_of_now() const {
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) {
       throw std::runtime_error("port '" + std::string(name()) + "' has no value");
     }
     return value;
   }
-
- protected:
-  using Port::Port;
+  const View* constant_view() const {
+    constexpr auto kType = PortTraits<T>::kType;
+    if constexpr (kType == LOCKSTEP_BOOL || kType == LOCKSTEP_INT || kType == LOCKSTEP_DOUBLE) {
+      caller();  // refuses the thread of a worker
+      return static_cast<const View*>(constant());
+    } else {
+      return nullptr;
+    }
+  }
 };
 
 }  // namespace detail
@@ -242,7 +267,10 @@ class Output : public detail::Port {
 
   // Writes the entry that the tree binds to the port; false when it binds none, or when the host
   // refuses the value (a number that is not finite).
-  bool set(const T& value) { return detail::PortTraits<T>::set(caller(), index(), value); }
+  bool set(const T& value) {
+    const detail::Caller& to = caller();
+    return !is_dropped() && detail::PortTraits<T>::set(to, index(), value);
+  }
 };
 
 template <class T>
@@ -267,7 +295,8 @@ class InOut : public detail::ReadablePort<T> {
       : InOut(owner, name, Ports::required, doc, "", limits) {}
 
   bool set(const T& value) {
-    return detail::PortTraits<T>::set(this->caller(), this->index(), value);
+    const detail::Caller& to = this->caller();
+    return !this->is_dropped() && detail::PortTraits<T>::set(to, this->index(), value);
   }
 };
 
@@ -277,7 +306,17 @@ struct NoPorts : Ports {};
 namespace detail {
 
 struct PortsAccess {
-  static void bind(Ports& ports, const Caller& caller) { ports.port_caller_ = &caller; }
+  static void bind(Ports& ports, const Caller& caller) {
+    ports.port_caller_ = &caller;
+    const void* const found = caller.host->get_extension(LOCKSTEP_LASTING);
+    const auto* const lasting = static_cast<const lockstep_lasting*>(found);
+    if (lasting == nullptr) return;
+    for (Port* port = ports.first_port_; port != nullptr; port = port->next_) {
+      port->constant_ = lasting->constant(caller.id, port->index_, port->description_.type);
+      const bool is_input = port->description_.direction == LOCKSTEP_INPUT;
+      port->is_dropped_ = !is_input && !lasting->is_set(caller.id, port->index_);
+    }
+  }
   static constexpr std::uint32_t count(const Ports& ports) { return ports.port_count_; }
 
   template <std::uint32_t Count>
