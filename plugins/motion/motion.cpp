@@ -20,7 +20,7 @@ struct AdvancePorts : lockstep::Ports {
   Output<double> actual{this, "actual", "its progress after each tick, neither late nor in steps"};
 };
 
-class Advance : public lockstep::Action<AdvancePorts> {
+class Advance : public lockstep::ProgressAction<AdvancePorts> {
  public:
   void start() override {
     progress_ = 0;
@@ -33,19 +33,24 @@ class Advance : public lockstep::Action<AdvancePorts> {
   }
 
   Status tick() override {
-    report_.sample(now(), progress_);
+    if (report_.is_late()) report_.sample(now(), progress_);
     const double half_width = noise.get();
     const double change =
         step.get() + (is_constant_ ? half_width * *of_run_ : uniform(-half_width, half_width));
     progress_ = std::clamp(progress_ + change, 0.0, 1.0);
     actual.set(progress_);
+    set_progress(progress_);
     return progress_ >= kDone ? Status::Success : Status::Running;
   }
 
   void pause() override { report_.sample(now(), progress_); }
-  double progress() const override { return report_.of_ticks(now(), progress_); }
+  double progress() const override {
+    return report_.of_ticks(report_.is_late() ? now() : 0, progress_);
+  }
 
  private:
+  bool keeps_progress() const override { return report.is_plain(); }
+
   Report report_;
   double progress_ = 0;
   bool is_constant_ = false;

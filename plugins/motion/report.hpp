@@ -24,7 +24,15 @@ struct ReportPorts {
                  "the reported progress is rounded down to a multiple of this; 0: it is not",
                  lockstep::Ports::between(0, 1)) {}
 
+  // What is reported is always the progress itself.
+  bool is_plain() const { return is_always_0(latency) && is_always_0(quantize); }
+
   lockstep::Input<double> latency, quantize;
+
+ private:
+  static bool is_always_0(const lockstep::Input<double>& port) {
+    return port.is_constant() && port.get() == 0;
+  }
 };
 
 class Report {
@@ -33,13 +41,16 @@ class Report {
     latency_ = ports.latency.get();
     step_ = ports.quantize.get();
     samples_.clear();
-    if (latency_ > 0) samples_.reserve(kUsual);
+    if (is_late()) samples_.reserve(kUsual);
   }
+
+  // Else there is nothing to sample, and the report needs no time.
+  bool is_late() const { return latency_ != 0; }
 
   // Call before each tick of an action that moves in ticks, and when it is paused: a held action
   // stands still, but what it reports goes on until it is up to date.
   void sample(double now, double progress) {
-    if (latency_ == 0) return;
+    if (!is_late()) return;
     const auto after = first_after(now - latency_);
     if (after != samples_.begin()) samples_.erase(samples_.begin(), after - 1);
     samples_.push_back({now, progress});
@@ -47,7 +58,7 @@ class Report {
 
   // The report of an action that moves in ticks and has this progress now.
   double of_ticks(double now, double progress) const {
-    if (latency_ == 0) return in_steps(progress);
+    if (!is_late()) return in_steps(progress);
     const auto after = first_after(now - latency_);
     return after == samples_.begin() ? 0 : in_steps((after - 1)->progress);
   }

@@ -92,17 +92,19 @@ class Action : public ActionFunctions, public PortsOfLeaf {
 template <class PortsOfLeaf = NoPorts>
 class ProgressAction : public Action<PortsOfLeaf> {
  public:
-  double progress() const final { return progress_; }
+  double progress() const override { return progress_; }
 
  protected:
   static constexpr bool kKeepsProgress = true;
+  // Asked once, when the leaf was made. False: lockstep calls progress(), which the leaf overrides.
+  virtual bool keeps_progress() const { return true; }
   // In [0, 1], as progress() of an Action. In the thread that ticks the tree.
   void set_progress(double progress) { progress_ = progress; }
 
  private:
   friend struct detail::LeafAccess;
   void before_start() final { progress_ = 0; }
-  const double* kept_progress() const final { return &progress_; }
+  const double* kept_progress() const final { return keeps_progress() ? &progress_ : nullptr; }
 
   double progress_ = 0;
 };
