@@ -57,6 +57,10 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
     }
     nodes_.push_back(measured);
   }
+  view_ = {.parallels = parallel_ticks_,
+           .nodes = node_ticks_,
+           .users = user_ticks_,
+           .entries = numbers_};
 }
 
 void LiveTicks::before_tick(Ticker& ticker) {
@@ -66,9 +70,9 @@ void LiveTicks::before_tick(Ticker& ticker) {
   }
 }
 
-TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+const TickView& LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
   for (std::size_t i = 0; i < parallels_.size(); ++i) {
-    parallel_ticks_[i] = parallels_[i].read(ticker, time);
+    parallels_[i].read(ticker, time, parallel_ticks_[i]);
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
@@ -86,12 +90,9 @@ TickView LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     numbers_[i] = number_of(ticker.blackboard().entries[slots_[i]].value);
   }
-  return {.tick = tick,
-          .time = time,
-          .parallels = parallel_ticks_,
-          .nodes = node_ticks_,
-          .users = user_ticks_,
-          .entries = numbers_};
+  view_.tick = tick;
+  view_.time = time;
+  return view_;
 }
 
 }  // namespace lockstep::host

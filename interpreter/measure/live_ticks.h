@@ -15,10 +15,12 @@ class LiveTicks {
  public:
   // Views what `measuring` measures in this tree.
   LiveTicks(const Tree& tree, const Measuring& measuring);
+  LiveTicks(const LiveTicks&) = delete;
+  LiveTicks& operator=(const LiveTicks&) = delete;
 
   void before_tick(Ticker& ticker);
   // After the tick. Valid until the next call.
-  TickView read(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
+  const TickView& read(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
 
  private:
   struct Node {
@@ -34,6 +36,7 @@ class LiveTicks {
   std::vector<SynchronizedTick> parallel_ticks_;
   std::vector<NodeTick> node_ticks_;
   std::vector<ResourceTick> user_ticks_;
+  TickView view_;  // of all these
 };
 
 }  // namespace lockstep::host

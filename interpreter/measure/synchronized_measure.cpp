@@ -146,20 +146,26 @@ void SynchronizedProbe::read_held(Ticker& ticker) {
   }
 }
 
-SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
-  SynchronizedTick tick;
+void SynchronizedProbe::read(Ticker& ticker, Nanoseconds time, SynchronizedTick& tick) {
   tick.time = time;
   tick.ticked = ticker.ticked(node_);
   tick.status = ticker.status(node_);
   if (with_flags_) read_held(ticker);
-  if (!tick.ticked) return tick;
-  tick.progress = progress_;
+  if (!tick.ticked) {
+    tick = {.time = time, .status = tick.status};
+    return;
+  }
   if (progress_.empty()) {
     if (succeeded(ticker, node_)) tick.status = Status::Success;
     tick.limit = limit(ticker, node_);
     tick.progress = child_progress(ticker, node_);
+  } else {
+    tick.progress = progress_;
   }
-  if (!with_flags_) return tick;
+  if (with_flags_) read_succeeded(ticker, tick);
+}
+
+void SynchronizedProbe::read_succeeded(Ticker& ticker, SynchronizedTick& tick) {
   const bool has_been_ended =
       tick.status == Status::Success && ticker.status(node_) == Status::Idle;
   for (std::size_t child = 0; child < children_.size(); ++child) {
@@ -167,7 +173,6 @@ SynchronizedTick SynchronizedProbe::read(Ticker& ticker, Nanoseconds time) {
   }
   tick.held = held_.held();
   tick.succeeded = held_.succeeded();
-  return tick;
 }
 
 }  // namespace lockstep::host

@@ -93,13 +93,20 @@ class SynchronizedProbe {
   // A plain parallel does not store the progress of its children, so this reads it.
   void before_tick(Ticker& ticker);
   // Valid until the next call.
-  SynchronizedTick read(Ticker& ticker, Nanoseconds time);
+  SynchronizedTick read(Ticker& ticker, Nanoseconds time) {
+    SynchronizedTick tick;
+    read(ticker, time, tick);
+    return tick;
+  }
+  // The same into what it has given before.
+  void read(Ticker& ticker, Nanoseconds time, SynchronizedTick& tick);
 
   NodeIndex node() const { return node_; }
   std::span<const NodeIndex> children() const { return children_; }
 
  private:
   void read_held(Ticker& ticker);
+  void read_succeeded(Ticker& ticker, SynchronizedTick& tick);
 
   NodeIndex node_;
   std::vector<NodeIndex> children_;
