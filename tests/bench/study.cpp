@@ -3,27 +3,12 @@
 // ticks with nothing around them, measured runs, and the whole study, without a disk, on threads.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-
-#include "core/random.h"
-#include "definition/resolve.h"
-#include "engine/compile.h"
-#include "loading/plugin_set.h"
-#include "measure/measure_spec.h"
+#include "bench/bench_study.h"
 #include "study/workers.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-constexpr const char* kTwoLeaves = R"(<root lockstep="1"><BehaviorTree ID="TwoLeaves">
-  <ParallelAbsolute barrier_count="10">
-    <Advance step="0.02" noise="0.02"/>
-    <Advance step="0.02" noise="0.02"/>
-  </ParallelAbsolute>
-</BehaviorTree></root>)";
 
 constexpr const char* kExample5 = R"(<root lockstep="1"><BehaviorTree ID="Example5">
   <ParallelAbsolute barrier_count="10">
@@ -33,62 +18,21 @@ constexpr const char* kExample5 = R"(<root lockstep="1"><BehaviorTree ID="Exampl
   </ParallelAbsolute>
 </BehaviorTree></root>)";
 
-class Study {
- public:
-  explicit Study(const char* tree) {
-    Diagnostics diagnostics;
-    plugins_.load_file(LOCKSTEP_BENCH_MOTION, diagnostics);
-    const auto project = load_project_text("tree.xml", tree, {}, diagnostics);
-    Catalog catalog;
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-    for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto definition = resolve(*project, catalog, {}, diagnostics);
-    if (!definition || !plugins_.initialize(diagnostics)) std::abort();
-    cell.tree = compile(*definition);
-    cell.columns = {0};
-  }
-
- private:
-  PluginSet plugins_;
-
- public:
-  StudyCell cell;
-  std::vector<MeasureSpec> measures{parse_measure("progress-distance").value()};
-};
-
 // Time per tick of the tree.
 void count(benchmark::State& state, std::uint64_t ticks, const char* what) {
   state.counters[what] = benchmark::Counter(
       static_cast<double>(ticks), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// Two leaves with ten barriers as one would write them without a tree: two numbers, their limit and
-// their distance.
 void without_a_tree(benchmark::State& state) {
   std::uint64_t seed = 0, ticks = 0;
-  double distance = 0;
-  for (auto _ : state) {
-    const std::uint64_t of_run = run_seed(0, 0, seed++);
-    RandomStream random[] = {{of_run, 1}, {of_run, 2}};
-    double progress[] = {0, 0};
-    while (std::min(progress[0], progress[1]) < 1) {
-      const double barrier = (std::floor(std::min(progress[0], progress[1]) * 10 + 1e-9) + 1) / 10;
-      distance += std::abs(progress[0] - progress[1]);
-      for (int leaf = 0; leaf < 2; ++leaf) {
-        if (progress[leaf] >= std::min(barrier, 1.0) - 1e-9) continue;
-        const double change = 0.02 + 0.02 * (2 * random[leaf].next_double() - 1);
-        progress[leaf] = std::clamp(progress[leaf] + change, 0.0, 1.0);
-      }
-      ++ticks;
-    }
-    benchmark::DoNotOptimize(distance);
-  }
+  for (auto _ : state) ticks += two_leaves_without_a_tree(seed++);
   state.SetItemsProcessed(state.iterations());
   count(state, ticks, "per_tick");
 }
 
 void ticking_alone(benchmark::State& state, const char* tree) {
-  const Study study(tree);
+  const BenchStudy study(tree);
   Run run(study.cell.tree, {});
   std::uint64_t seed = 0, ticks = 0;
   for (auto _ : state) {
@@ -101,7 +45,7 @@ void ticking_alone(benchmark::State& state, const char* tree) {
 }
 
 void measured_runs(benchmark::State& state, const char* tree) {
-  const Study study(tree);
+  const BenchStudy study(tree);
   StudyRun run(study.cell, study.measures, 1'000'000, nullptr);
   std::uint64_t seed = 0, ticks = 0;
   for (auto _ : state) ticks += run.run(run_seed(0, 0, seed++)).ticks;
@@ -110,7 +54,7 @@ void measured_runs(benchmark::State& state, const char* tree) {
 }
 
 void whole_study(benchmark::State& state, const char* tree) {
-  const Study study(tree);
+  const BenchStudy study(tree);
   StudyPlan plan;
   plan.runs = 200'000;
   plan.max_ticks = 1'000'000;

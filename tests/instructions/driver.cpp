@@ -1,7 +1,10 @@
-// Ticks trees for a count of their instructions, and prints the name of each. What counts is what
-// happens in measured_ticks. See instructions_test.py.
+// Ticks trees and makes runs of a study for a count of their instructions, and prints of each by
+// how many leaves or ticks to divide it, and its name. What counts is what happens in `measured`.
+// See instructions_test.py.
 #include <cstdio>
+#include <functional>
 
+#include "bench/bench_study.h"
 #include "bench/bench_tree.h"
 #include "runtime/run.h"
 
@@ -52,19 +55,49 @@ constexpr int kLeaves = 1000, kTicks = 10;
 }  // namespace
 
 // Out of line, and by its name in C, for the tool that counts.
-extern "C" [[gnu::noinline]] void measured_ticks(Run& run, int ticks) {
-  for (int i = 0; i < ticks; ++i) run.tick(Nanoseconds(0));
+extern "C" [[gnu::noinline]] void measured(const std::function<void()>& work) {
+  work();
 }
+
+namespace {
+
+// False: a leaf has a fault.
+bool measure_ticks(const Case& it) {
+  const BenchTree tree(it.control, it.attributes, it.leaf, kLeaves);
+  StepClock clock;
+  LeafWatch watch({.budget = std::chrono::hours(1), .clock = &clock});
+  Run run(tree.tree(), {.watch = it.watched == Watched::Yes ? &watch : nullptr});
+  for (int i = 0; i < 3; ++i) run.tick(Nanoseconds(0));
+  measured([&] {
+    for (int i = 0; i < kTicks; ++i) run.tick(Nanoseconds(0));
+  });
+  std::printf("%d %s\n", kLeaves * kTicks, it.name);
+  return run.fault() == nullptr;
+}
+
+// The same runs as a study makes them, and as a loop that knows two leaves and nothing else.
+void measure_study() {
+  constexpr std::uint64_t kRuns = 50;
+  const BenchStudy study(kTwoLeaves);
+  StudyRun run(study.cell, study.measures, 1'000'000, nullptr);
+  run.run(run_seed(0, 0, kRuns));
+  std::uint64_t ticks = 0;
+  measured([&] {
+    for (std::uint64_t i = 0; i < kRuns; ++i) ticks += run.run(run_seed(0, 0, i)).ticks;
+  });
+  std::printf("%llu a tick of a study\n", static_cast<unsigned long long>(ticks));
+  ticks = 0;
+  measured([&] {
+    for (std::uint64_t i = 0; i < kRuns; ++i) ticks += two_leaves_without_a_tree(i);
+  });
+  std::printf("%llu the same numbers in a loop\n", static_cast<unsigned long long>(ticks));
+}
+
+}  // namespace
 
 int main() {
   for (const Case& it : kCases) {
-    const BenchTree tree(it.control, it.attributes, it.leaf, kLeaves);
-    StepClock clock;
-    LeafWatch watch({.budget = std::chrono::hours(1), .clock = &clock});
-    Run run(tree.tree(), {.watch = it.watched == Watched::Yes ? &watch : nullptr});
-    for (int i = 0; i < 3; ++i) run.tick(Nanoseconds(0));
-    measured_ticks(run, kTicks);
-    if (run.fault() != nullptr) return 1;
-    std::puts(it.name);
+    if (!measure_ticks(it)) return 1;
   }
+  measure_study();
 }
