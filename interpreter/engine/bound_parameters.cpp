@@ -140,7 +140,7 @@ std::string BoundParameters::unreadable(const BoundNode& node, unsigned paramete
                  {.message = "expected " + expected_text(it.type, it.object), .hint = {}});
 }
 
-// What the pool of a member does not have.
+// Refuses a resource that the pool of the member does not have.
 std::optional<RuleBreak> BoundParameters::refuse_resources(const BoundNode& node,
                                                            const Parameter& parameter,
                                                            const Value& value) const {

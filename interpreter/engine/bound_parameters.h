@@ -49,7 +49,7 @@ class BoundParameters {
     std::vector<std::uint32_t> space;  // of each list: how many numbers fit behind its first
     bool known = false;                // all entries were read once
   };
-  // What the run keeps of the entries that it has read. Empty when the tree has no bound nodes.
+  // The run's copy of the entries that it has read. Empty when the tree has no bound nodes.
   struct State {
     std::vector<Cell> cells;
     std::vector<double> numbers;

@@ -53,7 +53,7 @@ void BoundScripts::reset() {
   }
 }
 
-// What the entry has now.
+// Compiles the text that the entry has now.
 bool BoundScripts::compile(NodeIndex node, std::uint32_t script) {
   Bound& it = scripts_[script];
   FromEntry& source = *it.source;

@@ -35,7 +35,7 @@ class BoundScripts {
       return evaluate_entry(node, script);
     return evaluator_.evaluate(*it.code, it.entries, value_);
   }
-  // What the last one of these gave.
+  // The value of the last evaluation.
   const Value& value() const { return value_; }
   // The same, of one that is a condition.
   Truth test(NodeIndex node, std::uint32_t script) {
@@ -47,7 +47,7 @@ class BoundScripts {
     return are_related(number, it.comparison->relation, it.comparison->real) ? Truth::Yes
                                                                              : Truth::No;
   }
-  // What was wrong in the last one that failed.
+  // The error of the last script that failed.
   const std::string& error() const { return evaluator_.error(); }
   // As new, for the next run.
   void reset();

@@ -55,7 +55,7 @@ struct CallSite {
   static constexpr const char* kDecorator = "decorator";
   static constexpr const char* kObjectType = "object type";
 
-  // What identifies one.
+  // The words that identify a call site.
   struct Words {
     std::string_view path = {};  // of the node, or the name of the object type; "": the plugin's
     std::string_view id = {};    // of the node's type
@@ -161,7 +161,7 @@ class CallMark {
     site_.store(&site, std::memory_order_release);
     function_.store(static_cast<std::uint8_t>(function), std::memory_order_release);
   }
-  // What there is, with a function that was read before.
+  // The present call, with a function that was read before.
   Look as_read(std::uint8_t function) const {
     return {.site = site_.load(std::memory_order_acquire),
             .function = static_cast<PluginFunction>(function & ~kBounded),

@@ -1,4 +1,4 @@
-// What Ticker::fold does beside NodeKind::fold.
+// The part of Ticker::fold that no NodeKind::fold does.
 #include <algorithm>
 
 #include "engine/blackboard.h"

@@ -8,7 +8,7 @@
 namespace lockstep::host {
 namespace {
 
-// What is less is noise: of a sensor, or of an arm that slows down.
+// A smaller rise is noise: of a sensor, or of an arm that slows down.
 constexpr double kMuch = 0.01;
 // One rise may be the answer to the last tick, which came late.
 constexpr std::uint32_t kRises = 2;

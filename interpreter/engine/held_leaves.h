@@ -43,8 +43,8 @@ class HeldLeaves {
   std::vector<WentOn> went_on_;
 };
 
-// What a leaf reports, if it reports a share. To look changes nothing: what is wrong with it is for
-// those to find who need it. In nodes/leaf.cpp.
+// The progress that a leaf reports, if it reports a share. To look changes nothing: whoever needs
+// the progress finds an error in it. Defined in nodes/leaf.cpp.
 std::optional<double> look_at_progress(NodeContext& context, NodeIndex node);
 
 }  // namespace lockstep::host

@@ -1,6 +1,6 @@
-// What is around each call of a leaf: its mark, its time, the floating-point mode. And the leaf of
-// a plugin in the loop of its parent, which is the ordinary call with as little as possible around
-// it.
+// The call of a leaf with everything around it: its mark, its time, the floating-point mode. Also
+// the call of a plugin's leaf in the loop of its parent, which is the ordinary call with as little
+// as possible around it.
 #pragma once
 
 #include <bit>

@@ -10,7 +10,7 @@ namespace lockstep::host {
 
 struct CallSite;
 
-// What a control node of a plugin may do with its children at this moment.
+// A control node of a plugin may do this with its children at this moment.
 enum class ChildAccess : std::uint8_t { None, Look, Tick };
 
 // Read in every tick, so it is small.

@@ -23,7 +23,7 @@ bool has_no_idle(const Activity* first) {
 
 }  // namespace
 
-// What node kinds and this file reach by reference, so that the header does not include it.
+// Node kinds and this file reach these by reference, so that the header does not include them.
 struct NodeContext::Beside {
   Beside(NodeContext& context, Blackboard& board, RunState& state, std::size_t leaves)
       : ports(context.tree(), board),

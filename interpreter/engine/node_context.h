@@ -1,5 +1,6 @@
-// What a node kind sees of its run: the life cycle of every node (activation, halt, pause, resume),
-// once, in one place, and what belongs to its own node. One thread at a time.
+// NodeContext is a node kind's view of its run: the life cycle of every node (activation, halt,
+// pause, resume), once, in one place, and everything that belongs to its own node. One thread at a
+// time.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@ class NodeScripts;
 class NodeWatch;
 class NodeWatches;
 
-// What a fault does to the run.
+// The effect of a fault on the run.
 enum class FaultPolicy : std::uint8_t {
   Stop,  // the run ends
   Fail,  // the leaf's activation ends with Failure; the tree goes on
@@ -115,7 +116,7 @@ class NodeContext : public RunView {
   State& state(NodeIndex node) {
     return *reinterpret_cast<State*>(state_bytes() + nodes_[node].state);
   }
-  // What a kind with state_per_child keeps behind its state, one for each child.
+  // The values that a kind with state_per_child keeps behind its state, one for each child.
   template <class T>
   std::span<T> child_states(NodeIndex node) {
     const Node& it = nodes_[node];
@@ -127,7 +128,7 @@ class NodeContext : public RunView {
     return {state_bytes() + it.state,
             it.kind->state_size + std::size_t{it.children} * it.kind->state_per_child};
   }
-  // What some keep beside that, until the run begins again.
+  // The values that some nodes keep beside that, until the run begins again.
   std::unordered_map<NodeIndex, Value>& kept_values() { return state_.kept_values; }
   const Cell& parameter(NodeIndex node, unsigned index) const {
     return parameters_.cells()[nodes_[node].params + index];
@@ -172,7 +173,7 @@ class NodeContext : public RunView {
   const FaultPolicy policy_;
   LeafWatch* const watch_;
   LeafWatch* const timer_;  // the same if it times calls, else null
-  // Of the thread that ticks, while a leaf is called with nothing around it but this mark and
+  // The mark of the ticking thread, while a leaf is called with nothing around it but this mark and
   // `timer_`; else null.
   CallMark* in_line_ = nullptr;
   std::unique_ptr<NodeWatches> watches_;  // null: nobody has ever watched nodes

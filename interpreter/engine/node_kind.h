@@ -21,7 +21,7 @@ struct Round {
   friend bool operator==(const Round&, const Round&) = default;
 };
 
-// What a node does that has completed and is ticked again though its parent did not reset it.
+// The behavior of a node that has completed and is ticked again though its parent did not reset it.
 enum class Unreset : std::uint8_t {
   Begins,       // from its beginning
   GoesOn,       // as if it ran

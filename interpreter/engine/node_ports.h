@@ -1,5 +1,5 @@
-// What the ports of a built-in node name in one run (NodeType::reads_ports), and the entries whose
-// names are known only while it runs.
+// The ports of the built-in nodes in one run (NodeType::reads_ports), and the entries whose names
+// are known only while it runs.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class NodePorts {
         entries_(board.entries.data()),
         names_(board.names) {}
 
-  // That scripts know as numbers; null: none.
+  // The words that scripts know as numbers; null if there are none.
   const ScriptEnums* words() const { return tree_.words.get(); }
 
   // Null: no {key}.
@@ -38,8 +38,8 @@ class NodePorts {
   std::optional<Entry*> named(NodeIndex node, unsigned index);
   std::string missing_name(NodeIndex node, unsigned index) const;
 
-  // What `key` means where the node is, in a tree with boards; and null if it belongs to an outer
-  // tree. Allocates.
+  // The entry that `key` means where the node is, in a tree with boards. own_at: null if it belongs
+  // to an outer tree. Both allocate.
   Entry& at(NodeIndex node, std::string_view key) { return names_.at(tree_.board_of(node), key); }
   Entry* own_at(NodeIndex node, std::string_view key) {
     return names_.own(tree_.board_of(node), key);

@@ -30,7 +30,7 @@ Status tick_inside(NodeContext& context, NodeIndex self) {
   return kind.tick(context, self);
 }
 
-// Of a node with scripts: tick_inside is within them.
+// The tick of a node with scripts: tick_inside is within them.
 Status tick_outside(NodeContext& context, NodeIndex self) {
   return context.tell_result(self, context.watches()->outer_kind(self).tick(context, self));
 }

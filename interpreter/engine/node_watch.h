@@ -1,5 +1,5 @@
-// Who is told of the ticks of some nodes while they happen: programs that embed a run. A node that
-// is watched has a copy of its kind in this run (NodeWatches), so that other nodes, and other runs,
+// Tells a program that embeds a run of the ticks of some nodes while they happen. A node that is
+// watched has a copy of its kind in this run (NodeWatches), so that other nodes, and other runs,
 // pay nothing.
 #pragma once
 
@@ -41,7 +41,7 @@ class NodeWatches {
   const Node* nodes() const { return nodes_.data(); }
   const HookedNode* hooked() const { return hooked_.data(); }
   bool is_watched(NodeIndex node) const { return nodes_[node].kind != tree_.nodes[node].kind; }
-  // Of a watched node: as it is ticked within scripts, and with them.
+  // The kinds of a watched node: as it is ticked within scripts, and with them.
   const NodeKind& inner_kind(NodeIndex node) const;
   const NodeKind& outer_kind(NodeIndex node) const { return *tree_.nodes[node].kind; }
   NodeWatch* watch() const { return watch_; }

@@ -1,5 +1,5 @@
-// Who owns which resources of a pool, for its nodes, views and recordings. A pool is a group
-// (Tree::groups); its members are the nodes that use its resources.
+// Decides which node owns which resources of a pool, for its nodes, views and recordings. A pool is
+// a group (Tree::groups); its members are the nodes that use its resources.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace lockstep::host {
 
-// What a member got when it asked for its resources.
+// The answer to a member that asked for its resources.
 enum class Grant : std::uint8_t {
   Owned,   // its child may be ticked
   Denied,  // another member owns one of them
@@ -61,7 +61,7 @@ namespace resources {
 inline constexpr unsigned kIncrement = 0;
 inline constexpr unsigned kResources = 1, kKeep = 2;
 
-// What is wrong with a list of resources, if it is given.
+// Finds the mistake in a list of resources, if one is given.
 std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter);
 
 // True when the member has an answer for this tick.

@@ -1,5 +1,5 @@
-// What a Ticker keeps of one run. A copy preserves it. The entries, the parameters from entries and
-// the leaves are separate (engine/saved_run.h has them all).
+// The memory of a Ticker about one run. A copy preserves it. The entries, the parameters from
+// entries and the leaves are separate (engine/saved_run.h has them all).
 #pragma once
 
 #include <cstdint>

@@ -35,12 +35,12 @@ class RunView {
   bool ticked(NodeIndex node) const {  // in the last tick
     return state_.tick_number != 0 && state_.last_tick[node] == state_.tick_number;
   }
-  // What a node keeps in RunState.
+  // The state of a node in RunState.
   template <class State>
   const State& state(NodeIndex node) const {
     return *reinterpret_cast<const State*>(state_bytes() + nodes_[node].state);
   }
-  // What a kind with state_per_child keeps behind that, one for each child.
+  // The values that a kind with state_per_child keeps behind that, one for each child.
   template <class T>
   std::span<const T> child_states(NodeIndex node) const {
     const Node& it = nodes_[node];

@@ -12,7 +12,7 @@
 
 namespace lockstep::host {
 
-// What the engine keeps of a leaf beside the leaf.
+// The engine's part of a leaf's state.
 struct SlotState {
   bool started, failed, out_of_range, went_on;
 

@@ -69,8 +69,7 @@ inline bool succeeded(const RunView& run, NodeIndex node) {
   return run.state<SynchronizedState>(node).succeeded;
 }
 
-// What stands for the progress of a child that is left out: nobody waits for it, and it is not
-// held.
+// Stands for the progress of a child that is left out: nobody waits for it, and it is not held.
 inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
 // The progress of a child as its parallel counts it. One that was skipped in the last tick is left

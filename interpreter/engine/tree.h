@@ -130,7 +130,7 @@ struct Tree {
   const LanguageRules* rules = &kLockstepRules;
   std::string id;                 // of the main BehaviorTree
   std::vector<NodeLabel> labels;  // not touched while ticking
-  // What the labels' names point into; a copy of the tree shares it.
+  // The text that the labels' names point into. A copy of the tree shares it.
   std::shared_ptr<const std::string> names;
   std::shared_ptr<const void> stand_ins = {};  // the types of some nodes
 

@@ -1,4 +1,4 @@
-// What leaves share that complete at once, and AlwaysRunning.
+// Shared by the leaves that complete at once, and AlwaysRunning.
 #pragma once
 
 #include "engine/node_context.h"

@@ -55,7 +55,7 @@ struct BarrierState {
 };
 static_assert(sizeof(BarrierState) % sizeof(double) == 0);
 
-// What a member has done since the common ancestor began its activation.
+// The history of a member since the common ancestor began its activation.
 struct MemberState {
   bool succeeded;
   bool begun;
@@ -96,7 +96,7 @@ bool is_skipped(const NodeContext& context, NodeIndex member, NodeIndex ancestor
   return false;
 }
 
-// What a member counts in the snapshot.
+// The number that a member counts as in the snapshot.
 double reached(NodeContext& context, NodeIndex member, const MemberState& own, NodeIndex ancestor,
                double of_idle) {
   if (own.succeeded && !context.is_guard(member)) return 1.0;
@@ -190,7 +190,7 @@ Status tick_barrier(NodeContext& context, NodeIndex self) {
   return state.synchronized.succeeded ? Status::Success : Status::Running;
 }
 
-// What has succeeded or begun counts as long as the common ancestor runs.
+// A member that has succeeded or begun counts as long as the common ancestor runs.
 void fold_barrier(NodeContext& context, NodeIndex self) {
   if (context.status(context.tree().group(self).ancestor) != Status::Running) {
     return fold::dead(context, self);

@@ -1,5 +1,5 @@
-// What ParallelAbsolute and a barrier beside the trees share: the list of barriers, and who is held
-// at one of them.
+// Shared by ParallelAbsolute and barriers beside the trees: the list of barriers, and which
+// children are held at one of them.
 #pragma once
 
 #include <algorithm>

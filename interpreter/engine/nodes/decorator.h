@@ -1,4 +1,4 @@
-// What decorators share. A decorator has one child, at self + 1.
+// Shared by the decorators. A decorator has one child, at self + 1.
 #pragma once
 
 #include "engine/node_context.h"

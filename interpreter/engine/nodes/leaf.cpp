@@ -90,7 +90,7 @@ bool is_out(const NodeContext& context, const LeafSlot& leaf) {
   return leaf.failed || context.faulted();
 }
 
-// What a tick returns once the leaf is out.
+// Ends a tick once the leaf is out.
 template <Kind kKind>
 Status out(NodeContext& context, NodeIndex self) {
   if (context.faulted()) return Status::Running;  // halted at the end of the run, in its order
@@ -137,7 +137,7 @@ bool may_run(const LeafSlot& leaf, lockstep_status result) {
   return result == LOCKSTEP_RUNNING && (leaf.type->flags & LOCKSTEP_MAY_RUN) != 0;
 }
 
-// What a tick returns that did not go well. Out of line, so that what each tick checks is inline.
+// Ends a tick that did not go well. Out of line, so that the checks of each tick are inline.
 template <Kind kKind>
 [[gnu::cold, gnu::noinline]] Status spoiled(NodeContext& context, NodeIndex self, LeafSlot& leaf,
                                             lockstep_status result) {

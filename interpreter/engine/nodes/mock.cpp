@@ -1,5 +1,5 @@
-// What a stand-in for a node that no plugin has does: an action and a condition return what they
-// are given (NodeType::mock), a control node is a sequence, a decorator passes on.
+// The stand-ins for nodes that no plugin has: an action and a condition return what they are given
+// (NodeType::mock), a control node is a sequence, a decorator passes on.
 #include <algorithm>
 
 #include "engine/nodes/decorator.h"

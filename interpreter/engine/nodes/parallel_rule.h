@@ -1,4 +1,4 @@
-// What the three parallels share: which children are ticked again, and when the node ends.
+// Shared by the three parallels: which children are ticked again, and when the node ends.
 #pragma once
 
 #include <algorithm>

@@ -53,7 +53,7 @@ inline Status tick_children(NodeContext& context, NodeIndex self, const parallel
   return status;
 }
 
-// What measures see of a node that a script has decided before it began: its children are as far as
+// Measures see this of a node that a script has decided before it began: its children are as far as
 // it is.
 inline void decided(NodeContext& context, NodeIndex self, Status result) {
   const bool succeeded = result == Status::Success;

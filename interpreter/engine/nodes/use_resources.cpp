@@ -69,7 +69,7 @@ void fold_use_resources(NodeContext& context, NodeIndex self) {
 Status tick_use_resources(NodeContext& context, NodeIndex self) {
   auto& use = context.state<ResourceUse>(self);
   context.groups().reach(context.tree().membership(self).group);
-  // What a child keeps does not depend on what the entry says meanwhile.
+  // A child keeps its resources whatever the entry says meanwhile.
   if (!resources::keeps(context, self) && !reread(context, self)) return give_up(context, self);
   if (!resources::has_asked(context, use)) resources::ask(context, self);
   return tick_child(context, self);
