@@ -13,9 +13,12 @@ namespace lockstep::host {
 namespace {
 
 // The same on every machine, and some hundredths of a second.
-SearchLimits bound() {
-  return {
-      .states = 20'000, .transitions = 50'000, .memory = std::numeric_limits<std::size_t>::max()};
+constexpr std::size_t kMostNodes = 10'000;
+
+SearchLimits bound(const Tree& tree) {
+  return {.states = 20'000,
+          .transitions = std::min<std::uint64_t>(50'000, 10'000'000 / tree.nodes.size()),
+          .memory = std::numeric_limits<std::size_t>::max()};
 }
 
 // The rate decides what comes first.
@@ -134,11 +137,12 @@ class Certainties {
 
 std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places) {
   Diagnostics diagnostics;
-  if (has_clocks(tree) || !not_verifiable(tree).empty()) return {};
+  if (tree.nodes.size() > kMostNodes || has_clocks(tree) || !not_verifiable(tree).empty())
+    return {};
   std::vector<NodeProblem> problems;
   const LeafModels models = make_models(tree, nullptr, diagnostics, problems);
   if (!problems.empty() || has_start_values(tree, models)) return {};
-  const SearchResult found = search(tree, models, {}, from_seconds(1 / kModelRate), bound());
+  const SearchResult found = search(tree, models, {}, from_seconds(1 / kModelRate), bound(tree));
   if (!found.is_complete()) return {};
   return Certainties(tree, places, found).find();
 }
