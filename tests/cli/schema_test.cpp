@@ -27,6 +27,7 @@ std::vector<std::string> trees_below(const std::string& directory) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
     const std::string file = entry.path().string();
     if (!file.ends_with(".xml") || file.ends_with(".test.xml")) continue;
+    if (file.ends_with(".leaves.xml")) continue;
     if (contains(read_file(file), "<root BTCPP_format")) continue;
     files.push_back(file);
   }

@@ -25,7 +25,7 @@ TIMED = "trees/commands.xml"  # its leaves are commands, whose output comes when
 
 def trees():
     for folder in ("trees", "tests/trees"):
-        yield from sorted(it for it in (SOURCE / folder).rglob("*.xml") if not it.name.endswith(".test.xml"))
+        yield from sorted(it for it in (SOURCE / folder).rglob("*.xml") if not it.name.endswith((".test.xml", ".leaves.xml")))
 
 
 def commands():

@@ -26,7 +26,8 @@ std::vector<std::string> files_in(const std::string& directory) {
   std::vector<std::string> files;
   if (!fs::exists(directory)) return files;
   for (const auto& entry : fs::directory_iterator(directory)) {
-    if (entry.path().string().ends_with(".test.xml")) continue;
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".test.xml") || name.ends_with(".leaves.xml")) continue;
     if (entry.path().extension() == ".xml") files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());

@@ -189,7 +189,8 @@ class TestCommand {
       }
       width_ = std::min<std::size_t>(width_, 50);
     }
-    written_ = first_failure(written_, write_results(text + to_text(report, width_, wants_color(results_file()))));
+    written_ = first_failure(
+        written_, write_results(text + to_text(report, width_, wants_color(results_file()))));
   }
 
   int finish() {
@@ -251,9 +252,11 @@ int test(const TestCommandOptions& options) {
   keep_stdout_for_results();
   if (!options.watches) return TestCommand(options).run();
   StopSignals::install();
+  FileWatch watch(options.paths);
   while (true) {
+    watch.begin();
     TestCommand(options).run();
-    if (!wait_for_change(options.paths)) return kExitSignal + StopSignals::received();
+    if (!watch.wait()) return kExitSignal + StopSignals::received();
   }
 }
 
