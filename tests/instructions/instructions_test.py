@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Counts the instructions of a tick for each leaf, or each tick of a study, and compares them with a table.
+"""Counts the instructions of a tick for each leaf, and of a study for each tick, and compares
+them with a table.
 
     instructions_test.py DRIVER TABLE COMPILER [--write]
 
