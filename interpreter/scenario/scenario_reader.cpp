@@ -16,6 +16,7 @@
 #include "document/reporter.h"
 #include "leaves/word_check.h"
 #include "scenario/cast_reader.h"
+#include "scenario/expectation_reader.h"
 #include "scenario/row_values.h"
 #include "scenario/scenario_words.h"
 #include "scenario/substitutions.h"
@@ -24,7 +25,6 @@ namespace lockstep::host {
 namespace {
 
 using scenario_words::Tag;
-using Kind = Expectation::Kind;
 
 class Reader {
  public:
@@ -33,7 +33,8 @@ class Reader {
         elements_(document.elements()),
         file_(file),
         report_(file.sources, diagnostics),
-        cast_(document, file.path, report_) {}
+        cast_(document, file.path, report_),
+        expectations_(document, file.path, cast_, report_) {}
 
   bool read() {
     const Element& root = elements_[0];
@@ -66,7 +67,7 @@ class Reader {
   // Its scenarios are about itself.
   bool read_tree() {
     common_.tree = file_.path;
-    if (&document_.rules() == &kLockstepRules) {
+    if (!document_.rules().lenient_xml) {  // texts in elements are kept
       read_all();
       return true;
     }
@@ -175,7 +176,7 @@ class Reader {
     if (tag->name == "leaf") cast_.read_leaf(at, into);
     if (tag->name == "late") read_late(at, into);
     if (tag->name == "substitutions") read_substitutions(*attribute(at, "from"), into);
-    if (tag->name == "expect") read_expectation(at, into);
+    if (tag->name == "expect") expectations_.read(at, into);
   }
 
   void read_argument(std::uint32_t at, Scenario& into) const {
@@ -215,59 +216,12 @@ class Reader {
     }
   }
 
-  void read_expectation(std::uint32_t at, Scenario& into) const {
-    Expectation expect{.place = elements_[at].place};
-    std::vector<Kind> kinds;
-    const auto is = [&](Kind kind, const Attribute& it) {
-      if (std::ranges::find(kinds, kind) == kinds.end()) {
-        kinds.push_back(kind);
-        expect.place = it.place;
-      }
-      expect.kind = kind;
-    };
-    for (const Attribute& it : document_.attributes(at)) {
-      if (it.name.empty()) {
-        is(Kind::Text, it);
-        expect.texts.emplace_back(it.value);
-      } else if (it.name == "order") {
-        is(Kind::Order, it);
-        for (const std::string_view part : split(it.value, ";")) expect.texts.emplace_back(part);
-      } else if (it.name == "same-as") {
-        is(Kind::SameAs, it);
-        expect.texts.push_back(beside(file_.path, it.value));
-      } else if (it.name == "tolerance") {
-        expect.tolerance = cast_.number(it, 0, 1);
-      } else {
-        is(Kind::Ending, it);
-        read_ending(it, expect);
-      }
-    }
-    if (kinds.size() == 1) return into.expectations.push_back(std::move(expect));
-    report_.at(elements_[at].place,
-               kinds.empty() ? "the expectation says nothing" : "an expectation says one thing",
-               "write result (with ticks, time), order, same-as, or a property as text");
-  }
-
-  void read_ending(const Attribute& it, Expectation& expect) const {
-    if (it.name == "result") {
-      expect.result = it.value;
-      expect.result_place = it.place;
-    } else if (it.name == "ticks") {
-      expect.ticks = cast_.range(it, "3, 2..10 or 5..inf");
-      expect.ticks_place = it.place;
-    } else if (it.name == "time") {
-      expect.time = cast_.range(it, "0.5, 0.5..2 or 2..inf, in seconds");
-      expect.time_place = it.place;
-    } else if (it.name == "node") {
-      expect.node = it.value;
-    }
-  }
-
   Document& document_;
   const std::span<const Element> elements_;
   ScenarioFile& file_;
   const Reporter report_;
   const CastReader cast_;
+  const ExpectationReader expectations_;
   Scenario common_;
 };
 

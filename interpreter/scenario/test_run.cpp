@@ -83,11 +83,21 @@ void TestRun::load_stage(Part& part) {
         !options_.changed_tree.empty() && it->first.tree == options_.changed_tree;
     loaded.stage = Stage::load(it->first, is_changed ? &options_.changed_text : nullptr,
                                options_.load, diagnostics, plugins_, loaded.failure);
-    if (loaded.stage == nullptr) loaded.errors = errors_of(diagnostics);
+    if (loaded.stage == nullptr) {
+      loaded.errors = errors_of(diagnostics);
+      if (loaded.errors.empty()) loaded.errors.push_back({.message = "the tree cannot be loaded"});
+    }
   }
   part.stage = loaded.stage;
   part.errors = loaded.errors;
   part.failure = loaded.failure;
+  // What has no place in the tree is about what the scenario asks of it.
+  const Scenario& scenario = *part.scenario;
+  for (Diagnostic& error : part.errors) {
+    if (!error.location.file.empty()) continue;
+    const Place place = scenario.arguments.empty() ? scenario.place : scenario.arguments[0].place;
+    error.location = part.file->sources.locate_value(place);
+  }
 }
 
 void TestRun::load_leaves(Part& part) {

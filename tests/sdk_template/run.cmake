@@ -16,7 +16,11 @@ endfunction()
 function(check_template variant plugin)
   set(folder ${WORK}/${variant})
   file(COPY ${WORK}/prefix/share/lockstep/template/${variant} DESTINATION ${WORK})
-  run(${CMAKE_COMMAND} -S ${folder} -B ${folder}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
+  set(program "")
+  if(EXISTS ${BUILD}/lockstep)
+    set(program -DLOCKSTEP_PROGRAM=${BUILD}/lockstep)
+  endif()
+  run(${CMAKE_COMMAND} -S ${folder} -B ${folder}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix ${program}
       -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF -DCMAKE_C_COMPILER=${C_COMPILER}
       -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_C_FLAGS=-Wall\ -Wextra\ -Werror
       -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Werror --no-warn-unused-cli)
@@ -32,6 +36,12 @@ function(check_template variant plugin)
   endif()
   if(EXISTS ${BUILD}/lockstep)
     run(${BUILD}/lockstep run ${folder}/tree.xml --clock virtual --plugin-path ${folder}/build)
+    if(EXISTS ${folder}/tree.test.xml)  # its scenarios are tests of CTest
+      run(${CMAKE_CTEST_COMMAND} --test-dir ${folder}/build)
+      if(NOT output MATCHES "100% tests passed, 0 tests failed out of [1-9]")
+        message(FATAL_ERROR "the scenarios of the template:\n${output}")
+      endif()
+    endif()
   endif()
 endfunction()
 

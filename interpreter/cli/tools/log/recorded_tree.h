@@ -6,7 +6,7 @@
 
 #include "leaves/play/played_leaves.h"
 #include "loading/load.h"
-#include "recording/recording.h"
+#include "recording/read/recording_reader.h"
 
 namespace lockstep::host {
 

@@ -2,15 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <thread>
 
-#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
-#include "cli/tools/test/coverage_files.h"
 #include "cli/tools/test/file_watch.h"
+#include "cli/tools/test/test_options.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "leaves/models.h"
@@ -27,21 +25,6 @@
 
 namespace lockstep::host {
 namespace {
-
-struct TestCommandOptions {
-  std::vector<std::string> paths;
-  std::vector<std::string> filters;
-  unsigned jobs = 0;
-  std::string out = "failed-scenarios";
-  std::string junit;
-  bool json = false;
-  bool list = false;
-  bool updates = false;
-  bool watches = false;
-  bool mutates = false;
-  CoverageOptions coverage;
-  PluginOptions plugins;
-};
 
 // What --filter says: a name, or a part of names; with * a pattern for all of them.
 struct Filter {
@@ -262,37 +245,7 @@ int test(const TestCommandOptions& options) {
 
 std::function<int()> define_test(CLI::App& app) {
   const auto options = std::make_shared<TestCommandOptions>();
-  options->paths = {"."};
-  options->jobs = std::max(1u, std::thread::hardware_concurrency());
-  app.add_option("paths", options->paths,
-                 "Files of scenarios, or folders: all NAME.test.xml in them and below, and trees "
-                 "with scenarios in them (default: this folder)")
-      ->type_name("FILE|DIR");
-  app.add_option("--filter", options->filters,
-                 "Only scenarios whose name has this text in it, or is as a pattern with *; may be "
-                 "repeated")
-      ->type_name("TEXT")
-      ->allow_extra_args(false);
-  app.add_flag("--list", options->list, "Print the scenarios, and play none");
-  app.add_option("-j,--jobs", options->jobs, "Threads; the result does not depend on it")
-      ->type_name("J")
-      ->transform(whole_number(1, 4096));
-  app.add_option("--out", options->out, "Where recordings of failures are written")
-      ->type_name("DIR")
-      ->capture_default_str();
-  app.add_option("--junit", options->junit, "Write the results to a file as JUnit does")
-      ->type_name("FILE");
-  app.add_flag("--update", options->updates,
-               "Write the recordings again that runs are compared with (same-as)");
-  app.add_flag("--watch", options->watches,
-               "Play them again whenever a file of these folders changes, until Ctrl-C");
-  app.add_flag("--mutate", options->mutates,
-               "Then change the trees a little, again and again: which changes does no scenario "
-               "notice?");
-  define_coverage_options(app, options->coverage);
-  app.add_flag("--json", options->json, "Print the results as JSON");
-  add_plugin_options(app, options->plugins);
-  add_program_option(app, options->plugins);
+  define_test_options(app, *options);
   return [options] { return test(*options); };
 }
 

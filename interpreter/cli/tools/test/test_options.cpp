@@ -1,0 +1,46 @@
+#include "cli/tools/test/test_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+
+#include "cli/checks.h"
+#include "cli/load/load_options.h"
+
+namespace lockstep::host {
+
+void define_test_options(CLI::App& app, TestCommandOptions& options) {
+  options.paths = {"."};
+  options.jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("paths", options.paths,
+                 "Files of scenarios, or folders: all NAME.test.xml in them and below, and trees "
+                 "with scenarios in them (default: this folder)")
+      ->type_name("FILE|DIR");
+  app.add_option("--filter", options.filters,
+                 "Only scenarios whose name has this text in it, or is as a pattern with *; may be "
+                 "repeated")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  app.add_flag("--list", options.list, "Print the scenarios, and play none");
+  app.add_option("-j,--jobs", options.jobs, "Threads; the result does not depend on it")
+      ->type_name("J")
+      ->transform(whole_number(1, 4096));
+  app.add_option("--out", options.out, "Where recordings of failures are written")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option("--junit", options.junit, "Write the results to a file as JUnit does")
+      ->type_name("FILE");
+  app.add_flag("--update", options.updates,
+               "Write the recordings again that runs are compared with (same-as)");
+  app.add_flag("--watch", options.watches,
+               "Play them again whenever a file of these folders changes, until Ctrl-C");
+  app.add_flag("--mutate", options.mutates,
+               "Then change the trees a little, again and again: which changes does no scenario "
+               "notice?");
+  define_coverage_options(app, options.coverage);
+  app.add_flag("--json", options.json, "Print the results as JSON");
+  add_plugin_options(app, options.plugins);
+  add_program_option(app, options.plugins);
+}
+
+}  // namespace lockstep::host

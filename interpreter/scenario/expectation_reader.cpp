@@ -1,0 +1,65 @@
+#include "scenario/expectation_reader.h"
+
+#include "leaves/word_check.h"
+
+namespace lockstep::host {
+
+void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
+  const Place place = document_.elements()[element].place;
+  std::optional<Expectation> expect;
+  double tolerance = 0;
+  bool says_two = false;
+  for (const Attribute& it : document_.attributes(element)) {
+    if (it.name == "tolerance") {
+      tolerance = cast_.number(it, 0, 1);
+      continue;
+    }
+    if (!expect) expect = Expectation{.place = it.place};
+    const auto before =
+        expect->place.byte == it.place.byte ? std::nullopt : std::optional(expect->kind);
+    expect->kind = read(it, *expect);
+    says_two |= before && *before != expect->kind;
+  }
+  if (!expect || says_two) {
+    report_.at(place, expect ? "an expectation says one thing" : "the expectation says nothing",
+               "write result (with ticks, time), order, same-as, or a property as text");
+    return;
+  }
+  expect->tolerance = tolerance;
+  into.expectations.push_back(std::move(*expect));
+}
+
+Expectation::Kind ExpectationReader::read(const Attribute& it, Expectation& expect) const {
+  using enum Expectation::Kind;
+  if (it.name.empty()) {
+    expect.texts.emplace_back(it.value);
+    return Text;
+  }
+  if (it.name == "order") {
+    for (const std::string_view part : split(it.value, ";")) expect.texts.emplace_back(part);
+    return Order;
+  }
+  if (it.name == "same-as") {
+    expect.texts.push_back(beside(file_, it.value));
+    return SameAs;
+  }
+  read_ending(it, expect);
+  return Ending;
+}
+
+void ExpectationReader::read_ending(const Attribute& it, Expectation& expect) const {
+  if (it.name == "result") {
+    expect.result = it.value;
+    expect.result_place = it.place;
+  } else if (it.name == "ticks") {
+    expect.ticks = cast_.range(it, "3, 2..10 or 5..inf");
+    expect.ticks_place = it.place;
+  } else if (it.name == "time") {
+    expect.time = cast_.range(it, "0.5, 0.5..2 or 2..inf, in seconds");
+    expect.time_place = it.place;
+  } else if (it.name == "node") {
+    expect.node = it.value;
+  }
+}
+
+}  // namespace lockstep::host
