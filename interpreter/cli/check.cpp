@@ -69,7 +69,8 @@ void print_checked(const std::string& tree, Diagnostics& diagnostics, int code, 
   }
 }
 
-// What reads a file that stands beside trees, so that trees/*.xml may name it too. "": it is a tree.
+// What reads a file that stands beside trees, so that trees/*.xml may name it too. "": it is a
+// tree.
 std::string other_command(const std::string& file) {
   if (file.ends_with(".test.xml")) return "`lockstep test`";
   return file.ends_with(".leaves.xml") ? "`lockstep verify --leaves`" : "";

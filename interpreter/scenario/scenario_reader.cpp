@@ -19,6 +19,7 @@
 #include "scenario/expectation_reader.h"
 #include "scenario/row_values.h"
 #include "scenario/scenario_words.h"
+#include "scenario/stage.h"
 #include "scenario/substitutions.h"
 
 namespace lockstep::host {
@@ -234,8 +235,7 @@ std::unique_ptr<ScenarioFile> read_scenarios(const std::string& path, std::strin
   auto file = std::make_unique<ScenarioFile>();
   file->path = path;
   file->sources.add(document->source());
-  // Lines are counted by one thread, before others ask for places.
-  static_cast<void>(file->sources.locate(document->source()->place_of(0)));
+  count_lines(file->sources);
   return Reader(*document, *file, diagnostics).read() ? std::move(file) : nullptr;
 }
 

@@ -18,6 +18,10 @@ Tree played_tree(const Definition& given, const std::set<NodeIndex>& real, Playe
 
 }  // namespace
 
+void count_lines(const Sources& sources) {
+  for (const auto& source : sources.all()) static_cast<void>(source->locate(source->place_of(0)));
+}
+
 Stage::Key Stage::key_of(const Scenario& scenario) {
   Key key{scenario.tree, scenario.main, {}};
   for (const NamedText& it : scenario.arguments) key.arguments[it.name] = it.text;
@@ -47,8 +51,7 @@ Stage::Stage(std::string file, Loaded loaded)
       loaded_(std::move(loaded)),
       tree_(played_tree(loaded_.definition, {}, played_)),
       names_(property_names(tree_)) {
-  // Lines are counted by one thread, before others ask for places.
-  for (const auto& source : sources().all()) static_cast<void>(source->locate(source->place_of(0)));
+  count_lines(sources());
 }
 
 SourceLocation Stage::location_of(NodeIndex node) const {

@@ -15,6 +15,9 @@
 
 namespace lockstep::host {
 
+// Before several threads ask for places: they are counted when the first is asked for.
+void count_lines(const Sources& sources);
+
 class Stage {
  public:
   // What a tree is loaded with; equal keys have the same stage.

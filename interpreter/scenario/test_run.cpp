@@ -107,6 +107,7 @@ void TestRun::load_leaves(Part& part) {
   if (is_new) {
     Diagnostics diagnostics;
     loaded.file = load_leaf_file(path, diagnostics);
+    if (loaded.file != nullptr) count_lines(loaded.file->sources);
     loaded.errors = errors_of(diagnostics);
   }
   part.leaves = loaded.file.get();
