@@ -32,6 +32,7 @@ std::string sign_of(std::string_view outcome, bool color) {
 }
 
 std::string what_came(const ReportedScenario& it) {
+  if (it.runs == 0) return "all behaviors";
   if (it.runs > 1) return fmt::format("{}, {}", counted(it.runs, "run"), counted(it.ticks, "tick"));
   return counted(it.ticks, "tick");
 }

@@ -116,6 +116,14 @@ class Reader {
       report_.at(elements_[at].place, "the scenario has no tree",
                  "write tree=\"FILE.xml\", here or in <scenarios>");
     }
+    const bool says_one_run = scenario.cast.size() > common_.cast.size() ||
+                              scenario.changes.size() > common_.changes.size() ||
+                              scenario.late.size() > common_.late.size();
+    if (scenario.is_verified && says_one_run) {
+      report_.at(elements_[at].place,
+                 "a scenario with verify=\"yes\" is about all behaviors, not about one run",
+                 "say what leaves may do in a leaf file: leaves=\"NAME.leaves.xml\"");
+    }
     if (scenario.expectations.empty() && !scenario.is_verified) {
       report_.at(elements_[at].place, "the scenario expects nothing",
                  "write <expect result=\"success\"/>");

@@ -177,6 +177,8 @@ TEST_CASE("what is wrong with scenarios is said at its place") {
     {R"(<scenario name="a"><expect>spread</expect></scenario>)", "expected a limit of the measure"},
     {R"(<scenario name="a"><expect result="succes"/></scenario>)", "'result' cannot be 'succes'"},
     {R"(<scenario name="a"/>)", "the scenario expects nothing"},
+    {R"(<scenario name="a" verify="yes"><leaf path="left" does="S"/></scenario>)",
+     "is about all behaviors, not about one run"},
     {R"(<scenario name="a"><set key="n" value="1"/><expect result="success"/></scenario>)",
      "the tree has no entry 'n'"},
     {R"(<scenario name="a"><expect result="success"/></scenario>
