@@ -1,6 +1,7 @@
 // Scenarios and the other commands: counter-examples, leaf files, changes that nobody notices.
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <regex>
 
 #include "cli/program.h"
 #include "support/paths.h"
@@ -118,4 +119,26 @@ TEST_CASE(
     CHECK(lint(directory.file("t.test.xml",
                               "<scenarios lockstep=\"1\">" + wrong + "</scenarios>")) != 0);
   }
+}
+
+TEST_CASE("docs/testing.md: the first scenario and its failure are as printed there") {
+  const std::string page = read_file(LOCKSTEP_SOURCE_DIR "/docs/testing.md");
+  const auto block = [&page](const std::string& begin, const std::string& of) {
+    const auto from = page.find('\n', page.find(begin, page.find(of))) + 1;
+    return page.substr(from, page.find("```", from) - from);
+  };
+  const TemporaryDirectory directory;
+  std::filesystem::create_directories(directory.path("trees"));
+  static_cast<void>(directory.file("trees/door_pulling.xml",
+                                   read_file(LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml")));
+  std::string scenario = block("```xml", "## The first scenario");
+  const auto play = [&] {
+    static_cast<void>(directory.file("trees/door_pulling.test.xml", scenario));
+    const Outcome it = shell("lockstep test trees/door_pulling.test.xml", directory);
+    return std::regex_replace(it.out, std::regex(", [0-9.]+ s\n"), ", 0.00 s\n");
+  };
+  CHECK("$ lockstep test trees/door_pulling.test.xml\n" + play() ==
+        block("```\n$ lockstep test", "## The first scenario"));
+  scenario.replace(scenario.find("failure"), 7, "success");
+  CHECK(play() == block("```", "Now expect `success`"));
 }
