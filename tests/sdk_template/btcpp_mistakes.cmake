@@ -13,7 +13,7 @@ set(said_8 "lockstep has no ManualSelector")
 set(said_9 "lockstep has this node of the library as a tag, not as a class" "T = BT::ScriptNode")
 set(said_10 "lockstep has no publisher for Groot 1")
 set(said_11 "registerPolymorphicCast<Derived, Base>: Derived does not derive from Base")
-set(said_12 "no matching function for call to .BT::PortInfo::PortInfo")
+set(said_12 "no matching function for call to .*BT::PortInfo::PortInfo")
 
 include(${CMAKE_CURRENT_LIST_DIR}/check_mistakes.cmake)
 check_mistakes(12 -I${SOURCES}/plugins/sdk -I${SOURCES}/plugins/sdk/btcpp/include
