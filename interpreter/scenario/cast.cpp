@@ -24,9 +24,11 @@ bool is_leaf(const NodeType& type) {
   return is_condition(type) || type.category == NodeCategory::Action;
 }
 
-bool fits(const CastRow& row, const NodeType& type, const std::string& path) {
-  if (row.path.empty()) return row.of == type.id;
-  return matches(row.path, path) || matches("*/" + row.path, path);
+bool fits(const std::string& of, const std::string& path, const Tree& tree, const LeafNode& leaf) {
+  if (!is_leaf(*leaf.type)) return false;
+  if (path.empty()) return of == leaf.type->id;
+  const std::string it = tree.path(leaf.node);
+  return matches(path, it) || matches("*/" + path, it);
 }
 
 class CastMaker {
@@ -58,8 +60,7 @@ class CastMaker {
   void choose(const CastRow& row, std::vector<const CastRow*>& rows) const {
     bool is_there = false;
     for (std::size_t leaf = 0; leaf < rows.size(); ++leaf) {
-      const LeafNode& it = tree_.leaves[leaf];
-      if (!is_leaf(*it.type) || !fits(row, *it.type, tree_.path(it.node))) continue;
+      if (!fits(row.of, row.path, tree_, tree_.leaves[leaf])) continue;
       rows[leaf] = &row;
       is_there = true;
     }
@@ -67,18 +68,8 @@ class CastMaker {
   }
 
   void tell_no_match(const CastRow& row) const {
-    std::set<std::string> names;
-    for (const LeafNode& it : tree_.leaves) {
-      if (!is_leaf(*it.type)) continue;
-      names.insert(row.path.empty() ? std::string(it.type->id) : tree_.path(it.node));
-      if (!row.path.empty()) names.insert(std::string(tree_.labels[it.node].name));
-    }
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    report_.at_value(row.place,
-                     row.path.empty()
-                         ? fmt::format("the tree has no leaf of type '{}'", brief(row.of))
-                         : fmt::format("the tree has no leaf '{}'", brief(row.path)),
-                     suggest(row.path.empty() ? row.of : row.path, known, "its leaves"));
+    const Problem problem = no_such_leaf(tree_, row.of, row.path);
+    report_.at_value(row.place, problem.message, problem.hint);
   }
 
   void give(const CastRow& row, const LeafNode& leaf) {
@@ -155,6 +146,29 @@ class CastMaker {
 };
 
 }  // namespace
+
+std::vector<NodeIndex> find_leaves(const Tree& tree, const std::string& of,
+                                   const std::string& path) {
+  std::vector<NodeIndex> found;
+  for (const LeafNode& it : tree.leaves) {
+    if (fits(of, path, tree, it)) found.push_back(it.node);
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string& path) {
+  std::set<std::string> names;
+  for (const LeafNode& it : tree.leaves) {
+    if (!is_leaf(*it.type)) continue;
+    names.insert(path.empty() ? std::string(it.type->id) : tree.path(it.node));
+    if (!path.empty()) names.insert(std::string(tree.labels[it.node].name));
+  }
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  return {path.empty() ? fmt::format("the tree has no leaf of type '{}'", brief(of))
+                       : fmt::format("the tree has no leaf '{}'", brief(path)),
+          suggest(path.empty() ? of : path, known, "its leaves")};
+}
 
 Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, bool has_models,
                MissingLeaves missing, const Reporter& report) {

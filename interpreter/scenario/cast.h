@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/problem.h"
 #include "document/reporter.h"
 #include "leaves/models.h"
 #include "scenario/scenario.h"
@@ -16,6 +17,12 @@ struct Cast {
   std::set<NodeIndex> real;            // that plugins play themselves
   std::vector<NodeIndex> without_row;  // whose scripts are the usual one, or none
 };
+
+// The leaves of a type, or with a path or this end of it; one of both is "".
+std::vector<NodeIndex> find_leaves(const Tree& tree, const std::string& of,
+                                   const std::string& path);
+// What to write instead of one that no leaf has.
+Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string& path);
 
 // Of rows for which the tree has no leaf.
 enum class MissingLeaves : bool { AreErrors, AreLeftOut };

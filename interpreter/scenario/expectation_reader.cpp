@@ -1,6 +1,7 @@
 #include "scenario/expectation_reader.h"
 
 #include "leaves/word_check.h"
+#include "scenario/scenario_words.h"
 
 namespace lockstep::host {
 
@@ -22,7 +23,14 @@ void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
   }
   if (!expect || says_two) {
     report_.at(place, expect ? "an expectation says one thing" : "the expectation says nothing",
-               "write result (with ticks, time), order, same-as, or a property as text");
+               "write result (with ticks, time), order, same-as, a property as text, or path with "
+               "in.PORT");
+    return;
+  }
+  if (expect->kind == Expectation::Kind::Inputs &&
+      (expect->inputs.empty() || expect->of.empty() == expect->path.empty())) {
+    report_.at(place, "an expectation about inputs needs 'of' or 'path', and in.PORT",
+               "write path=\"arm\" in.speed=\"0.2\"");
     return;
   }
   expect->tolerance = tolerance;
@@ -42,6 +50,15 @@ Expectation::Kind ExpectationReader::read(const Attribute& it, Expectation& expe
   if (it.name == "same-as") {
     expect.texts.push_back(beside(file_, it.value));
     return SameAs;
+  }
+  if (it.name == "of" || it.name == "path") {
+    (it.name == "of" ? expect.of : expect.path) = it.value;
+    return Inputs;
+  }
+  if (it.name.starts_with(scenario_words::kInput)) {
+    expect.inputs.push_back({std::string(it.name.substr(scenario_words::kInput.size())),
+                             std::string(it.value), it.place});
+    return Inputs;
   }
   read_ending(it, expect);
   return Ending;

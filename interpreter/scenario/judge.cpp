@@ -94,7 +94,6 @@ void Judge::tell_violated(std::size_t property, const std::string& when, const T
 std::vector<Surprise> Judge::verdict(const RunEnd& end, const RunMeasures* measures) {
   judge_ending(end);
   if (measures != nullptr) judge_limits(*measures);
-  std::ranges::stable_sort(surprises_, {}, [](const Surprise& it) { return it.place.byte; });
   return std::move(surprises_);
 }
 

@@ -8,6 +8,7 @@
 #include "recording/write/recorder.h"
 #include "runtime/deadlines.h"
 #include "runtime/loop.h"
+#include "scenario/input_watch.h"
 #include "scenario/judge.h"
 #include "scenario/stage_hands.h"
 #include "study/run_measures.h"
@@ -50,6 +51,8 @@ Performance Performer::perform(const PerformOptions& options) const {
   const Scenario& scenario = *rehearsal_.scenario;
   const Tree& tree = players_.tree();
   const auto measures = measures_of(rehearsal_);
+  InputWatch inputs(rehearsal_, tree);
+  players_.leaves().set_watch(rehearsal_.inputs.empty() ? nullptr : &inputs);
   Judge judge(rehearsal_, tree, properties_of(rehearsal_));
   std::optional<RunMeasures> measured;
   if (!measures.empty()) measured.emplace(tree, measures, rehearsal_.rate);
@@ -64,7 +67,7 @@ Performance Performer::perform(const PerformOptions& options) const {
           {.seed = options.seed, .period = deadline_of(1, rehearsal_.rate), .virtual_time = true});
   EntryWriter writer(rehearsal_, run);
   LateTicks late(scenario, clock);
-  std::vector<Observer*> observers{&writer, &judge};
+  std::vector<Observer*> observers{&writer, &inputs, &judge};
   if (measured) observers.push_back(&*measured);
   if (recorder && performance.problem.empty()) observers.push_back(&*recorder);
   if (options.observer != nullptr) observers.push_back(options.observer);
@@ -75,6 +78,9 @@ Performance Performer::perform(const PerformOptions& options) const {
                    .stop_signal = options.stop_signal};
   performance.end = run_loop(run, clock, loop, observers);
   performance.surprises = judge.verdict(performance.end, measured ? &*measured : nullptr);
+  std::ranges::move(inputs.verdict(), std::back_inserter(performance.surprises));
+  std::ranges::stable_sort(performance.surprises, {},
+                           [](const Surprise& it) { return it.place.byte; });
   if (recorder && !recorder->error().empty()) performance.problem = recorder->error();
   return performance;
 }

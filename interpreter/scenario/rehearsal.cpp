@@ -59,6 +59,12 @@ std::optional<Relation> relation_of(std::string_view text) {
   return std::nullopt;
 }
 
+bool is_of_one_run(const Expectation& it) {
+  if (it.kind == Kind::Text) return split_limit(trimmed(it.texts[0])).has_value();
+  if (it.kind == Kind::Ending) return it.ticks || it.time || !it.node.empty();
+  return it.kind != Kind::Order;
+}
+
 class Rehearser {
  public:
   Rehearser(const Scenario& scenario, const Sources& sources, const Stage& stage,
@@ -117,6 +123,11 @@ class Rehearser {
   }
 
   void add_expectation(const Expectation& it) {
+    if (scenario_.is_verified && is_of_one_run(it)) {
+      if (it.is_for_all) return;
+      return report_.at_value(it.place, "this is about one run, not about all behaviors",
+                              "with verify=\"yes\", expect a result or a property");
+    }
     if (it.kind == Kind::Text) {
       if (const auto limit = split_limit(trimmed(it.texts[0]))) {
         add_limit(it, *limit);
@@ -125,6 +136,7 @@ class Rehearser {
       }
     }
     if (it.kind == Kind::Order) add_order(it);
+    if (it.kind == Kind::Inputs) add_inputs(it);
     if (it.kind == Kind::Ending && !it.node.empty()) check_node(it);
   }
 
@@ -169,6 +181,49 @@ class Rehearser {
     if (!measuring.error().empty()) return report_.at_value(it.place, measuring.error());
     rehearsal_.limits.push_back(
         {std::move(*measure), *relation, *number, std::string(trimmed(it.texts[0])), &it});
+  }
+
+  void add_inputs(const Expectation& it) {
+    const auto leaves = find_leaves(tree_, it.of, it.path);
+    if (leaves.empty()) {
+      const Problem problem = no_such_leaf(tree_, it.of, it.path);
+      return report_.at_value(it.place, problem.message, problem.hint);
+    }
+    for (const NodeIndex leaf : leaves) {
+      if (!rehearsal_.cast.real.contains(leaf)) continue;
+      return report_.at_value(
+          it.place, fmt::format("what '{}' gets is not seen", tree_.path(leaf)),
+          "leaves with from=\"plugin\" read their inputs themselves; give it words");
+    }
+    for (const NamedText& input : it.inputs) add_input(it, input, leaves);
+  }
+
+  void add_input(const Expectation& of, const NamedText& input,
+                 const std::vector<NodeIndex>& leaves) {
+    std::string text = input.text;
+    for (const NodeIndex leaf : leaves) {
+      const NodeType& type = *tree_.labels[leaf].type;
+      const auto port = std::ranges::find(type.parameters, input.name, &Parameter::name);
+      if (port == type.parameters.end() || port->direction == Direction::Output) {
+        std::vector<std::string_view> known;
+        for (const Parameter& it : type.parameters) {
+          if (it.direction != Direction::Output) known.push_back(it.name);
+        }
+        return report_.at(input.place,
+                          fmt::format("'{}' has no input '{}'", type.id, brief(input.name)),
+                          suggest(input.name, known, "its inputs"));
+      }
+      if (port->type == ValueType::Object) continue;
+      const auto value = parse_value(port->type, input.text);
+      if (!value) {
+        return report_.at_value(
+            input.place,
+            fmt::format("'{}' is no value of the port '{}'", brief(input.text), input.name),
+            fmt::format("expected {}", expected_text(port->type)));
+      }
+      text = to_text(*value);
+    }
+    rehearsal_.inputs.push_back({leaves, input.name, std::move(text), input.place, &of});
   }
 
   void check_node(const Expectation& it) const {

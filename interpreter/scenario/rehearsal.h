@@ -34,6 +34,14 @@ struct PreparedLimit {
   const Expectation* of;
 };
 
+// What leaves get at a port whenever they begin.
+struct PreparedInput {
+  std::vector<NodeIndex> leaves;  // in order
+  std::string port, text;         // as a value of the port's type is written
+  Place place;
+  const Expectation* of;
+};
+
 struct Rehearsal {
   const Scenario* scenario = nullptr;
   double rate = kScenarioRate;
@@ -42,6 +50,7 @@ struct Rehearsal {
   std::vector<PreparedChange> changes;
   std::vector<PreparedProperty> properties;
   std::vector<PreparedLimit> limits;
+  std::vector<PreparedInput> inputs;
 };
 
 // Reports errors at their places. `file` is the scenario's leaf file, or null. All must outlive

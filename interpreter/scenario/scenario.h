@@ -59,7 +59,7 @@ struct NumberRange {
 };
 
 struct Expectation {
-  enum class Kind : std::uint8_t { Ending, Order, SameAs, Text } kind = Kind::Ending;
+  enum class Kind : std::uint8_t { Ending, Order, SameAs, Text, Inputs } kind = Kind::Ending;
   Place place = {};  // of its first word
   // Ending
   std::string result = {};  // "": any
@@ -70,6 +70,10 @@ struct Expectation {
   // Order: what comes true; SameAs: the recording; Text: a property or a measure with its limit
   std::vector<std::string> texts = {};
   double tolerance = 0;
+  // Inputs: of the leaves of a type, or with a path
+  std::string of = {}, path = {};
+  std::vector<NamedText> inputs = {};
+  bool is_for_all = false;  // it is one of the file's, for all scenarios
 };
 
 struct Scenario {

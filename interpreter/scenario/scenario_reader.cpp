@@ -56,6 +56,7 @@ class Reader {
       if (elements_[child].tag == "scenario") continue;
       read_part(child, common_, "elements of 'scenarios'");
     }
+    for (Expectation& it : common_.expectations) it.is_for_all = true;
     read_all();
     return true;
   }
@@ -178,7 +179,9 @@ class Reader {
     if (element.end > at + 1) {
       report_.at(elements_[at + 1].place, fmt::format("'{}' cannot contain elements", element.tag));
     }
-    const std::string_view open = tag->name == "leaf" ? leaf_words::kOutput : std::string_view();
+    const std::string_view open = tag->name == "leaf"     ? leaf_words::kOutput
+                                  : tag->name == "expect" ? scenario_words::kInput
+                                                          : std::string_view();
     if (!check_words(document_, at, open, tag->words, report_)) return;
     if (tag->name == "arg") read_argument(at, into);
     if (tag->name == "set") read_change(at, into);

@@ -68,6 +68,8 @@ inline constexpr Word kExpect[] = {
     {"ticks", kRange, "How many ticks it takes: 3, 2..10, 5..inf."},
     {"time", kRange, "How long it takes, in seconds."},
     {"node", "", "The node that has the fault."},
+    {"of", "", "With in.PORT: the leaves of this type."},
+    {"path", "", "With in.PORT: the leaves with this path or this end of it."},
     {"order", "", "What comes true in this order, with ; between: reach.success; grasp.success"},
     {"same-as", "", "A recording that the run repeats. `lockstep test --update` writes it."},
     {"tolerance", kRate, "How far progress may differ from that."},
@@ -84,6 +86,8 @@ inline constexpr Tag kTags[] = {
      "What is to come of it. As text: a property, as 'never arm.failure' or 'finally {n} == 3', or "
      "a measure with its limit, as 'spread < 0.1'."},
 };
+// Of expect, also "in.PORT".
+inline constexpr std::string_view kInput = "in.";
 // Only in a scenario: a run for each row, whose attributes stand for ${NAME} in it.
 inline constexpr std::string_view kRow = "row";
 

@@ -97,6 +97,21 @@ const Law kLaws[] = {
    "1 passed"},
   {"many runs", R"(<scenario name="a" runs="20"><leaf of="Advance" from="plugin"/>
    <expect result="success"/></scenario>)", 0, "20 runs, 200 ticks"},
+  {"inputs", R"(<scenario name="a"><expect of="Advance" in.step="0.10"/></scenario>)", 0, "1 passed"},
+  {"another input", R"(<scenario name="a"><leaf path="left" does="R S"/>
+   <expect path="left" in.step="0.2"/></scenario>)", 1, "expected step 0.2, came 0.1"},
+  {"inputs of a leaf that never begins", R"(<scenario name="a"><leaf path="left" result="failure"/>
+   <expect path="right" in.step="0.1"/></scenario>)", 1, "the leaf never begins"},
+  {"no such input", R"(<scenario name="a"><expect path="left" in.stp="1"/></scenario>)", 3,
+   "'Advance' has no input 'stp'"},
+  {"no value of the input", R"(<scenario name="a"><expect path="left" in.step="x"/></scenario>)", 3,
+   "'x' is no value of the port 'step'"},
+  {"inputs of no leaf", R"(<scenario name="a"><expect path="lift" in.step="1"/></scenario>)", 3,
+   "the tree has no leaf 'lift'"},
+  {"inputs of a leaf that is the plugin's", R"(<scenario name="a"><leaf path="left" from="plugin"/>
+   <expect path="left" in.step="0.1"/></scenario>)", 3, "what 'Main/both/left' gets is not seen"},
+  {"all behaviors, and what is about one run", R"(<scenario name="a" verify="yes">
+   <expect ticks="3"/></scenario>)", 3, "this is about one run, not about all behaviors"},
   {"all behaviors", R"(<scenario name="a" verify="yes"><expect result="success"/></scenario>)", 1,
    "expected success, failure may come"},
 };

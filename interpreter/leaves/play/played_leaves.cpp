@@ -21,10 +21,12 @@ using Kind = LeafWord::Kind;
 class PlayedLeaf final : public RemoteLeaf {
  public:
   // Null: it has no words.
-  PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words, bool restarts)
-      : RemoteLeaf(caller), words_(words), restarts_(restarts) {}
+  PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words, bool restarts,
+             PlayedLeafWatch* watch)
+      : RemoteLeaf(caller), words_(words), restarts_(restarts), watch_(watch) {}
 
   void start() override {
+    if (watch_ != nullptr) watch_->begins(caller_);
     progress_ = 0;
     is_first_ = true;
     if (restarts_) at_ = 0;
@@ -99,7 +101,8 @@ class PlayedLeaf final : public RemoteLeaf {
 
   const std::vector<LeafWord>* const words_;
   const bool restarts_;  // with its first word, in each activation
-  std::size_t at_ = 0;   // the next word
+  PlayedLeafWatch* const watch_;
+  std::size_t at_ = 0;  // the next word
   double progress_ = 0;
   bool is_first_ = false;  // the next tick is the first of the activation
   bool is_held_ = false;
@@ -107,24 +110,28 @@ class PlayedLeaf final : public RemoteLeaf {
 };
 
 // Null: it has no script.
-std::unique_ptr<PlayedLeaf> find_script(const LeafScripts& scripts, const lockstep_caller& caller) {
+std::unique_ptr<PlayedLeaf> find_script(const LeafScripts& scripts, const lockstep_caller& caller,
+                                        PlayedLeafWatch* watch) {
   const auto words = scripts.leaves.find(caller.run->tree->path(caller.node));
   if (words == scripts.leaves.end()) return nullptr;
   return std::make_unique<PlayedLeaf>(caller, &words->second,
-                                      scripts.restarting.contains(words->first));
+                                      scripts.restarting.contains(words->first), watch);
 }
 
 class PlayedRun final : public RemoteRun {
  public:
-  explicit PlayedRun(const LeafScripts& scripts) : scripts_(scripts) {}
+  PlayedRun(const LeafScripts& scripts, PlayedLeafWatch* watch)
+      : scripts_(scripts), watch_(watch) {}
 
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
-    auto leaf = find_script(scripts_, caller);
-    return leaf != nullptr ? std::move(leaf) : std::make_unique<PlayedLeaf>(caller, nullptr, false);
+    auto leaf = find_script(scripts_, caller, watch_);
+    return leaf != nullptr ? std::move(leaf)
+                           : std::make_unique<PlayedLeaf>(caller, nullptr, false, watch_);
   }
 
  private:
   const LeafScripts& scripts_;
+  PlayedLeafWatch* const watch_;
 };
 
 // --- by chance -----------------------------------------------------------------------------------
@@ -144,8 +151,9 @@ class RandomAnswers final : public Answers {
 class ModelRun final : public RemoteRun {
  public:
   ModelRun(const lockstep_caller& caller, const Tree& tree, const LeafModels& models,
-           const LeafScripts& scripts)
+           const LeafScripts& scripts, PlayedLeafWatch* watch)
       : scripts_(scripts),
+        watch_(watch),
         caller_(caller),
         answers_(caller),
         callers_(tree.leaves.size()),
@@ -169,12 +177,17 @@ class ModelRun final : public RemoteRun {
     }
     return leaves_;
   }
+  void begin(const lockstep_caller& caller, std::uint32_t leaf) {
+    if (watch_ != nullptr) watch_->begins(caller);
+    leaves().start(leaf);
+  }
   const char* error(std::uint32_t leaf) {
     return std::exchange(leaves_.slots()[leaf].error, nullptr);
   }
 
  private:
   const LeafScripts& scripts_;
+  PlayedLeafWatch* const watch_;
   const lockstep_caller& caller_;
   RandomAnswers answers_;
   std::vector<const lockstep_caller*> callers_;  // of each leaf
@@ -188,7 +201,7 @@ class ModelLeafOfRun final : public RemoteLeaf {
   ModelLeafOfRun(const lockstep_caller& caller, ModelRun& run, std::uint32_t number)
       : RemoteLeaf(caller), run_(run), number_(number) {}
 
-  void start() override { run_.leaves().start(number_); }
+  void start() override { run_.begin(caller_, number_); }
   void start_unreset() override { start(); }
   lockstep_status tick() override {
     const Status status = run_.leaves().tick(number_);
@@ -208,7 +221,7 @@ class ModelLeafOfRun final : public RemoteLeaf {
 };
 
 std::unique_ptr<RemoteLeaf> ModelRun::create(const lockstep_caller& caller) {
-  if (auto scripted = find_script(scripts_, caller)) return scripted;
+  if (auto scripted = find_script(scripts_, caller, watch_)) return scripted;
   const std::uint32_t number = numbers_.at(caller.node);
   callers_[number] = &caller;
   return std::make_unique<ModelLeafOfRun>(caller, *this, number);
@@ -286,8 +299,8 @@ std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tre
 }
 
 std::unique_ptr<RemoteRun> PlayedLeaves::begin_run(const lockstep_caller& caller) {
-  if (models_ != nullptr) return std::make_unique<ModelRun>(caller, *tree_, *models_, scripts_);
-  return std::make_unique<PlayedRun>(scripts_);
+  if (models_ == nullptr) return std::make_unique<PlayedRun>(scripts_, watch_);
+  return std::make_unique<ModelRun>(caller, *tree_, *models_, scripts_, watch_);
 }
 
 }  // namespace lockstep::host

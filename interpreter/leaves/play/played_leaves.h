@@ -13,6 +13,13 @@
 
 namespace lockstep::host {
 
+// Sees each leaf begin, before it writes anything.
+class PlayedLeafWatch {
+ public:
+  virtual ~PlayedLeafWatch() = default;
+  virtual void begins(const lockstep_caller& caller) = 0;
+};
+
 class PlayedLeaves final : public RemotePlugin {
  public:
   PlayedLeaves();
@@ -30,6 +37,8 @@ class PlayedLeaves final : public RemotePlugin {
     tree_ = &tree;
     models_ = &models;
   }
+  // Before a run, which it must outlive; null: nobody looks.
+  void set_watch(PlayedLeafWatch* watch) { watch_ = watch; }
   // What is wrong with scripts for a tree: a path that it does not have, a port, a value.
   static std::optional<Problem> check(const LeafScripts& scripts, const Tree& tree);
 
@@ -47,6 +56,7 @@ class PlayedLeaves final : public RemotePlugin {
   LeafScripts scripts_;
   const Tree* tree_ = nullptr;
   const LeafModels* models_ = nullptr;
+  PlayedLeafWatch* watch_ = nullptr;
 };
 
 }  // namespace lockstep::host
