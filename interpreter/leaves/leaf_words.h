@@ -11,6 +11,7 @@ struct Word {
   std::string_view pattern;  // of its value, in XSD; "": any text that is not empty
   std::string_view doc;
   bool required = false;
+  bool may_be_empty = false;
 };
 
 inline constexpr Word kRoot[] = {

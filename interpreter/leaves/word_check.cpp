@@ -39,15 +39,18 @@ std::vector<std::string_view> split(std::string_view text, std::string_view betw
 bool check_words(const Document& document, std::uint32_t element, std::string_view open,
                  std::span<const Word> words, const Reporter& report) {
   const std::string_view tag = document.elements()[element].tag;
-  std::vector<std::string_view> names;
-  for (const Word& word : words) names.push_back(word.name);
+  std::vector<std::string_view> names, may_be_empty;
+  for (const Word& word : words) {
+    names.push_back(word.name);
+    if (word.may_be_empty) may_be_empty.push_back(word.name);
+  }
   for (const auto& [name, value, place] : document.attributes(element)) {
     if (name.empty()) continue;  // it is the text
     const bool is_open = !open.empty() && name.starts_with(open);
     if (!is_open && std::ranges::find(names, name) == names.end()) {
       report.at(place, fmt::format("unknown attribute '{}' of '{}'", brief(name), tag),
                 suggest(name, names, fmt::format("attributes of '{}'", tag)));
-    } else if (value.empty()) {
+    } else if (value.empty() && std::ranges::find(may_be_empty, name) == may_be_empty.end()) {
       report.at_value(place, fmt::format("'{}' is empty", brief(name)));
     }
   }

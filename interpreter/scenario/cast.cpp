@@ -33,9 +33,14 @@ bool fits(const std::string& of, const std::string& path, const Tree& tree, cons
 
 class CastMaker {
  public:
-  CastMaker(const Scenario& scenario, double rate, const Tree& tree, MissingLeaves missing,
-            const Reporter& report)
-      : scenario_(scenario), rate_(rate), tree_(tree), missing_(missing), report_(report) {}
+  CastMaker(const Scenario& scenario, double rate, const Tree& tree, const Definition& given,
+            MissingLeaves missing, const Reporter& report)
+      : scenario_(scenario),
+        rate_(rate),
+        tree_(tree),
+        given_(given),
+        missing_(missing),
+        report_(report) {}
 
   Cast make(bool has_models) {
     std::vector<const CastRow*> rows(tree_.leaves.size());
@@ -74,7 +79,7 @@ class CastMaker {
 
   void give(const CastRow& row, const LeafNode& leaf) {
     if (row.from == CastRow::From::Plugin) {
-      if (leaf.type->mock != nullptr || leaf.type->leaf == nullptr) {
+      if (given_.nodes[leaf.node].type->leaf == nullptr) {
         return report_.at_value(row.source, fmt::format("no plugin has '{}'", leaf.type->id));
       }
       cast_.real.insert(leaf.node);
@@ -139,6 +144,7 @@ class CastMaker {
   const Scenario& scenario_;
   const double rate_;
   const Tree& tree_;
+  const Definition& given_;
   const MissingLeaves missing_;
   const Reporter& report_;
   Cast cast_;
@@ -170,9 +176,9 @@ Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string&
           suggest(path.empty() ? of : path, known, "its leaves")};
 }
 
-Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, bool has_models,
-               MissingLeaves missing, const Reporter& report) {
-  return CastMaker(scenario, rate, tree, missing, report).make(has_models);
+Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, const Definition& given,
+               bool has_models, MissingLeaves missing, const Reporter& report) {
+  return CastMaker(scenario, rate, tree, given, missing, report).make(has_models);
 }
 
 }  // namespace lockstep::host

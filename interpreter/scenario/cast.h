@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/problem.h"
+#include "definition/definition.h"
 #include "document/reporter.h"
 #include "leaves/models.h"
 #include "scenario/scenario.h"
@@ -27,8 +28,9 @@ Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string&
 // Of rows for which the tree has no leaf.
 enum class MissingLeaves : bool { AreErrors, AreLeftOut };
 
+// `given` are the nodes before the stage has taken them over.
 // `has_models`: leaves without a row get no script. Reports errors at their places.
-Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, bool has_models,
-               MissingLeaves missing, const Reporter& report);
+Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, const Definition& given,
+               bool has_models, MissingLeaves missing, const Reporter& report);
 
 }  // namespace lockstep::host

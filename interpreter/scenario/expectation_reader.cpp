@@ -33,6 +33,10 @@ void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
                "write path=\"arm\" in.speed=\"0.2\"");
     return;
   }
+  if (const Attribute* it = document_.find_attribute(element, "tolerance");
+      it != nullptr && expect->kind != Expectation::Kind::SameAs) {
+    report_.at(it->place, "'tolerance' is of an expectation with 'same-as'");
+  }
   expect->tolerance = tolerance;
   into.expectations.push_back(std::move(*expect));
 }

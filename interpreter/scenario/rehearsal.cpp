@@ -33,8 +33,10 @@ std::optional<LimitText> split_limit(std::string_view text) {
   if (std::ranges::find(all_measures(), name, &Measure::name) == all_measures().end()) {
     return std::nullopt;
   }
-  const auto at = text.find_first_of("<>!") != std::string_view::npos ? text.find_first_of("<>!")
-                                                                      : text.find("==");
+  auto at = text.find_first_of("<>!");
+  // A measure may have a '=' in its name, without blanks.
+  if (at == std::string_view::npos) at = text.find("==");
+  if (at == std::string_view::npos) at = text.find("= ");
   if (at == std::string_view::npos) return LimitText{text, {}, {}};
   const std::size_t size = at + 1 < text.size() && text[at + 1] == '=' ? 2 : 1;
   return LimitText{trimmed(text.substr(0, at)), text.substr(at, size),
@@ -68,19 +70,20 @@ bool is_of_one_run(const Expectation& it) {
 class Rehearser {
  public:
   Rehearser(const Scenario& scenario, const Sources& sources, const Stage& stage,
-            Diagnostics& diagnostics)
+            MissingLeaves missing, Diagnostics& diagnostics)
       : scenario_(scenario),
         stage_(stage),
         tree_(stage.tree()),
+        missing_(missing),
         diagnostics_(diagnostics),
         report_(sources, diagnostics) {}
 
-  Rehearsal rehearse(const LeafFile* file, MissingLeaves missing) {
+  Rehearsal rehearse(const LeafFile* file) {
     rehearsal_.scenario = &scenario_;
     rehearsal_.rate = scenario_.rate;
     if (file != nullptr && file->rate && !scenario_.is_rate_given) rehearsal_.rate = *file->rate;
-    rehearsal_.cast =
-        make_cast(scenario_, rehearsal_.rate, tree_, file != nullptr, missing, report_);
+    rehearsal_.cast = make_cast(scenario_, rehearsal_.rate, tree_, stage_.definition(),
+                                file != nullptr, missing_, report_);
     if (file != nullptr) add_models(*file);
     for (const SetEntry& it : scenario_.changes) add_change(it);
     for (const Expectation& it : scenario_.expectations) add_expectation(it);
@@ -185,6 +188,7 @@ class Rehearser {
 
   void add_inputs(const Expectation& it) {
     const auto leaves = find_leaves(tree_, it.of, it.path);
+    if (leaves.empty() && missing_ == MissingLeaves::AreLeftOut) return;
     if (leaves.empty()) {
       const Problem problem = no_such_leaf(tree_, it.of, it.path);
       return report_.at_value(it.place, problem.message, problem.hint);
@@ -234,6 +238,7 @@ class Rehearser {
   const Scenario& scenario_;
   const Stage& stage_;
   const Tree& tree_;
+  const MissingLeaves missing_;
   Diagnostics& diagnostics_;
   const Reporter report_;
   Rehearsal rehearsal_;
@@ -243,7 +248,7 @@ class Rehearser {
 
 Rehearsal rehearse(const Scenario& scenario, const Sources& sources, const Stage& stage,
                    const LeafFile* file, MissingLeaves missing, Diagnostics& diagnostics) {
-  return Rehearser(scenario, sources, stage, diagnostics).rehearse(file, missing);
+  return Rehearser(scenario, sources, stage, missing, diagnostics).rehearse(file);
 }
 
 }  // namespace lockstep::host

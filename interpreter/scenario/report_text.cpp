@@ -31,6 +31,14 @@ std::string sign_of(std::string_view outcome, bool color) {
   return outcome == "invalid" ? styled("BAD ", Style::Bad, color) : "stop";
 }
 
+std::string render_errors(std::span<const Diagnostic> all, bool color) {
+  std::string text;
+  for (const Diagnostic& error : all) {
+    if (error.severity == Severity::Error) text += render(error, color);
+  }
+  return text;
+}
+
 std::string what_came(const ReportedScenario& it) {
   if (it.runs == 0) return "all behaviors";
   if (it.runs > 1) return fmt::format("{}, {}", counted(it.runs, "run"), counted(it.ticks, "tick"));
@@ -66,16 +74,18 @@ ReportedScenario reported(const ScenarioReport& report) {
   return it;
 }
 
-std::string to_text(const ScenarioReport& report, std::size_t width, bool color) {
+std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
+                    std::span<const Diagnostic> told) {
   const ReportedScenario it = reported(report);
   std::string text =
       fmt::format("  {}  {:<{}}", sign_of(it.outcome, color), printable(it.name), width);
   if (it.outcome == "passed" || it.outcome == "failed") text += "  " + what_came(it);
+  const std::string errors = render_errors(report.errors, color);
+  const bool is_told = !errors.empty() && errors == render_errors(told, color);
+  if (is_told) text += "  likewise";
   while (text.ends_with(' ')) text.pop_back();
   text += '\n';
-  for (const Diagnostic& error : report.errors) {
-    if (error.severity == Severity::Error) text += render(error, color);
-  }
+  if (!is_told) text += errors;
   if (report.errors.empty()) {
     for (const auto& failure : it.failures) {
       text += fmt::format("        {}: {}\n", failure.place, printable(failure.message));

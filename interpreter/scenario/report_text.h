@@ -11,8 +11,9 @@
 namespace lockstep::host {
 
 // "  ok    the arm slips  (3 ticks)", and of a failure all that is known of it. `width` is that of
-// the names.
-std::string to_text(const ScenarioReport& report, std::size_t width, bool color);
+// the names. Errors that are `told` are not told again.
+std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
+                    std::span<const Diagnostic> told = {});
 
 struct TestCounts {
   std::size_t passed = 0, failed = 0, invalid = 0, stopped = 0;

@@ -36,11 +36,11 @@ inline constexpr Word kScenario[] = {
 };
 inline constexpr Word kArgument[] = {
     {"name", "", "An argument of the tree.", true},
-    {"value", "", "Its value.", true},
+    {"value", "", "Its value.", true, true},
 };
 inline constexpr Word kSet[] = {
     {"key", "", "An entry of the blackboard.", true},
-    {"value", "", "Its value from then on, until somebody writes it.", true},
+    {"value", "", "Its value from then on, until somebody writes it.", true, true},
     {"tick", kCount, "Before this tick, counted from 0; before the first when nothing is said."},
     {"time", kRate, "Before the first tick at this time or after it, in seconds."},
 };

@@ -114,6 +114,17 @@ void TestRun::load_leaves(Part& part) {
   part.errors.insert(part.errors.end(), loaded.errors.begin(), loaded.errors.end());
 }
 
+std::vector<std::string> TestRun::documents() const {
+  std::vector<std::string> paths;
+  for (const auto& [key, loaded] : stages_) {
+    paths.push_back(key.tree);
+    if (loaded.stage == nullptr) continue;
+    for (const auto& source : loaded.stage->sources().all()) paths.push_back(source->path());
+  }
+  for (const auto& [path, loaded] : leaves_) paths.push_back(path);
+  return paths;
+}
+
 void TestRun::run(const std::function<void(const ScenarioReport&)>& report) {
   std::vector<ScenarioReport> reports(parts_.size());
   std::vector<std::atomic<bool>> ready(parts_.size());

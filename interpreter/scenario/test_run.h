@@ -55,6 +55,8 @@ class TestRun {
           TestOptions options);
 
   std::size_t count() const { return parts_.size(); }
+  // The files of trees and leaves that were read for them.
+  std::vector<std::string> documents() const;
   // Warnings about the trees.
   Diagnostics& diagnostics() { return diagnostics_; }
   // On the caller's thread, in order; a report is not kept.

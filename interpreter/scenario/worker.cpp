@@ -94,7 +94,12 @@ void ScenarioWorker::record(const PreparedScenario& part, const Performer& perfo
   std::error_code error;
   std::filesystem::create_directories(options_.out, error);
   options.record = (std::filesystem::path(options_.out) / (part.stem + ".jsonl")).string();
-  if (performer.perform(options).problem.empty()) report.recording = options.record;
+  const std::string problem = performer.perform(options).problem;
+  if (problem.empty()) {
+    report.recording = options.record;
+  } else {
+    report.surprises.back().more.push_back("there is no recording: " + problem);
+  }
 }
 
 Players& ScenarioWorker::players_for(const PreparedScenario& part, const Rehearsal& rehearsal) {

@@ -100,8 +100,6 @@ const Law kLaws[] = {
   {"inputs", R"(<scenario name="a"><expect of="Advance" in.step="0.10"/></scenario>)", 0, "1 passed"},
   {"another input", R"(<scenario name="a"><leaf path="left" does="R S"/>
    <expect path="left" in.step="0.2"/></scenario>)", 1, "expected step 0.2, came 0.1"},
-  {"inputs of a leaf that never begins", R"(<scenario name="a"><leaf path="left" result="failure"/>
-   <expect path="right" in.step="0.1"/></scenario>)", 1, "the leaf never begins"},
   {"no such input", R"(<scenario name="a"><expect path="left" in.stp="1"/></scenario>)", 3,
    "'Advance' has no input 'stp'"},
   {"no value of the input", R"(<scenario name="a"><expect path="left" in.step="x"/></scenario>)", 3,
@@ -110,6 +108,10 @@ const Law kLaws[] = {
    "the tree has no leaf 'lift'"},
   {"inputs of a leaf that is the plugin's", R"(<scenario name="a"><leaf path="left" from="plugin"/>
    <expect path="left" in.step="0.1"/></scenario>)", 3, "what 'Main/both/left' gets is not seen"},
+  {"an empty argument", R"(<scenario name="a"><arg name="barriers" value=""/>
+   <expect result="success"/></scenario>)", 0, "1 passed"},
+  {"a measure with a wrong relation", R"(<scenario name="a"><expect>spread = 0.1</expect></scenario>)", 3,
+   "expected a limit of the measure 'spread'"},
   {"all behaviors, and what is about one run", R"(<scenario name="a" verify="yes">
    <expect ticks="3"/></scenario>)", 3, "this is about one run, not about all behaviors"},
   {"all behaviors", R"(<scenario name="a" verify="yes"><expect result="success"/></scenario>)", 1,
@@ -127,6 +129,91 @@ TEST_CASE("what is expected of a scenario") {
     CHECK(it.code == law.code);
     CHECK(contains(it.out, std::string(law.out)));
   }
+}
+
+TEST_CASE(
+    "inputs of a leaf that never begins are not as expected, unless all scenarios expect them") {
+  constexpr auto kSequence = R"(<root lockstep="1"><plugin name="motion"/><BehaviorTree ID="Main">
+<Sequence><Advance name="left" step="0.1"/><Advance name="right" step="0.1"/></Sequence>
+</BehaviorTree></root>)";
+  const std::string expect = R"(<expect path="right" in.step="0.1"/>)";
+  const std::string fails = R"(<leaf path="left" does="F"/><expect result="failure"/>)";
+  const Folder own(R"(<scenario name="a">)" + fails + expect + "</scenario>", kSequence);
+  const Outcome it = own.test();
+  INFO(it.out);
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, "the leaf never begins"));
+  const Folder all(expect + R"(<scenario name="a">)" + fails + "</scenario>", kSequence);
+  CHECK(all.test().code == 0);
+  // Without the leaf, the scenario still says what it says of the rest.
+  const Outcome mutated = all.test({"--mutate"});
+  INFO(mutated.out);
+  CHECK(contains(mutated.out, "Advance 'right' is left out"));
+}
+
+TEST_CASE("a mistake in a scenario is one message") {
+  struct Mistake {
+    std::string_view scenario, message;
+  };
+  const Mistake mistakes[] = {
+      {R"(<scenario name="a"><expect result="sucess"/></scenario>)", "'result' cannot be 'sucess'"},
+      {R"(<scenario name="a"><expect result="success" tolerance="0.1"/></scenario>)",
+       "'tolerance' is of an expectation with 'same-as'"},
+      {R"(<scenario name="a"></scenario>)", "the scenario expects nothing"},
+  };
+  for (const Mistake& it : mistakes) {
+    const Folder folder{std::string(it.scenario)};
+    const Outcome outcome = folder.test();
+    INFO(it.scenario << '\n' << outcome.err);
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, std::string(it.message)));
+    CHECK_FALSE(contains(outcome.err, "2 errors"));
+  }
+}
+
+TEST_CASE("a leaf that no plugin has is not one of a plugin") {
+  const Folder folder(
+      R"(<scenario name="a"><leaf of="Grab" from="plugin"/>
+<expect result="success"/></scenario>)",
+      R"(<root lockstep="1"><BehaviorTree ID="Main"><Grab/></BehaviorTree></root>)");
+  const Outcome it = folder.test();
+  INFO(it.out);
+  CHECK(it.code == 3);
+  CHECK(contains(it.out, "no plugin has 'Grab'"));
+}
+
+TEST_CASE("an error that several scenarios have is told once") {
+  const Folder folder(R"(<scenario name="a"><expect result="success"/></scenario>
+<scenario name="b"><expect result="success"/></scenario>)",
+                      "<root lockstep=\"1\">");
+  const Outcome it = folder.test();
+  INFO(it.out);
+  CHECK(it.code == 3);
+  CHECK(it.out.find("error:") == it.out.rfind("error:"));
+  CHECK(contains(it.out, "BAD   b  likewise"));
+}
+
+TEST_CASE("results do not overwrite what is tested") {
+  const Folder folder(R"(<scenario name="a"><expect result="success"/></scenario>)");
+  const std::string tree = folder.path("t.xml");
+  for (const std::string option : {"--junit", "--coverage-html", "--lcov"}) {
+    for (const std::string& file : {tree, folder.file()}) {
+      const Outcome it = folder.test({option, file});
+      INFO(option << ' ' << it.err);
+      CHECK(it.code == 2);
+      CHECK(contains(it.err, "it is the same file as"));
+    }
+  }
+  CHECK(folder.test().code == 0);
+}
+
+TEST_CASE("where no recording can be written, the failure says so") {
+  const Folder folder(R"(<scenario name="a"><expect result="failure"/></scenario>)");
+  const std::string file = folder.directory().file("file", "");
+  const Outcome it = run_lockstep({"test", folder.file(), "--out", file});
+  INFO(it.out);
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, "there is no recording: "));
 }
 
 TEST_CASE("a failure has its place, its tick, its node, a recording and the lines for a shell") {

@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
+#include "cli/outputs.h"
 #include "cli/tools/test/file_watch.h"
 #include "cli/tools/test/test_options.h"
 #include "core/suggest.h"
@@ -52,6 +53,7 @@ class TestCommand {
     TestRun tests(
         files(), [&](const auto&, const Scenario& it) { return is_chosen(it); }, test_options());
     if (tests.count() == 0) return tell_none();
+    if (would_overwrite_input(tests)) return kExitUsage;
     tests.run([&](const ScenarioReport& report) { add(report); });
     counts_.took = monotonic_now() - began;
     const int code = finish();
@@ -99,6 +101,26 @@ class TestCommand {
       }
     }
     return true;
+  }
+
+  bool would_overwrite_input(const TestRun& tests) const {
+    std::vector<NamedFile> used;
+    for (const std::string& path : tests.documents()) used.push_back(named_file(path));
+    for (const auto& file : files_) {
+      used.push_back(named_file(file->path));
+      for (const Scenario& scenario : file->scenarios) {
+        for (const Expectation& it : scenario.expectations) {
+          if (it.kind == Expectation::Kind::SameAs) used.push_back(named_file(it.texts[0]));
+        }
+      }
+    }
+    const std::pair<std::string_view, const std::string&> outputs[] = {
+        {"--junit", options_.junit},
+        {"--coverage-html", options_.coverage.page},
+        {"--lcov", options_.coverage.lcov}};
+    return std::ranges::any_of(outputs, [&](const auto& it) {
+      return !it.second.empty() && would_overwrite(it.first, it.second, used);
+    });
   }
 
   // For programs that read the results: a file counts as one scenario.
@@ -172,8 +194,13 @@ class TestCommand {
       }
       width_ = std::min<std::size_t>(width_, 50);
     }
-    written_ = first_failure(
-        written_, write_results(text + to_text(report, width_, wants_color(results_file()))));
+    write(text + to_text(report, width_, wants_color(results_file()), told_));
+    told_ = report.errors;
+  }
+
+  // That stdout does not take it is told once.
+  void write(const std::string& text) {
+    if (written_ == kExitSuccess) written_ = write_results(text);
   }
 
   int finish() {
@@ -185,7 +212,7 @@ class TestCommand {
     if (updated_ > 0 && !options_.json) {
       text += fmt::format("{} written\n", counted(updated_, "recording"));
     }
-    written_ = first_failure(written_, write_results(text));
+    write(text);
     if (!options_.junit.empty() && !write_junit()) return kExitUsage;
     if (const int signal = StopSignals::received(); signal != 0) return kExitSignal + signal;
     if (counts_.failed > 0) return first_failure(written_, kExitFailure);
@@ -226,6 +253,7 @@ class TestCommand {
   TestCounts counts_;
   const ScenarioFile* shown_ = nullptr;  // whose name is printed
   std::size_t width_ = 0;
+  std::vector<Diagnostic> told_;  // of the last scenario
   Coverage coverage_;
   std::uint64_t updated_ = 0;  // recordings
   int code_ = kExitSuccess, invalid_ = kExitSuccess, written_ = kExitSuccess;
