@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 
+#include "engine/writers.h"
 #include "recording/read/recording_reader.h"
 
 namespace lockstep::host {
@@ -20,20 +21,30 @@ class WordMaker {
       : header_(header), tree_(tree), words_(words) {
     std::map<std::string, const LeafNode*> by_path;
     for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
+    std::map<std::string, NodeIndex> recorded;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+      recorded[header.nodes[node].path] = node;
       const auto leaf = by_path.find(header.nodes[node].path);
       if (leaf == by_path.end()) continue;
       leaves_.push_back({node, leaf->second, &words.leaves[leaf->first]});
+    }
+    const auto writers_of = writers(tree);
+    for (const RecordedKey& key : header.entries) {
+      auto& of_key = writers_.emplace_back();
+      const auto slot = std::ranges::find(tree.slots, key.key, &Slot::name);
+      if (slot == tree.slots.end()) continue;
+      for (const NodeIndex node : writers_of[static_cast<std::size_t>(slot - tree.slots.begin())]) {
+        const auto at = recorded.find(tree.path(node));
+        if (at != recorded.end()) of_key.push_back(at->second);
+      }
     }
   }
 
   void add(const RecordedTick& tick) {
     for (Leaf& it : leaves_) add(tick, it);
     for (const RecordedEntry& entry : tick.entries) {
-      const RecordedKey& key = header_.entries[entry.entry];
-      if (key.writers.empty() && entry.value) {
-        words_.changes.push_back({key.key, *entry.value, tick.tick});
-      }
+      if (!entry.value || is_of_tree(tick, entry.entry)) continue;
+      words_.changes.push_back({header_.entries[entry.entry].key, *entry.value, tick.tick});
     }
   }
 
@@ -42,6 +53,13 @@ class WordMaker {
   }
 
  private:
+  // Nodes and scripts of the tree write it. The first values may be from elsewhere.
+  bool is_of_tree(const RecordedTick& tick, std::size_t entry) const {
+    const auto& writers = writers_[entry];
+    if (tick.tick > 0) return !writers.empty();
+    return std::ranges::any_of(writers, [&](NodeIndex it) { return tick.nodes[it].ticked; });
+  }
+
   struct Leaf {
     NodeIndex node;
     const LeafNode* leaf;
@@ -77,7 +95,8 @@ class WordMaker {
   void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) const {
     for (const RecordedEntry& entry : tick.entries) {
       const RecordedKey& key = header_.entries[entry.entry];
-      const bool is_writer = std::ranges::find(key.writers, it.node) != key.writers.end();
+      const auto& writers = writers_[entry.entry];
+      const bool is_writer = std::ranges::find(writers, it.node) != writers.end();
       if (!is_writer || !entry.value) continue;
       const auto& parameters = it.leaf->type->parameters;
       for (std::size_t port = 0; port < parameters.size(); ++port) {
@@ -93,6 +112,7 @@ class WordMaker {
   const Tree& tree_;
   RecordedWords& words_;
   std::vector<Leaf> leaves_;
+  std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -32,6 +33,17 @@ std::string words_text(const std::vector<LeafWord>& words) {
     i = end;
   }
   return text;
+}
+
+// The names in the text of scenarios, as they are written there.
+std::vector<std::string> names_in(const std::string& text) {
+  constexpr std::string_view kBefore = "<scenario name=\"";
+  std::vector<std::string> names;
+  for (auto at = text.find(kBefore); at != std::string::npos; at = text.find(kBefore, at)) {
+    at += kBefore.size();
+    names.push_back(text.substr(at, text.find('"', at) - at));
+  }
+  return names;
 }
 
 std::string ending_text(const RecordedWords& words) {
@@ -87,6 +99,12 @@ Result<void> add_to_scenario_file(const std::string& path, const std::string& tr
     if (end == std::string::npos) {
       return problem(fmt::format("'{}' is no file of scenarios", path),
                      "it ends with </scenarios>");
+    }
+    const auto there = names_in(*before);
+    for (const std::string& name : names_in(scenarios)) {
+      if (std::ranges::find(there, name) == there.end()) continue;
+      return problem(fmt::format("'{}' has a scenario '{}' already", path, name),
+                     "rename that, or name another file");
     }
     text = before->insert(end, scenarios);
   } else {

@@ -37,6 +37,25 @@ TEST_CASE("a counter-example of verify becomes a scenario that fails until the t
   CHECK(good.code == 0);
 }
 
+TEST_CASE("a recording becomes a scenario in which scripts write what they write") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="Main"><Sequence memory="true"><Script code="n := 0"/>
+<Advance name="left" step="0.25" on_success="n += 1"/></Sequence></BehaviorTree></root>)");
+  const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
+  const Outcome ran =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", run});
+  INFO(ran.err);
+  REQUIRE(ran.code == 0);
+  REQUIRE(run_lockstep({"log", "scenario", run, "--save", file, "--name", "once"}).code == 0);
+  const std::string text = read_file(file);
+  INFO(text);
+  CHECK_FALSE(contains(text, "<set"));
+  const Outcome again = run_lockstep({"log", "scenario", run, "--save", file, "--name", "once"});
+  CHECK(again.code == 2);
+  CHECK(contains(again.err, "has a scenario 'once' already"));
+}
+
 TEST_CASE("log check says where the leaves of a recording broke their leaf file") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", kTwo), run = directory.path("run.jsonl");
