@@ -5,12 +5,12 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/load/given_leaves.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
 #include "cli/run/progress_notes.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
-#include "cli/run/scripted_leaves.h"
 #include "cli/run/view.h"
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
@@ -311,6 +311,7 @@ void last_words() {
 // The files that a recording must not overwrite.
 std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
   std::vector<std::string> documents{options.tree};
+  if (!options.leaves.empty()) documents.push_back(options.leaves);
   for (const auto& source : loaded.project->sources.all()) documents.push_back(source->path());
   std::vector<NamedFile> inputs = inputs_of(documents, *loaded.plugins);
   // A text of the tree may name a file that a leaf reads.
@@ -330,6 +331,14 @@ bool place_helpers(const RunCommandOptions& options) {
   return !refusal;
 }
 
+// Where the command line says nothing.
+void take_what_is_said(const GivenLeaves& leaves, RunCommandOptions& options) {
+  options.load.unknown = MissingNodes::AreMocked;
+  if (leaves.rate() && !options.is_rate_given) options.rate = *leaves.rate();
+  const bool is_limited = options.max_ticks || options.timeout;
+  if (!is_limited) options.max_ticks = leaves.ticks();
+}
+
 int run(RunCommandOptions options) {
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
@@ -338,7 +347,10 @@ int run(RunCommandOptions options) {
   keep_stdout_for_results();
   CrashReport::set_last_words(last_words);
   GivenLeaves leaves;  // to which the tree refers
-  if (!options.leaves.empty() && !leaves.read(options)) return kExitUsage;
+  if (!options.leaves.empty()) {
+    if (!leaves.read(options.leaves)) return kExitUsage;
+    take_what_is_said(leaves, options);
+  }
   Diagnostics diagnostics;
   auto loaded = load_given(options.tree, options.load, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
@@ -358,7 +370,7 @@ int run(RunCommandOptions options) {
   if (!options.leaves.empty()) leaves.take_over(loaded->definition);
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
-  if (!options.leaves.empty() && !leaves.give(options, runnable.tree)) return kExitUsage;
+  if (!options.leaves.empty() && !leaves.give(runnable.tree)) return kExitUsage;
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
   auto properties =
       all_properties(std::move(runnable.properties), options.properties, runnable.tree);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/checks.h"
+#include "cli/load/given_leaves.h"
 #include "runtime/deadlines.h"
 #include "runtime/stop_signals.h"
 
@@ -201,11 +202,7 @@ LoopOptions RunCommandOptions::loop() const {
 
 void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
-  app.add_option(
-         "--leaves", options.leaves,
-         "What the leaves do in place of plugins: a script, as `lockstep verify` writes it, "
-         "whose rate and length are those of the run; or a leaf file, from which --seed chooses")
-      ->type_name("FILE");
+  add_leaves_option(app, options.leaves);
   define_loop_options(app, options);
   define_time_options(app, options);
   define_fault_options(app, options);

@@ -164,7 +164,7 @@ int run(const StudyCommandOptions& options) {
   if (code != kExitSuccess) return code;
   if (would_overwrite_input(out_directory(options), study)) return kExitUsage;
   Diagnostics refused;
-  if (!study.plugins->initialize(refused)) {
+  if (study.leaves.empty() && !study.plugins->initialize(refused)) {
     print_diagnostics(refused, Severity::Warning);
     return kExitPluginRefused;
   }
@@ -214,15 +214,16 @@ void define_runs(CLI::App& app, StudyOptions& options) {
                  measure_usages() + "; may be repeated. Default: progress-distance")
       ->type_name("MEASURE")
       ->allow_extra_args(false);
-  app.add_option("--rate", options.rate, "Ticks per second of the virtual clock")
+  app.add_option("--rate", options.rate,
+                 "Ticks per second of the virtual clock (default: that of --leaves, else 100)")
       ->type_name("HZ")
-      ->check(number_between(kLeastRate, kMostRate))
-      ->capture_default_str();
+      ->check(number_between(kLeastRate, kMostRate));
   app.add_option("--max-ticks", options.max_ticks,
-                 "End a run after this many ticks, with the result 'limit'")
+                 fmt::format("End a run after this many ticks, with the result 'limit' (default: "
+                             "the length of the script of --leaves, else {})",
+                             kMostVirtualTicks))
       ->type_name("N")
-      ->transform(whole_number(1))
-      ->capture_default_str();
+      ->transform(whole_number(1));
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
       ->type_name("I/N");
 }
@@ -230,6 +231,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
 std::function<int()> define_study(CLI::App& app) {
   const auto options = std::make_shared<StudyCommandOptions>();
   app.add_option("tree", options->study.tree, "Tree file")->type_name("TREE.xml");
+  add_leaves_option(app, options->study.leaves);
   define_runs(app, options->study);
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
   app.add_option("-j,--jobs", options->jobs, "Threads; the result does not depend on it")

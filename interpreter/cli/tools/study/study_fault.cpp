@@ -29,6 +29,7 @@ std::string run_command(const StudyOptions& options, const StudyPlan& plan,
   const auto add = [&](const char* option, const std::string& value) {
     text += fmt::format(" {} {}", option, quoted(value));
   };
+  if (!options.leaves.empty()) add("--leaves", options.leaves);
   if (!load.main_tree.empty()) add("--tree", load.main_tree);
   for (const std::string& pair : load.arguments) add("--arg", pair);
   const auto values = cell_values(plan, cell);

@@ -21,6 +21,8 @@
 namespace lockstep::host {
 namespace {
 
+constexpr double kRate = 100;  // Hz
+
 // Splits texts of the form "name=value".
 std::map<std::string, std::string> pairs(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> pairs;
@@ -208,12 +210,15 @@ int StudyLoader::load_cell(std::uint64_t number) {
     if (plan.grid[axis].kind != GridAxis::Kind::Argument) continue;
     options.arguments.push_back(plan.grid[axis].name + '=' + values[axis]);
   }
+  if (!study_.leaves.empty()) options.unknown = MissingNodes::AreMocked;
   auto loaded = load_given(options_.tree, options, diagnostics_, study_.plugins);
   if (!loaded) return exit_code_of(loaded.error());
   add_files(*loaded->project);
+  if (!study_.leaves.empty()) study_.leaves.take_over(loaded->definition);
   study_.cells.push_back(
       {make_runnable(std::move(*loaded)).tree, cell_rate(plan, number), cell_seed(plan, number)});
   return_freed_memory();
+  if (!study_.leaves.empty() && !study_.leaves.give(study_.cells.back().tree)) return kExitUsage;
   if (!warned_of_real_time_) {
     warned_of_real_time_ = warn_of_real_time_leaves(
         study_.cells.back().tree, options_.tree,
@@ -241,8 +246,9 @@ int StudyLoader::load() {
   plan.runs = options_.runs;
   plan.seed = options_.seed;
   plan.paired = options_.paired;
-  plan.rate = options_.rate;
-  plan.max_ticks = options_.max_ticks;
+  if (!options_.leaves.empty() && !study_.leaves.read(options_.leaves)) return kExitUsage;
+  plan.rate = options_.rate.value_or(study_.leaves.rate().value_or(kRate));
+  plan.max_ticks = options_.max_ticks.value_or(study_.leaves.ticks().value_or(kMostVirtualTicks));
   read_measures();
   read_shard();
   read_precision();
@@ -254,11 +260,13 @@ int StudyLoader::load() {
   if (project != nullptr) read_grid(project->arguments);
   if (diagnostics_.has_errors()) return kExitUsage;
   int code = kExitSuccess;
+  study_.cells.reserve(cell_count(plan));  // their leaves refer to the trees
   for (std::uint64_t cell = 0; cell < cell_count(plan); ++cell) {
     const int it = load_cell(cell);
     if (code == kExitSuccess) code = it;
     if (it == kExitPluginRefused) return it;
   }
+  if (!study_.leaves.empty()) plan.files.emplace_back(options_.leaves, study_.leaves.text());
   for (StudyColumn& column : plan.columns) {
     if (column.cells.size() == cell_count(plan)) column.cells.clear();  // all
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/load/load_options.h"
+#include "cli/load/given_leaves.h"
 #include "runtime/loop.h"
 #include "study/study_run.h"
 
@@ -15,6 +15,7 @@ namespace lockstep::host {
 struct StudyOptions {
   LoadCommandOptions load;
   std::string tree;
+  std::string leaves;  // what they do in place of plugins; "": plugins are asked
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
   bool paired = false;
@@ -22,11 +23,12 @@ struct StudyOptions {
   std::vector<std::string> grid;             // as parse_grid() reads it
   std::vector<std::string> measures;         // none: progress-distance
   std::string shard;                         // I/N
-  double rate = 100;
-  std::uint64_t max_ticks = kMostVirtualTicks;
+  std::optional<double> rate;                // none: that of the leaves, else 100
+  std::optional<std::uint64_t> max_ticks;    // none: that of the leaves, else kMostVirtualTicks
 };
 
 struct LoadedStudy {
+  GivenLeaves leaves;  // to which the trees refer
   StudyPlan plan;
   std::vector<MeasureSpec> measures;
   std::vector<StudyCell> cells;

@@ -1,0 +1,73 @@
+#include "cli/load/given_leaves.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/console.h"
+#include "document/file.h"
+
+namespace lockstep::host {
+
+void add_leaves_option(CLI::App& app, std::string& file) {
+  app.add_option(
+         "--leaves", file,
+         "What the leaves do in place of plugins: a script, as `lockstep verify` writes it, "
+         "whose rate and length are those of the run; or a leaf file, from which the seed chooses")
+      ->type_name("FILE");
+}
+
+bool GivenLeaves::read(const std::string& path) {
+  constexpr std::size_t kMost = std::size_t{64} << 20u;
+  path_ = path;
+  auto text = read_file(path, kMost, FileKinds::RegularOrPipe);
+  if (!text) {
+    print_error(
+        fmt::format("--leaves: cannot read '{}': {}", printable(path), text.error().message),
+        text.error().hint);
+    return false;
+  }
+  text_ = std::move(*text);
+  if (!is_leaf_file(text_)) return read_scripts();
+  Diagnostics diagnostics;
+  file_ = read_leaf_file(path, text_, diagnostics);
+  print_diagnostics(diagnostics, Severity::Warning);
+  return file_ != nullptr && !diagnostics.has_errors();
+}
+
+bool GivenLeaves::read_scripts() {
+  auto parsed = parse_leaf_scripts(text_);
+  if (!parsed) {
+    print_error(printable(path_) + ':' + parsed.error().message, parsed.error().hint);
+    return false;
+  }
+  scripts_ = std::move(*parsed);
+  return true;
+}
+
+void GivenLeaves::take_over(Definition& definition) {
+  given_.emplace_back().played.take_over(definition);
+}
+
+bool GivenLeaves::give(const Tree& tree) {
+  Given& given = given_.back();
+  if (file_ != nullptr) {
+    Diagnostics diagnostics;
+    std::vector<NodeProblem> problems;
+    given.models = make_models(tree, file_.get(), diagnostics, problems);
+    print_diagnostics(diagnostics, Severity::Warning);
+    for (const NodeProblem& it : problems) {
+      print_error(tree.path(it.node) + ": " + it.message, it.hint);
+    }
+    given.played.set_models(tree, given.models);
+    return !diagnostics.has_errors() && problems.empty();
+  }
+  if (const auto wrong = PlayedLeaves::check(scripts_, tree)) {
+    print_error(printable(path_) + ": " + wrong->message, wrong->hint);
+    return false;
+  }
+  given.played.set_scripts(scripts_);
+  return true;
+}
+
+}  // namespace lockstep::host
