@@ -205,6 +205,16 @@ TEST_CASE("a verdict is told also where its files cannot be written") {
   CHECK(it.out.ends_with("not verified: 2 findings\n"));
 }
 
+TEST_CASE("verify without a plugin of a node says that --mock takes it for a leaf") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "t.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><Lift/></BehaviorTree></root>");
+  const Outcome without = run_lockstep({"verify", tree});
+  CHECK(without.code == 3);
+  CHECK(contains(without.err, "note: verify --mock takes nodes that no plugin has for leaves"));
+  CHECK(run_lockstep({"verify", tree, "--mock"}).code == 0);
+}
+
 TEST_CASE("which findings count is what --only says") {
   const TemporaryDirectory directory;
   const auto only = [&](const std::string& pattern) {

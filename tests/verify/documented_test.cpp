@@ -56,6 +56,27 @@ std::vector<Cells> table_below(const std::string& heading) {
   return rows;
 }
 
+// What is written as code in a cell; all of it if nothing is.
+std::vector<std::string> code_in(const std::string& cell) {
+  std::vector<std::string> parts;
+  std::string_view rest = cell;
+  for (auto begin = rest.find('`'); begin != std::string::npos; begin = rest.find('`')) {
+    rest.remove_prefix(begin + 1);
+    parts.emplace_back(rest.substr(0, rest.find('`')));
+    rest.remove_prefix(parts.back().size() + 1);
+  }
+  return parts.empty() ? std::vector<std::string>{cell} : parts;
+}
+
+// "<A x="1"><B>" -> "</B></A>"
+std::string closing(const std::string& tags) {
+  std::string text;
+  for (auto at = tags.find('<'); at != std::string::npos; at = tags.find('<', at + 1)) {
+    text.insert(0, "</" + tags.substr(at + 1, tags.find_first_of(" >", at) - at - 1) + '>');
+  }
+  return text;
+}
+
 std::string leaf_file(const TemporaryDirectory& directory, const std::string& rows) {
   return directory.file("rows.leaves.xml", "<leaves lockstep=\"1\">" + rows + "</leaves>");
 }
@@ -95,13 +116,17 @@ TEST_CASE("what the language promises is proved as docs/verify.md says") {
   for (const Cells& row : table_below("## What the language promises, verified")) {
     REQUIRE(row.size() == 4);
     INFO(row[0]);
-    const std::string root = row[1].substr(1, row[1].find_first_of(" >") - 1);
+    const std::vector<std::string> code = code_in(row[1]);  // the root; what is around each child
+    const std::string root = code[0].substr(1, code[0].find_first_of(" >") - 1);
+    const std::string around = code.size() > 1 ? code[1] : "";
+    const auto child = [&](const std::string& name) {
+      return around + "<Advance name=\"" + name + "\" step=\"0.05\"/>" + closing(around);
+    };
     const std::string tree = directory.file(
         "t.xml",
         "<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"fetch\"/>"
-        "<BehaviorTree ID=\"T\">" +
-            row[1] + "<Advance name=\"a\" step=\"0.05\"/><Advance name=\"b\" step=\"0.05\"/></" +
-            root + "></BehaviorTree></root>");
+        "<resources name=\"hand\"/><BehaviorTree ID=\"T\">" +
+            code[0] + child("a") + child("b") + "</" + root + "></BehaviorTree></root>");
     std::vector<std::string> arguments{
         "verify", tree, "--leaves", leaf_file(directory, row[2]), "--out", directory.path("out")};
     if (contains(row[1], "guard")) {

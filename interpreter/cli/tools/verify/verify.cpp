@@ -136,7 +136,13 @@ class VerifyCommand {
     if (options_.mock) load.unknown = MissingNodes::AreMocked;
     auto loaded = load_given(options_.tree, load, diagnostics_);
     if (loaded) return loaded;
-    print_diagnostics(diagnostics_, Severity::Warning);
+    const bool lacks_nodes = std::ranges::any_of(diagnostics_.all(), [](const Diagnostic& it) {
+      return it.message.starts_with("unknown node ");
+    });
+    if (lacks_nodes && !options_.mock) {
+      diagnostics_.note({}, "verify --mock takes nodes that no plugin has for leaves");
+    }
+    print_diagnostics(diagnostics_, Severity::Note);
     code_ = exit_code_of(loaded.error());
     return loaded;
   }
