@@ -41,6 +41,16 @@ class Components {
     }
   }
 
+  // These states, component after component: those that one leads to come before it.
+  std::vector<StateId> in_order(const std::vector<StateId>& states) const {
+    std::vector<std::uint32_t> begins(count_ + 1);
+    for (const StateId state : states) ++begins[of_[state] + 1];
+    for (std::uint32_t i = 0; i < count_; ++i) begins[i + 1] += begins[i];
+    std::vector<StateId> order(states.size());
+    for (const StateId state : states) order[begins[of_[state]]++] = state;
+    return order;
+  }
+
   // Those of the last call in which an edge goes from one state to another.
   template <class Uses>
   std::vector<std::vector<StateId>> with_cycles(const std::vector<StateId>& states,
@@ -66,7 +76,7 @@ class Components {
  private:
   struct Frame {
     StateId state;
-    std::size_t next;
+    EdgeRow::Iterator next;
   };
 
   template <class Uses>
@@ -75,8 +85,7 @@ class Components {
     while (!frames_.empty()) {
       Frame& frame = frames_.back();
       const StateId state = frame.state;
-      const auto edges = graph_.edges_of(state);
-      if (frame.next == edges.size()) {
+      if (frame.next == std::default_sentinel) {
         frames_.pop_back();
         if (low_[state] == index_[state]) close(state);
         if (!frames_.empty()) {
@@ -84,7 +93,8 @@ class Components {
         }
         continue;
       }
-      const Edge& edge = edges[frame.next++];
+      const Edge edge = *frame.next;
+      ++frame.next;
       if (!uses(state, edge)) continue;
       if (index_[edge.to] == kNone) {
         enter(edge.to);
@@ -97,7 +107,7 @@ class Components {
   void enter(StateId state) {
     index_[state] = low_[state] = next_++;
     stack_.push_back(state);
-    frames_.push_back({state, 0});
+    frames_.push_back({state, graph_.edges_of(state).begin()});
   }
 
   void close(StateId root) {
@@ -280,29 +290,23 @@ class FairCycle {
 }  // namespace
 
 std::vector<bool> can_end(const Graph& graph) {
-  const std::size_t size = all_states(graph);
-  std::vector<std::uint64_t> begins(size + 2);
-  for (const Edge& edge : graph.edges) ++begins[edge.to + 2];
-  for (std::size_t i = 2; i < begins.size(); ++i) begins[i] += begins[i - 1];
-  std::vector<StateId> from(graph.edges.size());
-  for (StateId state = 0; state < graph.expanded(); ++state) {
-    for (const Edge& edge : graph.edges_of(state)) from[begins[edge.to + 1]++] = state;
-  }
+  const std::vector<StateId> states = expanded_states(graph);
+  Components components(graph);
+  components.find(states, [](StateId, const Edge&) { return true; });
   std::vector<bool> can = graph.ends;
-  std::vector<StateId> queue;
-  for (StateId state = 0; state < size; ++state) {
-    if (state >= graph.expanded()) can[state] = true;
-    if (can[state]) queue.push_back(state);
-  }
-  while (!queue.empty()) {
-    const StateId state = queue.back();
-    queue.pop_back();
-    for (std::uint64_t i = begins[state]; i < begins[state + 1]; ++i) {
-      if (can[from[i]]) continue;
-      can[from[i]] = true;
-      queue.push_back(from[i]);
+  for (std::size_t state = graph.expanded(); state < can.size(); ++state) can[state] = true;
+  // Of each component. Those that it leads to come before it.
+  std::vector<bool> component_can(components.count());
+  for (const StateId state : components.in_order(states)) {
+    const auto leads_out = [&](const Edge& edge) {
+      return can[edge.to] || component_can[components.of(edge.to)];
+    };
+    if (!component_can[components.of(state)]) {
+      component_can[components.of(state)] =
+          can[state] || std::ranges::any_of(graph.edges_of(state), leads_out);
     }
   }
+  for (const StateId state : states) can[state] = component_can[components.of(state)];
   return can;
 }
 
@@ -347,17 +351,14 @@ LongestRow longest_row(const Graph& graph, std::size_t bit) {
   Components components(graph);
   components.find(states, uses);
   if (!components.with_cycles(states, uses).empty()) return {.is_endless = true};
-  // Without cycles each state is a component, and those that it leads to have smaller numbers.
-  std::vector<StateId> by_number(components.count(), kNoState);
-  for (const StateId state : states) by_number[components.of(state)] = state;
-  std::vector<std::uint64_t> longest(all_states(graph));
+  // Without cycles each state is a component.
+  std::vector<std::uint32_t> longest(all_states(graph));
   LongestRow row;
-  for (const StateId state : by_number) {
-    if (state == kNoState) continue;
+  for (const StateId state : components.in_order(states)) {
     for (const Edge& edge : graph.edges_of(state)) {
       if (uses(state, edge)) longest[state] = std::max(longest[state], longest[edge.to] + 1);
     }
-    row.ticks = std::max(row.ticks, longest[state]);
+    row.ticks = std::max<std::uint64_t>(row.ticks, longest[state]);
   }
   return row;
 }

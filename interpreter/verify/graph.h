@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "verify/state_store.h"
+#include "verify/edge_rows.h"
 
 namespace lockstep::host {
 
@@ -30,16 +30,8 @@ class LabelTable {
   StateStore bits_;
 };
 
-struct Edge {
-  StateId to;
-  std::uint32_t label;
-
-  friend auto operator<=>(const Edge&, const Edge&) = default;
-};
-
 struct Graph {
-  std::vector<std::uint64_t> begins{0};  // of the edges of each state, one more than states
-  std::vector<Edge> edges;
+  EdgeRows edges;
   std::vector<bool> ends;  // of each state: some tick from it ends the run
   LabelTable labels;
   std::size_t leaves = 0;  // bits: those that worked and go on, those that ended, who was held
@@ -47,11 +39,8 @@ struct Graph {
   std::size_t properties = 0;  // and which of them wait for something
 
   // States that were looked at: their edges are known. Others may do anything.
-  std::size_t expanded() const { return begins.size() - 1; }
-  std::span<const Edge> edges_of(StateId state) const {
-    if (state >= expanded()) return {};
-    return std::span(edges).subspan(begins[state], begins[state + 1] - begins[state]);
-  }
+  std::size_t expanded() const { return edges.states(); }
+  EdgeRow edges_of(StateId state) const { return state < expanded() ? edges[state] : EdgeRow(); }
   std::size_t worked_bit(std::size_t leaf) const { return leaf; }
   std::size_t ended_bit(std::size_t leaf) const { return leaves + leaf; }
   std::size_t held_bit(std::size_t child) const { return 2 * leaves + child; }

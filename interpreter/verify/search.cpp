@@ -50,7 +50,7 @@ class Searcher {
   StateId states_of_round() const {
     const Graph& graph = result_.graph;
     const std::uint64_t edges_of_state =
-        graph.edges.size() / std::max<std::size_t>(1, graph.expanded());
+        graph.edges.size() / std::max<std::uint64_t>(1, graph.expanded());
     return static_cast<StateId>(std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1),
                                                           kStatesOfChunk, kStatesOfRound));
   }
@@ -125,9 +125,9 @@ class Searcher {
     for (Edge& it : edges_) {
       std::uint32_t& label = numbers[it.label];
       if (label == kNoState) label = graph.labels.add(own[it.label]);
-      graph.edges.push_back({it.to, label});
+      it.label = label;
     }
-    graph.begins.push_back(graph.edges.size());
+    graph.edges.add(edges_);
   }
 
   StateId add(std::span<const std::byte> state, Step step) {
@@ -235,8 +235,7 @@ std::vector<Step> SearchResult::way_to(StateId state) const {
 }
 
 std::size_t SearchResult::memory() const {
-  return store.memory() + before.capacity() * sizeof(Step) + graph.edges.capacity() * sizeof(Edge) +
-         graph.begins.capacity() * sizeof(std::uint64_t);
+  return store.memory() + before.size() * sizeof(Step) + graph.edges.memory();
 }
 
 SearchResult search(const Tree& tree, const LeafModels& models,

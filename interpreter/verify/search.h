@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@ struct SearchResult {
   std::string note;  // of Values: which entry
   int signal = 0;
   StateStore store;
-  std::vector<Step> before;     // of each state: the tick that found it; of the first none
+  std::deque<Step> before;      // of each state: the tick that found it; of the first none
   std::vector<StateId> depths;  // the first state of each depth
   Graph graph;
   SearchCoverage coverage;

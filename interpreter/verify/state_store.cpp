@@ -46,14 +46,15 @@ std::pair<StateId, bool> StateStore::add(std::span<const std::byte> state, std::
   const auto id = static_cast<StateId>(size());
   table_[at] = id;
   hashes_.push_back(hash);
-  bytes_.insert(bytes_.end(), state.begin(), state.end());
-  begins_.push_back(bytes_.size());
+  rows_.add(state);
   if (size() * 3 > table_.size() * 2) grow();
   return {id, true};
 }
 
 void StateStore::grow() {
-  table_.assign(table_.size() * 2, kNoState);
+  const std::size_t size = table_.size() * 2;
+  table_ = {};  // not both at a time
+  table_.assign(size, kNoState);
   const std::size_t mask = table_.size() - 1;
   for (StateId id = 0; id < hashes_.size(); ++id) {
     std::size_t at = hashes_[id] & mask;
@@ -63,15 +64,13 @@ void StateStore::grow() {
 }
 
 void StateStore::clear() {
-  bytes_.clear();
-  begins_.resize(1);
+  rows_.clear();
   hashes_.clear();
   std::ranges::fill(table_, kNoState);
 }
 
 std::size_t StateStore::memory() const {
-  return bytes_.capacity() + begins_.capacity() * sizeof(std::uint64_t) +
-         (hashes_.capacity() + table_.capacity()) * sizeof(std::uint32_t);
+  return rows_.memory() + (hashes_.size() + table_.capacity()) * sizeof(std::uint32_t);
 }
 
 }  // namespace lockstep::host

@@ -1,11 +1,15 @@
-// States of a search, or other rows of bytes, each with a number: in one long row, found by a hash
-// table of numbers. None is ever forgotten.
+// States of a search, or other rows of bytes, each with a number, found by a hash table of numbers.
+// None is ever forgotten.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include "verify/byte_rows.h"
 
 namespace lockstep::host {
 
@@ -27,11 +31,9 @@ class StateStore {
   StateId find(std::span<const std::byte> state, std::uint32_t hash) const {
     return table_[place_of(state, hash)];
   }
-  std::span<const std::byte> operator[](StateId id) const {
-    return {bytes_.data() + begins_[id], bytes_.data() + begins_[id + 1]};
-  }
+  std::span<const std::byte> operator[](StateId id) const { return rows_[id]; }
   std::uint32_t hash(StateId id) const { return hashes_[id]; }
-  std::size_t size() const { return begins_.size() - 1; }
+  std::size_t size() const { return rows_.size(); }
   std::size_t memory() const;
   void clear();
 
@@ -42,10 +44,9 @@ class StateStore {
   std::size_t place_of(std::span<const std::byte> state, std::uint32_t hash) const;
   void grow();
 
-  std::vector<std::byte> bytes_;
-  std::vector<std::uint64_t> begins_{0};
-  std::vector<std::uint32_t> hashes_;  // of each state
-  std::vector<StateId> table_;         // its size is a power of two
+  ByteRows rows_;
+  std::deque<std::uint32_t> hashes_;  // of each state
+  std::vector<StateId> table_;        // its size is a power of two
 };
 
 }  // namespace lockstep::host

@@ -78,6 +78,7 @@ std::string to_json(const VerifyReport& report) {
   if (!report.found.is_complete()) json["limit"] = std::string(limit_of(report.found.end));
   json["states"] = report.found.store.size();
   json["transitions"] = report.found.transitions;
+  json["bytes"] = report.found.memory();
   json["ticks"] = report.found.complete_depth();
   json["seconds"] = to_seconds(report.found.took);
   Json results = Json::object();

@@ -1,0 +1,82 @@
+#include "verify/edge_rows.h"
+
+#include <algorithm>
+
+namespace lockstep::host {
+namespace {
+
+// The last bits of a number say what it is of.
+enum Kind : std::uint64_t {
+  kSameLabel = 0b00,   // an edge: how far its goal is from the one before it
+  kRow = 0b10,         // so many edges with that label, each to the next state
+  kOtherLabel = 0b01,  // as the first, of one bit more; its label follows
+};
+
+}  // namespace
+
+void EdgeRows::add(std::span<const Edge> edges) {
+  packed_.clear();
+  Edge before;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t row = 0;
+    while (i + row < edges.size() &&
+           edges[i + row] == Edge{before.to + static_cast<StateId>(row) + 1, before.label}) {
+      ++row;
+    }
+    const Edge& edge = edges[i + (row == 0 ? 0 : row - 1)];
+    const std::uint64_t distance = edge.to - before.to;
+    if (row > 0) {
+      put(row * 4 + kRow);
+    } else if (edge.label == before.label) {
+      put(distance * 4 + kSameLabel);
+    } else {
+      put(distance * 2 + kOtherLabel);
+      put(edge.label);
+    }
+    before = edge;
+    i += std::max<std::size_t>(1, row);
+  }
+  rows_.add(packed_);
+  size_ += edges.size();
+}
+
+// Seven bits in each byte, the lowest first.
+void EdgeRows::put(std::uint64_t number) {
+  for (; number >= 128; number >>= 7u) packed_.push_back(static_cast<std::byte>(number | 128u));
+  packed_.push_back(static_cast<std::byte>(number));
+}
+
+EdgeRow::Iterator& EdgeRow::Iterator::operator++() {
+  if (row_ > 0) {
+    --row_;
+    ++edge_.to;
+    return *this;
+  }
+  is_over_ = bytes_.empty();
+  if (is_over_) return *this;
+  const std::uint64_t head = number();
+  if ((head & kOtherLabel) != 0) {
+    edge_.to += static_cast<StateId>(head / 2);
+    edge_.label = static_cast<std::uint32_t>(number());
+  } else if ((head & kRow) != 0) {
+    row_ = static_cast<std::uint32_t>(head / 4 - 1);
+    ++edge_.to;
+  } else {
+    edge_.to += static_cast<StateId>(head / 4);
+  }
+  return *this;
+}
+
+std::uint64_t EdgeRow::Iterator::number() {
+  std::uint64_t number = 0;
+  std::size_t count = 0;
+  for (bool more = true; more; ++count) {
+    const auto part = std::to_integer<std::uint64_t>(bytes_[count]);
+    number |= (part & 127u) << 7 * count;
+    more = part >= 128;
+  }
+  bytes_ = bytes_.subspan(count);
+  return number;
+}
+
+}  // namespace lockstep::host
