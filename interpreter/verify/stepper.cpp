@@ -25,6 +25,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       fresh_(saved(ticker_)),
       from_(fresh_),
       code_(tree, models, fresh_, nodes_of(properties, tree)),
+      parameters_(tree, fresh_),
       from_leaves_(leaves_.states()),
       from_facts_(leaves_.facts()),
       property_bytes_(watch_.state_size()),
@@ -40,6 +41,7 @@ StateBytes Stepper::first_state() {
 
 void Stepper::load(std::span<const std::byte> state, bool is_first) {
   code_.decode(state, from_, from_leaves_, from_facts_, from_properties_);
+  parameters_.give(from_);
   leaves_.restore(from_leaves_, from_facts_);
   time_ = is_first ? Nanoseconds(0) : period_;
   odometer_.start_over();
@@ -72,6 +74,7 @@ Status Stepper::tick() {
 }
 
 const StateBytes& Stepper::fold() {
+  parameters_.learn(from_, ticker_);
   code_.before_fold(ticker_);
   ticker_.fold();
   leaves_.fold();

@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "leaves/model_leaf.h"
 #include "verify/property_watch.h"
+#include "verify/read_parameters.h"
 #include "verify/state_code.h"
 
 namespace lockstep::host {
@@ -48,6 +49,7 @@ class Stepper {
   PropertyWatch watch_;
   SavedRun fresh_, from_;
   StateCode code_;
+  ReadParameters parameters_;
   std::vector<LeafState> from_leaves_;
   std::vector<FactState> from_facts_;
   StateBytes property_bytes_, from_properties_;
