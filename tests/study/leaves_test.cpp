@@ -63,7 +63,7 @@ TEST_CASE("a study with --leaves: the same on one thread and several, and after 
 }
 
 TEST_CASE(
-    "a study with --leaves: a script is each run, as long as it is; a wrong file is refused") {
+    "a study with --leaves: a script is each run, as long as it is, and a wrong file is refused") {
   const StudyCase it;
   const std::string tree = it.file("t.xml", kTree);
   const auto study = [&](const std::string& script) {
