@@ -107,7 +107,7 @@ TEST_CASE("a recording of a random tree has the verdicts of its run") {
                       {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     std::size_t told = 0;
     PropertyObserver watch(run.run.tree(), properties,
-                        [&told](const Property&, const std::string&) { ++told; });
+                           [&told](const Property&, const std::string&) { ++told; });
     run.watch({&watch, &recorder}, static_cast<std::uint64_t>(trial.ticks));
     Summary live;
     watch.add_to(live);

@@ -198,7 +198,7 @@ class TestCommand {
     told_ = report.errors;
   }
 
-  // That stdout does not take it is told once.
+  // A stdout that takes no more is reported once.
   void write(const std::string& text) {
     if (written_ == kExitSuccess) written_ = write_results(text);
   }

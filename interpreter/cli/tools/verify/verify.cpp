@@ -181,7 +181,7 @@ class VerifyCommand {
                         runnable.tree.leaves.size()};
     report.place_of = [&](NodeIndex node) { return places.at(node); };
     Tracer tracer(runnable.tree, models, properties_, from_seconds(1 / rate), found);
-    // A verdict may have taken long: it is told also where its files cannot be written.
+    // A verdict may have taken long, so it is printed also where its files cannot be written.
     const bool has_files = write_files(runnable, rate, tracer, verdict, report) &&
                            (options_.save.empty() ||
                             save_scenarios(options_.save, report, runnable.tree, properties_));
