@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/wording.h"
 #include "engine/blackboard.h"
@@ -93,8 +94,30 @@ void Judge::tell_violated(std::size_t property, const std::string& when, const T
 
 std::vector<Surprise> Judge::verdict(const RunEnd& end, const RunMeasures* measures) {
   judge_ending(end);
+  judge_moments(end);
   if (measures != nullptr) judge_limits(*measures);
   return std::move(surprises_);
+}
+
+// What is to happen behind the end never happens: the scenario is about something else.
+void Judge::judge_moments(const RunEnd& end) {
+  const Scenario& scenario = *rehearsal_.scenario;
+  const auto missed = [&](Place place, const std::string& moment) {
+    surprises_.push_back(
+        {place,
+         fmt::format("{} does not come: the run ends after {}", moment, counted(end.ticks, "tick")),
+         why(end)});
+  };
+  for (const SetEntry& it : std::span(scenario.changes).subspan(scenario.changes_of_file)) {
+    if (it.time && *it.time > to_seconds(end.last)) {
+      missed(it.key_place, fmt::format("the time {:g} s", *it.time));
+    } else if (!it.time && it.tick >= end.ticks) {
+      missed(it.key_place, fmt::format("tick {}", it.tick));
+    }
+  }
+  for (const LateTick& it : std::span(scenario.late).subspan(scenario.late_of_file)) {
+    if (it.tick >= end.ticks) missed(it.place, fmt::format("tick {}", it.tick));
+  }
 }
 
 void Judge::judge_ending(const RunEnd& end) {

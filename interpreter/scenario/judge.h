@@ -27,6 +27,7 @@ class Judge final : public Observer {
  private:
   void tell_violated(std::size_t property, const std::string& when, const Ticker& ticker);
   void judge_ending(const RunEnd& end);
+  void judge_moments(const RunEnd& end);
   void judge_ending(const Expectation& expected, const RunEnd& end);
   void judge_node(const Expectation& expected, const RunEnd& end);
   void judge_limits(const RunMeasures& measures);

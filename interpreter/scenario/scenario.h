@@ -34,6 +34,7 @@ struct SetEntry {
 struct LateTick {
   std::uint64_t tick = 0;
   double by = 0;  // s
+  Place place = {};
 };
 
 // What the leaves of a type, or with a path, do.
@@ -90,6 +91,7 @@ struct Scenario {
   std::vector<SetEntry> changes = {};
   std::vector<CastRow> cast = {};
   std::vector<LateTick> late = {};
+  std::size_t changes_of_file = 0, late_of_file = 0;  // the first of them are for all scenarios
   std::vector<Expectation> expectations = {};
 };
 

@@ -106,6 +106,8 @@ class Reader {
     const Attribute& name = *attribute(at, "name");
     scenario.place = name.place;
     scenario.name = name.value;
+    scenario.changes_of_file = common_.changes.size();
+    scenario.late_of_file = common_.late.size();
     if (!row.empty()) scenario.name += fmt::format(" [{}]", row);
     check_name(scenario, name);
     read_head(at, scenario);
@@ -212,8 +214,8 @@ class Reader {
   }
 
   void read_late(std::uint32_t at, Scenario& into) const {
-    into.late.push_back(
-        {cast_.count(*attribute(at, "tick"), 0), cast_.number(*attribute(at, "by"), 0, 1e6)});
+    into.late.push_back({cast_.count(*attribute(at, "tick"), 0),
+                         cast_.number(*attribute(at, "by"), 0, 1e6), elements_[at].place});
   }
 
   void read_substitutions(const Attribute& from, Scenario& into) const {
