@@ -9,7 +9,8 @@
 #include "system/descriptors.h"
 
 // NOLINTBEGIN(bugprone-reserved-identifier)
-// What plugins end the process with: a name of the program is found before that of the C library.
+// Plugins that end the process call this: a name of the program is found before that of the C
+// library.
 extern "C" void _exit(int exit_code) {
   lockstep::host::CrashReport::foreign_exit();
   lockstep::host::end_at_once(exit_code);

@@ -41,7 +41,7 @@ std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
   return diagnostics.all();
 }
 
-// What a short search over all of its behaviors is sure of. The plugins are not called. Other
+// Adds what a short search over all behaviors of the tree is sure of. No plugin is called. Other
 // arguments make another tree.
 void add_certainties(Loaded& loaded, Diagnostics& diagnostics) {
   if (!loaded.project->arguments.empty()) return;
@@ -69,8 +69,8 @@ void print_checked(const std::string& tree, Diagnostics& diagnostics, int code, 
   }
 }
 
-// What reads a file that stands beside trees, so that trees/*.xml may name it too. "": it is a
-// tree.
+// The command that reads a file which stands beside trees, so that trees/*.xml may name it too.
+// "": it is a tree.
 std::string other_command(const std::string& file) {
   if (file.ends_with(".test.xml")) return "`lockstep test`";
   return file.ends_with(".leaves.xml") ? "`lockstep verify --leaves`" : "";

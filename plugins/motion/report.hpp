@@ -24,7 +24,7 @@ struct ReportPorts {
                  "the reported progress is rounded down to a multiple of this; 0: it is not",
                  lockstep::Ports::between(0, 1)) {}
 
-  // What is reported is always the progress itself.
+  // The reported value is always the progress itself.
   bool is_plain() const { return is_always_0(latency) && is_always_0(quantize); }
 
   lockstep::Input<double> latency, quantize;

@@ -41,7 +41,7 @@ Status PipelineSequence::tick() {
   return skips ? Status::Skipped : Status::Success;
 }
 
-// Of the furthest child, as that of a Sequence with memory.
+// The progress of the furthest child, as in a Sequence with memory.
 double PipelineSequence::progress() const {
   return (furthest_ + child_progress(furthest_)) / child_count();
 }

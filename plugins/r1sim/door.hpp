@@ -10,7 +10,7 @@
 
 namespace r1sim {
 
-// What hand and base do, each on its way.
+// The hand and the base, each on its way.
 struct DoorMotion {
   double way = 1;    // m
   double speed = 0;  // m/s

@@ -1,4 +1,4 @@
-// What the leaves of one run share: each scene's part of the world.
+// The world that the leaves of one run share, with a part for each scene.
 #pragma once
 
 #include "cart.hpp"

@@ -22,13 +22,13 @@ class GivenLeaves {
   bool empty() const { return path_.empty(); }
   const std::string& path() const { return path_; }
   const std::string& text() const { return text_; }
-  // What the file says of a run.
+  // The rate and the number of ticks that the file asks for.
   std::optional<double> rate() const { return file_ != nullptr ? file_->rate : scripts_.rate; }
   std::optional<std::uint64_t> ticks() const { return scripts_.ticks; }
 
   // All leaves of the definition are played from now on.
   void take_over(Definition& definition);
-  // Of the tree that was made of the last definition. False, with messages, if the file is for
+  // `tree` was made of the last definition. False, with messages, if the file is for
   // another one. The tree must stay where it is, and outlive its runs.
   bool give(const Tree& tree);
 

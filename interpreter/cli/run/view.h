@@ -1,4 +1,4 @@
-// What the user sees during a run: the live view, plain lines or nothing.
+// The view that the user sees during a run: live, plain lines or nothing.
 #pragma once
 
 #include <optional>

@@ -42,7 +42,7 @@ int check_properties(const LogCheckOptions& options) {
   });
 }
 
-// What the leaves did against what the leaf file lets them do.
+// Compares what the leaves did with what the leaf file lets them do.
 int check_leaves(const LogCheckOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) -> int {
     const RecordedTree recorded(reader.header(), options.tree, options.plugins);

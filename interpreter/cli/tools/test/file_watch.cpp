@@ -7,7 +7,8 @@
 
 namespace lockstep::host {
 
-// Of the files that scenarios are made of, so that recordings of failures start nothing.
+// The times of the files that scenarios are made of. Others, such as recordings of failures, start
+// nothing.
 FileWatch::Times FileWatch::times() const {
   Times times;
   std::error_code error;

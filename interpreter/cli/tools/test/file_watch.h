@@ -10,7 +10,7 @@ namespace lockstep::host {
 
 class FileWatch {
  public:
-  // Of the folders of these paths, and those below them.
+  // Watches the folders of these paths, and those below them.
   explicit FileWatch(const std::vector<std::string>& paths) : paths_(paths) {}
 
   // From now on changes count, also those that come before wait().

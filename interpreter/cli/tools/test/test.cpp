@@ -27,7 +27,7 @@
 namespace lockstep::host {
 namespace {
 
-// What --filter says: a name, or a part of names; with * a pattern for all of them.
+// The value of --filter: a name, or a part of names; with * a pattern for whole names.
 struct Filter {
   std::string text;
   bool is_whole_name = false;  // of a scenario: then no other is meant

@@ -9,8 +9,8 @@
 namespace lockstep::host {
 namespace {
 
-// Of a property that some behavior violates, the scenario expects that it holds. Of the rest it
-// expects what came: it is for a person to say what should.
+// The scenario expects that a property holds which some behavior violates. For the rest it
+// expects what came: a person has to say what should come.
 ScenarioText text_of(const Finding& finding, const std::vector<Property>& properties) {
   ScenarioText text{.name = "verify: " + finding.name,
                     .comments = {"found by verify: " + finding.message}};

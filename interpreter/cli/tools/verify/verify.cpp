@@ -147,7 +147,7 @@ class VerifyCommand {
     return loaded;
   }
 
-  // What the properties compare.
+  // The entries and progress that the properties compare.
   Observed observed() const {
     Observed observed;
     for (const Property& property : properties_) {

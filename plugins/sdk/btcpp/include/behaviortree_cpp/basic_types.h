@@ -74,7 +74,7 @@ namespace lockstep_detail {
 
 [[noreturn]] void refuse_text(StringView text, const std::string& wanted);
 
-// What a text begins with; the rest is ignored.
+// The number that a text begins with; the rest is ignored.
 template <class T>
 T number_from(StringView text) {
   T number{};

@@ -52,7 +52,7 @@ class Blackboard : public lockstep_detail::BoardCasts,
     std::uint64_t lockstep_writes = 0;  // what the tree has counted
   };
 
-  // What it does not have, it looks for in the parent, as it is told to.
+  // An entry that it does not have, it looks for in the parent, by its remappings.
   static Ptr create(Ptr parent = {}) { return Ptr(new Blackboard(std::move(parent))); }
   virtual ~Blackboard() = default;
   Blackboard(const Blackboard&) = delete;
@@ -107,14 +107,14 @@ class Blackboard : public lockstep_detail::BoardCasts,
   void addSubtreeRemapping(StringView internal, StringView external);
   void enableAutoRemapping(bool remapping);
 
-  // Of the main tree, or outside of trees the outermost.
+  // The board of the main tree; outside of trees, the outermost.
   Blackboard* rootBlackboard();
   const Blackboard* rootBlackboard() const {
     return const_cast<Blackboard*>(this)->rootBlackboard();  // NOLINT: it is not changed
   }
   Ptr parent() const;
 
-  // Of its own entries; valid as long as they are there.
+  // The names of its own entries; valid as long as these are there.
   template <class Key = StringView>
   [[nodiscard]] std::vector<Key> getKeys() const {
     lockstep_open<Key>();
@@ -154,7 +154,7 @@ class Blackboard : public lockstep_detail::BoardCasts,
   static AnyPtrLocked lockstep_locked(LockstepFound found);
   void lockstep_clone_into(Blackboard& other) const;
   void lockstep_print() const;
-  // Of its own entries.
+  // Visits its own entries.
   void lockstep_each(const std::function<void(const std::string& key, Entry& entry)>& visit) const;
 
   // Its entries become those of a board that runs, which has them already; and its own again.
@@ -176,7 +176,7 @@ class Blackboard : public lockstep_detail::BoardCasts,
     std::string key = {};
   };
   static LockstepPort lockstep_of_port(const lockstep_detail::Place& place, std::uint32_t port);
-  // What an entry is for C++, when the tree knows it only as its own type.
+  // Declares the C++ type of an entry which the tree knows only as its own type.
   void lockstep_declare(const std::string& key, const TypeInfo& type);
 
  private:
@@ -211,7 +211,7 @@ class Blackboard : public lockstep_detail::BoardCasts,
   static void lockstep_push(const LockstepFound& found);
   static void lockstep_assign(const LockstepFound& found, Any value, const TypeInfo& type,
                               bool is_new);
-  // What an entry has now; others may write it at the same time.
+  // The value that an entry has now; others may write it at the same time.
   struct Seen {
     Any value;
     TypeInfo info;
@@ -235,7 +235,8 @@ class Blackboard : public lockstep_detail::BoardCasts,
   bool lockstep_remaps_all_ = false;
   bool lockstep_is_closed_ = false;  // of a node that may not open entries
 
-  // Of the main tree: what its parents have, and how often it was written when it was exchanged.
+  // For the main tree: the entry of its parents, and how often each was written at the last
+  // exchange.
   struct FromParent {
     LockstepFound outside = {};  // no entry: it is the tree's own
     std::uint64_t theirs = 0, ours = 0;

@@ -122,7 +122,7 @@ class BehaviorTreeFactory {
   [[nodiscard]] Tree createTree(const std::string& tree,
                                 Blackboard::Ptr blackboard = Blackboard::create());
 
-  // What takes the place of nodes in trees that are made from now on: `filter` is the name of a
+  // A rule takes the place of nodes in trees that are made from now on: `filter` is the name of a
   // node, its ID, or a pattern of its path, with * and ?. A rule is the ID of a registered node, or
   // what a TestNode does.
   using SubstitutionRule = lockstep_detail::SubstitutionRule;
@@ -137,7 +137,7 @@ class BehaviorTreeFactory {
   Tree lockstep_make(const lockstep_detail::Documents& documents, const std::string& main,
                      Blackboard::Ptr blackboard) const;
 #endif
-  // What is registered, and the nodes that every tree has.
+  // The registered nodes, and those that every tree has.
   const std::unordered_map<std::string, TreeNodeManifest>& manifests() const;
   const std::unordered_map<std::string, NodeBuilder>& builders() const;
   const std::set<std::string>& builtinNodes() const;

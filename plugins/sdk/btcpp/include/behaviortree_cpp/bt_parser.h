@@ -1,4 +1,4 @@
-// What reads trees for a factory: BT::XMLParser of xml_parsing.h.
+// BT::XMLParser of xml_parsing.h reads trees for a factory.
 #pragma once
 
 #include <filesystem>

@@ -58,7 +58,7 @@ class DecoratorNode : public TreeNode {
   std::unique_ptr<TreeNode> lockstep_owned_;
 };
 
-// What the child returns becomes what the function makes of it.
+// The function makes its result from what the child returns.
 class SimpleDecoratorNode : public DecoratorNode {
  public:
   using TickFunctor = std::function<NodeStatus(NodeStatus, TreeNode&)>;

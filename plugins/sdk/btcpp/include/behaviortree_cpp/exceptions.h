@@ -1,4 +1,4 @@
-// What leaves and this interface throw. One that leaves a node is a fault of the run.
+// Leaves and this interface throw these. One that leaves a node is a fault of the run.
 #pragma once
 
 #include <exception>
@@ -26,7 +26,7 @@ class LogicError : public BehaviorTreeException {
   using BehaviorTreeException::BehaviorTreeException;
 };
 
-// What only shows while it runs.
+// A mistake that shows only while a tree runs.
 class RuntimeError : public BehaviorTreeException {
  public:
   using BehaviorTreeException::BehaviorTreeException;
@@ -39,7 +39,7 @@ struct TickBacktraceEntry {
   std::string registration_name;
 };
 
-// What a tick of a program's tree throws when a node has thrown, or does what no node may.
+// A tick of a program's tree throws this when a node has thrown, or does what no node may.
 class NodeExecutionError : public RuntimeError {
  public:
   NodeExecutionError(TickBacktraceEntry node, const std::string& message)

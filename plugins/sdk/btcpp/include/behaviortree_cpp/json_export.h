@@ -25,7 +25,7 @@ using Json = typename JsonOf<T>::Type;
 
 }  // namespace lockstep_detail
 
-// What the types of this shared object have for JSON.
+// The conversions between JSON and the types of this shared object.
 class JsonExporter {
  public:
   using Entry = std::pair<Any, TypeInfo>;

@@ -57,7 +57,7 @@ template <>
 struct NodeConfig {
   Blackboard::Ptr blackboard;
   std::shared_ptr<ScriptingEnumsRegistry> enums;
-  // What the tree gives to each port: a text, or "{entry}".
+  // The tree gives each port a text or "{entry}".
   PortsRemapping input_ports;
   PortsRemapping output_ports;
   NonPortAttributes other_attributes;
@@ -236,7 +236,7 @@ class TreeNode {
   Expected<Any> lockstep_read_any(const lockstep_detail::PortEntry& port) const;
   const lockstep_detail::PortEntry* lockstep_find_port(StringView port) const;
   AnyPtrLocked lockstep_locked_port(const std::string& port);
-  // Of a node that is in no tree: what its config says.
+  // A node outside of a tree reads and writes what its config says.
   template <class T>
   Expected<T> lockstep_read_by_hand(const std::string& port) const;
   Result lockstep_set_by_hand(const std::string& port, Any value, TypeInfo type);

@@ -19,7 +19,7 @@ struct TestNodeConfig {
   std::string post_script;
   // How long it runs before; 0: it completes in its first tick.
   std::chrono::milliseconds async_delay{0};
-  // What completes it, in place of return_status.
+  // Its value is the result, in place of return_status.
   std::function<NodeStatus()> complete_func;
   // A script whose value is the result, in place of return_status. In a tree it is evaluated in
   // each tick of the node.

@@ -126,7 +126,7 @@ class lockstep_value_or_error {
   }
 };
 
-// What can be copied if T can.
+// The base of a type that can be copied if T can.
 struct lockstep_copied {};
 struct lockstep_moved {
   lockstep_moved() = default;

@@ -17,7 +17,7 @@ std::chrono::nanoseconds stamp_now();
 // A number has the C++ type of its entry, and stays whole or real as it is.
 Any as_declared(const TypeInfo& info, Any value);
 
-// What the tree has, if it is news. Under the locks of both.
+// Takes the value of the tree if it is new. Under the locks of both.
 void refresh(Blackboard::Entry& entry, const lockstep_entry_value& value);
 
 // A value that was found in an entry, as a T.

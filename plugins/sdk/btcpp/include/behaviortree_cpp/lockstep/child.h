@@ -59,7 +59,7 @@ class Child final : public TreeNode {
   bool is_reset_ = true;
 };
 
-// Of a node that a program makes by hand.
+// For a node that a program makes by hand.
 void check_child(const TreeNode& parent, const TreeNode* child);
 
 // The children of a node that was made in a tree, in order.

@@ -39,7 +39,7 @@ class Coroutine {
     return has_ended_;
   }
   void yield() { swapcontext(&inside_, &outside_); }
-  // What it has thrown, if it has.
+  // Throws what it has thrown, if it has.
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
   }

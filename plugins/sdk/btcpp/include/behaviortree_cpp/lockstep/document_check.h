@@ -1,4 +1,5 @@
-// What the library refuses in a document. lockstep itself takes more: its command line warns.
+// Refuses what the library refuses in a document. lockstep itself takes more: its command line
+// warns.
 #pragma once
 
 #include <functional>
@@ -141,7 +142,7 @@ class DocumentCheck {
     }
     if (node.name == "ReactiveSequence") check_reactive(node);
   }
-  // Of version 3, or of lockstep alone.
+  // A tag of version 3, or of lockstep alone.
   static bool is_known_otherwise(const std::string& tag) {
     for (const char* it : {"SequenceStar", "FallbackStar", "RetryUntilSuccesful", "SubTreePlus",
                            "ParallelAbsolute", "ParallelRelative"}) {

@@ -16,7 +16,7 @@
 
 namespace BT::lockstep_detail {
 
-// What several documents say together.
+// The trees, models and plugins of several documents.
 struct TreeSet {
   std::map<std::string, XmlElement> trees;  // by ID; the last one of an ID
   std::vector<XmlElement> others;           // models and plugins
@@ -67,11 +67,11 @@ class Documents {
     return ids;
   }
 
-  // What the first document names as its main tree; "": nothing.
+  // The main tree that the first document names; "": none.
   const std::string& named_main() const { return named_main_; }
   bool has_unnamed() const { return !unnamed_.empty(); }
 
-  // What is to be loaded: the only document that it needs as it is, so that errors name its lines,
+  // The text to load: the only document that is needed, unchanged, so that errors name its lines,
   // or a text of those that it needs.
   struct Loaded {
     std::string text, file;  // one of them
@@ -195,7 +195,7 @@ class Documents {
     }
     return text + "</root>\n";
   }
-  // What is in the root, but for a tree without an ID.
+  // The content of the root, without a tree that has no ID.
   static std::string inner_of(const std::string& document) {
     const XmlElement root = read_xml(document);
     for (const XmlElement& it : root.children) {

@@ -65,7 +65,7 @@ void describe_object(const std::shared_ptr<void>& value, EntryValue& described) 
 // False: the host has no such value.
 bool describe(const Any& value, EntryValue& described);
 
-// What an entry of that type is declared as.
+// Describes an entry of that type.
 void declare(const TypeInfo& info, EntryValue& described);
 
 const KnownObject* find_object(const char* name);

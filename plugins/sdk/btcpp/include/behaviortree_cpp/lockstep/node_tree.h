@@ -1,4 +1,4 @@
-// What a node knows of the tree of a program that it is in.
+// A node's view of the program's tree that it is in.
 #pragma once
 
 #include <cstddef>

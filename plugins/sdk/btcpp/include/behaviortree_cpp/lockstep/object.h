@@ -20,7 +20,7 @@ namespace BT::lockstep_detail {
 // unique by a number.
 std::string object_name(std::type_index type);
 
-// What the last from_text of this thread has thrown.
+// The text of what the last from_text of this thread has thrown.
 [[gnu::visibility("hidden")]] inline std::string& reason() {
   static thread_local std::string text;
   return text;

@@ -41,7 +41,7 @@ struct Outline {
   std::string text;  // with what the rules replace; "": they replace nothing
 };
 
-// What a node is called, with which tag or ID it is written.
+// The ID of a node, whether it is written as a tag or as the attribute ID.
 inline std::string registered_id(const XmlElement& element) {
   for (const char* it : {"Action", "Condition", "Control", "Decorator"}) {
     if (element.name == it) return element.get("ID");
@@ -291,8 +291,8 @@ class OutlineMaker {
   int depth_ = 0;
 };
 
-// What the document gives a node: its ports, also by their defaults, and attributes of another
-// kind. A SubTree has a port for each of its attributes.
+// Reads what the document gives a node: its ports, also by their defaults, and other
+// attributes. A SubTree has a port for each of its attributes.
 inline void read_attributes(const XmlElement& element, const std::string& id,
                             const TreeNodeManifest* manifest, NodeNumber& node) {
   node.is_read = true;

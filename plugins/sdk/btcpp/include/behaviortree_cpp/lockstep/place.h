@@ -14,7 +14,7 @@ namespace BT::lockstep_detail {
 
 struct Registration;
 
-// Of the thread that asks.
+// A number for the thread that asks.
 inline std::uintptr_t this_thread() {
 #if defined(__GNUC__) && !defined(__clang__) && (defined(__x86_64__) || defined(__aarch64__))
   return reinterpret_cast<std::uintptr_t>(__builtin_thread_pointer());

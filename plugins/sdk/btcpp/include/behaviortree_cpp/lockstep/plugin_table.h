@@ -76,7 +76,7 @@ class PluginTable {
   // In a program: how its nodes are numbered, by their paths, and those that were made.
   std::map<std::string, NodeNumber> numbers;
   std::map<std::string, TreeNode*> made;
-  // What its TestNodes do, by the path that the library gives them.
+  // The configurations of its TestNodes, by the path that the library gives them.
   std::map<std::string, std::shared_ptr<TestNodeConfig>> tests;
 
   // The words as the host reads them; valid until one is added.

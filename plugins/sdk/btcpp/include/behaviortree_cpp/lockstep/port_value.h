@@ -210,7 +210,7 @@ bool get_any_object(const Place& place, std::uint32_t port, Any& value);
 // A value that is no text, as its type says.
 bool get_any(const Place& place, std::uint32_t port, lockstep_type type, Any& value);
 
-// What is done with the values of a port whose type is known by its declaration only.
+// The functions for values of a port whose type is known by its declaration only.
 struct PortValues {
   lockstep_type type;
   const lockstep_object_type* (*object)();

@@ -1,4 +1,4 @@
-// What a node declares about its ports. Included by basic_types.h.
+// The ports that a node declares. Included by basic_types.h.
 #pragma once
 
 #include <string>

@@ -30,7 +30,7 @@ inline std::string place_of(const lockstep_diagnostic& it) {
   return place + " ";
 }
 
-// What went wrong, with its places.
+// All errors of a project, with their places.
 inline std::string project_errors(lockstep_project* project) {
   std::string text = lockstep_last_error();
   for (std::uint32_t i = 0; i < lockstep_project_diagnostic_count(project); ++i) {
@@ -122,7 +122,7 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
   lockstep_project* project() const { return project_.get(); }
   lockstep_run* run() const { return run_.get(); }
   const NodePlaces& places() const { return *places_; }
-  // What the documents say; null: they could not be read.
+  // The outline of the documents; null: they could not be read.
   const Outline* outline() const { return source_.outline.get(); }
   const std::shared_ptr<PluginTable>& table() const { return source_.nodes; }
   // In the order of the tree: objects of the program's classes, or what stands for others.
@@ -133,7 +133,7 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     return Blackboard::lockstep_of(BoardFamily::of(std::move(root)),
                                    static_cast<std::uint32_t>(subtree));
   }
-  // Of a node that is no object of the program.
+  // The status of a node that is no object of the program.
   NodeStatus status_of(std::uint32_t index) const {
     if (watch_ != nullptr && watch_->is_on()) {
       return nodes_[index]->lockstep_status_.load(std::memory_order_acquire);

@@ -1,4 +1,4 @@
-// What a plugin has registered: the types of its nodes, as the host reads them.
+// The types of nodes that a plugin has registered, as the host reads them.
 #pragma once
 
 #include <lockstep/leaf.h>
@@ -29,7 +29,7 @@ struct Leaf;
 class Child;
 class NodeThread;
 
-// What a class of nodes has beyond the library: lockstep uses it.
+// Facts and functions that a class of nodes may have for lockstep, beyond the library.
 struct ClassHooks {
   bool is_at_once = false;  // it never returns RUNNING
   double (*progress)(const TreeNode&) = nullptr;
@@ -101,7 +101,7 @@ struct PortEntry {
   std::uint32_t index;  // for the host
 };
 
-// What the library calls a node of a tree, and what the document gives it.
+// A node's path in the library's words, and what the document gives it.
 struct NodeNumber {
   std::string path;
   std::uint16_t uid = 0;

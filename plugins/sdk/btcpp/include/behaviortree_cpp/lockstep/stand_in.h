@@ -25,7 +25,7 @@ class StandsIn {
   virtual void adopt(TreeNode& child) = 0;
 };
 
-// Of nodes without a class in the library's headers.
+// Stands for nodes without a class in the library's headers.
 template <class Base>
 class Other : public Base {
  public:

@@ -19,7 +19,7 @@ inline const SubstitutionRule* rule_for(const SubstitutionRules& rules, const st
   return nullptr;
 }
 
-// Of a rule that names no registered node.
+// The TestNode of a rule that names no registered node.
 inline std::shared_ptr<TestNodeConfig> test_of(const SubstitutionRule& rule) {
   if (const auto* const shared = std::get_if<std::shared_ptr<TestNodeConfig>>(&rule)) {
     return *shared;

@@ -1,4 +1,4 @@
-// What takes the place of a node: the ID of a registered one, or what a TestNode does.
+// A rule takes the place of a node: the ID of a registered one, or the configuration of a TestNode.
 #pragma once
 
 #include <memory>

@@ -40,7 +40,7 @@ class NodeThread {
     return status_;
   }
   void stop() { worker_.stop_silently(); }
-  // Of the work that has ended last; IDLE: none has.
+  // The result of the work that has ended last; IDLE: none has.
   NodeStatus result() const { return status_; }
   // In the thread.
   void yield() const {
@@ -48,7 +48,7 @@ class NodeThread {
   }
 
  private:
-  // Of a node that is in no tree: its thread works in real time.
+  // The host of a node outside of a tree: its thread works in real time.
   static const lockstep_host& no_host() {
     static const lockstep_host host = [] {
       lockstep_host none{};

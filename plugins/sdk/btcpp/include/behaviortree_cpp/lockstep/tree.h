@@ -59,7 +59,7 @@ class Tree {
     std::string tree_ID;
   };
   std::vector<Subtree::Ptr> subtrees;  // the main tree first
-  // Of all nodes that the tree may have; those of config().manifest.
+  // The manifests of all nodes that the tree may have; config().manifest points to them.
   lockstep_detail::ManifestsOfTree manifests;
 
   Tree() = default;
@@ -78,7 +78,7 @@ class Tree {
   // From any thread.
   void emitWakeUpSignal();
   [[nodiscard]] std::shared_ptr<WakeUpSignal> wakeUpSignal() const;
-  // Of the main tree; null: the tree is empty.
+  // The board of the main tree; null: the tree is empty.
   Blackboard::Ptr rootBlackboard() const;
 
   // Its haltNode() halts the whole tree, its executeTick() ticks it.
@@ -106,7 +106,7 @@ class Tree {
   std::shared_ptr<lockstep_detail::Program> program_;
 };
 
-// What all boards of a tree have, in the order of Tree::subtrees.
+// The entries of all boards of a tree, in the order of Tree::subtrees.
 [[nodiscard]] std::vector<Blackboard::Ptr> BlackboardBackup(const Tree& tree);
 // Throws when it is of a tree with other boards.
 void BlackboardRestore(const std::vector<Blackboard::Ptr>& backup, Tree& tree);

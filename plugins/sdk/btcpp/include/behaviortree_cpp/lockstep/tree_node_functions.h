@@ -151,7 +151,7 @@ template <class T>
 Result TreeNode::setOutput(StringView name, const T& value) {
   const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
   if (port == nullptr) {
-    // Of no tree, or one of the node that it stands in for.
+    // Such a port is in no tree, or belongs to the node that this one stands in for.
     const bool is_given = lockstep_config_.output_ports.count(std::string(name)) != 0;
     if (lockstep_place_ != nullptr && !is_given) {
       return nonstd::make_unexpected(lockstep_no_port(name));

@@ -1,4 +1,4 @@
-// What happens to the nodes of a program's tree while it is ticked, for hooks and subscribers:
+// Tells hooks and subscribers what happens to the nodes of a program's tree while it is ticked:
 // their statuses as the library has them, each change when it happens. Included by program.h.
 #pragma once
 
@@ -89,7 +89,7 @@ class TreeWatch {
   TreeNode& node(std::uint32_t index) { return *nodes_[index]; }
   void set(std::uint32_t index, NodeStatus status) { node(index).setStatus(status); }
 
-  // Of a node that does not run any more.
+  // For a node that does not run any more.
   void forget(std::uint32_t index) {
     const NodeStatus status = node(index).lockstep_status_.load(std::memory_order_relaxed);
     if (status == NodeStatus::IDLE || (watched_[index].own && !isStatusCompleted(status))) return;
@@ -157,7 +157,7 @@ class TreeWatch {
     }
   }
 
-  // What the parent does to its children at once.
+  // A parent changes its children at once.
   void tell_parent(std::uint32_t index, NodeStatus status) {
     const std::uint32_t above = watched_[index].parent;
     const Watched& parent = watched_[above];
@@ -178,7 +178,8 @@ class TreeWatch {
     }
   }
 
-  // Who halts a child has completed, or is halted: those before it have no status any more.
+  // A parent that halts a child has completed, or is halted: the children before it have no status
+  // any more.
   void before_halt(std::uint32_t index) {
     const Watched& parent = watched_[watched_[index].parent];
     if (parent.own || parent.asks_again) return;

@@ -20,7 +20,7 @@ using EnumsTable = std::unordered_map<std::string, int>;
 using EnumsTablePtr = std::shared_ptr<EnumsTable>;
 
 namespace Ast {
-// What a script sees.
+// The entries and words that a script sees.
 struct Environment {
   Blackboard::Ptr vars;
   EnumsTablePtr enums;  // null: no words

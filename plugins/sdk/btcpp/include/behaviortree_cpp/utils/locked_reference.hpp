@@ -20,7 +20,7 @@ class LockedPtr {
 
   LockedPtr() = default;
   LockedPtr(T* value, std::mutex* mutex) : value_(value), mutex_(mutex) { mutex_->lock(); }
-  // What is locked already; `finish` unlocks it.
+  // `value` is locked already; `finish` unlocks it.
   LockedPtr(T* value, Finish finish) : value_(value), finish_(std::move(finish)) {}
   LockedPtr(LockedPtr&& other) noexcept { *this = std::move(other); }
   LockedPtr& operator=(LockedPtr&& other) noexcept {
@@ -55,7 +55,7 @@ class LockedPtr {
     if (mutex_ != nullptr) mutex_->unlock();
   }
 
-  // Of an Any: as it has the value inside.
+  // An Any takes the value inside.
   template <class Value>
   void assign(const Value& value) {
     if (value_ == nullptr) throw std::runtime_error("LockedPtr::assign: there is no such entry");

@@ -163,7 +163,7 @@ nonstd::expected<T, std::string> Any::tryCastWithRegistry(
 
 namespace lockstep_detail {
 
-// What a Blackboard has of them.
+// The casts of a Blackboard.
 class BoardCasts {
  public:
   void setPolymorphicCastRegistry(std::shared_ptr<PolymorphicCastRegistry> registry) {

@@ -260,7 +260,7 @@ class Any {
         return false;
     }
   }
-  // What a text begins with.
+  // The number that a text begins with.
   template <class T>
   bool text_to_number([[maybe_unused]] T& number) const {
     if constexpr (!std::is_same_v<T, bool>) {
@@ -271,7 +271,7 @@ class Any {
   }
   std::string number_text() const;
 
-  // Of one that holds nothing.
+  // For an Any that holds nothing.
   void hold(std::string text);
   void hold(std::shared_ptr<void> object, const Operations& ops);
   void hold_copy(const Any& other) {

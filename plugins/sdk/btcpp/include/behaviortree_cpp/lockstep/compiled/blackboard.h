@@ -26,7 +26,7 @@ LOCKSTEP_BTCPP_INLINE Any as_declared(const TypeInfo& info, Any value) {
   return typed;
 }
 
-// What the tree has, if it is news. Under the locks of both.
+// Takes the value of the tree if it is new. Under the locks of both.
 LOCKSTEP_BTCPP_INLINE void refresh(Blackboard::Entry& entry, const lockstep_entry_value& value) {
   if (!entry.info.isStronglyTyped()) {
     const TypeInfo type = type_of_entry(value);
@@ -74,7 +74,8 @@ Blackboard::lockstep_list() const {
   return {lockstep_entries_.begin(), lockstep_entries_.end()};
 }
 
-// What the tree has at home on this board. One that somebody has locked stays as it is.
+// Takes the value of an entry that the tree has on this board. An entry that somebody has locked
+// stays as it is.
 LOCKSTEP_BTCPP_INLINE std::shared_ptr<Blackboard::Entry> Blackboard::lockstep_pull(
     const lockstep_detail::BoardLink& link, const std::string& key) const {
   const std::lock_guard lock(link);
@@ -502,7 +503,7 @@ LOCKSTEP_BTCPP_INLINE Blackboard::LockstepFound Blackboard::lockstep_find_home(
   return lockstep_find(key);
 }
 
-// What a parent has, if it is news.
+// Takes the value of a parent if it is new.
 LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_take(const std::string& key, LockstepFound found) {
   if (found.entry == nullptr) return;
   const bool is_new = lockstep_from_parents_.count(key) == 0;
@@ -551,7 +552,7 @@ LOCKSTEP_BTCPP_INLINE Blackboard::Seen Blackboard::lockstep_seen(const Entry& en
   return {entry.value, entry.info, entry.lockstep_writes};
 }
 
-// What the tree has made of it.
+// Gives parents the values that the tree has written.
 LOCKSTEP_BTCPP_INLINE void Blackboard::lockstep_give_to_parents(
     const lockstep_detail::BoardLink& link) {
   if (lockstep_parent_ == nullptr) return;

@@ -18,14 +18,14 @@
 namespace BT {
 namespace lockstep_detail {
 
-// What a program has told its factory about trees.
+// The trees that a program has given to its factory.
 struct FactoryTrees {
   std::vector<std::string> plugins;
   Documents documents;
   SubstitutionRules rules;
 };
 
-// Of a factory that has been told nothing.
+// For a factory without trees.
 inline const FactoryTrees& no_trees() {
   static const FactoryTrees none;
   return none;
