@@ -366,7 +366,7 @@ bool lockstep_run_watch_nodes(lockstep_run* run, const uint32_t* nodes, size_t c
     if (run == nullptr || (nodes == nullptr && count != 0)) return fail("an argument is NULL");
     if (!is_own(*run)) return false;
     const std::span<const uint32_t> all(nodes, count);
-    // A group is beside the tree: nothing is told of it.
+    // A group is beside the tree: its nodes have no events.
     const NodeIndex end = tree_of(*run).nodes[0].end;
     if (std::ranges::any_of(all, [end](uint32_t it) { return it >= end; })) {
       return fail("no such node in the tree of the root");

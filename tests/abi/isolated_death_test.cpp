@@ -42,7 +42,7 @@ const Step kSteps[] = {
     {"halt", [](LeafSlot& slot) { slot.type->halt(slot.self); }},
 };
 
-TEST_CASE("isolated: a process that dies in a call is an error of the leaf, and is told") {
+TEST_CASE("isolated: a process that dies in a call is an error of the leaf, and is reported") {
   const NothingRemains nothing_remains;
   for (const Death& death : kDeaths) {
     for (const Step& step : kSteps) {

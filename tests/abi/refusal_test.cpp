@@ -197,7 +197,7 @@ TEST_CASE("a plugin whose init fails is named") {
   }
 }
 
-TEST_CASE("a refusal is told where the tree asked for the plugin") {
+TEST_CASE("a refusal is reported where the tree asked for the plugin") {
   PluginSet plugins;
   Diagnostics diagnostics;
   CHECK_FALSE(plugins.load_file(plugin_path("no_tick"), diagnostics, {"tree.xml", 3, 5}));

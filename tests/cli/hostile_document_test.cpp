@@ -333,7 +333,7 @@ TEST_CASE("half a million errors take little more time than half a million nodes
 }
 
 // Suggestions and lists are made for what is shown only, and are bounded.
-TEST_CASE("thousands of mistakes among thousands of long names are told in time and memory") {
+TEST_CASE("thousands of mistakes among thousands of long names are reported in time and memory") {
   // Letters that no word is near to, the same in every run.
   const auto scrambled = [](unsigned seed, std::size_t length) {
     std::string word;

@@ -40,7 +40,7 @@ TEST_CASE("a tree is read from stdin, from a pipe and from a process substitutio
   }
 }
 
-TEST_CASE("what is wrong with a tree from stdin is told there, and its includes are found") {
+TEST_CASE("what is wrong with a tree from stdin is reported there, and its includes are found") {
   const TemporaryDirectory directory;
   directory.file("part.xml",
                  "<root lockstep=\"1\"><BehaviorTree ID=\"B\"><X/></BehaviorTree></root>");

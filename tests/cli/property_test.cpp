@@ -100,7 +100,7 @@ TEST_CASE("log check leaves open what a recording that was cut does not decide")
   CHECK(contains(outcome.out, "holds    -     never arm.failure\n"));
 }
 
-TEST_CASE("log check: a mistake in a property is told at its column") {
+TEST_CASE("log check: a mistake in a property is reported at its column") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory);
   const Outcome outcome = check(recording, {"never arm.runing", "sometimes ar.running"});

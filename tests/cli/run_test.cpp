@@ -329,7 +329,7 @@ TEST_CASE("a port whose entry nobody has written has its default, or the fault n
   }
 }
 
-TEST_CASE("a fault is told once in words and once in the summary") {
+TEST_CASE("a fault is reported once in words and once in the summary") {
   const Simulation it("<Parallel><Probe name=\"culprit\"/></Parallel>");
   const auto times = [](const std::string& text) {
     const std::regex words("threw an exception");

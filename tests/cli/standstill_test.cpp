@@ -154,7 +154,7 @@ TEST_CASE("standstill: nodes that wait for the same one are one warning, with th
         "  'one' holds 'o2' at 0.5 until 'o1' comes, which is at 0.25 and has 't1' in it\n");
 }
 
-TEST_CASE("standstill: who waits for one that does not run, or has failed, is told so") {
+TEST_CASE("standstill: who waits for one that does not run, or has failed, is reported so") {
   const StandingProject idle("<barrier name=\"lift\" barriers=\"0.5\"/>" +
                              tree("<Parallel><Fallback memory=\"true\"><AlwaysSuccess/>" +
                                   sync("l1", "lift", advance("arm", "0.1")) + "</Fallback>" +

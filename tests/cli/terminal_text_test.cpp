@@ -141,7 +141,7 @@ TEST_CASE("texts of a tree reach the terminal visible, whatever is done with it"
   }
 }
 
-TEST_CASE("texts of what is told while a tree runs reach the terminal visible") {
+TEST_CASE("texts of what is reported while a tree runs reach the terminal visible") {
   const TemporaryDirectory directory;
   const std::string stands = directory.file(
       "stands.xml", tree_text("<ParallelAbsolute barriers=\"0.5\"><Advance name=\"a" + kEvil +

@@ -256,7 +256,7 @@ TEST_CASE("what a run calls back cannot tick, halt, restart or free it") {
   CHECK(observed == 5);
 }
 
-TEST_CASE("a progress that is no share, and a failure that the run goes on after, are told") {
+TEST_CASE("a progress that is no share, and a failure that the run goes on after, are reported") {
   runtime::Project project;
   project.add_leaf<Step>("Step", "Makes a step in each tick").add_leaf<Percent>("Percent", "In %");
   project.load_text(
@@ -285,7 +285,7 @@ TEST_CASE("a progress that is no share, and a failure that the run goes on after
   CHECK(lines == percent);
 }
 
-TEST_CASE("a leaf that goes on while it is held is told, once in a run") {
+TEST_CASE("a leaf that goes on while it is held is reported, once in a run") {
   runtime::Project project;
   project.add_leaf<Step>("Step", "Makes a step in each tick").add_leaf<GoesOn>("GoesOn", "Does");
   project.load_text(tree(
@@ -1050,7 +1050,7 @@ TEST_CASE("a run of a program is recorded and has a monitor, from its first tick
   CHECK_THROWS(runtime::Run(project).record("/no/such/folder/run.jsonl"));
 }
 
-TEST_CASE("a call that takes longer than the budget, or does not return, is told") {
+TEST_CASE("a call that takes longer than the budget, or does not return, is reported") {
   runtime::Project project;
   project.add_leaf<Slow>("Slow", "Waits");
   project.load_text(tree("<Slow/>"));

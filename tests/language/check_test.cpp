@@ -10,7 +10,7 @@
 namespace lockstep::host::test {
 namespace {
 
-TEST_CASE("all errors are told in one pass, sorted by their places") {
+TEST_CASE("all errors are reported in one pass, sorted by their places") {
   constexpr ClaimRow kRows[] = {
       {"of the document, its nodes, its arguments, its subtrees",
        R"(<root lockstep="1" main_tree_to_execute="Main" color="red">

@@ -131,11 +131,11 @@ TEST_CASE("plugin, BehaviorTree and their attributes") {
        "3:38 error: the tree 'B' has more than one root node\n"
        "4:1 error: 'BehaviorTree' needs the attribute 'ID'\n"
        "5:19 error: the ID 'C/D' contains '/'"},
-      {"an empty tree is told once, not where it is used",
+      {"an empty tree is reported once, not where it is used",
        "<root lockstep=\"1\" main_tree_to_execute=\"B\">\n<BehaviorTree ID=\"A\"/>\n"
        "<BehaviorTree ID=\"B\"><SubTree ID=\"A\"/></BehaviorTree></root>",
        "2:1 error: the tree 'A' is empty"},
-      {"trees without an ID are told once each",
+      {"trees without an ID are reported once each",
        "<root lockstep=\"1\">\n<BehaviorTree><AlwaysSuccess/></BehaviorTree>\n<BehaviorTree>"
        "<AlwaysSuccess/></BehaviorTree></root>",
        "2:1 error: 'BehaviorTree' needs the attribute 'ID'\n"

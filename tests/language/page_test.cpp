@@ -100,7 +100,7 @@ std::string trace(std::string_view tree, Limit limit) {
   return rows;
 }
 
-TEST_CASE("the examples of the page load, and the wrong ones are told as it says") {
+TEST_CASE("the examples of the page load, and the wrong ones are reported as it says") {
   const std::string page = read_page();
   const auto all = examples(page);
   CHECK(all.size() > 10);

@@ -32,14 +32,14 @@ constexpr TickRow kRows[] = {
   {"a leaf with nothing but tick can fail as well",
    "a[bare]", "a=RXS", "R[a] F[a]!a S[a]"},
 
-  {"an error in the halt after a fault is told too and changes nothing",
+  {"an error in the halt after a fault is reported too and changes nothing",
    "a", "a=XS!halt", "F{start a, tick a, halt a}!a,a S{start a, tick a}"},
-  {"an exception in the halt after a fault is told too and changes nothing",
+  {"an exception in the halt after a fault is reported too and changes nothing",
    "a", "a=BS^halt", "F{start a, tick a, halt a}!a,a S{start a, tick a}"},
-  {"an error in halt is told; the leaf is not halted again, and starts anew",
+  {"an error in halt is reported; the leaf is not halted again, and starts anew",
    "Fallback(b? a)", "b=FSF a=RRS!halt",
    "R[b a] S{start b, tick b, halt a}!a R{start b, tick b, start a, tick a}"},
-  {"an exception in halt is told; the leaf is not halted again, and starts anew",
+  {"an exception in halt is reported; the leaf is not halted again, and starts anew",
    "Fallback(b? a)", "b=FSF a=RRS^halt",
    "R[b a] S{start b, tick b, halt a}!a R{start b, tick b, start a, tick a}"},
   {"errors in the halt at the end of the run: the first is the fault, all others are halted",
@@ -106,7 +106,7 @@ constexpr TickRow kRows[] = {
   {"under a synchronized parallel a Fallback has the next child carry on, from progress 0",
    "ParallelAbsolute[barriers=.5](a Fallback[memory=true](b d))", "a=R.6 b=R.2X d=R.2R.7R",
    "R[a b] R{pause a, tick b, halt b, start d, tick d}!b R{tick d} R{resume a, tick a, tick d}"},
-  {"several leaves at fault in one tick are told in their order",
+  {"several leaves at fault in one tick are reported in their order",
    "Fallback(a b d)", "a=X b=x d=T", "F{start a, tick a, halt a, start b, start d, tick d, halt d}!a,b,d"},
 };
 // clang-format on
@@ -136,7 +136,7 @@ TEST_CASE("a leaf at fault in progress reports 0 from then on and is not asked a
   CHECK(run.ticker().tolerated().empty());
 }
 
-TEST_CASE("a fault of progress asked for before a tick is told with that tick") {
+TEST_CASE("a fault of progress asked for before a tick is reported with that tick") {
   ScriptedRun run("a", "a=R<nan>", FaultPolicy::Fail);
   run.tick(Nanoseconds(0));
   run.ticker().progress(0);

@@ -51,7 +51,8 @@ void check(const Outcome& outcome) {
 
 }  // namespace
 
-TEST_CASE("a leaf that cannot be halted at a limit is a fault, with any policy, and all are told") {
+TEST_CASE(
+    "a leaf that cannot be halted at a limit is a fault, with any policy, and all are reported") {
   const Endless it;
   const std::string file = it.directory.path("run.jsonl");
   for (const Strings& limit : {Strings{"--max-ticks", "3"}, Strings{"--timeout", "0.025"}}) {
@@ -87,7 +88,7 @@ TEST_CASE("a leaf that cannot be halted at a signal is a fault, no matter which 
   }
 }
 
-TEST_CASE("a leaf that cannot be halted after a fault is told beside the leaf at fault") {
+TEST_CASE("a leaf that cannot be halted after a fault is reported beside the leaf at fault") {
   const TemporaryDirectory directory;
   std::string text = endless_tree();
   const std::string base = leaf("base", "");

@@ -74,7 +74,7 @@ TEST_CASE("a leaf that throws is a fault") {
   check_fault({"throw foreign"}, "threw an exception that is not a std::exception");
 }
 
-TEST_CASE("of what an exception says, 500 bytes are told and the rest is counted") {
+TEST_CASE("of what an exception says, 500 bytes are reported and the rest is counted") {
   const std::string shortened = std::string(500, 'x') + " ... (59999500 more bytes)";
   for (const std::string where : {"start", "tick", "halt", "progress"}) {
     check_fault({"throw long", where}, "threw an exception: " + shortened);

@@ -36,7 +36,7 @@ TEST_CASE("what a leaf prints does not mix with the results") {
   }
 }
 
-TEST_CASE("a leaf that leaks is told by the memory it takes, and whose it is when isolated") {
+TEST_CASE("a leaf that leaks is reported by the memory it takes, and whose it is when isolated") {
   // The leak is meant: a sanitizer need not tell.
   const std::map<std::string, std::string> environment = {
       {"ASAN_OPTIONS", "intercept_tls_get_addr=0:detect_leaks=0"}};
@@ -172,7 +172,7 @@ TEST_CASE("a thread of an isolated plugin that logs without end keeps nobody") {
   CHECK(lines_taken("wall", 3000) < 20'000);
 }
 
-TEST_CASE("a crash in a thread of a plugin is told as such") {
+TEST_CASE("a crash in a thread of a plugin is reported as such") {
   const Outcome in_process =
       run_hostile({"segv in a thread"}, Where::InProcess, {"--clock", "virtual"});
   CHECK(in_process.code == 6);

@@ -65,7 +65,7 @@ TEST_CASE("a processor that there is not is refused before the first tick") {
   CHECK(outcome.out.empty());
 }
 
-TEST_CASE("a recording that cannot be written is told at once, the run stops or goes on") {
+TEST_CASE("a recording that cannot be written is reported at once, the run stops or goes on") {
   const Strings record = {"--clock", "virtual", "--record", "/dev/full", "--json"};
   Strings stop = record;
   stop.insert(stop.end(), {"--on-record-error", "stop"});

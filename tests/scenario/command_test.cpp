@@ -184,7 +184,7 @@ TEST_CASE("a leaf that no plugin has is not one of a plugin") {
   CHECK(contains(it.out, "no plugin has 'Grab'"));
 }
 
-TEST_CASE("an error that several scenarios have is told once") {
+TEST_CASE("an error that several scenarios have is reported once") {
   const Folder folder(R"(<scenario name="a"><expect result="success"/></scenario>
 <scenario name="b"><expect result="success"/></scenario>)",
                       "<root lockstep=\"1\">");

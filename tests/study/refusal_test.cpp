@@ -78,7 +78,7 @@ TEST_CASE("a study that cannot be made is refused before it is begun") {
   }
 }
 
-TEST_CASE("what is wrong in several cells is told for all of them") {
+TEST_CASE("what is wrong in several cells is reported for all of them") {
   const StudyCase it;
   const Outcome outcome = it.study({kPaper + "example5.xml", "--runs", "1", "--grid",
                                     "noise=0,much,0.1,more", "--grid", "barrier_count=1,few"},

@@ -118,7 +118,7 @@ TEST_CASE("a limit is heeded within a state of very many answers") {
   }
 }
 
-TEST_CASE("what cannot be verified is told with its place") {
+TEST_CASE("what cannot be verified is reported with its place") {
   const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/navigate.xml"});
   CHECK(it.code == 3);
   CHECK(contains(it.err, "navigate.xml:15:5: error: 'RecoveryNode' is a control node of plugin"));
@@ -195,7 +195,7 @@ TEST_CASE("a verdict in the formats of other programs") {
   CHECK(verdict("xml").code == 2);
 }
 
-TEST_CASE("a verdict is told also where its files cannot be written") {
+TEST_CASE("a verdict is reported also where its files cannot be written") {
   const TemporaryDirectory directory;
   const std::string tree = with_findings(directory);
   const Outcome it = run_lockstep({"verify", tree, "--out", tree});

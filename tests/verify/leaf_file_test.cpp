@@ -62,7 +62,7 @@ constexpr Mistake kMistakes[] = {
 
 }  // namespace
 
-TEST_CASE("a mistake in a leaf file is told at its place") {
+TEST_CASE("a mistake in a leaf file is reported at its place") {
   for (const Mistake& it : kMistakes) {
     INFO(it.rows);
     Read read = test::read(it.rows, "Sequence(a)");

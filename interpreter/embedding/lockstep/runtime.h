@@ -186,12 +186,12 @@ typedef struct lockstep_run_options {
   /* Since 1.4: a leaf wants a tick before the next period; from any thread. A program that waits in
    * its own loop ends that wait. It must not call the run, but for lockstep_run_wake. */
   void (*wake)(void* user);
-  /* Since 1.4, in seconds, 0: none. A call of a leaf that takes longer is told with the lines that
-   * leaves log, at most once a second. */
+  /* Since 1.4, in seconds, 0: none. A call of a leaf that takes longer is reported with the lines
+   * that leaves log, at most once a second. */
   double tick_budget;
-  /* Since 1.4, in seconds, 0: none. `hang` is told once of a call of a leaf that lasts longer and
-   * has not returned: which leaf ("'Main/arm' (Reach of plugin 'arm')"), in which function, for how
-   * long. It is called in another thread, and must not call the run; the call goes on. A thread
+  /* Since 1.4, in seconds, 0: none. `hang` is reported once for a call of a leaf that lasts longer
+   * and has not returned: which leaf ("'Main/arm' (Reach of plugin 'arm')"), in which function, for
+   * how long. It is called in another thread, and must not call the run; the call goes on. A thread
    * that has ticked does not end before another one ticks, or the run is freed. */
   double hang_limit;
   void (*hang)(void* user, const char* who, const char* function, double seconds);
@@ -225,8 +225,8 @@ LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
 LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
 
 /* Since 1.4: after a fault, halts what runs. The run goes on: the next tick begins the tree, with
- * the entries and the leaves as they are. The fault is told with what leaves log, and so is in a
- * recording. False: a leaf could not be created; only lockstep_run_restart is of use then. */
+ * the entries and the leaves as they are. The fault is reported with what leaves log, and so is in
+ * a recording. False: a leaf could not be created; only lockstep_run_restart is of use then. */
 LOCKSTEP_EXPORT bool lockstep_run_recover(lockstep_run* run);
 
 typedef struct lockstep_node_state {
@@ -362,7 +362,7 @@ LOCKSTEP_EXPORT bool lockstep_run_check(lockstep_run* run, const char* property)
  * next tick or restart. */
 LOCKSTEP_EXPORT const char* lockstep_run_violation(lockstep_run* run, uint32_t index);
 
-/* Since 1.4: what is told of a node that is watched, while the tree is ticked. */
+/* Since 1.4: an event of a node that is watched, while the tree is ticked. */
 enum {
   /* It is ticked now. `status` is what it had; a result that is returned is its result in place of
    * the tick. Not when a script around it has decided (a pre-condition). */

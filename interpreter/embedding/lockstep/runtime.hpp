@@ -272,10 +272,10 @@ struct RunSettings {
   // A line that a leaf logs; from any thread. Also what the run has to say of a leaf: that it
   // reported a progress outside [0, 1], or that it failed and the run goes on.
   std::function<void(const std::string& who, LogLevel level, const std::string& message)> log = {};
-  // In seconds; 0: none. A call of a leaf that takes longer is told with what leaves log.
+  // In seconds; 0: none. A call of a leaf that takes longer is reported with what leaves log.
   double tick_budget = 0;
-  // In seconds; 0: none. A call of a leaf that lasts longer and has not returned is told once, in
-  // another thread; it goes on.
+  // In seconds; 0: none. A call of a leaf that lasts longer and has not returned is reported once,
+  // in another thread; it goes on.
   double hang_limit = 0;
   std::function<void(const std::string& who, const std::string& function, double seconds)> hang =
       {};

@@ -98,7 +98,7 @@ TEST_CASE("a default may use the arguments declared before it") {
   CHECK(told(late.diagnostics) == Lines{"f:1:43: unknown argument 'a'"});
 }
 
-TEST_CASE("an argument with an error is told once, and its uses stay as written") {
+TEST_CASE("an argument with an error is reported once, and its uses stay as written") {
   const auto loaded = load(with_x("${a} ${b} ${b}"));
   CHECK(told(loaded.diagnostics) == Lines{"f:1:70: unknown argument 'b2'"});
   CHECK(value(loaded, "N", "x") == "${a} ${b} ${b}");
@@ -109,7 +109,7 @@ TEST_CASE("an argument with an error is told once, and its uses stay as written"
   CHECK(value(missing, "N", "x") == "${a}");
 }
 
-TEST_CASE("an unknown argument is told at its exact place, with what is declared") {
+TEST_CASE("an unknown argument is reported at its exact place, with what is declared") {
   const auto loaded = load(
       "<root lockstep='1'>\n<arg name='speed' default='1'/><arg name='b' default=''/>\n"
       "<N x='&lt;é${speed}${sped}'\n   y='\n ${}'/></root>");
@@ -119,7 +119,7 @@ TEST_CASE("an unknown argument is told at its exact place, with what is declared
   CHECK(loaded.diagnostics.all()[0].excerpt.text == "<N x='&lt;é${speed}${sped}'");
 }
 
-TEST_CASE("of a value full of unknown arguments some are told, in good time") {
+TEST_CASE("of a value full of unknown arguments some are reported, in good time") {
   std::string value;
   for (int i = 0; i < 200'000; ++i) value += "${y}";
   CHECK(told(load("<root lockstep='1'><N x='" + value + "'/></root>").diagnostics).size() == 10);

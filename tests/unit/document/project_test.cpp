@@ -104,7 +104,7 @@ TEST_CASE("includes have a depth limit that is named") {
   CHECK(files.told().empty());
 }
 
-TEST_CASE("a file that cannot be read is told where it is included, with the reason") {
+TEST_CASE("a file that cannot be read is reported where it is included, with the reason") {
   Files files;
   files.write("main.xml",
               "<root lockstep='1'><include path='none.xml'/>\n<include path='directory'/>\n"

@@ -30,7 +30,7 @@ std::string nested(std::size_t depth) {
 
 }  // namespace
 
-TEST_CASE("what is not XML is told with its exact place") {
+TEST_CASE("what is not XML is reported with its exact place") {
   const Row rows[] = {
       {"mismatch", "<r>\n <A>\n  <B/>\n </C>\n</r>",
        "f:4:2: '</C>' closes '<A>', opened at line 2"},
@@ -108,7 +108,7 @@ TEST_CASE("what is not XML is told with its exact place") {
   for (const auto& row : rows) check(row);
 }
 
-TEST_CASE("what is not text in UTF-8 is told with its exact place") {
+TEST_CASE("what is not text in UTF-8 is reported with its exact place") {
   const Row rows[] = {
       {"UTF-16, low byte first", "\xff\xfe<\0r\0"s, "f:1:1: the file is in UTF-16"},
       {"UTF-16, high byte first", "\xfe\xff\0<\0r"s, "f:1:1: the file is in UTF-16"},
@@ -149,7 +149,7 @@ TEST_CASE("text in an element and unknown references leave the document readable
   CHECK(document->elements().size() == 2);
 }
 
-TEST_CASE("every attribute that is given twice is told, and the document is refused") {
+TEST_CASE("every attribute that is given twice is reported, and the document is refused") {
   Diagnostics diagnostics;
   CHECK_FALSE(Document::parse("f", "<r a='1' a='2'>\n<s b='' c='' b='' b=''/></r>", diagnostics));
   CHECK(told(diagnostics) == std::vector<std::string>{"f:1:10: attribute 'a' is given twice",

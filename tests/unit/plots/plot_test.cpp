@@ -310,7 +310,7 @@ TEST_CASE("plots: without gnuplot there is the data, and the name of the package
   CHECK(!fs::exists(directory / "small.svg"));
 }
 
-TEST_CASE("plots: what gnuplot says of an error is told, and no half image stays") {
+TEST_CASE("plots: what gnuplot says of an error is reported, and no half image stays") {
   const Directory directory;
   const PlotResult result = draw(PlotFiles{.directory = directory.path(),
                                            .stem = "bad",
@@ -359,7 +359,7 @@ TEST_CASE("plots: a link in the place of a file is replaced, never followed") {
   CHECK(is_xml(directory / "small.svg"));
 }
 
-TEST_CASE("plots: a directory that is not there is told") {
+TEST_CASE("plots: a directory that is not there is reported") {
   const Directory directory;
   const PlotResult result = draw(small_plot(), directory / "none");
   CHECK(contains(result.error, "small.dat': No such file or directory"));

@@ -197,7 +197,7 @@ TEST_CASE("an exception of a watched leaf is a fault of the run") {
   CHECK(watch.slowest().function != PluginFunction::None);  // it was timed, too
 }
 
-TEST_CASE("a leaf that changes the rounding mode has it set back, and is told of once") {
+TEST_CASE("a leaf that changes the rounding mode has it set back, and is reported once") {
   Fixture fixture(2);
   const FloatMode before = FloatMode::current();
   on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
@@ -242,7 +242,7 @@ TEST_CASE("a leaf whose create changes the rounding mode has it set back, and a 
                                "floating-point exceptions; they were restored"});
 }
 
-TEST_CASE("a call over the budget counts, and is told of with what it took") {
+TEST_CASE("a call over the budget counts, and is reported with what it took") {
   Fixture fixture(2, 0, {.budget = 5ms});
   for (const auto took : {1ms, 5ms, 6ms, 7ms, 2ms}) fixture.tick(1, took);
   CHECK(fixture.slow == Strings{"1 tick 6"});
@@ -256,7 +256,7 @@ TEST_CASE("a call over the budget counts, and is told of with what it took") {
   CHECK(over[0].p99 == 7ms);
 }
 
-TEST_CASE("slow calls are told of once a second, whichever leaf it is, and all count") {
+TEST_CASE("slow calls are reported once a second, whichever leaf it is, and all count") {
   Fixture fixture(2, 0, {.budget = 5ms});
   const Nanoseconds start = fixture.clock.time;
   const auto call_at = [&](Nanoseconds end, std::size_t leaf) {

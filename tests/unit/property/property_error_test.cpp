@@ -21,7 +21,7 @@ PropertyNames names() {
 
 }  // namespace
 
-TEST_CASE("each mistake in a property is told at its column") {
+TEST_CASE("each mistake in a property is reported at its column") {
   constexpr Row kRows[] = {
       {"", 1, "expected what holds in a tick instead of the end", ""},
       {"never", 6, "expected what holds in a tick instead of the end", ""},

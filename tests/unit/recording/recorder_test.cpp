@@ -101,7 +101,7 @@ TEST_CASE("a disk that is too slow loses ticks, the recording says which, the re
   CHECK(reader.end()->lost == lost);
 }
 
-TEST_CASE("ticks lost at the end are told before the closing line") {
+TEST_CASE("ticks lost at the end are reported before the closing line") {
   BlockedDisk disk;
   {
     SteppedRun run("Sequence(a)", "a=R");
@@ -135,7 +135,7 @@ TEST_CASE("on the virtual clock the run waits for the disk instead") {
   CHECK(disk.text() == file.text());
 }
 
-TEST_CASE("an error while the run goes on is told within a tick of its being known") {
+TEST_CASE("an error while the run goes on is reported within a tick of its being known") {
   BlockedDisk disk;
   std::string told;
   SteppedRun run("Sequence(a)", "a=R");

@@ -273,7 +273,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text.replace(at, from.size(), to);
 }
 
-TEST_CASE("what is wrong with a recording is told with its line") {
+TEST_CASE("what is wrong with a recording is reported with its line") {
   const struct {
     std::string text, error;
   } cases[] = {
@@ -351,7 +351,7 @@ TEST_CASE("info says that a recording is cut") {
                   "closing line\n") != std::string::npos);
 }
 
-TEST_CASE("a recording that cannot be written is told once and the run goes on") {
+TEST_CASE("a recording that cannot be written is reported once and the run goes on") {
   for (const char* path : {"/nowhere/run.jsonl", "/dev/full"}) {
     WatchedRun run(kTree, kLeaves);
     int told = 0;

@@ -93,7 +93,8 @@ void check_report(const Ended& ended, const std::string& first_line) {
   CHECK(ended.said.find("test_", backtrace) != std::string::npos);  // this program's own frames
 }
 
-TEST_CASE("a crash is told with leaf, tick and signal, then come the last words and a backtrace") {
+TEST_CASE(
+    "a crash is reported with leaf, tick and signal, then come the last words and a backtrace") {
   check_report(in_tick([] { write_to(0x10); }),
                kLeaf + "crashed in tick 12: SIGSEGV, invalid memory reference (address 0x10)");
   check_report(in_tick([] { divide_by_zero(); }),
@@ -106,7 +107,7 @@ TEST_CASE("a crash is told with leaf, tick and signal, then come the last words 
                kLeaf + "crashed in tick 12: SIGBUS, nonexistent memory");
 }
 
-TEST_CASE("a stack overflow is told on a stack of its own") {
+TEST_CASE("a stack overflow is reported on a stack of its own") {
   const Ended ended = in_tick([] { overflow(0); });
   CHECK(ended.exit_code == kCrashed);
   CHECK(has(ended, kLeaf + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
@@ -114,7 +115,7 @@ TEST_CASE("a stack overflow is told on a stack of its own") {
   CHECK(has(ended, "lockstep: backtrace:\n"));
 }
 
-TEST_CASE("a stack overflow in a thread of our own is told, too") {
+TEST_CASE("a stack overflow in a thread of our own is reported, too") {
   const Ended ended = outside([] {
     std::thread([] {
       adopt_thread();
@@ -193,7 +194,7 @@ TEST_CASE("a crash in a thread that a plugin started is not that of a leaf") {
       "reference (address 0x10)");
 }
 
-TEST_CASE("a crash of our own is told as such") {
+TEST_CASE("a crash of our own is reported as such") {
   const Ended ended = outside([] { write_to(0x10); });
   check_report(ended,
                "lockstep: error: lockstep crashed: SIGSEGV, invalid memory reference "
@@ -232,12 +233,12 @@ std::thread tell_hang() {
   });
 }
 
-TEST_CASE("a hang is told with the backtrace of the thread that hangs") {
+TEST_CASE("a hang is reported with the backtrace of the thread that hangs") {
   check_report(in_tick([] { tell_hang().join(); }),
                kLeaf + "has not returned from tick 12 for 2.0 s");
 }
 
-TEST_CASE("a hang of a thread that takes no signal is told without a backtrace") {
+TEST_CASE("a hang of a thread that takes no signal is reported without a backtrace") {
   const Ended ended = in_tick([] {
     sigset_t all;
     sigfillset(&all);
@@ -255,7 +256,7 @@ pid_t raw_fork() {
   return static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0));
 }
 
-TEST_CASE("a child that comes back from the call is told of and ends there") {
+TEST_CASE("a child that comes back from the call is reported and ends there") {
   for (pid_t (*forked)() : {static_cast<pid_t (*)()>(fork), raw_fork}) {
     const Ended ended = in_tick([&] {
       int status = 0;
@@ -297,7 +298,7 @@ TEST_CASE("what a process does that a leaf forks off is its own matter") {
   CHECK(ended.said.empty());
 }
 
-TEST_CASE("a fatal signal from another process is told as such") {
+TEST_CASE("a fatal signal from another process is reported as such") {
   const Ended ended = in_tick([] {
     const pid_t crashing = getpid();
     std::array<int, 2> forked{};

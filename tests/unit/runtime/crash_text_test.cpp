@@ -31,7 +31,7 @@ Crash segv(const CallMark::Look& call) {
           .address = 0x1f};
 }
 
-TEST_CASE("a crash is told with the function it was in") {
+TEST_CASE("a crash is reported with the function it was in") {
   const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
   const std::string end = ": SIGSEGV, invalid memory reference (address 0x1f)";
   using F = PluginFunction;
@@ -90,7 +90,7 @@ TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to 
   CHECK(said(kPlugin).find("--isolate") == std::string::npos);
 }
 
-TEST_CASE("a crash in a study is told with its run") {
+TEST_CASE("a crash in a study is reported with its run") {
   Crash crash = segv(in(kLeaf, PluginFunction::Tick));
   crash.run = {.cell = 3, .number = 17, .seed = 1234};
   SignalText text;
@@ -99,7 +99,7 @@ TEST_CASE("a crash in a study is told with its run") {
         std::string::npos);
 }
 
-TEST_CASE("exit and hang are told with the function they were in") {
+TEST_CASE("exit and hang are reported with the function they were in") {
   const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
   Crash crash{.kind = CrashKind::Exit, .call = in(kLeaf, PluginFunction::Tick), .tick = 0};
   CHECK(first_line(crash) == begin + "called exit() in tick 0");

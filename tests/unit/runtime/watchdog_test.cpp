@@ -24,7 +24,7 @@ struct Told {
   Nanoseconds lasts;
 };
 
-TEST_CASE("a call that lasts as long as the limit is told of") {
+TEST_CASE("a call that lasts as long as the limit is reported") {
   std::promise<Told> promise;
   const Watchdog watchdog(
       {.hang_limit = 100ms, .on_hang = [&](auto... told) { promise.set_value({told...}); }});
@@ -36,7 +36,7 @@ TEST_CASE("a call that lasts as long as the limit is told of") {
   CHECK(told.lasts >= 100ms);
 }
 
-TEST_CASE("a halt that lasts is told of once, and long before it counts as a hang") {
+TEST_CASE("a halt that lasts is reported once, and long before it counts as a hang") {
   std::atomic<int> halts{0}, hangs{0};
   const Watchdog watchdog({.hang_limit = 300ms,
                            .halt_limit = 50ms,

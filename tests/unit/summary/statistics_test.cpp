@@ -193,7 +193,7 @@ TEST_CASE("leaves that went on while they were held are noted and counted") {
   CHECK(to_json(summary).find(R"("went_on_while_held":1,)") != std::string::npos);
 }
 
-TEST_CASE("the worst tick is told with its leaf, on a real clock only") {
+TEST_CASE("the worst tick is reported with its leaf, on a real clock only") {
   WatchedRun run("Sequence(a)", "a=RS");
   run.worst = {.tick = 1, .took = Nanoseconds(8'200'000), .leaf = {}, .leaf_took = {}};
   CHECK_FALSE(summary_of(run).worst);
@@ -215,7 +215,7 @@ TEST_CASE("the worst tick is told with its leaf, on a real clock only") {
       std::string::npos);
 }
 
-TEST_CASE("leaves over the tick budget are told with their times") {
+TEST_CASE("leaves over the tick budget are reported with their times") {
   Summary summary;
   summary.tick_budget = 0.01;
   summary.over_budget = {{.path = "Main/arm",

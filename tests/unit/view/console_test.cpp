@@ -84,7 +84,8 @@ TEST_CASE("plain lines tell who is halted and what failed") {
   CHECK(fault.find("run ends: fault after 2 ticks\n") != std::string::npos);
 }
 
-TEST_CASE("a fault that the run goes on after is told at once, however much was told before") {
+TEST_CASE(
+    "a fault that the run goes on after is reported at once, however much was reported before") {
   TextFile out;
   WatchedRun run("Repeat(a)", "a=RS...");
   run.faults[500] = {{1, "threw\x1b[2J"}};

@@ -112,7 +112,7 @@ TEST_CASE("of a damaged or cut recording there are the ticks before it") {
   }
 }
 
-TEST_CASE("a recording that gets shorter while it is replayed is told, not misread") {
+TEST_CASE("a recording that gets shorter while it is replayed is reported, not misread") {
   std::mt19937 random(3);
   const std::string text = random_recording(random, {.ticks = 40, .gaps = false}).text();
   Opened opened(text, {.distance = 100});
