@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "compression/decompressed.h"
 #include "recording/use/recording_diff.h"
 
 namespace lockstep::host {
@@ -55,14 +56,15 @@ void Golden::compare(std::vector<Surprise>& surprises) const {
   PerformOptions again = options;
   again.record = brief.path();
   const Performance performance = performer.perform(again);
-  std::ifstream a(golden), b(brief.path());
-  if (!a) {
+  DecompressedFile golden_file(golden);
+  std::ifstream this_file(brief.path());
+  if (!golden_file.is_open()) {
     surprises.push_back({expected.place,
                          fmt::format("'{}' cannot be read", golden),
                          {"lockstep test --update writes it"}});
     return;
   }
-  RecordingReader expected_run(a, golden), run(b, "this run");
+  RecordingReader expected_run(golden_file.text(), golden), run(this_file, "this run");
   const RecordingDiff diff =
       host::compare(expected_run, run, {.tolerance = expected.tolerance, .ignore_time = false});
   if (!expected_run.error().empty() || !run.error().empty()) {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <map>
 
+#include "compression/decompressed.h"
 #include "engine/writers.h"
 #include "recording/read/recording_reader.h"
 
@@ -119,12 +119,12 @@ class WordMaker {
 
 RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
   RecordedWords words;
-  std::ifstream in(path);
-  if (!in) {
+  DecompressedFile file(path);
+  if (!file.is_open()) {
     words.error = fmt::format("'{}' cannot be read: {}", path, std::strerror(errno));
     return words;
   }
-  RecordingReader reader(in, path);
+  RecordingReader reader(file.text(), path);
   if (reader.error().empty()) {
     const RecordingHeader& header = reader.header();
     words.tree_file = header.file;

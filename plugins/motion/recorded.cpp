@@ -26,6 +26,8 @@ class JsonLines {
 
   // Nothing at the end.
   std::optional<dom::element> next() {
+    constexpr int kZstd = 0x28;  // a line of JSON begins with '{'
+    if (line_ == 0 && file_.peek() == kZstd) fail("compressed; zstd -d makes a plain file of it");
     file_.getline(text_.get(), kLongestLine);
     const auto length = static_cast<std::size_t>(file_.gcount());
     if (length == 0) return std::nullopt;

@@ -186,6 +186,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   RecorderOptions recorder_options() {
     RecorderOptions recorder{.path = options_.record, .run = description_};
+    recorder.compresses = options_.record_compress;
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
   }

@@ -208,8 +208,11 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   define_fault_options(app, options);
   define_property_options(app, options);
   app.add_option("--record", options.record,
-                 "Write a recording (JSON Lines; see docs/recording.md)")
+                 "Write a recording (JSON Lines; see docs/recording.md); FILE.jsonl.zst compresses "
+                 "it")
       ->type_name("FILE.jsonl");
+  app.add_flag("--record-compress", options.record_compress,
+               "Compress the recording with zstd, whatever its name");
   app.add_option(
          "--record-entries", options.record_entries,
          "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "

@@ -38,6 +38,7 @@ struct RunCommandOptions {
   bool ends_on_violation = false;
 
   std::string record;
+  bool record_compress = false;
   bool stop_on_record_error = false;
   std::string view = "auto";
   lockstep_log_level log_level = LOCKSTEP_LOG_INFO;

@@ -1,9 +1,24 @@
 #include "recording/read/line_reader.h"
 
+#include "compression/decompressed.h"
+
 namespace lockstep::host {
+
+LineReader::LineReader(std::istream& in, std::size_t longest) : in_(in), longest_(longest) {
+  in_.exceptions(std::ios_base::badbit);  // what a read throws is passed on
+}
 
 bool LineReader::next() {
   text_.clear();
+  try {
+    return read_line();
+  } catch (const CannotDecompress& damage) {
+    damage_ = damage.what();
+    return false;
+  }
+}
+
+bool LineReader::read_line() {
   char part[1u << 12u];
   while (true) {
     in_.getline(part, sizeof part);

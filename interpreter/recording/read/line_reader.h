@@ -10,10 +10,10 @@ namespace lockstep::host {
 class LineReader {
  public:
   // `in` must outlive the reader.
-  LineReader(std::istream& in, std::size_t longest) : in_(in), longest_(longest) {}
+  LineReader(std::istream& in, std::size_t longest);
 
-  // Reads the next line. Returns false at the end, and if the line is too long; such a line is
-  // counted but not kept.
+  // Reads the next line. Returns false at the end, if the line is too long, and if it cannot be
+  // decompressed. A line that is too long is counted but not kept.
   bool next();
   // Without its end. May be changed: it is not read again.
   std::string& text() { return text_; }
@@ -21,6 +21,7 @@ class LineReader {
   bool has_end() const { return has_end_; }
   bool is_too_long() const { return text_.size() > longest_; }
   std::size_t longest() const { return longest_; }
+  const std::string& damage() const { return damage_; }  // "": there is none
 
   // How much has been read.
   struct Position {
@@ -31,10 +32,13 @@ class LineReader {
   bool go_to(const Position& position);
 
  private:
+  bool read_line();
+
   std::istream& in_;
   const std::size_t longest_;
   std::string text_;
   bool has_end_ = true;
+  std::string damage_;
   Position position_;
 };
 

@@ -98,6 +98,7 @@ std::string RecordingReader::cut() const {
 
 bool RecordingReader::next_line() {
   if (lines_.next()) return true;
+  if (!lines_.damage().empty()) fail(lines_.damage());
   if (lines_.is_too_long()) fail(fmt::format("the line is longer than {} bytes", lines_.longest()));
   return false;
 }

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <ctime>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "core/clock.h"
@@ -56,7 +57,8 @@ void leave(AppendFile* file) {
 
 }  // namespace
 
-AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFormat& format)
+AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFormat& format,
+                       Compression compression)
     : ring_(queue),
       format_(format),
       path_(path),
@@ -65,6 +67,13 @@ AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFor
       text_(kText) {
   if (file_ < 0) {
     error_ = out_.error();
+    failed_.store(true, std::memory_order_release);
+    return;
+  }
+  try {
+    if (compression == Compression::Zstd) frames_.emplace(kText);
+  } catch (const std::runtime_error& missing) {  // there is no such library
+    error_ = fmt::format("cannot write '{}': {}", path, missing.what());
     failed_.store(true, std::memory_order_release);
     return;
   }
@@ -83,7 +92,7 @@ AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFor
 }
 
 AppendFile::~AppendFile() {
-  if (file_ < 0) return;
+  if (!thread_.joinable()) return;
   stopping_.store(true, std::memory_order_release);
   work_.ring();
   thread_.join();
@@ -128,6 +137,7 @@ void AppendFile::write_until_stopped() {
     const bool last = stopping_.load(std::memory_order_acquire);
     if (claim()) {
       write_out(Failure::Told);
+      if (last) end_frame(Failure::Told);
       release();
     }
     done_.ring();
@@ -155,19 +165,68 @@ void AppendFile::write_out(Failure failure) {
 }
 
 void AppendFile::write_text(std::string_view text, Failure failure) {
-  while (!failed() && !text.empty()) {
-    const ssize_t count = ::write(file_, text.data(), text.size());
-    if (count >= 0) {
-      const auto written = static_cast<std::size_t>(count);
-      count_written(text.substr(0, written));
-      if (written_ > unfinished_ && !out_.take_name()) give_up("replace", failure);
-      text.remove_prefix(written);
-    } else if (errno == EAGAIN && failure == Failure::Told) {
-      if (!await_room()) give_up("write", failure);
-    } else if (errno != EINTR) {
-      give_up("write", failure);
-    }
+  if (text.empty()) return;
+  if (frames_) {
+    write_compressed(text, failure);
+  } else {
+    write_plain(text, failure);
   }
+}
+
+void AppendFile::write_plain(std::string_view text, Failure failure) {
+  while (!failed() && !text.empty()) {
+    const std::string_view written = text.substr(0, write_some(text, failure));
+    written_ += written.size();
+    const auto newline = written.rfind('\n');
+    if (newline == std::string_view::npos) {
+      unfinished_ += written.size();
+    } else {
+      unfinished_ = written.size() - newline - 1;
+      take_name(failure);
+    }
+    text.remove_prefix(written.size());
+  }
+}
+
+// The text is in the file when the whole block is.
+void AppendFile::write_compressed(std::string_view text, Failure failure) {
+  if (frames_->was_left()) end_frame(failure);
+  std::string_view bytes = frames_->add(text);
+  while (!failed() && !bytes.empty()) {
+    const std::size_t count = write_some(bytes, failure);
+    unfinished_ += count;
+    bytes.remove_prefix(count);
+  }
+  if (failed()) return;
+  unfinished_ = 0;
+  written_ += text.size();
+  if (text.find('\n') != std::string_view::npos) take_name(failure);
+}
+
+// A compressed file is complete then for any reader of zstd.
+void AppendFile::end_frame(Failure failure) {
+  if (!frames_ || failed()) return;
+  std::string_view bytes = frames_->end();
+  while (!failed() && !bytes.empty()) bytes.remove_prefix(write_some(bytes, failure));
+}
+
+// How many bytes: 0 if it was interrupted, or has failed.
+std::size_t AppendFile::write_some(std::string_view bytes, Failure failure) {
+  const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+  if (count >= 0) return static_cast<std::size_t>(count);
+  if (errno == EAGAIN && failure == Failure::Told) {
+    if (!await_room()) give_up("write", failure);
+  } else if (errno != EINTR) {
+    give_up("write", failure);
+  }
+  return 0;
+}
+
+// With the first whole line.
+void AppendFile::take_name(Failure failure) {
+  if (has_line_) return;
+  has_line_ = true;
+  if (!out_.take_name()) give_up("replace", failure);
 }
 
 void AppendFile::set_patience(Nanoseconds patience) {
@@ -186,13 +245,6 @@ bool AppendFile::await_room() {
     if (is_out_of_patience_) return false;
   }
   return true;
-}
-
-void AppendFile::count_written(std::string_view text) {
-  written_ += text.size();
-  unfinished_ += text.size();
-  const auto newline = text.rfind('\n');
-  if (newline != std::string_view::npos) unfinished_ = text.size() - newline - 1;
 }
 
 void AppendFile::give_up(const char* what, Failure failure) {
@@ -247,6 +299,7 @@ void AppendFile::save(std::chrono::nanoseconds deadline) {
   // An unread pipe must not delay the end of the process.
   ::fcntl(file_, F_SETFL, O_APPEND | O_NONBLOCK);
   write_out(Failure::Silent);
+  end_frame(Failure::Silent);
   release();
 }
 

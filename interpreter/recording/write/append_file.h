@@ -8,11 +8,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
+#include "compression/zstd_frames.h"
 #include "core/clock.h"
 #include "live/packet_ring.h"
 #include "recording/write/json_lines.h"
@@ -20,6 +22,8 @@
 #include "system/output_file.h"
 
 namespace lockstep::host {
+
+enum class Compression { None, Zstd };
 
 class AppendFile {
  public:
@@ -34,7 +38,8 @@ class AppendFile {
   // Creates the file; on failure error() has the reason. The file gets its name, and replaces an
   // existing file, when its first line is written: system/output_file.h.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
-                      const LineFormat& format = json_lines());
+                      const LineFormat& format = json_lines(),
+                      Compression compression = Compression::None);
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
@@ -71,7 +76,11 @@ class AppendFile {
   void write_until_stopped();
   void write_out(Failure failure);
   void write_text(std::string_view text, Failure failure);
-  void count_written(std::string_view text);
+  void write_plain(std::string_view text, Failure failure);
+  void write_compressed(std::string_view text, Failure failure);
+  void end_frame(Failure failure);
+  std::size_t write_some(std::string_view bytes, Failure failure);
+  void take_name(Failure failure);
   bool await_room();
   void give_up(const char* what, Failure failure);
   void cut_back();
@@ -98,9 +107,12 @@ class AppendFile {
   // The thread that takes packets out and writes them; 0: none. It prevents that a byte is written
   // twice.
   std::atomic<pid_t> claim_{0};
-  std::vector<char> text_;     // what it prints to
+  std::vector<char> text_;  // what it prints to
+  std::optional<ZstdFrames> frames_;
   std::uint64_t written_ = 0;  // bytes of the text of the packets in the ring, in the file already
-  std::uint64_t unfinished_ = 0;  // bytes at the end of the file that are not a whole line
+  // Bytes at the end of the file that are not a whole line; of a compressed file, a whole block.
+  std::uint64_t unfinished_ = 0;
+  bool has_line_ = false;  // a whole one is in the file
   std::thread thread_;
 };
 

@@ -17,11 +17,17 @@ std::size_t queue_of(const Tree& tree, std::size_t wanted) {
   return std::max(wanted, kTicks * longest);
 }
 
+Compression compression_of(const RecorderOptions& options) {
+  const bool compresses = options.compresses || options.path.ends_with(".zst");
+  return compresses ? Compression::Zstd : Compression::None;
+}
+
 }  // namespace
 
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : options_(std::move(options)),
-      file_(options_.path, queue_of(tree, options_.queue), options_.format),
+      file_(options_.path, queue_of(tree, options_.queue), options_.format,
+            compression_of(options_)),
       packets_(tree, options_.run, options_.format) {}
 
 void Recorder::run_started(Ticker&, const RunStart& start) {

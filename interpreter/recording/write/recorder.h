@@ -21,6 +21,7 @@ struct RecorderOptions {
   std::function<void(const std::string& error)> on_error = {};
   std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
   const LineFormat& format = json_lines();
+  bool compresses = false;  // with zstd; a path that ends in .zst says so, too
 };
 
 class Recorder final : public Observer {

@@ -7,7 +7,9 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <sstream>
 
+#include "compression/decompressed.h"
 #include "unit/recording/blocked_disk.h"
 
 namespace lockstep::host {
@@ -131,6 +133,43 @@ TEST_CASE("a file that was emptied by others is not filled up when it is cut bac
   CHECK(path.text() == line(100));
 }
 
+// --- compressed ----------------------------------------------------------------------------------
+
+std::string decompressed(const std::string& bytes) {
+  std::istringstream in(bytes);
+  Decompressed text(*in.rdbuf());
+  std::ostringstream all;
+  all << &text;
+  return std::move(all).str();
+}
+
+TEST_CASE("a compressed file has each line when it is flushed, in far fewer bytes") {
+  const TemporaryPath path;
+  {
+    AppendFile file(path.path(), kQueue, json_lines(), Compression::Zstd);
+    file.write(packet(lines(0, 10)));
+    CHECK(decompressed(path.text()) == lines(0, 10));
+    file.write(packet(lines(10, 100'000)));  // longer than the queue, and more than a frame
+    CHECK(decompressed(path.text()) == lines(0, 100'000));
+  }
+  CHECK(decompressed(path.text()) == lines(0, 100'000));
+  CHECK(path.text().size() * 3 < lines(0, 100'000).size());
+}
+
+TEST_CASE("a compressed file that cannot grow can be read up to a whole line") {
+  const TemporaryPath path;
+  std::string error;
+  {
+    AppendFile file(path.path(), kQueue, json_lines(), Compression::Zstd);
+    file.write(packet(lines(0, 100)));
+    const FileSizeLimit limit(path.text().size() + 20);
+    file.write(packet(lines(100, 1000)));
+    error = file.error();
+  }
+  CHECK(error == "cannot write '" + path.path() + "': File too large");
+  CHECK(decompressed(path.text()) == lines(0, 100));
+}
+
 // --- emergencies ---------------------------------------------------------------------------------
 
 // What a process does that must not take this one with it; its exit code, or -1.
@@ -169,6 +208,30 @@ TEST_CASE("what was pushed before a crash is in the file") {
   });
   CHECK(code == kSaved);
   CHECK(path.text() == lines(0, 1000));
+}
+
+TEST_CASE("what was pushed before a crash is in a compressed file, and goes on in its frame") {
+  const TemporaryPath path;
+  const int code = in_child([&]() -> int {
+    AppendFile file(path.path(), AppendFile::kQueue, json_lines(), Compression::Zstd);
+    file.write(packet(lines(0, 1000)));
+    file.push(packet(lines(1000, 2000)));
+    crash();
+  });
+  CHECK(code == kSaved);
+  CHECK(decompressed(path.text()) == lines(0, 2000));
+}
+
+TEST_CASE("a crash handler compresses by itself when the thread does not answer") {
+  const TemporaryPath path;
+  AppendFile file(path.path(), AppendFile::kQueue, json_lines(), Compression::Zstd);
+  file.write(packet(lines(0, 10)));
+  const int code = in_child([&]() -> int {
+    file.push(packet(lines(10, 1000)));
+    crash();
+  });
+  CHECK(code == kSaved);
+  CHECK(decompressed(path.text()) == lines(0, 1000));
 }
 
 TEST_CASE("a crash handler writes by itself when the thread does not answer") {

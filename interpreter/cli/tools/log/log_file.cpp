@@ -4,13 +4,13 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <system_error>
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
+#include "compression/decompressed.h"
 
 namespace lockstep::host {
 
@@ -19,12 +19,16 @@ void add_recording_file(CLI::App& app, std::string& file) {
 }
 
 int with_file(const std::string& path, const std::function<int(std::istream&)>& use) {
-  if (path == "-") return use(std::cin);
+  if (path == "-") {
+    Decompressed buffer(*std::cin.rdbuf());
+    std::istream text(&buffer);
+    return use(text);
+  }
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  return file ? use(file) : cannot_use("read", path, errno);
+  DecompressedFile file(path);
+  return file.is_open() ? use(file.text()) : cannot_use("read", path, errno);
 }
 
 int read_recording(std::istream& in, const std::string& path,

@@ -1,0 +1,133 @@
+#include "compression/decompressed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+#include "compression/zstd_library.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kPart = 64u << 10, kBlock = 128u << 10;  // bytes
+constexpr std::string_view kMagic{"\x28\xB5\x2F\xFD", 4};
+constexpr int kMostWindow = 25;  // as a power of two, in bytes: the memory of a reader
+
+}  // namespace
+
+struct Decompressed::Decompressor {
+  ZSTD_DCtx* context = zstd().create_reader();
+  bool in_frame = false;
+  Decompressor() { zstd().set_reader(context, ZSTD_d_windowLogMax, kMostWindow); }
+  ~Decompressor() { zstd().free_reader(context); }
+  Decompressor(const Decompressor&) = delete;
+  Decompressor& operator=(const Decompressor&) = delete;
+};
+
+Decompressed::Decompressed(std::streambuf& file) : file_(file), bytes_(kPart) {}
+Decompressed::~Decompressed() = default;
+
+Decompressed::int_type Decompressed::underflow() {
+  if (!has_looked_) look();
+  const bool is_filled = zstd_ ? fill_compressed() : fill_plain();
+  return is_filled ? traits_type::to_int_type(*gptr()) : traits_type::eof();
+}
+
+void Decompressed::look() {
+  has_looked_ = true;
+  // A pipe may give a byte at a time.
+  while (count_ < kMagic.size() && read_file()) {
+  }
+  if (!std::string_view(bytes_.data(), count_).starts_with(kMagic)) return;
+  zstd_ = std::make_unique<Decompressor>();
+  text_.resize(kBlock);
+}
+
+// More bytes behind those that are not used yet. False: there are none.
+bool Decompressed::read_file() {
+  if (at_ == count_) at_ = count_ = 0;
+  if (count_ == bytes_.size()) return false;
+  const auto count = file_.sgetn(bytes_.data() + count_, 1);
+  if (count <= 0) return false;
+  const auto room = static_cast<std::streamsize>(bytes_.size() - count_ - 1);
+  const auto there = std::clamp<std::streamsize>(file_.in_avail(), 0, room);
+  const auto more = file_.sgetn(bytes_.data() + count_ + 1, there);
+  count_ += 1 + static_cast<std::size_t>(std::max<std::streamsize>(more, 0));
+  file_end_ += 1 + static_cast<std::uint64_t>(std::max<std::streamsize>(more, 0));
+  return true;
+}
+
+bool Decompressed::fill_plain() {
+  if (at_ == count_ && !read_file()) return false;
+  setg(bytes_.data(), bytes_.data() + at_, bytes_.data() + count_);
+  text_end_ += count_ - at_;
+  at_ = count_;
+  return true;
+}
+
+bool Decompressed::fill_compressed() {
+  while (true) {
+    if (at_ == count_ && !read_file()) return false;
+    if (!zstd_->in_frame) {
+      const Frame frame{text_end_, file_end_ - (count_ - at_)};
+      if (frames_.empty() || frames_.back().text < frame.text) frames_.push_back(frame);
+    }
+    ZSTD_inBuffer in{bytes_.data(), count_, at_};
+    ZSTD_outBuffer out{text_.data(), text_.size(), 0};
+    const std::size_t left = zstd().decompress(zstd_->context, &out, &in);
+    if (zstd().is_error(left) != 0) {
+      throw CannotDecompress(fmt::format("its compressed bytes are damaged before byte {} ({})",
+                                         file_end_ - (count_ - in.pos), zstd().error_name(left)));
+    }
+    at_ = in.pos;
+    zstd_->in_frame = left != 0;
+    if (out.pos == 0) continue;
+    setg(text_.data(), text_.data(), text_.data() + out.pos);
+    text_end_ += out.pos;
+    return true;
+  }
+}
+
+Decompressed::pos_type Decompressed::seekoff(off_type offset, std::ios_base::seekdir way,
+                                             std::ios_base::openmode which) {
+  if (way == std::ios_base::cur && offset == 0) {
+    return static_cast<off_type>(text_position());
+  }
+  if (way != std::ios_base::beg || offset < 0) return pos_type(off_type(-1));
+  return seekpos(offset, which);
+}
+
+Decompressed::pos_type Decompressed::seekpos(pos_type position, std::ios_base::openmode) {
+  const auto text = static_cast<std::uint64_t>(off_type(position));
+  if (!has_looked_) look();
+  if (!go_to_frame(text)) return pos_type(off_type(-1));
+  // The rest of the way within the frame, or through a plain file.
+  while (text_end_ < text) {
+    if (underflow() == traits_type::eof()) return pos_type(off_type(-1));
+  }
+  setg(eback(), egptr() - (text_end_ - text), egptr());
+  return position;
+}
+
+// To the beginning of the last frame that begins before this place of the text; in a plain file, to
+// the place.
+bool Decompressed::go_to_frame(std::uint64_t text) {
+  Frame frame{text, text};
+  if (zstd_) {
+    const auto after = std::ranges::upper_bound(frames_, text, {}, &Frame::text);
+    frame = after == frames_.begin() ? Frame() : *std::prev(after);
+    zstd().reset_reader(zstd_->context, ZSTD_reset_session_only);
+    zstd_->in_frame = false;
+  }
+  const auto there = file_.pubseekpos(static_cast<std::streamoff>(frame.file), std::ios_base::in);
+  if (there == pos_type(off_type(-1))) return false;
+  setg(nullptr, nullptr, nullptr);
+  at_ = count_ = 0;
+  file_end_ = frame.file;
+  text_end_ = frame.text;
+  return true;
+}
+
+}  // namespace lockstep::host

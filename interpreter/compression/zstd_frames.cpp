@@ -1,0 +1,51 @@
+#include "compression/zstd_frames.h"
+
+#include "compression/zstd_library.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr int kLevel = 1;  // higher levels need more time and give hardly fewer bytes
+
+constexpr std::size_t kHeader = 64;  // bytes, more than that of a frame and of its last block
+
+// A block without content that is the last of its frame (RFC 8878, 3.1.1.2).
+constexpr std::string_view kLastBlock{"\x01\0\0", 3};
+
+ZSTD_CStream* stream(void* pointer) {
+  return static_cast<ZSTD_CStream*>(pointer);
+}
+
+}  // namespace
+
+ZstdFrames::ZstdFrames(std::size_t longest_piece)
+    : workspace_(zstd().stream_size(kLevel)),
+      bytes_(zstd().compress_bound(longest_piece) + kHeader) {
+  begin_frame();
+}
+
+void ZstdFrames::begin_frame() {
+  stream_ = zstd().init_stream(workspace_.data(), workspace_.size());
+  zstd().set_parameter(stream(stream_), ZSTD_c_compressionLevel, kLevel);
+  in_frame_ = 0;
+}
+
+std::string_view ZstdFrames::add(std::string_view piece) {
+  is_adding_ = true;
+  const bool ends = in_frame_ + piece.size() >= kFrame;
+  ZSTD_inBuffer in{piece.data(), piece.size(), 0};
+  ZSTD_outBuffer out{bytes_.data(), bytes_.size(), 0};
+  // There is room for all of it, so one call is enough.
+  zstd().compress(stream(stream_), &out, &in, ends ? ZSTD_e_end : ZSTD_e_flush);
+  in_frame_ = ends ? 0 : in_frame_ + piece.size();
+  is_adding_ = false;
+  return {bytes_.data(), out.pos};
+}
+
+std::string_view ZstdFrames::end() {
+  const bool is_open = in_frame_ > 0;
+  begin_frame();
+  return is_open ? kLastBlock : std::string_view();
+}
+
+}  // namespace lockstep::host

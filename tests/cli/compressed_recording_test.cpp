@@ -1,0 +1,66 @@
+// Compressed recordings, from outside: the same text in far fewer bytes, read by all commands.
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+namespace lockstep::host::test {
+namespace {
+
+constexpr const char* kTree = LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml";
+
+std::string record(const TemporaryDirectory& directory, const std::string& name,
+                   std::vector<std::string> more = {}) {
+  const std::string file = directory.path(name);
+  more.insert(more.begin(), {"run", kTree, "--clock", "virtual", "--record", file});
+  REQUIRE(run_lockstep(more).code == 0);
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("a compressed recording is at least six times smaller, and says the same") {
+  const TemporaryDirectory directory;
+  const std::string plain = record(directory, "run.jsonl");
+  const std::string named = record(directory, "run.jsonl.zst");
+  const std::string asked = record(directory, "other.jsonl", {"--record-compress"});
+  CHECK(read_file(named).size() * 6 < read_file(plain).size());
+  CHECK(run_lockstep({"log", "diff", plain, named}).code == 0);
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"log", "info"},
+                                                  {"log", "csv"},
+                                                  {"log", "measure"},
+                                                  {"replay", "--print", "--at", "1500"}}) {
+    INFO(command[0] << ' ' << command[1]);
+    const auto output_for = [&](const std::string& file) {
+      auto arguments = command;
+      arguments.push_back(file);
+      const Outcome outcome = run_lockstep(arguments);
+      CHECK(outcome.code == 0);
+      return outcome.out;
+    };
+    CHECK(output_for(named) == output_for(plain));
+    CHECK(output_for(asked) == output_for(plain));
+  }
+}
+
+TEST_CASE("a compressed recording that is cut is read to its last whole line") {
+  const TemporaryDirectory directory;
+  const std::string whole = read_file(record(directory, "run.jsonl.zst"));
+  const std::string cut = directory.file("cut.zst", whole.substr(0, whole.size() / 2));
+  const Outcome outcome = run_lockstep({"log", "info", cut});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.err, "the recording is cut: line "));
+}
+
+TEST_CASE("a compressed recording that is damaged is refused, with line and byte") {
+  const TemporaryDirectory directory;
+  std::string bytes = read_file(record(directory, "run.jsonl.zst"));
+  bytes[60'000] = static_cast<char>(~bytes[60'000]);
+  const std::string bad = directory.file("bad.zst", bytes);
+  const Outcome outcome = run_lockstep({"log", "csv", bad});
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "bad.zst:"));
+  CHECK(contains(outcome.err, "its compressed bytes are damaged before byte "));
+}
+
+}  // namespace lockstep::host::test
