@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
+#include "compression/seek_table.h"
 #include "compression/zstd_library.h"
 
 namespace lockstep::host {
@@ -95,6 +97,10 @@ Decompressed::pos_type Decompressed::seekoff(off_type offset, std::ios_base::see
   if (way == std::ios_base::cur && offset == 0) {
     return static_cast<off_type>(text_position());
   }
+  if (way == std::ios_base::end && offset == 0) {
+    const auto size = text_size();
+    return size ? seekpos(static_cast<off_type>(*size), which) : pos_type(off_type(-1));
+  }
   if (way != std::ios_base::beg || offset < 0) return pos_type(off_type(-1));
   return seekpos(offset, which);
 }
@@ -111,6 +117,52 @@ Decompressed::pos_type Decompressed::seekpos(pos_type position, std::ios_base::o
   return position;
 }
 
+// Without a table, as behind a run that was killed, all of the text is read once.
+std::optional<std::uint64_t> Decompressed::text_size() {
+  if (!has_looked_) look();
+  if (!zstd_) {
+    const auto end = off_type(file_.pubseekoff(0, std::ios_base::end, std::ios_base::in));
+    return end < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(end));
+  }
+  if (!size_ && !read_table()) {
+    if (!go_to_frame(frames_.empty() ? 0 : frames_.back().text)) return std::nullopt;
+    while (fill_compressed()) {
+    }
+    size_ = text_end_;
+  }
+  return size_;
+}
+
+// False: there is none.
+bool Decompressed::read_table() {
+  const auto read_at = [this](std::uint64_t at, std::size_t count) {
+    std::string bytes(count, '\0');
+    if (off_type(file_.pubseekpos(static_cast<off_type>(at), std::ios_base::in)) < 0) bytes.clear();
+    bytes.resize(static_cast<std::size_t>(
+        file_.sgetn(bytes.data(), static_cast<std::streamsize>(bytes.size()))));
+    return bytes;
+  };
+  const auto end = off_type(file_.pubseekoff(0, std::ios_base::end, std::ios_base::in));
+  if (end < static_cast<off_type>(kSeekFooter)) return false;
+  const auto file_size = static_cast<std::uint64_t>(end);
+  const auto size = seek_table_size(read_at(file_size - kSeekFooter, kSeekFooter));
+  if (!size || *size > file_size) return false;
+  const auto table = read_seek_table(read_at(file_size - *size, *size));
+  if (!table) return false;
+  std::vector<Frame> frames;
+  Frame next;
+  for (const FrameSize& it : *table) {
+    if (it.text > 0) frames.push_back(next);
+    next.text += it.text;
+    next.file += it.file;
+  }
+  // A table that is of other frames is none.
+  if (next.file != file_size - *size) return false;
+  frames_ = std::move(frames);
+  size_ = next.text;
+  return true;
+}
+
 // To the beginning of the last frame that begins before this place of the text; in a plain file, to
 // the place.
 bool Decompressed::go_to_frame(std::uint64_t text) {
@@ -118,11 +170,13 @@ bool Decompressed::go_to_frame(std::uint64_t text) {
   if (zstd_) {
     const auto after = std::ranges::upper_bound(frames_, text, {}, &Frame::text);
     frame = after == frames_.begin() ? Frame() : *std::prev(after);
-    zstd().reset_reader(zstd_->context, ZSTD_reset_session_only);
-    zstd_->in_frame = false;
   }
   const auto there = file_.pubseekpos(static_cast<std::streamoff>(frame.file), std::ios_base::in);
   if (there == pos_type(off_type(-1))) return false;
+  if (zstd_) {
+    zstd().reset_reader(zstd_->context, ZSTD_reset_session_only);
+    zstd_->in_frame = false;
+  }
   setg(nullptr, nullptr, nullptr);
   at_ = count_ = 0;
   file_end_ = frame.file;

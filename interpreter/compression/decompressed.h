@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <streambuf>
 #include <string>
@@ -38,6 +39,8 @@ class Decompressed final : public std::streambuf {
   bool fill_compressed();
   bool read_file();
   bool go_to_frame(std::uint64_t text);
+  std::optional<std::uint64_t> text_size();
+  bool read_table();
   std::uint64_t text_position() const {
     return text_end_ - static_cast<std::uint64_t>(egptr() - gptr());
   }
@@ -49,7 +52,8 @@ class Decompressed final : public std::streambuf {
   std::vector<char> bytes_, text_;
   std::size_t at_ = 0, count_ = 0;  // of the bytes of the file: those that are used, and all
   std::uint64_t file_end_ = 0, text_end_ = 0;  // behind what has been read
-  std::vector<Frame> frames_;                  // that have been seen, in order
+  std::vector<Frame> frames_;                  // that are known, in order
+  std::optional<std::uint64_t> size_;          // of the text, once it is known
 };
 
 // The text of a file with a name. Not open: errno says why.

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kLevel = 1;  // higher levels need more time and give hardly fewer bytes
 
-constexpr std::size_t kHeader = 64;  // bytes, more than that of a frame and of its last block
+constexpr std::size_t kMoreRoom = 64;  // bytes, more than that of a frame and of its last block
 
 // A block without content that is the last of its frame (RFC 8878, 3.1.1.2).
 constexpr std::string_view kLastBlock{"\x01\0\0", 3};
@@ -20,32 +20,52 @@ ZSTD_CStream* stream(void* pointer) {
 
 ZstdFrames::ZstdFrames(std::size_t longest_piece)
     : workspace_(zstd().stream_size(kLevel)),
-      bytes_(zstd().compress_bound(longest_piece) + kHeader) {
+      bytes_(zstd().compress_bound(longest_piece) + kMoreRoom) {
   begin_frame();
+  make_room();
 }
 
 void ZstdFrames::begin_frame() {
   stream_ = zstd().init_stream(workspace_.data(), workspace_.size());
   zstd().set_parameter(stream(stream_), ZSTD_c_compressionLevel, kLevel);
-  in_frame_ = 0;
+}
+
+void ZstdFrames::end_frame() {
+  knows_sizes_ = knows_sizes_ && sizes_.size() < sizes_.capacity();
+  if (knows_sizes_) sizes_.push_back(in_frame_);
+  in_frame_ = {};
+}
+
+void ZstdFrames::make_room() {
+  constexpr std::size_t kAhead = 64;
+  if (sizes_.capacity() - sizes_.size() < kAhead) sizes_.reserve(2 * sizes_.size() + 2 * kAhead);
 }
 
 std::string_view ZstdFrames::add(std::string_view piece) {
   is_adding_ = true;
-  const bool ends = in_frame_ + piece.size() >= kFrame;
+  const bool ends = in_frame_.text + piece.size() >= kFrame;
   ZSTD_inBuffer in{piece.data(), piece.size(), 0};
   ZSTD_outBuffer out{bytes_.data(), bytes_.size(), 0};
   // There is room for all of it, so one call is enough.
   zstd().compress(stream(stream_), &out, &in, ends ? ZSTD_e_end : ZSTD_e_flush);
-  in_frame_ = ends ? 0 : in_frame_ + piece.size();
+  in_frame_.text += static_cast<std::uint32_t>(piece.size());
+  in_frame_.file += static_cast<std::uint32_t>(out.pos);
+  if (ends) end_frame();
   is_adding_ = false;
   return {bytes_.data(), out.pos};
 }
 
 std::string_view ZstdFrames::end() {
-  const bool is_open = in_frame_ > 0;
+  is_adding_ = false;
   begin_frame();
-  return is_open ? kLastBlock : std::string_view();
+  if (in_frame_.text == 0) return {};
+  in_frame_.file += static_cast<std::uint32_t>(kLastBlock.size());
+  end_frame();
+  return kLastBlock;
+}
+
+std::string ZstdFrames::table() const {
+  return knows_sizes_ ? seek_table(sizes_) : std::string();
 }
 
 }  // namespace lockstep::host

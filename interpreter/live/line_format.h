@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -27,6 +28,8 @@ struct TickEnd {
   std::span<const EntryChange> entries = {};
   std::span<const LeafLine> logs = {};
   bool is_full = false;  // the line has the whole state; nothing before it counts
+  // The line also has the whole state: this is what is not above, each entry that has a value.
+  std::optional<std::span<const EntryChange>> whole = {};
 };
 
 class LineFormat {

@@ -68,16 +68,24 @@ void RunDelta::before_tick(Ticker& ticker) {
 std::span<const NodeChange> RunDelta::changes(Ticker& ticker) {
   take_snapshots(ticker);
   put_states(ticker.run_state(), ticker.tick_number(), moved_.data(), state_.data());
-  NodeChange* next = changes_.data();
+  count_ = 0;
   has_turns_ = has_begun_ = false;
-  for_each_difference(std::span<const std::uint8_t>(state_), kept_.data(), [&](NodeIndex node) {
-    const auto state = static_cast<std::uint8_t>(state_[node] & ~kMoved);
-    *next++ = {.progress = progress_[node], .node = node, .state = state};
-    has_turns_ |= state != kept_[node];
-    has_begun_ |= is_running(state) && !is_running(kept_[node]);
-  });
-  count_ = static_cast<std::size_t>(next - changes_.data());
+  if (is_whole_) {
+    for (NodeIndex node = 0; node < state_.size(); ++node) {
+      if ((state_[node] | kept_[node]) != 0 || progress_[node] != 0) add_change(node);
+    }
+  } else {
+    for_each_difference(std::span<const std::uint8_t>(state_), kept_.data(),
+                        [this](NodeIndex node) { add_change(node); });
+  }
   return {changes_.data(), count_};
+}
+
+void RunDelta::add_change(NodeIndex node) {
+  const auto state = static_cast<std::uint8_t>(state_[node] & ~kMoved);
+  changes_[count_++] = {.progress = progress_[node], .node = node, .state = state};
+  has_turns_ |= state != kept_[node];
+  has_begun_ |= is_running(state) && !is_running(kept_[node]);
 }
 
 std::span<const NodeIndex> RunDelta::succeeded(Ticker& ticker) {
@@ -95,7 +103,8 @@ std::span<const LimitChange> RunDelta::limits(Ticker& ticker) {
     const LimitChange& kept = kept_limits_[i];
     const bool is_as_kept = i < first_user_ && !ticker.ticked(kept.node);
     const double limit = is_as_kept ? kept.limit : lockstep::host::limit(ticker, kept.node);
-    if (limit != (all_limits_ ? 0 : kept.limit)) limits_.push_back({kept.node, limit});
+    const bool is_new = limit != (all_limits_ ? 0 : kept.limit);
+    if (is_new || (is_whole_ && limit != 0)) limits_.push_back({kept.node, limit});
   }
   return limits_;
 }
@@ -106,7 +115,8 @@ std::span<const RoundChange> RunDelta::rounds(Ticker& ticker) {
     const bool is_running = ticker.status(kept.node) == Status::Running;
     const Round round =
         is_running ? ticker.node(kept.node).kind->round(ticker, kept.node) : Round{};
-    if (round != kept.round) rounds_.push_back({kept.node, round});
+    const bool is_new = round != kept.round;
+    if (is_new || (is_whole_ && round != Round{})) rounds_.push_back({kept.node, round});
   }
   return rounds_;
 }
@@ -120,7 +130,7 @@ void RunDelta::start_over() {
 }
 
 void RunDelta::keep() {
-  all_limits_ = false;
+  all_limits_ = is_whole_ = false;
   auto kept_round = kept_rounds_.begin();
   for (const RoundChange& change : rounds_) {  // in the same order
     while (kept_round->node != change.node) ++kept_round;

@@ -32,6 +32,9 @@ class RunDelta {
   bool has_begun() const { return has_begun_; }
   // The rounds that are not what was kept. Valid until the next call.
   std::span<const RoundChange> rounds(Ticker& ticker);
+  // The next results of changes(), limits() and rounds() also have all that differs from the state
+  // before a run, until keep().
+  void add_whole() { is_whole_ = true; }
   // Call when the file has accepted the last results of changes(), limits() and rounds().
   void keep();
   // Forgets what was kept: the next results have all that differs from the state before a run.
@@ -39,6 +42,7 @@ class RunDelta {
 
  private:
   void set_progress(NodeIndex node, double progress);
+  void add_change(NodeIndex node);
   void take_snapshots(Ticker& ticker);
 
   std::vector<NodeIndex> synchronized_nodes_;
@@ -61,6 +65,7 @@ class RunDelta {
   std::vector<NodeChange> changes_;
   std::size_t count_ = 0;  // of these
   bool has_turns_ = false, has_begun_ = false;
+  bool is_whole_ = false;
 };
 
 }  // namespace lockstep::host

@@ -37,7 +37,7 @@ RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& f
       entries_(slots_) {
   const std::size_t repeating = repeating_nodes(tree).size();
   line_end_.reserve(format_.most_of_tick_end(
-      synchronized_nodes(tree).size() + tree.members.size() + repeating, slots_.size()));
+      synchronized_nodes(tree).size() + tree.members.size() + repeating, 2 * slots_.size()));
 }
 
 std::string RunPackets::header(const RunStart& start) const {
@@ -69,13 +69,14 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
 }
 
 Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
-  const TickEnd end{.limits = delta_.limits(ticker),
-                    .rounds = delta_.rounds(ticker),
-                    .succeeded = delta_.succeeded(ticker),
-                    .faults = report.faults,
-                    .entries = entries_.changes(ticker.blackboard()),
-                    .logs = lines_.lines(),
-                    .is_full = is_full_};
+  TickEnd end{.limits = delta_.limits(ticker),
+              .rounds = delta_.rounds(ticker),
+              .succeeded = delta_.succeeded(ticker),
+              .faults = report.faults,
+              .entries = entries_.changes(ticker.blackboard()),
+              .logs = lines_.lines(),
+              .is_full = is_full_};
+  if (is_whole_) end.whole = entries_.values();
   format_.set_tick_end(line_end_, end);
   Packet packet{.nodes = delta_.changes(ticker), .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
@@ -91,7 +92,12 @@ void RunPackets::keep() {
   delta_.keep();
   entries_.keep();
   lines_.keep();
-  is_full_ = false;
+  is_full_ = is_whole_ = false;
+}
+
+void RunPackets::add_whole() {
+  delta_.add_whole();
+  is_whole_ = true;
 }
 
 void RunPackets::start_over() {

@@ -41,6 +41,8 @@ class RunPackets {
   bool has_events() const { return has_events_; }
   // A node has begun in it.
   bool has_begun() const { return delta_.has_begun(); }
+  // The next packet also has the whole state, until one is kept: a reader may begin there.
+  void add_whole();
   // The last packet was accepted.
   void keep();
   // The next packet has the whole state, as if nothing had been kept, and says so.
@@ -62,7 +64,7 @@ class RunPackets {
   EntryChanges entries_;
   LeafLines lines_;
   std::string line_end_;  // of the tick, for its room
-  bool is_full_ = false;
+  bool is_full_ = false, is_whole_ = false;
   bool has_events_ = false;
 };
 

@@ -52,6 +52,7 @@ EntryChanges::EntryChanges(std::vector<std::uint32_t> slots) {
     watched.next.reserve(kNumber);
   }
   changes_.reserve(slots.size());
+  values_.reserve(slots.size());
 }
 
 std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
@@ -71,6 +72,20 @@ std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
   }
   board_ = &board;
   return changes_;
+}
+
+std::span<const EntryChange> EntryChanges::values() {
+  values_.clear();
+  auto change = changes_.begin();
+  for (std::uint32_t number = 0; number < watched_.size(); ++number) {
+    const Watched& watched = watched_[number];
+    if (change != changes_.end() && change->entry == number) {
+      values_.push_back(*change++);
+    } else if (watched.writes) {
+      values_.push_back({.entry = number, .text = watched.has_text ? &watched.text : nullptr});
+    }
+  }
+  return values_;
 }
 
 void EntryChanges::keep() {

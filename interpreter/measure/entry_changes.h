@@ -38,6 +38,8 @@ class EntryChanges {
   // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
   // than before.
   std::span<const EntryChange> changes(const Blackboard& board);
+  // After changes(): each entry that has a value. Valid until the next call of either.
+  std::span<const EntryChange> values();
   // Call when the last result of changes() was accepted.
   void keep();
   // Forgets what was kept: the next result has every entry that has a value.
@@ -52,7 +54,7 @@ class EntryChanges {
     std::string next = {};                     // to be kept
   };
   std::vector<Watched> watched_;
-  std::vector<EntryChange> changes_;
+  std::vector<EntryChange> changes_, values_;
   const Blackboard* board_ = nullptr;  // that they are of
 };
 

@@ -56,6 +56,8 @@ struct RecordedTick {
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
   std::span<const LeafLine> logs = {};
+  // The line has the whole state: each entry that has a value.
+  std::optional<std::span<const RecordedEntry>> whole = {};
 };
 
 // Ticks in a row that have no line: the disk was too slow for them.

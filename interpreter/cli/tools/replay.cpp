@@ -38,19 +38,23 @@ int no_ticks() {
   return kExitUsage;
 }
 
-// The tick that was asked for, else the last before it. Reads in one go, as from a pipe.
+// The tick that was asked for, else the last before it. Reads no more than is needed.
 struct Search {
   Moment found;
-  std::uint64_t ticks = 0, first = 0, last = 0;
+  std::uint64_t ticks = 0, last = 0;
+  bool is_read = true;  // to its end
 };
 
 Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
   Search search;
+  reader.skip_to(at.value_or(UINT64_MAX));
   std::uint64_t expected = 0;
   while (const auto tick = reader.next()) {
-    if (search.ticks++ == 0) search.first = tick->tick;
+    if (search.ticks++ == 0) expected = tick->whole ? tick->tick : 0;
     search.last = tick->tick;
-    if (!at || tick->tick <= *at) take(*tick, tick->tick - expected, search.found);
+    search.is_read = !at || tick->tick <= *at;
+    if (!search.is_read) break;
+    take(*tick, tick->tick - expected, search.found);
     expected = tick->tick + 1;
   }
   return search;
@@ -58,11 +62,11 @@ Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
 
 int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   const Search found = search(reader, options.at);
-  const int code = report_end(reader);
+  RecordingOutcome outcome = reader.outcome();
+  if (!found.is_read) outcome.cut.clear();  // that is not known
+  const int code = report_end(outcome);
   if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
-  if (options.at && (*options.at < found.first || *options.at > found.last)) {
-    return no_such_tick(*options.at, found.first, found.last);
-  }
+  if (options.at && *options.at > found.last) return no_such_tick(*options.at, 0, found.last);
   const Moment& moment = found.found;
   if (options.at && moment.tick != *options.at) {
     print_error(fmt::format("tick {} is not in the recording: {} is the last before it",

@@ -38,8 +38,27 @@ bool LineReader::read_line() {
 
 bool LineReader::go_to(const Position& position) {
   in_.clear();
+  damage_.clear();
   position_ = position;
   return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(position.bytes)));
+}
+
+bool LineReader::go_to_line(std::uint64_t byte) {
+  if (byte == 0) return go_to({});
+  if (!go_to({.bytes = byte - 1, .knows_lines = false})) return false;
+  next();  // the rest of the line before
+  return damage_.empty() && !is_too_long();
+}
+
+std::optional<std::uint64_t> LineReader::size() {
+  in_.clear();
+  try {
+    const auto end = static_cast<std::streamoff>(in_.seekg(0, std::ios_base::end).tellg());
+    if (end >= 0) return static_cast<std::uint64_t>(end);
+  } catch (const CannotDecompress&) {  // those who read on meet it
+  }
+  in_.clear();
+  return std::nullopt;
 }
 
 }  // namespace lockstep::host

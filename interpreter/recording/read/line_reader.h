@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 
 namespace lockstep::host {
@@ -26,10 +27,15 @@ class LineReader {
   // How much has been read.
   struct Position {
     std::uint64_t lines = 0, bytes = 0;
+    bool knows_lines = true;  // else `lines` is not known
   };
   const Position& position() const { return position_; }
   // Continues at an earlier position of this reader. Returns false if the stream cannot seek.
   bool go_to(const Position& position);
+  // Continues with the first line that begins at this byte or after it. Likewise.
+  bool go_to_line(std::uint64_t byte);
+  // The bytes of all lines; none: the stream cannot seek. Go to a place then.
+  std::optional<std::uint64_t> size();
 
  private:
   bool read_line();

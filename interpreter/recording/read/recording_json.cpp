@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -270,8 +271,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   std::optional<RecordedGap> gap;
   std::optional<std::uint64_t> tick;
   std::optional<double> time;
-  bool has_nodes = false;
+  bool has_nodes = false, is_whole = false;
   faults_.clear();
+  whole_.clear();
   succeeded_.clear();
   entries_.clear();
   logs_.clear();
@@ -295,11 +297,17 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     value.each_item(
         [&](JsonValue it) { succeeded_.push_back(node_from(it, states.size(), kNone)); });
   };
-  const auto read_entries = [&](JsonValue value) {
-    value.each_item([&](JsonValue it) {
-      if (entries_.size() == keys_) throw JsonError("an entry is given twice");
-      entries_.push_back(entry_from(it, keys_));
-    });
+  const auto read_entries = [&](std::vector<RecordedEntry>& entries) {
+    return [&](JsonValue value) {
+      value.each_item([&](JsonValue it) {
+        if (entries.size() == keys_) throw JsonError("an entry is given twice");
+        entries.push_back(entry_from(it, keys_));
+      });
+    };
+  };
+  const auto read_whole = [&](JsonValue value) {
+    is_whole = true;
+    read_entries(whole_)(value);
   };
   json_.read(line, [&](JsonObject object) {
     object.read({{lines::kTick["tick"], [&](JsonValue value) { tick = value.whole(); }, kMayLack},
@@ -310,7 +318,8 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                  {lines::kTick["rounds"], read_rounds, kMayLack},
                  {lines::kTick["succeeded"], read_succeeded, kMayLack},
                  {lines::kTick["faults"], read_faults, kMayLack},
-                 {lines::kTick["entries"], read_entries, kMayLack},
+                 {lines::kTick["entries"], read_entries(entries_), kMayLack},
+                 {lines::kTick["whole"], read_whole, kMayLack},
                  {lines::kTick["logs"], into_logs(logs_), kMayLack},
                  {lines::kLostLine["lost"],
                   [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},
@@ -324,13 +333,32 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   if (!tick) throw JsonError("'tick' is missing");
   if (!time) throw JsonError("'time_s' is missing");
   if (!has_nodes) throw JsonError("'nodes' is missing");
-  return RecordedTick{.tick = *tick,
+  RecordedTick result{.tick = *tick,
                       .time = *time,
                       .nodes = states,
                       .succeeded = succeeded_,
                       .faults = faults_,
                       .entries = entries_,
                       .logs = logs_};
+  if (is_whole) result.whole = whole_;
+  return result;
+}
+
+std::optional<std::uint64_t> RecordingJson::tick_of(std::string_view line) {
+  constexpr std::string_view kBegin = "{\"tick\":";
+  static_assert(kBegin.substr(2, 4) == lines::kTick["tick"]);
+  if (!line.starts_with(kBegin)) return std::nullopt;
+  std::uint64_t tick = 0;
+  const char* const digits = line.data() + kBegin.size();
+  const auto end = std::from_chars(digits, line.data() + line.size(), tick);
+  return end.ec == std::errc() && end.ptr != digits ? std::optional(tick) : std::nullopt;
+}
+
+// Within a text, a quote would have a backslash before it.
+bool RecordingJson::may_be_whole(std::string_view line) {
+  constexpr std::string_view kKey = ",\"whole\":[";
+  static_assert(kKey.substr(2, 5) == lines::kTick["whole"]);
+  return line.find(kKey) != std::string_view::npos;
 }
 
 }  // namespace lockstep::host

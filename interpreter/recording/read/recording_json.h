@@ -2,7 +2,10 @@
 // JsonError, which recording_reader, the only user, turns into an error with a line number.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -15,6 +18,10 @@ class RecordingJson {
  public:
   RecordingHeader header(std::string& line);
 
+  // The tick of a line; none: it is a line of another kind, or not one that a recorder writes.
+  static std::optional<std::uint64_t> tick_of(std::string_view line);
+  static bool may_be_whole(std::string_view line);
+
   // Parses any other line. The changes of a tick are stored in `states`; what it points to is valid
   // until the next call.
   using Line = std::variant<RecordedTick, RecordedGap, RecordedEnd>;
@@ -25,6 +32,7 @@ class RecordingJson {
   std::vector<NodeIndex> succeeded_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
+  std::vector<RecordedEntry> whole_;
   std::vector<LeafLine> logs_;
   std::size_t keys_ = 0;     // how many entries the header names
   std::vector<bool> users_;  // by index: does the node use resources?

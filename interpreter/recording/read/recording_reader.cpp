@@ -48,7 +48,11 @@ std::optional<RecordedTick> RecordingReader::read_further() {
   if (end_) throw JsonError("a line after the closing line");
   auto line = format_->line(lines_.text(), states_);
   std::visit([this](auto& it) { take(std::move(it)); }, line);
-  const auto* tick = std::get_if<RecordedTick>(&line);
+  auto* tick = std::get_if<RecordedTick>(&line);
+  if (std::exchange(begins_here_, false)) {
+    if (tick == nullptr || !tick->whole) throw JsonError("'whole' is missing");
+    tick->entries = *tick->whole;
+  }
   return tick == nullptr ? std::nullopt : std::optional(*tick);
 }
 
@@ -68,7 +72,7 @@ void RecordingReader::take(const RecordedGap& gap) {
 void RecordingReader::take(RecordedEnd end) {
   if (end.ticks != next_tick_)
     throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
-  if (end.lost != lost_)
+  if (end.lost != lost_ && !has_skipped_)
     throw JsonError(fmt::format("'lost' is {}, but {} ticks have no line", end.lost, lost_));
   end_ = std::move(end);
 }
@@ -92,6 +96,10 @@ std::string RecordingReader::gaps() const {
 std::string RecordingReader::cut() const {
   if (end_ || !error_.empty()) return {};
   const std::uint64_t line = lines_.position().lines;
+  if (!lines_.position().knows_lines) {
+    return is_cut_ ? "its last line is cut, the run did not end there"
+                   : "it ends without a closing line";
+  }
   if (is_cut_) return fmt::format("line {} is cut, the run did not end there", line);
   return fmt::format("it ends after line {} without a closing line", line);
 }
@@ -117,7 +125,9 @@ void RecordingReader::read_line(Read read) {
 }
 
 void RecordingReader::fail(const std::string& message) {
-  error_ = fmt::format("{}:{}: {}", name_, lines_.position().lines, message);
+  const LineReader::Position& at = lines_.position();
+  error_ = at.knows_lines ? fmt::format("{}:{}: {}", name_, at.lines, message)
+                          : fmt::format("{}: before byte {}: {}", name_, at.bytes, message);
 }
 
 }  // namespace lockstep::host

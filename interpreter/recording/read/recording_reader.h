@@ -50,6 +50,11 @@ class RecordingReader {
   // false otherwise.
   bool go_to(const Position& position, std::span<const RecordedState> states);
 
+  // Before the first next(): leaves out what is not needed to know this tick. The next tick is the
+  // last one before it, or it, whose line has the whole state; else the first of all. In a file
+  // that cannot be sought, nothing is left out.
+  void skip_to(std::uint64_t tick);
+
   // "" if there is no error, else "run.jsonl:12: no node 99, expected 0 to 4".
   const std::string& error() const { return error_; }
   const RecordingHeader& header() const { return header_; }
@@ -63,6 +68,14 @@ class RecordingReader {
   RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
 
  private:
+  std::optional<std::uint64_t> end_of_ticks(std::uint64_t first, std::uint64_t size,
+                                            std::uint64_t tick);
+  struct Whole {
+    std::uint64_t tick = 0;
+    std::uint64_t line = 0;  // its first byte
+  };
+  std::optional<Whole> last_whole(std::uint64_t from, std::uint64_t to, std::uint64_t tick);
+  void begin_with(const Whole& whole);
   bool next_line();  // false at the end, and after an error
   template <class Read>
   void read_line(Read read);
@@ -78,6 +91,8 @@ class RecordingReader {
   std::string name_;
   std::string error_;
   bool is_cut_ = false;  // within the last line
+  bool has_skipped_ = false;
+  bool begins_here_ = false;  // with the next line, which has the whole state
   RecordingHeader header_;
   std::optional<RecordedEnd> end_;
   std::vector<RecordedState> states_;

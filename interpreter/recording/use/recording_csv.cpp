@@ -16,14 +16,17 @@ bool is_active(const RecordedState& node) {
 
 }  // namespace
 
-bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names) {
+bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names, TickRange range) {
   constexpr std::size_t kFull = 1u << 16u;
   std::vector<std::string> paths;
   for (const RecordedNode& node : reader.header().nodes) {
     paths.push_back(csv_field(names == CsvNames::Printable ? printable(node.path) : node.path));
   }
   std::string rows = "tick,time_s,node,path,status,progress,ticked,held\n";
+  if (range.from > 0) reader.skip_to(range.from);
   while (const auto tick = reader.next()) {
+    if (tick->tick < range.from) continue;
+    if (tick->tick > range.to) break;
     for (std::size_t index = 0; index < tick->nodes.size(); ++index) {
       const RecordedState& node = tick->nodes[index];
       if (!is_active(node)) continue;

@@ -12,11 +12,17 @@ namespace lockstep::host {
 // Names unchanged, or, for a terminal, as printable() makes them.
 enum class CsvNames : bool { Exact, Printable };
 
+// The ticks from the first to the last, both with it.
+struct TickRange {
+  std::uint64_t from = 0, to = UINT64_MAX;
+};
+
 // Receives whole rows; returns false to stop.
 using CsvSink = std::function<bool(std::string_view rows)>;
 
-// Writes all readable ticks; then check reader.error() and reader.cut(). Returns false if the sink
-// stopped it.
-bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names = CsvNames::Exact);
+// Writes all readable ticks of the range; then check reader.error(), and reader.cut() if the range
+// has no end. Returns false if the sink stopped it.
+bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names = CsvNames::Exact,
+               TickRange range = {});
 
 }  // namespace lockstep::host

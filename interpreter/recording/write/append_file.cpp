@@ -137,7 +137,7 @@ void AppendFile::write_until_stopped() {
     const bool last = stopping_.load(std::memory_order_acquire);
     if (claim()) {
       write_out(Failure::Told);
-      if (last) end_frame(Failure::Told);
+      if (last) end_compressed();
       release();
     }
     done_.ring();
@@ -191,23 +191,30 @@ void AppendFile::write_plain(std::string_view text, Failure failure) {
 // The text is in the file when the whole block is.
 void AppendFile::write_compressed(std::string_view text, Failure failure) {
   if (frames_->was_left()) end_frame(failure);
-  std::string_view bytes = frames_->add(text);
-  while (!failed() && !bytes.empty()) {
-    const std::size_t count = write_some(bytes, failure);
-    unfinished_ += count;
-    bytes.remove_prefix(count);
-  }
+  write_whole(frames_->add(text), failure);
   if (failed()) return;
-  unfinished_ = 0;
+  if (failure == Failure::Told) frames_->make_room();
   written_ += text.size();
   if (text.find('\n') != std::string_view::npos) take_name(failure);
 }
 
 // A compressed file is complete then for any reader of zstd.
 void AppendFile::end_frame(Failure failure) {
-  if (!frames_ || failed()) return;
-  std::string_view bytes = frames_->end();
-  while (!failed() && !bytes.empty()) bytes.remove_prefix(write_some(bytes, failure));
+  if (frames_ && !failed()) write_whole(frames_->end(), failure);
+}
+
+void AppendFile::end_compressed() {
+  end_frame(Failure::Told);
+  if (frames_ && !failed()) write_whole(frames_->table(), Failure::Told);
+}
+
+void AppendFile::write_whole(std::string_view bytes, Failure failure) {
+  while (!failed() && !bytes.empty()) {
+    const std::size_t count = write_some(bytes, failure);
+    unfinished_ += count;
+    bytes.remove_prefix(count);
+  }
+  if (!failed()) unfinished_ = 0;
 }
 
 // How many bytes: 0 if it was interrupted, or has failed.

@@ -79,6 +79,8 @@ class AppendFile {
   void write_plain(std::string_view text, Failure failure);
   void write_compressed(std::string_view text, Failure failure);
   void end_frame(Failure failure);
+  void end_compressed();
+  void write_whole(std::string_view bytes, Failure failure);
   std::size_t write_some(std::string_view bytes, Failure failure);
   void take_name(Failure failure);
   bool await_room();

@@ -198,6 +198,12 @@ void add_log(std::string& text, const LeafLine& log) {
   text += ']';
 }
 
+// Also when no entry has a value.
+void add_whole(std::string& text, std::span<const EntryChange> entries) {
+  if (!entries.empty()) return add_list(text, lines::kTick["whole"], entries, add_entry);
+  ((text += ",\"") += lines::kTick["whole"]) += "\":[]";
+}
+
 // Longer than [4294967295,"success",0.00012345678901234567,1,0] and a comma.
 constexpr std::size_t kMostOfNode = 64;
 static_assert(kMostOfNode <= LineFormat::kMostAtOnce);
@@ -238,6 +244,7 @@ class JsonLines final : public LiveFormat {
     add_list(text, lines::kTick["faults"], end.faults, add_fault);
     add_list(text, lines::kTick["entries"], end.entries, add_entry);
     add_list(text, lines::kTick["logs"], end.logs, add_log);
+    if (end.whole) add_whole(text, *end.whole);
     text += end.is_full ? kFullEnd : "}\n";
   }
 

@@ -17,6 +17,9 @@ std::size_t queue_of(const Tree& tree, std::size_t wanted) {
   return std::max(wanted, kTicks * longest);
 }
 
+// A recording of a large tree in which little happens is not much longer because of whole states.
+constexpr std::uint64_t kWholeShare = 16;
+
 Compression compression_of(const RecorderOptions& options) {
   const bool compresses = options.compresses || options.path.ends_with(".zst");
   return compresses ? Compression::Zstd : Compression::None;
@@ -28,7 +31,9 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : options_(std::move(options)),
       file_(options_.path, queue_of(tree, options_.queue), options_.format,
             compression_of(options_)),
-      packets_(tree, options_.run, options_.format) {}
+      packets_(tree, options_.run, options_.format),
+      next_whole_(options_.whole_each),
+      bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}
 
 void Recorder::run_started(Ticker&, const RunStart& start) {
   may_wait_ = !start.real_time;
@@ -46,6 +51,7 @@ void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
 
 void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   if (!failed()) {
+    plan_whole(report.tick);
     if (push_tick(ticker, report)) {
       packets_.keep();
       gap_ = 0;
@@ -58,9 +64,18 @@ void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   tell_error();
 }
 
+// Until a line with it is accepted.
+void Recorder::plan_whole(std::uint64_t tick) {
+  if (tick < next_whole_ || bytes_since_whole_ < bytes_between_wholes_) return;
+  packets_.add_whole();
+  next_whole_ = tick + options_.whole_each;
+  bytes_since_whole_ = 0;
+}
+
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
   Packet packet = packets_.tick(ticker, report);
   add_gap(packet.head);
+  bytes_since_whole_ += packet_size(packet);
   if (file_.push(packet)) return true;
   if (!may_wait_) return false;
   file_.flush();

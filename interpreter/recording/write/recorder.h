@@ -19,6 +19,7 @@ struct RecorderOptions {
   // Called once, on the tick thread, when the recording cannot be written. Nothing is written after
   // it; whether the run goes on is the caller's choice.
   std::function<void(const std::string& error)> on_error = {};
+  std::uint64_t whole_each = 4096;         // ticks: so often a line has the whole state
   std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
   const LineFormat& format = json_lines();
   bool compresses = false;  // with zstd; a path that ends in .zst says so, too
@@ -46,6 +47,7 @@ class Recorder final : public Observer {
 
  private:
   void add_gap(PacketHead& head) const;
+  void plan_whole(std::uint64_t tick);
   bool push_tick(Ticker& ticker, const TickReport& report);
   void write(const std::string& text);
   void tell_error();
@@ -57,6 +59,9 @@ class Recorder final : public Observer {
   std::uint64_t lost_ = 0;
   std::uint64_t gap_ = 0, gap_from_ = 0;  // the last of these, which no line reports yet
   bool error_told_ = false;
+  // The whole state is written again after so many ticks and bytes of packets.
+  std::uint64_t next_whole_, bytes_since_whole_ = 0;
+  const std::uint64_t bytes_between_wholes_;
 };
 
 }  // namespace lockstep::host

@@ -142,7 +142,7 @@ TEST_CASE("zstd: what is damaged is an error, or other text, and never more") {
           std::string(damage.what()).starts_with("its compressed bytes are damaged before byte "));
     }
   }
-  CHECK(errors > 50);
+  CHECK(errors > 20);
 }
 
 TEST_CASE("zstd: a file that needs much memory is refused") {

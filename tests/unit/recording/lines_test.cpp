@@ -227,7 +227,8 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
                                   .faults = {&fault, 1},
                                   .entries = {&entry, 1},
                                   .logs = {&log, 1},
-                                  .is_full = is_full});
+                                  .is_full = is_full,
+                                  .whole = std::span(&entry, 1)});
   if (!is_full) return text + end;
   EventCounts counts(json_lines());
   counts.take_fault(2);

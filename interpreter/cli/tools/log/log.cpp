@@ -20,7 +20,15 @@ namespace {
 struct LogOptions {
   std::string file;
   std::string out;
+  TickRange range;
 };
+
+// What comes behind a range has not been read.
+int report_range(const LogOptions& options, const RecordingReader& reader) {
+  RecordingOutcome outcome = reader.outcome();
+  if (options.range.to != TickRange().to) outcome.cut.clear();
+  return report_end(outcome);
+}
 
 int csv_to_file(const LogOptions& options, RecordingReader& reader) {
   const NamedFile recording[] = {named_file(options.file)};
@@ -35,8 +43,8 @@ int csv_to_file(const LogOptions& options, RecordingReader& reader) {
     if (!write_all(out.descriptor(), rows)) reason = errno;
     return reason == 0;
   };
-  if (write_csv(reader, write) && !out.take_name()) reason = errno;
-  return reason == 0 ? report_end(reader) : cannot_use("write", options.out, reason);
+  if (write_csv(reader, write, CsvNames::Exact, options.range) && !out.take_name()) reason = errno;
+  return reason == 0 ? report_range(options, reader) : cannot_use("write", options.out, reason);
 }
 
 int csv(const LogOptions& options) {
@@ -49,7 +57,7 @@ int csv(const LogOptions& options) {
       return written == kExitSuccess;
     };
     // Where a reader stops, the recording is not cut.
-    return write_csv(reader, write, names) ? report_end(reader) : written;
+    return write_csv(reader, write, names, options.range) ? report_range(options, reader) : written;
   });
 }
 
@@ -70,6 +78,12 @@ std::function<int()> define_log(CLI::App& app) {
   for (CLI::App* command : {table, summary}) add_recording_file(*command, options->file);
   table->add_option("--out", options->out, "Write the table to this file instead of stdout")
       ->type_name("FILE");
+  table->add_option("--from", options->range.from, "The first tick in the table")
+      ->type_name("TICK")
+      ->transform(whole_number());
+  table->add_option("--to", options->range.to, "The last one; what is behind it is not read")
+      ->type_name("TICK")
+      ->transform(whole_number());
   const auto measures = define_log_measure(app);
   const auto plot = define_log_plot(app);
   const auto difference = define_log_diff(app);

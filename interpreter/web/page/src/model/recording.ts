@@ -39,6 +39,7 @@ export interface TickLine {
   faults?: Fault[];
   entries?: EntryValue[];
   logs?: LogLine[];
+  whole?: EntryValue[];
   counts?: NodeCounts[];
   written?: EntryCount[];
   full?: boolean;
