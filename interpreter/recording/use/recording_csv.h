@@ -6,16 +6,12 @@
 #include <string_view>
 
 #include "recording/read/recording_reader.h"
+#include "recording/use/tick_range.h"
 
 namespace lockstep::host {
 
 // Names unchanged, or, for a terminal, as printable() makes them.
 enum class CsvNames : bool { Exact, Printable };
-
-// The ticks from the first to the last, both with it.
-struct TickRange {
-  std::uint64_t from = 0, to = UINT64_MAX;
-};
 
 // Receives whole rows; returns false to stop.
 using CsvSink = std::function<bool(std::string_view rows)>;

@@ -26,7 +26,7 @@ struct LogOptions {
 // What comes behind a range has not been read.
 int report_range(const LogOptions& options, const RecordingReader& reader) {
   RecordingOutcome outcome = reader.outcome();
-  if (options.range.to != TickRange().to) outcome.cut.clear();
+  if (!options.range.is_open()) outcome.cut.clear();
   return report_end(outcome);
 }
 
@@ -84,6 +84,7 @@ std::function<int()> define_log(CLI::App& app) {
   table->add_option("--to", options->range.to, "The last one; what is behind it is not read")
       ->type_name("TICK")
       ->transform(whole_number());
+  const auto events = define_log_events(app);
   const auto measures = define_log_measure(app);
   const auto plot = define_log_plot(app);
   const auto difference = define_log_diff(app);
@@ -91,6 +92,7 @@ std::function<int()> define_log(CLI::App& app) {
   const auto check = define_log_check(app);
   const auto scenario = define_log_scenario(app);
   return [=] {
+    if (events.app->parsed()) return events.run();
     if (measures.app->parsed()) return measures.run();
     if (plot.app->parsed()) return plot.run();
     if (difference.app->parsed()) return difference.run();
@@ -117,6 +119,7 @@ extern const Command kLogCommand{
     "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
     "  lockstep log info run.jsonl\n"
     "  lockstep log csv run.jsonl > run.csv\n"
+    "  lockstep log events run.jsonl --path 'pull/*' --event hold --event release\n"
     "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
     "  lockstep log plot run.jsonl --out progress.svg\n"
     "  lockstep log page run.jsonl --out run.html\n"

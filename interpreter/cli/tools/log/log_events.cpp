@@ -1,0 +1,92 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/checks.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/outputs.h"
+#include "cli/tools/log/log.h"
+#include "leaves/models.h"
+#include "recording/use/recording_events.h"
+
+namespace lockstep::host {
+namespace {
+
+struct LogEventsOptions {
+  std::string file;
+  std::string format = "text";
+  TickRange range;
+  std::vector<std::string> paths, kinds;
+};
+
+// The end of the path is enough for a node: "arm" is "Main/pull/arm".
+bool is_chosen(const LogEventsOptions& options, const RecordingEvent& event) {
+  const auto means = [&](const std::string& pattern) {
+    return matches(pattern, event.what) || matches("*/" + pattern, event.what);
+  };
+  const bool is_of_path = options.paths.empty() || std::ranges::any_of(options.paths, means);
+  const bool is_of_kind =
+      options.kinds.empty() || std::ranges::find(options.kinds, event.kind) != options.kinds.end();
+  return is_of_path && is_of_kind;
+}
+
+int events(const LogEventsOptions& options) {
+  const bool is_csv = options.format == "csv", is_json = options.format == "json";
+  return with_recording(options.file, [&](RecordingReader& reader) {
+    constexpr std::size_t kFull = 1u << 16u;
+    std::string lines = is_csv ? "tick,time_s,event,what,value\n" : "";
+    int written = kExitSuccess;
+    const auto write = [&] {
+      written = write_results(lines);
+      lines.clear();
+      return written == kExitSuccess;
+    };
+    each_event(reader, options.range, [&](const RecordingEvent& event) {
+      if (!is_chosen(options, event)) return true;
+      lines += is_csv    ? event_csv(event)
+               : is_json ? event_json(event)
+                         : printable(event_line(event));
+      lines += '\n';
+      return lines.size() < kFull || write();
+    });
+    if (written == kExitSuccess) write();
+    RecordingOutcome outcome = reader.outcome();
+    if (!options.range.is_open()) outcome.cut.clear();  // that is not known
+    return written == kExitSuccess ? report_end(outcome) : written;
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_events(CLI::App& log) {
+  const auto options = std::make_shared<LogEventsOptions>();
+  CLI::App* app = log.add_subcommand(
+      "events", "One line for each start, result, halt, hold, fault, changed entry and log line");
+  add_recording_file(*app, options->file);
+  app->add_option("--format", options->format, "text, csv with a title, or json, an object a line")
+      ->check(CLI::IsMember({"text", "csv", "json"}))
+      ->capture_default_str();
+  app->add_option(
+         "--path", options->paths,
+         "Only of these nodes, entries and leaves that log: the end of a path or a key, in "
+         "which * stands for any part; may be repeated")
+      ->type_name("PATTERN")
+      ->allow_extra_args(false);
+  app->add_option("--event", options->kinds, "Only these, as --event hold --event release")
+      ->type_name("EVENT")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"start", "success", "failure", "skipped", "halt", "hold", "release",
+                             "fault", "entry", "log", "lost", "end"}));
+  app->add_option("--from", options->range.from, "The first tick")
+      ->type_name("TICK")
+      ->transform(whole_number());
+  app->add_option("--to", options->range.to, "The last one; what is behind it is not read")
+      ->type_name("TICK")
+      ->transform(whole_number());
+  return {app, [options] { return events(*options); }};
+}
+
+}  // namespace lockstep::host

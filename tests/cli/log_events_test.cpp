@@ -1,0 +1,69 @@
+// `lockstep log events`: what happened in a run, a line each.
+#include <catch2/catch.hpp>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+namespace lockstep::host::test {
+namespace {
+
+// `base` reaches the barrier first, is held for a tick, and completes first.
+constexpr const char* kTree =
+    "<root lockstep=\"1\"><plugin name=\"motion\"/><BehaviorTree ID=\"Test\">"
+    "<Sequence on_success=\"done := 'yes, &quot;it&quot; is'\">"
+    "<ParallelAbsolute name=\"pull\" barriers=\"0.5;1\"><Advance name=\"arm\" step=\"0.25\"/>"
+    "<Advance name=\"base\" step=\"0.5\"/></ParallelAbsolute></Sequence></BehaviorTree></root>";
+
+std::string events(const TemporaryDirectory& directory, std::vector<std::string> more = {}) {
+  const std::string file = directory.path("run.jsonl.zst");
+  const std::string tree = directory.file("tree.xml", kTree);
+  REQUIRE(
+      run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record", file}).code ==
+      0);
+  more.insert(more.begin(), {"log", "events", file});
+  const Outcome outcome = run_lockstep(more);
+  CHECK(outcome.err == "");
+  CHECK(outcome.code == 0);
+  return outcome.out;
+}
+
+}  // namespace
+
+TEST_CASE("log events: starts, results, holds, entries and the end, in order") {
+  const TemporaryDirectory directory;
+  CHECK(events(directory, {"--format", "csv"}) ==
+        "tick,time_s,event,what,value\n"
+        "0,0,start,Test/Sequence,\n"
+        "0,0,start,Test/Sequence/pull,\n"
+        "0,0,start,Test/Sequence/pull/arm,\n"
+        "0,0,start,Test/Sequence/pull/base,\n"
+        "1,0.1,hold,Test/Sequence/pull/base,\n"
+        "2,0.2,release,Test/Sequence/pull/base,\n"
+        "2,0.2,success,Test/Sequence/pull/base,\n"
+        "3,0.3,success,Test/Sequence,\n"
+        "3,0.3,success,Test/Sequence/pull,\n"
+        "3,0.3,success,Test/Sequence/pull/arm,\n"
+        "3,0.3,entry,done,\"yes, \"\"it\"\" is\"\n"
+        "4,0.4,end,,success (completed)\n");
+}
+
+TEST_CASE("log events: chosen by path, event and ticks, as text and JSON") {
+  const TemporaryDirectory directory;
+  CHECK(events(directory, {"--path", "base", "--event", "hold", "--event", "release"}) ==
+        "     0.100 s  tick 1        hold     Test/Sequence/pull/base\n"
+        "     0.200 s  tick 2        release  Test/Sequence/pull/base\n");
+  CHECK(events(directory, {"--path", "*/b*", "--from", "2", "--to", "2", "--format", "json"}) ==
+        "{\"tick\":2,\"time_s\":0.2,\"event\":\"release\",\"what\":\"Test/Sequence/pull/base\","
+        "\"value\":\"\"}\n"
+        "{\"tick\":2,\"time_s\":0.2,\"event\":\"success\",\"what\":\"Test/Sequence/pull/base\","
+        "\"value\":\"\"}\n");
+  CHECK(events(directory, {"--path", "nobody"}) == "");
+}
+
+TEST_CASE("log events: an unknown event is refused with what there is") {
+  const Outcome outcome = run_lockstep({"log", "events", "run.jsonl", "--event", "stop"});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "start"));
+}
+
+}  // namespace lockstep::host::test
