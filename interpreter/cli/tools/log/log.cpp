@@ -85,6 +85,7 @@ std::function<int()> define_log(CLI::App& app) {
       ->type_name("TICK")
       ->transform(whole_number());
   const auto events = define_log_events(app);
+  const auto other = define_log_export(app);
   const auto measures = define_log_measure(app);
   const auto plot = define_log_plot(app);
   const auto difference = define_log_diff(app);
@@ -93,6 +94,7 @@ std::function<int()> define_log(CLI::App& app) {
   const auto scenario = define_log_scenario(app);
   return [=] {
     if (events.app->parsed()) return events.run();
+    if (other.app->parsed()) return other.run();
     if (measures.app->parsed()) return measures.run();
     if (plot.app->parsed()) return plot.run();
     if (difference.app->parsed()) return difference.run();
@@ -121,6 +123,7 @@ extern const Command kLogCommand{
     "  lockstep log csv run.jsonl > run.csv\n"
     "  lockstep log events run.jsonl --path 'pull/*' --event hold --event release\n"
     "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
+    "  lockstep log export run.jsonl --format trace --out run.json\n"
     "  lockstep log plot run.jsonl --out progress.svg\n"
     "  lockstep log page run.jsonl --out run.html\n"
     "  lockstep log diff run.jsonl again.jsonl\n"

@@ -44,6 +44,7 @@ struct LogSubcommand {
   std::function<int()> run;
 };
 LogSubcommand define_log_events(CLI::App& log);
+LogSubcommand define_log_export(CLI::App& log);
 LogSubcommand define_log_measure(CLI::App& log);
 LogSubcommand define_log_plot(CLI::App& log);
 LogSubcommand define_log_diff(CLI::App& log);

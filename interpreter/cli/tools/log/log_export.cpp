@@ -1,0 +1,65 @@
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <memory>
+#include <string>
+
+#include "cli/checks.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/outputs.h"
+#include "cli/tools/log/log.h"
+#include "recording/use/trace.h"
+#include "system/descriptors.h"
+#include "system/output_file.h"
+
+namespace lockstep::host {
+namespace {
+
+struct LogExportOptions {
+  std::string file, format, out;
+  TickRange range;
+};
+
+int export_to(const LogExportOptions& options, RecordingReader& reader) {
+  OutputFile out(options.out);
+  if (out.descriptor() < 0) return usage_error(printable(out.error()));
+  int reason = 0;
+  const auto write = [&](std::string_view bytes) {
+    if (!write_all(out.descriptor(), bytes)) reason = errno;
+    return reason == 0;
+  };
+  if (write_trace(reader, options.range, write) && !out.take_name()) reason = errno;
+  if (reason != 0) return cannot_use("write", options.out, reason);
+  RecordingOutcome outcome = reader.outcome();
+  if (!options.range.is_open()) outcome.cut.clear();  // that is not known
+  return report_end(outcome);
+}
+
+int export_recording(const LogExportOptions& options) {
+  const NamedFile recording[] = {named_file(options.file)};
+  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  return with_recording(options.file,
+                        [&](RecordingReader& reader) { return export_to(options, reader); });
+}
+
+}  // namespace
+
+LogSubcommand define_log_export(CLI::App& log) {
+  const auto options = std::make_shared<LogExportOptions>();
+  CLI::App* app = log.add_subcommand("export", "Write the recording in another format");
+  add_recording_file(*app, options->file);
+  app->add_option("--format", options->format,
+                  "trace: JSON for ui.perfetto.dev and chrome://tracing, a track for each node")
+      ->check(CLI::IsMember({"trace"}))
+      ->required();
+  app->add_option("--out", options->out, "The file")->type_name("FILE")->required();
+  app->add_option("--from", options->range.from, "The first tick")
+      ->type_name("TICK")
+      ->transform(whole_number());
+  app->add_option("--to", options->range.to, "The last one; what is behind it is not read")
+      ->type_name("TICK")
+      ->transform(whole_number());
+  return {app, [options] { return export_recording(*options); }};
+}
+
+}  // namespace lockstep::host

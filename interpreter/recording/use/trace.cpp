@@ -1,0 +1,202 @@
+#include "recording/use/trace.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json/json.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr double kLate = 1.5;  // periods from one tick to the next: the first has overrun
+
+// Microseconds, exact to the nanosecond.
+std::string in_trace(double seconds) {
+  const auto time = static_cast<std::uint64_t>(std::llround(seconds * 1e9));
+  return fmt::format("{}.{:03}", time / 1000, time % 1000);
+}
+
+// What a node does in a tick: what its slice is called; "": it has none.
+std::string_view activity(const RecordedState& state) {
+  const bool is_active =
+      state.status == Status::Running || (state.ticked && state.status != Status::Idle);
+  return is_active ? to_string(state.status) : std::string_view();
+}
+
+struct Slice {
+  std::string_view name;  // "": none is open
+  double begin = 0;
+};
+
+class Trace {
+ public:
+  Trace(const RecordingHeader& header, const ExportSink& write)
+      : header_(header), write_(write), slices_(header.nodes.size()), held_(header.nodes.size()) {
+    text_ = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n";
+    begin_event("M", 0);
+    text_ += ",\"name\":\"process_name\",\"args\":{\"name\":";
+    append_json(text_, header.tree + " (lockstep)");
+    text_ += "}}";
+    for (NodeIndex node = 0; node < header.nodes.size(); ++node) name_track(node);
+    find_compared();
+  }
+
+  // False: no more is wanted.
+  bool take(const RecordedTick& tick) {
+    note_gap(tick);
+    for (NodeIndex node = 0; node < slices_.size(); ++node) {
+      const RecordedState& state = tick.nodes[node];
+      // The inner slice ends first and begins last.
+      const std::string_view held = state.held ? "held" : "", now = activity(state);
+      if (held != held_[node].name || now != slices_[node].name) end(held_[node], node, tick.time);
+      if (now != slices_[node].name) {
+        end(slices_[node], node, tick.time);
+        slices_[node] = {now, tick.time};
+      }
+      if (held_[node].name.empty()) held_[node] = {held, tick.time};
+    }
+    for (Compared& it : compared_) add_counter(it, tick);
+    for (const RecordedFault& it : tick.faults)
+      add_instant(it.node, tick.time, "fault: " + it.message);
+    for (const RecordedEntry& it : tick.entries) {
+      add_instant(std::nullopt, tick.time, header_.entries[it.entry].key + " = " + shown_value(it));
+    }
+    last_ = tick.time;
+    next_ = tick.tick + 1;
+    return flush(kFull);
+  }
+
+  // The last tick lasts until the next one would have begun.
+  bool finish() {
+    const double end_time = last_ + to_seconds(period_of(header_));
+    for (NodeIndex node = 0; node < slices_.size(); ++node) {
+      end(held_[node], node, end_time);
+      end(slices_[node], node, end_time);
+    }
+    text_ += "\n]}\n";
+    return flush(0);
+  }
+
+ private:
+  static constexpr std::size_t kFull = 1u << 16u;
+
+  // The children whose progress a synchronized node, or a barrier beside the tree, compares.
+  struct Compared {
+    NodeIndex node = 0;
+    std::vector<NodeIndex> children;
+    std::vector<double> progress;  // that was written; empty: none
+  };
+
+  void find_compared() {
+    for (NodeIndex node = 0; node < header_.nodes.size(); ++node) {
+      const RecordedNode& it = header_.nodes[node];
+      const bool compares = it.synchronization == Synchronization::Absolute ||
+                            it.synchronization == Synchronization::Relative;
+      if (!compares) continue;
+      Compared compared{.node = node, .children = it.members, .progress = {}};
+      for (NodeIndex child = node + 1; it.members.empty() && child < header_.nodes.size();
+           ++child) {
+        if (header_.nodes[child].parent == node) compared.children.push_back(child);
+      }
+      compared_.push_back(std::move(compared));
+    }
+  }
+
+  // {"ph":"X","pid":1,"tid":3, where the track of a node is its index and one more.
+  void begin_event(std::string_view phase, std::uint64_t track) {
+    if (has_event_) text_ += ",\n";
+    has_event_ = true;
+    fmt::format_to(std::back_inserter(text_), "{{\"ph\":\"{}\",\"pid\":1,\"tid\":{}", phase, track);
+  }
+
+  void name_track(NodeIndex node) {
+    begin_event("M", node + 1);
+    text_ += ",\"name\":\"thread_name\",\"args\":{\"name\":";
+    append_json(text_, header_.nodes[node].path);
+    text_ += "}}";
+    begin_event("M", node + 1);
+    fmt::format_to(std::back_inserter(text_),
+                   ",\"name\":\"thread_sort_index\",\"args\":{{\"sort_index\":{}}}}}", node);
+  }
+
+  void end(Slice& slice, NodeIndex node, double time) {
+    if (!slice.name.empty()) {
+      begin_event("X", node + 1);
+      fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"dur\":{},\"name\":\"{}\"}}",
+                     in_trace(slice.begin), in_trace(time - slice.begin), slice.name);
+    }
+    slice = {};
+  }
+
+  void add_counter(Compared& compared, const RecordedTick& tick) {
+    if (!tick.nodes[compared.node].ticked && !compared.progress.empty()) return;
+    std::vector<double> progress;
+    for (const NodeIndex child : compared.children) progress.push_back(tick.nodes[child].progress);
+    if (progress == compared.progress) return;
+    begin_event("C", 0);
+    fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"name\":", in_trace(tick.time));
+    append_json(text_, "progress " + header_.nodes[compared.node].path);
+    text_ += ",\"args\":{";
+    for (std::size_t i = 0; i < progress.size(); ++i) {
+      if (i > 0) text_ += ',';
+      append_json(text_, header_.nodes[compared.children[i]].name);
+      fmt::format_to(std::back_inserter(text_), ":{}", progress[i]);
+    }
+    text_ += "}}";
+    compared.progress = std::move(progress);
+  }
+
+  void add_instant(std::optional<NodeIndex> node, double time, const std::string& name) {
+    begin_event("i", node ? *node + 1 : 0);
+    fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"s\":\"{}\",\"name\":", in_trace(time),
+                   node ? 't' : 'p');
+    append_json(text_, name);
+    text_ += '}';
+  }
+
+  void note_gap(const RecordedTick& tick) {
+    if (!next_) return;
+    const double period = to_seconds(period_of(header_));
+    if (tick.tick > *next_) {
+      add_instant(std::nullopt, tick.time, fmt::format("{} ticks lost", tick.tick - *next_));
+    } else if (header_.clock == "wall" && tick.time - last_ >= kLate * period) {
+      add_instant(std::nullopt, last_, fmt::format("tick {} overran", tick.tick - 1));
+    }
+  }
+
+  bool flush(std::size_t room) {
+    if (text_.size() < room) return true;
+    const bool goes_on = write_(text_);
+    text_.clear();
+    return goes_on;
+  }
+
+  const RecordingHeader& header_;
+  const ExportSink& write_;
+  std::string text_;
+  bool has_event_ = false;
+  std::vector<Slice> slices_, held_;  // of each node
+  std::vector<Compared> compared_;
+  double last_ = 0;                         // time of a tick
+  std::optional<std::uint64_t> next_ = {};  // tick; none: there was none yet
+};
+
+}  // namespace
+
+bool write_trace(RecordingReader& reader, TickRange range, const ExportSink& write) {
+  Trace trace(reader.header(), write);
+  if (range.from > 0) reader.skip_to(range.from);
+  while (const auto tick = reader.next()) {
+    if (tick->tick < range.from) continue;
+    if (tick->tick > range.to) break;
+    if (!trace.take(*tick)) return false;
+  }
+  return trace.finish();
+}
+
+}  // namespace lockstep::host
