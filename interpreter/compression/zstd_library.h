@@ -19,6 +19,7 @@ struct ZstdLibrary : LateLibrary {
   decltype(&ZSTD_estimateCStreamSize) stream_size = function("ZSTD_estimateCStreamSize");
   decltype(&ZSTD_initStaticCStream) init_stream = function("ZSTD_initStaticCStream");
   decltype(&ZSTD_CCtx_setParameter) set_parameter = function("ZSTD_CCtx_setParameter");
+  decltype(&ZSTD_compress) compress_whole = function("ZSTD_compress");
   decltype(&ZSTD_compressStream2) compress = function("ZSTD_compressStream2");
 
   decltype(&ZSTD_createDCtx) create_reader = function("ZSTD_createDCtx");

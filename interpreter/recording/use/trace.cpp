@@ -6,9 +6,11 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "json/json.h"
+#include "recording/use/compared_children.h"
 
 namespace lockstep::host {
 namespace {
@@ -43,7 +45,7 @@ class Trace {
     append_json(text_, header.tree + " (lockstep)");
     text_ += "}}";
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) name_track(node);
-    find_compared();
+    for (auto& it : compared_children(header)) counters_.push_back({std::move(it)});
   }
 
   // False: no more is wanted.
@@ -60,7 +62,7 @@ class Trace {
       }
       if (held_[node].name.empty()) held_[node] = {held, tick.time};
     }
-    for (Compared& it : compared_) add_counter(it, tick);
+    for (Counter& it : counters_) add_counter(it, tick);
     for (const RecordedFault& it : tick.faults)
       add_instant(it.node, tick.time, "fault: " + it.message);
     for (const RecordedEntry& it : tick.entries) {
@@ -85,27 +87,10 @@ class Trace {
  private:
   static constexpr std::size_t kFull = 1u << 16u;
 
-  // The children whose progress a synchronized node, or a barrier beside the tree, compares.
-  struct Compared {
-    NodeIndex node = 0;
-    std::vector<NodeIndex> children;
-    std::vector<double> progress;  // that was written; empty: none
+  struct Counter {
+    ComparedChildren of;
+    std::vector<double> progress = {};  // that was written; empty: none
   };
-
-  void find_compared() {
-    for (NodeIndex node = 0; node < header_.nodes.size(); ++node) {
-      const RecordedNode& it = header_.nodes[node];
-      const bool compares = it.synchronization == Synchronization::Absolute ||
-                            it.synchronization == Synchronization::Relative;
-      if (!compares) continue;
-      Compared compared{.node = node, .children = it.members, .progress = {}};
-      for (NodeIndex child = node + 1; it.members.empty() && child < header_.nodes.size();
-           ++child) {
-        if (header_.nodes[child].parent == node) compared.children.push_back(child);
-      }
-      compared_.push_back(std::move(compared));
-    }
-  }
 
   // {"ph":"X","pid":1,"tid":3, where the track of a node is its index and one more.
   void begin_event(std::string_view phase, std::uint64_t track) {
@@ -133,22 +118,23 @@ class Trace {
     slice = {};
   }
 
-  void add_counter(Compared& compared, const RecordedTick& tick) {
-    if (!tick.nodes[compared.node].ticked && !compared.progress.empty()) return;
+  void add_counter(Counter& counter, const RecordedTick& tick) {
+    if (!tick.nodes[counter.of.node].ticked && !counter.progress.empty()) return;
     std::vector<double> progress;
-    for (const NodeIndex child : compared.children) progress.push_back(tick.nodes[child].progress);
-    if (progress == compared.progress) return;
+    for (const NodeIndex child : counter.of.children)
+      progress.push_back(tick.nodes[child].progress);
+    if (progress == counter.progress) return;
     begin_event("C", 0);
     fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"name\":", in_trace(tick.time));
-    append_json(text_, "progress " + header_.nodes[compared.node].path);
+    append_json(text_, "progress " + header_.nodes[counter.of.node].path);
     text_ += ",\"args\":{";
     for (std::size_t i = 0; i < progress.size(); ++i) {
       if (i > 0) text_ += ',';
-      append_json(text_, header_.nodes[compared.children[i]].name);
+      append_json(text_, header_.nodes[counter.of.children[i]].name);
       fmt::format_to(std::back_inserter(text_), ":{}", progress[i]);
     }
     text_ += "}}";
-    compared.progress = std::move(progress);
+    counter.progress = std::move(progress);
   }
 
   void add_instant(std::optional<NodeIndex> node, double time, const std::string& name) {
@@ -181,7 +167,7 @@ class Trace {
   std::string text_;
   bool has_event_ = false;
   std::vector<Slice> slices_, held_;  // of each node
-  std::vector<Compared> compared_;
+  std::vector<Counter> counters_;
   double last_ = 0;                         // time of a tick
   std::optional<std::uint64_t> next_ = {};  // tick; none: there was none yet
 };

@@ -3,16 +3,11 @@
 // tree only.
 #pragma once
 
-#include <functional>
-#include <string_view>
-
 #include "recording/read/recording_reader.h"
+#include "recording/use/export_sink.h"
 #include "recording/use/tick_range.h"
 
 namespace lockstep::host {
-
-// Receives the next bytes; returns false to stop.
-using ExportSink = std::function<bool(std::string_view bytes)>;
 
 // Then check reader.error(). Returns false if the sink stopped it.
 bool write_trace(RecordingReader& reader, TickRange range, const ExportSink& write);

@@ -8,6 +8,7 @@
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
+#include "recording/use/mcap.h"
 #include "recording/use/trace.h"
 #include "system/descriptors.h"
 #include "system/output_file.h"
@@ -18,6 +19,7 @@ namespace {
 struct LogExportOptions {
   std::string file, format, out;
   TickRange range;
+  double start_time = 0;
 };
 
 int export_to(const LogExportOptions& options, RecordingReader& reader) {
@@ -28,7 +30,11 @@ int export_to(const LogExportOptions& options, RecordingReader& reader) {
     if (!write_all(out.descriptor(), bytes)) reason = errno;
     return reason == 0;
   };
-  if (write_trace(reader, options.range, write) && !out.take_name()) reason = errno;
+  const bool is_written =
+      options.format == "mcap"
+          ? write_mcap(reader, {.range = options.range, .start_time = options.start_time}, write)
+          : write_trace(reader, options.range, write);
+  if (is_written && !out.take_name()) reason = errno;
   if (reason != 0) return cannot_use("write", options.out, reason);
   RecordingOutcome outcome = reader.outcome();
   if (!options.range.is_open()) outcome.cut.clear();  // that is not known
@@ -49,8 +55,9 @@ LogSubcommand define_log_export(CLI::App& log) {
   CLI::App* app = log.add_subcommand("export", "Write the recording in another format");
   add_recording_file(*app, options->file);
   app->add_option("--format", options->format,
-                  "trace: JSON for ui.perfetto.dev and chrome://tracing, a track for each node")
-      ->check(CLI::IsMember({"trace"}))
+                  "mcap: for Foxglove and PlotJuggler; trace: JSON for ui.perfetto.dev and "
+                  "chrome://tracing, a track for each node")
+      ->check(CLI::IsMember({"mcap", "trace"}))
       ->required();
   app->add_option("--out", options->out, "The file")->type_name("FILE")->required();
   app->add_option("--from", options->range.from, "The first tick")
@@ -59,6 +66,11 @@ LogSubcommand define_log_export(CLI::App& log) {
   app->add_option("--to", options->range.to, "The last one; what is behind it is not read")
       ->type_name("TICK")
       ->transform(whole_number());
+  app->add_option(
+         "--start-time", options->start_time,
+         "With mcap: when the run began, in seconds since 1970; 0: times are those of the run")
+      ->type_name("SECONDS")
+      ->check(number_between(0, 4e9));
   return {app, [options] { return export_recording(*options); }};
 }
 

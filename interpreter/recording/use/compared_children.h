@@ -1,0 +1,18 @@
+// The nodes of a recording that compare progress, with the nodes whose progress they compare: their
+// children, or the members of a barrier beside the tree.
+#pragma once
+
+#include <vector>
+
+#include "recording/recording.h"
+
+namespace lockstep::host {
+
+struct ComparedChildren {
+  NodeIndex node = 0;
+  std::vector<NodeIndex> children;
+};
+
+std::vector<ComparedChildren> compared_children(const RecordingHeader& header);
+
+}  // namespace lockstep::host
