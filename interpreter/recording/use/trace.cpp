@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -96,7 +95,7 @@ class Trace {
   void begin_event(std::string_view phase, std::uint64_t track) {
     if (has_event_) text_ += ",\n";
     has_event_ = true;
-    fmt::format_to(std::back_inserter(text_), "{{\"ph\":\"{}\",\"pid\":1,\"tid\":{}", phase, track);
+    text_ += fmt::format("{{\"ph\":\"{}\",\"pid\":1,\"tid\":{}", phase, track);
   }
 
   void name_track(NodeIndex node) {
@@ -105,15 +104,14 @@ class Trace {
     append_json(text_, header_.nodes[node].path);
     text_ += "}}";
     begin_event("M", node + 1);
-    fmt::format_to(std::back_inserter(text_),
-                   ",\"name\":\"thread_sort_index\",\"args\":{{\"sort_index\":{}}}}}", node);
+    text_ += fmt::format(",\"name\":\"thread_sort_index\",\"args\":{{\"sort_index\":{}}}}}", node);
   }
 
   void end(Slice& slice, NodeIndex node, double time) {
     if (!slice.name.empty()) {
       begin_event("X", node + 1);
-      fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"dur\":{},\"name\":\"{}\"}}",
-                     in_trace(slice.begin), in_trace(time - slice.begin), slice.name);
+      text_ += fmt::format(",\"ts\":{},\"dur\":{},\"name\":\"{}\"}}", in_trace(slice.begin),
+                           in_trace(time - slice.begin), slice.name);
     }
     slice = {};
   }
@@ -125,13 +123,13 @@ class Trace {
       progress.push_back(tick.nodes[child].progress);
     if (progress == counter.progress) return;
     begin_event("C", 0);
-    fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"name\":", in_trace(tick.time));
+    text_ += fmt::format(",\"ts\":{},\"name\":", in_trace(tick.time));
     append_json(text_, "progress " + header_.nodes[counter.of.node].path);
     text_ += ",\"args\":{";
     for (std::size_t i = 0; i < progress.size(); ++i) {
       if (i > 0) text_ += ',';
       append_json(text_, header_.nodes[counter.of.children[i]].name);
-      fmt::format_to(std::back_inserter(text_), ":{}", progress[i]);
+      text_ += fmt::format(":{}", progress[i]);
     }
     text_ += "}}";
     counter.progress = std::move(progress);
@@ -139,8 +137,7 @@ class Trace {
 
   void add_instant(std::optional<NodeIndex> node, double time, const std::string& name) {
     begin_event("i", node ? *node + 1 : 0);
-    fmt::format_to(std::back_inserter(text_), ",\"ts\":{},\"s\":\"{}\",\"name\":", in_trace(time),
-                   node ? 't' : 'p');
+    text_ += fmt::format(",\"ts\":{},\"s\":\"{}\",\"name\":", in_trace(time), node ? 't' : 'p');
     append_json(text_, name);
     text_ += '}';
   }
