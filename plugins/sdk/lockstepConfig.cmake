@@ -38,5 +38,8 @@ if(TARGET lockstep::runtime AND EXISTS ${_lockstep_functions} AND NOT TARGET loc
     $<IF:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>,lockstep::btcpp_program_functions,lockstep::btcpp_functions>)
 endif()
 unset(_lockstep_functions)
+# The program, where it is installed or built beside this; LOCKSTEP_PROGRAM-NOTFOUND where only the SDK is.
+find_program(LOCKSTEP_PROGRAM lockstep
+  HINTS ${CMAKE_CURRENT_LIST_DIR}/../.. ${CMAKE_CURRENT_LIST_DIR}/../../../bin ${CMAKE_CURRENT_LIST_DIR}/../../../../bin)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstep_add_plugin.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/lockstep_add_tree_tests.cmake)

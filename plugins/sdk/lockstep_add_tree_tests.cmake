@@ -1,13 +1,10 @@
 # lockstep_add_tree_tests(FILE|FOLDER… [OPTIONS option…]) makes a test of CTest of each scenario: its
 # name is that of the file and the scenario. OPTIONS are those of `lockstep test`, as
-# --plugin-path ${CMAKE_BINARY_DIR}. The program is LOCKSTEP_PROGRAM, or the first lockstep that is
-# found. Scenarios are listed when the project is configured, which happens again when one of their
+# --plugin-path ${CMAKE_BINARY_DIR}. The program is LOCKSTEP_PROGRAM, which find_package(lockstep) finds.
+# Scenarios are listed when the project is configured, which happens again when one of their
 # files changes. docs/testing.md
 function(lockstep_add_tree_tests)
   cmake_parse_arguments(TESTS "" "" "OPTIONS" ${ARGN})
-  find_program(LOCKSTEP_PROGRAM lockstep
-    HINTS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../bin
-          ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../../bin)
   if(NOT LOCKSTEP_PROGRAM)
     message(FATAL_ERROR "lockstep_add_tree_tests: there is no program lockstep; set LOCKSTEP_PROGRAM")
   endif()
