@@ -55,6 +55,7 @@ const std::vector<Layer> kThirdParty{
     {"boost/", {"interpreter/study/distributions.cpp"}},
     {"zlib.h", {"interpreter/web/gzip.cpp"}},
     {"zstd.h", {"interpreter/compression/"}},
+    {"kainjow/", {"interpreter/authoring/scaffold/render.cpp"}},
     {"lockstep/",
      {"interpreter/engine/leaf_call.h", "interpreter/plugin/", "interpreter/remote/",
       "interpreter/loading/", "interpreter/leaves/", "interpreter/cli/", "interpreter/embedding/"}},
@@ -67,7 +68,8 @@ const std::vector<Layer> kThirdParty{
               "interpreter/recording/",   "interpreter/view/",     "interpreter/web/",
               "interpreter/study/",       "interpreter/plots/",    "interpreter/describe/",
               "interpreter/convert/",     "interpreter/groot/",    "interpreter/leaves/",
-              "interpreter/verify/",      "interpreter/scenario/", "interpreter/cli/"}},
+              "interpreter/verify/",      "interpreter/scenario/", "interpreter/authoring/",
+              "interpreter/cli/"}},
 };
 
 // The rooms of the monitor's page, the lowest first, and what each may import beside its own files.

@@ -32,13 +32,13 @@ namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
-    kVerifyCommand, kTestCommand;
+    kVerifyCommand, kTestCommand, kNewCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kRunCommand,    &kCheckCommand,  &kVerifyCommand,  &kTestCommand,   &kShowCommand,
-      &kNodesCommand,  &kSchemaCommand, &kConvertCommand, &kPluginCommand, &kLogCommand,
-      &kReplayCommand, &kStudyCommand,  &kMonitorCommand};
+      &kNewCommand,  &kRunCommand,    &kCheckCommand,  &kVerifyCommand,  &kTestCommand,
+      &kShowCommand, &kNodesCommand,  &kSchemaCommand, &kConvertCommand, &kPluginCommand,
+      &kLogCommand,  &kReplayCommand, &kStudyCommand,  &kMonitorCommand};
   return kAll;
 }
 

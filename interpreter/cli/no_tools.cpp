@@ -7,6 +7,7 @@ extern const Command kShowCommand = absent("show"), kNodesCommand = absent("node
                      kSchemaCommand = absent("schema"), kConvertCommand = absent("convert"),
                      kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
                      kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
-                     kVerifyCommand = absent("verify"), kTestCommand = absent("test");
+                     kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
+                     kNewCommand = absent("new");
 
 }  // namespace lockstep::host

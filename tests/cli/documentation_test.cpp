@@ -35,7 +35,8 @@ std::string help_of(const std::string& command) {
 // "run" and "--record" of each `lockstep run t.xml --record x`, in code or in a line of a script.
 std::vector<std::pair<std::string, std::string>> options_in(const std::string& page) {
   const std::regex call(
-      "lockstep ((?:run|check|test|show|nodes|schema|plugin check|replay|study merge|study|log "
+      "lockstep ((?:new (?:project|plugin|leaf|node|tree)|run|check|test|show|nodes|schema|plugin "
+      "check|replay|study merge|study|log "
       "[a-z]+)\\b)"
       "([^`\\n#|&;>]*)");
   const std::regex option("[ [](--[a-z][a-z0-9-]*)");

@@ -30,28 +30,28 @@ TEST_CASE("docs/plugins.md: what it says works word for word, from the installat
   REQUIRE(commands[0].starts_with(kBuild));
 
   const TemporaryDirectory home;
-  home.file("CMakeLists.txt", blocks(page, "cmake").at(0));
-  home.file("greeter.cpp", blocks(page, "cpp").at(0));
-  home.file("tree.xml", blocks(page, "xml").at(0));
   const std::string script =
       "cd ~\nmkdir -p sources/build\nln -s '" LOCKSTEP_BINARY_DIR
       "' sources/build/release\n"
       "cd sources\n" +
       commands[0].substr(kBuild.size()) + "cd ..\n" + commands[1] +
-      "lockstep run lockstep/share/lockstep/trees/door_pulling.xml --clock virtual\n"
+      "cd ..\nlockstep run lockstep/share/lockstep/trees/door_pulling.xml --clock virtual\n"
       "lockstep run lockstep/share/lockstep/trees/commands.xml\n";
   const Outcome outcome = run({.arguments = {"-e", "-c", script},
                                .environment = {{"HOME", home.path("")}},
                                .program = "/bin/sh"});
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 0);
-  CHECK(outcome.out.find("Greet (") != std::string::npos);
-  CHECK((outcome.out + outcome.err).find("hello, robot") != std::string::npos);
+  CHECK(outcome.out.find("MoveArm (") != std::string::npos);
+  CHECK(outcome.out.find("100% tests passed, 0 tests failed out of 3") != std::string::npos);
+  CHECK(outcome.err.find("Main/both/right: success") != std::string::npos);
+  CHECK(read_file(home.path("arm/CMakeLists.txt")) == blocks(page, "cmake").at(0));
+  CHECK(read_file(home.path("arm/arm.cpp")) == blocks(page, "cpp").at(0));
+  CHECK(read_file(home.path("arm/tree.xml")) == blocks(page, "xml").at(0));
   CHECK((outcome.out + outcome.err).find("Main/Sequence/both/fast: success") != std::string::npos);
   for (const char* file :
-       {"LICENSE", "README.md", "docs/language.md", "schema/lockstep.xsd", "template/c/countdown.c",
-        "template/cpp/sweep.cpp", "template/rust/lockstep.rs", "python/lockstep_leaf.py",
-        "python/lockstep/__init__.py", "schema/program.schema.json"}) {
+       {"LICENSE", "README.md", "docs/language.md", "schema/lockstep.xsd",
+        "python/lockstep_leaf.py", "python/lockstep/__init__.py", "schema/program.schema.json"}) {
     INFO(file);
     CHECK(std::filesystem::exists(home.path("lockstep/share/lockstep/") + file));
   }

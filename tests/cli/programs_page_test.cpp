@@ -73,10 +73,13 @@ TEST_CASE("leaves in Python, bash, node, C and Rust give the recording of those 
   CHECK(door_recording("name=\"advance_c\"", LOCKSTEP_BINARY_DIR "/tests/cli") == expected);
   if (!is_installed("rustc")) return;
   const TemporaryDirectory built;
+  const std::string source = built.file("advance.rs", read_file(kProgramsFolder + "/advance.rs"));
+  built.file("lockstep.rs",
+             read_file(LOCKSTEP_SOURCE_DIR
+                       "/interpreter/authoring/scaffold/templates/plugin/lockstep.rs.in"));
   const Outcome compiled =
       run({.arguments = {"--edition", "2021", "-O", "-D", "warnings", "--crate-type", "cdylib",
-                         "-o", built.path("advance.so"),
-                         LOCKSTEP_SOURCE_DIR "/plugins/sdk/template/rust/advance.rs"},
+                         "-o", built.path("advance.so"), source},
            .program = "/usr/bin/rustc"});
   INFO(compiled.err);
   REQUIRE(compiled.code == 0);

@@ -18,10 +18,10 @@ struct Row {
 
 TEST_CASE("a wrong command line names the word that is wrong, and the help of its command") {
   const Row rows[] = {
-      {{}, "`lockstep` needs a command", "commands: 'run', "},
+      {{}, "`lockstep` needs a command", "commands: 'new', 'run', "},
       {{"chekc"}, "unknown command 'chekc'", "did you mean 'check'?"},
       {{"chekc", "--help"}, "unknown command 'chekc'", "did you mean 'check'?"},
-      {{"frobnicate", "x"}, "unknown command 'frobnicate'", "commands: 'run', "},
+      {{"frobnicate", "x"}, "unknown command 'frobnicate'", "commands: 'new', 'run', "},
       {{"--verison"},
        "unknown option '--verison'",
        "did you mean '--version'? see `lockstep --help`"},

@@ -1,6 +1,6 @@
-# Builds the plugin templates as a stranger would: copied elsewhere, against the installed SDK only.
+# Builds new plugins as a stranger would: elsewhere, against the installed SDK only.
 #   cmake -DBUILD=… -DSANITIZED=… -DWORK=… -DNM=… -DREADELF=… -DCXX_COMPILER=… -DC_COMPILER=… -P run.cmake
-# When the build has the program, each template's tree must also run to Success.
+# The tree of each must also run to Success.
 cmake_minimum_required(VERSION 3.20)
 
 function(run)
@@ -13,14 +13,12 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-function(check_template variant plugin)
-  set(folder ${WORK}/${variant})
-  file(COPY ${WORK}/prefix/share/lockstep/template/${variant} DESTINATION ${WORK})
-  set(program "")
-  if(EXISTS ${BUILD}/lockstep)
-    set(program -DLOCKSTEP_PROGRAM=${BUILD}/lockstep)
-  endif()
-  run(${CMAKE_COMMAND} -S ${folder} -B ${folder}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix ${program}
+# check_plugin(LANGUAGE NAME): what `lockstep new plugin` makes, built against the SDK.
+function(check_plugin language plugin)
+  set(folder ${WORK}/${plugin})
+  run(${CMAKE_COMMAND} -E chdir ${WORK} ${BUILD}/lockstep new plugin ${plugin} --lang ${language})
+  run(${CMAKE_COMMAND} -S ${folder} -B ${folder}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
+      -DLOCKSTEP_PROGRAM=${BUILD}/lockstep
       -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF -DCMAKE_C_COMPILER=${C_COMPILER}
       -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_C_FLAGS=-Wall\ -Wextra\ -Werror
       -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Werror --no-warn-unused-cli)
@@ -34,21 +32,17 @@ function(check_template variant plugin)
   if(NOT symbols STREQUAL "lockstep_plugin_entry")
     message(FATAL_ERROR "${plugin}.so exports more or less than lockstep_plugin_entry:\n${symbols}")
   endif()
-  if(EXISTS ${BUILD}/lockstep)
-    run(${BUILD}/lockstep run ${folder}/tree.xml --clock virtual --plugin-path ${folder}/build)
-    if(EXISTS ${folder}/tree.test.xml)  # its scenarios are tests of CTest
-      run(${CMAKE_CTEST_COMMAND} --test-dir ${folder}/build)
-      if(NOT output MATCHES "100% tests passed, 0 tests failed out of [1-9]")
-        message(FATAL_ERROR "the scenarios of the template:\n${output}")
-      endif()
-    endif()
+  run(${BUILD}/lockstep run ${folder}/tree.xml --clock virtual --plugin-path ${folder}/build)
+  run(${CMAKE_CTEST_COMMAND} --test-dir ${folder}/build)
+  if(NOT output MATCHES "100% tests passed, 0 tests failed out of [1-9]")
+    message(FATAL_ERROR "the scenarios of the plugin:\n${output}")
   endif()
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --component sdk --prefix ${WORK}/prefix)
-check_template(cpp sweep)
-check_template(c countdown)
+check_plugin(c++ sweep)
+check_plugin(c countdown)
 
 # build_btcpp(PREFIX OPTION…): a project for BehaviorTree.CPP, as it is.
 function(build_btcpp prefix)

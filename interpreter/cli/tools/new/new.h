@@ -1,0 +1,46 @@
+// The parts of `lockstep new`.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "authoring/scaffold/plan.h"
+#include "core/problem.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lockstep::host {
+
+struct NewPart {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+NewPart define_new_project(CLI::App& app);
+NewPart define_new_plugin(CLI::App& app);
+NewPart define_new_leaf(CLI::App& app);
+NewPart define_new_node(CLI::App& app);
+NewPart define_new_tree(CLI::App& app);
+
+void add_dry_run(CLI::App& app, bool& is_dry_run);
+void add_language(CLI::App& app, std::string& language);
+
+// A Problem if lockstep's own nodes, in either language, have that ID.
+Result<void> check_not_built_in(std::string_view id);
+
+// What to type next, on stderr.
+void print_next(std::span<const std::string> lines);
+int refuse(const Problem& problem);
+// Writes the files unless it is a dry run, lists them on stdout, and prints the commands to type
+// next on stderr.
+int make_files(const NewFiles& files, bool is_dry_run, std::span<const std::string> next);
+
+// How the user calls this program, and what CMake needs to find it: "" or an option.
+std::string program_word();
+std::string configure_option();
+
+}  // namespace lockstep::host

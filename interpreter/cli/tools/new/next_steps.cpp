@@ -1,0 +1,53 @@
+// What to type next: with this program, wherever it is.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "cli/tools/new/new.h"
+#include "loading/plugin_directories.h"
+#include "runtime/outlet.h"
+
+namespace lockstep::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether a directory is one of PATH.
+bool is_on_path(const fs::path& directory) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream directories(path == nullptr ? "" : path);
+  std::error_code error;
+  for (std::string it; std::getline(directories, it, ':');) {
+    if (!it.empty() && fs::equivalent(it, directory, error)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void print_next(std::span<const std::string> lines) {
+  if (lines.empty()) return;
+  std::string text = "\nnext:\n";
+  for (const std::string& line : lines) text += "  " + line + '\n';
+  messages().say(text);
+}
+
+std::string program_word() {
+  const fs::path directory = program_directory({});
+  return directory.empty() || is_on_path(directory) ? "lockstep"
+                                                    : (directory / "lockstep").string();
+}
+
+std::string configure_option() {
+  const fs::path directory = program_directory({});
+  if (fs::exists(directory / "cmake/lockstep/lockstepConfig.cmake")) {  // a build of the sources
+    return " -Dlockstep_DIR=" + (directory / "cmake/lockstep").string();
+  }
+  const bool is_found =
+      is_on_path(directory) || directory == "/usr/bin" || directory == "/usr/local/bin";
+  return is_found ? "" : " -DCMAKE_PREFIX_PATH=" + directory.parent_path().string();
+}
+
+}  // namespace lockstep::host

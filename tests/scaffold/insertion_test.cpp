@@ -1,0 +1,107 @@
+// A node is inserted into a source that its author has changed: no byte of the author's goes away.
+#include <catch2/catch.hpp>
+
+#include "authoring/scaffold/plugin_source.h"
+
+namespace lockstep::host::test {
+namespace {
+
+std::string inserted(const char* language, const std::string& text, const NewNode& node) {
+  const auto result = insert_node({"plugin", find_language(language), text}, node);
+  if (!result) return "refused: " + result.error().message;
+  return *result;
+}
+
+// Whether all of `part` is in `whole`, in its order: what is left out was inserted.
+bool is_kept(const std::string& part, const std::string& whole) {
+  std::size_t at = 0;
+  for (const char c : part) {
+    at = whole.find(c, at);
+    if (at == whole.npos) return false;
+    ++at;
+  }
+  return true;
+}
+
+struct Source {
+  const char* language;
+  std::string text;
+  std::string expected;  // a part of the result
+};
+
+const NewNode kOpen{NewNodeKind::Condition, "Open", "Opens", {}};
+
+const std::vector<Source> kSources{
+    {"cpp", "LOCKSTEP_PLUGIN(\"a\", \"1\", \"x\", lockstep::leaf<A>(\"A\", \"\"));\n",
+     "lockstep::leaf<A>(\"A\", \"\"),\n                lockstep::leaf<Open>(\"Open\", "
+     "\"Opens\"));\n"},
+    {"cpp",
+     "// LOCKSTEP_PLUGIN(no)\nLOCKSTEP_PLUGIN(\"a)\", \"1\", R\"x(a \" ) b)x\",\n  "
+     "lockstep::leaf<A>(\"A\", \"\")  // last, really\n);\n",
+     "lockstep::leaf<A>(\"A\", \"\"),  // last, really\n                "
+     "lockstep::leaf<Open>(\"Open\", \"Opens\")\n);\n"},
+    {"cpp",
+     "namespace {\nclass A {};\n}  // namespace\n\n// The plugin.\nLOCKSTEP_PLUGIN(\"a\", "
+     "lockstep::leaf<A>(\"A\", \"\"));\n",
+     "bool check() override { return true; }\n};\n\n}  // namespace\n\n// The "
+     "plugin.\nLOCKSTEP_PLUGIN("},
+    {"cpp", "class A {};\r\n\r\nLOCKSTEP_PLUGIN(\"a\",\r\n  lockstep::leaf<A>(\"A\", \"\"));\r\n",
+     "(\"A\", \"\"),\r\n                lockstep::leaf<Open>(\"Open\", \"Opens\"));\r\n"},
+    {"c",
+     "static const lockstep_leaf_type* const types[] = {&a_type};\nconst lockstep_plugin "
+     "lockstep_plugin_entry;\n",
+     "const types[] = {&a_type, &open_type};\n"},
+    {"c", "static const lockstep_leaf_type* const types[] = {\n    &a_type, /* the first */\n};\n",
+     "    &a_type, /* the first */\n    &open_type,\n};\n"},
+    {"python",
+     "from lockstep_leaf import Action, serve  # all\n\nclass A(Action):\n    "
+     "\"serve()\"\n\n\nserve()\n",
+     "import Action, serve, Condition  # all\n"},
+    {"python", "from lockstep_leaf import (\n    Action,\n    serve,\n)\nserve()\n",
+     "    serve,\n    Condition,\n)\nclass Open(Condition)"},
+    {"python", "import lockstep_leaf\nlockstep_leaf.serve\nserve()\n",
+     "from lockstep_leaf import Condition\n\n\nclass Open(Condition):"},
+    {"rust",
+     "use lockstep::{Action, Plugin};\nfn f<'a>(c: &'a char) -> bool { *c == '[' "
+     "}\n#[no_mangle]\npub static lockstep_plugin_entry: Plugin =\n    Plugin::of(text!(\"a;&[\"), "
+     "text!(\"\"), &[&A]);\n",
+     "text!(\"\"), &[&A, &OPEN]);\n"},
+    {"btcpp", "BT_REGISTER_NODES(f)\n{\n  f.registerNodeType<A>(\"A\");  // a\n}\n",
+     "  f.registerNodeType<A>(\"A\");  // a\n  f.registerNodeType<Open>(\"Open\");\n}\n"},
+    {"btcpp", "BT_REGISTER_NODES(factory) {}\n",
+     "BT_REGISTER_NODES(factory) {\n  factory.registerNodeType<Open>(\"Open\");}\n"}};
+
+}  // namespace
+
+TEST_CASE("scaffold: a node goes behind the last one, and nothing of the author's changes") {
+  for (const Source& source : kSources) {
+    const std::string result = inserted(source.language, source.text, kOpen);
+    INFO(source.language << "\n" << source.text << "----\n" << result);
+    CHECK(result.find(source.expected) != result.npos);
+    CHECK(is_kept(source.text, result));
+    CHECK((result.find("\r\n") == result.npos || result.find("\n\n") == result.npos));
+    CHECK(inserted(source.language, result, kOpen) == "refused: 'plugin' has a 'Open' already");
+  }
+}
+
+TEST_CASE("scaffold: a second node goes behind the first") {
+  for (const Source& source : kSources) {
+    const NewNode next{NewNodeKind::Action, "Shut", "", {}};
+    const std::string once = inserted(source.language, source.text, kOpen);
+    const std::string twice = inserted(source.language, once, next);
+    INFO(twice);
+    CHECK(is_kept(once, twice));
+    CHECK(twice.rfind("Open") < twice.rfind("hut"));
+  }
+}
+
+TEST_CASE("scaffold: a source without a list of nodes is refused, and says what was looked for") {
+  CHECK(inserted("c", "const lockstep_plugin lockstep_plugin_entry;", kOpen) ==
+        "refused: 'plugin' has no place for a node: a list of lockstep_leaf_type* const");
+  CHECK(inserted("python", "def f():\n    serve()\n", kOpen) ==
+        "refused: 'plugin' has no place for a node: serve() on a line of its own");
+  CHECK(inserted("cpp", "LOCKSTEP_PLUGIN(\"a\", (", kOpen) ==
+        "refused: 'plugin' has no place for a node: LOCKSTEP_PLUGIN(…)");
+}
+
+}  // namespace lockstep::host::test

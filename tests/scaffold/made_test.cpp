@@ -1,0 +1,170 @@
+// What `lockstep new` makes builds without a warning, runs, and passes its tests: in each language.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <sstream>
+
+#include "cli/program.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+const std::string kConfigure = "cmake -B build -Dlockstep_DIR='" LOCKSTEP_BINARY_DIR
+                               "/cmake/lockstep' -DCMAKE_C_FLAGS='-Wall -Wextra -Werror' "
+                               "-DCMAKE_CXX_FLAGS='-Wall -Wextra -Werror' "
+                               "--no-warn-unused-cli >log 2>&1 && cmake --build build >>log 2>&1 "
+                               "&& ctest --test-dir build >>log 2>&1";
+
+bool has_rust() {
+  return std::filesystem::exists("/usr/bin/rustc");
+}
+
+// Each line of the script is to succeed.
+std::string succeed(const std::string& script, const TemporaryDirectory& directory) {
+  const Outcome outcome = shell("set -e\n" + script, directory);
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+  return outcome.out;
+}
+
+void make_project(const std::string& language, const TemporaryDirectory& directory) {
+  succeed("lockstep new project robot --lang " + language + "\ncd robot\n" + kConfigure +
+              " || { cat log; exit 1; }\n"
+              "lockstep run trees/robot.xml --plugin-path build --clock virtual\n"
+              "lockstep check --strict trees/*.xml --plugin-path build\n"
+              "lockstep test --plugin-path build\n",
+          directory);
+  const std::string log = read_file(directory.path("robot/log"));
+  CHECK(contains(log, "100% tests passed, 0 tests failed out of 3"));
+  CHECK_FALSE(contains(log, "arning"));
+}
+
+const std::string kPorts =
+    " --port goal:string --port speed:double=0.5 --port out:angle:double --port inout:tries:int=0 "
+    "--port is_open:bool=true --port 'way:list of double=1;2'";
+const std::string kListPorts = " --port 'b:list of int' --port 'c:list of string=x;y\\;\"z'";
+
+// Nodes of these arguments of `lockstep new` are inserted, and the plugin keeps the contract.
+void insert_nodes(const std::vector<std::string>& nodes, const std::string& plugin,
+                  const TemporaryDirectory& directory) {
+  std::string script = "cd robot\n";
+  for (const std::string& node : nodes) script += "lockstep new " + node + "\n";
+  script += "touch plugins/robot/CMakeLists.txt\n" + kConfigure +
+            " || { cat log; exit 1; }\nlockstep plugin check " + plugin;
+  const std::string out = succeed(script, directory);
+  CHECK(contains(out, plugin + ": ok"));
+  for (const std::string& node : nodes) {
+    std::istringstream words(node);
+    std::string what, id;
+    words >> what >> id;
+    INFO(out);
+    CHECK(contains(out, "'" + id + "'"));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a project in C++ builds and passes its tests, and nodes of all kinds can be inserted") {
+  const TemporaryDirectory directory;
+  make_project("c++", directory);
+  insert_nodes(
+      {"leaf OpenDoor" + kPorts,
+       "leaf Lists" + kListPorts + " --port 'd:list of bool' --port e:number=1",
+       "leaf Awkward --port progress:double=1 --port class:string --port elapsed_:int=1",
+       "leaf IsOpen --kind condition --doc 'Whether the \"door\" is open' --port limit:double",
+       "leaf Grasp --kind threaded --port force:double", "leaf Plain",
+       "node TryAll --kind control --port times:int=3", "node Twice --kind decorator"},
+      "build/robot.so", directory);
+}
+
+TEST_CASE("a project in C builds and passes its tests, and nodes can be inserted") {
+  const TemporaryDirectory directory;
+  make_project("c", directory);
+  insert_nodes(
+      {"leaf OpenDoor" + kPorts,
+       "leaf Lists" + kListPorts + " --port 'd:list of bool' --port e:number=1",
+       "leaf Awkward --port progress:double=1 --port create:string --port ports:int=1",
+       "leaf IsOpen --kind condition --doc 'Whether */ the \"door\" is open' --port limit:double",
+       "leaf Plain", "node TryAll --kind control", "node Twice --kind decorator"},
+      "build/robot.so", directory);
+}
+
+TEST_CASE("a project in Python passes its tests, and leaves can be inserted") {
+  const TemporaryDirectory directory;
+  make_project("python", directory);
+  insert_nodes(
+      {"leaf OpenDoor" + kPorts, "leaf Lists" + kListPorts + " --port 'd:list of bool'",
+       "leaf IsOpen --kind condition --doc 'Whether the \"door\" is open' --port limit:double",
+       "leaf Plain"},
+      "build/robot.py", directory);
+}
+
+TEST_CASE("a project in Rust builds and passes its tests, and leaves can be inserted") {
+  if (!has_rust()) {
+    WARN("there is no rustc: not tested");
+    return;
+  }
+  const TemporaryDirectory directory;
+  make_project("rust", directory);
+  insert_nodes(
+      {"leaf OpenDoor" + kPorts,
+       "leaf IsOpen --kind condition --doc 'Whether the \"door\" is open' --port limit:double",
+       "leaf Plain"},
+      "build/robot.so", directory);
+}
+
+#ifndef LOCKSTEP_SANITIZED  // what it is linked with would need the sanitizer
+TEST_CASE("a project for BehaviorTree.CPP builds and passes its tests, and nodes can be inserted") {
+  const TemporaryDirectory directory;
+  make_project("btcpp", directory);
+  insert_nodes({"leaf OpenDoor" + kPorts, "leaf Lists" + kListPorts,
+                "leaf IsOpen --kind condition --port limit:double", "leaf Plain",
+                "node TryAll --kind control --port times:int=3", "node Twice --kind decorator"},
+               "build/robot.so", directory);
+}
+#endif
+
+TEST_CASE("a second plugin in a project is built with it, and a leaf goes where --in says") {
+  const TemporaryDirectory directory;
+  succeed(
+      "lockstep new project robot\ncd robot\nlockstep new plugin gripper --lang python --leaf "
+      "Grip\n" +
+          kConfigure +
+          " || { cat log; exit 1; }\n"
+          "lockstep run trees/gripper.xml --plugin-path build --clock virtual\n"
+          "lockstep new leaf Open --in plugins/gripper\ngrep -q 'class Open' "
+          "plugins/gripper/gripper.py",
+      directory);
+  CHECK(contains(read_file(directory.path("robot/log")),
+                 "100% tests passed, 0 tests failed out of 6"));
+  const Outcome either = shell("cd robot && lockstep new leaf Shut", directory);
+  CHECK(either.code == 2);
+  CHECK(contains(either.err, "there are 2 plugins here"));
+  CHECK(contains(either.err, "'--in plugins/gripper/gripper.py', '--in plugins/robot/robot.cpp'"));
+}
+
+TEST_CASE("a plugin alone builds, and one in Python needs no build") {
+  const TemporaryDirectory directory;
+  succeed("lockstep new plugin left-arm\ncd left-arm\n" + kConfigure +
+              " || { cat log; exit 1; }\nlockstep run tree.xml --plugin-path build --clock virtual",
+          directory);
+  CHECK(contains(read_file(directory.path("left-arm/log")), "100% tests passed"));
+  succeed(
+      "lockstep new plugin grip --lang python\ncd grip\nlockstep test --plugin-path .\n"
+      "lockstep run tree.xml --plugin-path . --clock virtual",
+      directory);
+  // What is saved is what the program says.
+  const std::string made = read_file(directory.path("grip/grip.leaves.json"));
+  succeed("cd grip\nlockstep plugin check --save ./grip.py", directory);
+  CHECK(read_file(directory.path("grip/grip.leaves.json")) == made);
+}
+
+TEST_CASE("a new tree runs and passes its scenarios, in both languages") {
+  const TemporaryDirectory directory;
+  succeed(
+      "lockstep new tree patrol\nlockstep new tree dock --language btcpp4\nlockstep test\n"
+      "for tree in patrol dock; do lockstep run $tree.xml --clock virtual; lockstep check --strict "
+      "$tree.xml; done",
+      directory);
+  CHECK(contains(read_file(directory.path("dock.xml")), "BTCPP_format"));
+}
