@@ -166,5 +166,10 @@ TEST_CASE("a new tree runs and passes its scenarios, in both languages") {
       "for tree in patrol dock; do lockstep run $tree.xml --clock virtual; lockstep check --strict "
       "$tree.xml; done",
       directory);
+  succeed(
+      "lockstep new tree drive --plugin motion\nlockstep run drive.xml --clock virtual\n"
+      "lockstep new tree grip --plugin grip.py\ngrep -q 'name=\"grip\" program=\"grip.py\"' "
+      "grip.xml",
+      directory);
   CHECK(contains(read_file(directory.path("dock.xml")), "BTCPP_format"));
 }

@@ -62,6 +62,7 @@ TEST_CASE("a leaf that cannot be is refused, and the source stays as it was") {
         {"leaf Action", "a node cannot be called 'Action'"},
         {"leaf Open --port goal", "'goal' is no port"},
         {"leaf Open --port goal:sting", "'sting' is no type of a port"},
+        {"leaf Open --port x:float", "did you mean 'double'?"},
         {"leaf Open --port name:string", "no port can be called 'name'"},
         {"leaf Open --port _x:int", "'_x' cannot be the name of a port"},
         {"leaf Open --port x:int=1.5", "the default '1.5' of port 'x' is no int"},

@@ -20,6 +20,15 @@ constexpr std::array<std::pair<std::string_view, PortDirection>, 3> kDirections{
      {"out", PortDirection::Output},
      {"inout", PortDirection::InOut}}};
 
+// What other languages call a type.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOtherWords{
+    {{"float", "double"},
+     {"real", "double"},
+     {"integer", "int"},
+     {"int64", "int"},
+     {"boolean", "bool"},
+     {"text", "string"}}};
+
 Result<ValueType> parse_type(std::string_view word) {
   std::vector<std::string_view> words;
   for (const ValueType type : all_value_types()) {
@@ -28,7 +37,12 @@ Result<ValueType> parse_type(std::string_view word) {
     if (name == word) return type;
     words.push_back(name);
   }
-  return problem(fmt::format("'{}' is no type of a port", word), suggest(word, words, "the types"));
+  const auto* const other =
+      std::ranges::find(kOtherWords, word, &std::pair<std::string_view, std::string_view>::first);
+  const std::string hint = other == kOtherWords.end()
+                               ? suggest(word, words, "the types")
+                               : fmt::format("did you mean '{}'?", other->second);
+  return problem(fmt::format("'{}' is no type of a port", word), hint);
 }
 
 // The part up to the next colon, which is taken from `text`.

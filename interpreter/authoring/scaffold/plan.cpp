@@ -101,7 +101,9 @@ NewFiles plan_tree(const NewTree& tree) {
                   {"wait", tree.is_btcpp ? "Sleep" : "Wait"},
                   {"wait_time", tree.is_btcpp ? "msec" : "seconds"},
                   {"short", tree.is_btcpp ? "1000" : "1"},
-                  {"long", tree.is_btcpp ? "2000" : "2"}};
+                  {"long", tree.is_btcpp ? "2000" : "2"},
+                  {"plugin", fs::path(tree.plugin).stem().string()},
+                  {"program", fs::path(tree.plugin).has_extension() ? tree.plugin : ""}};
   NewFiles files;
   add_tree(values, tree.folder, tree.name, files);
   return files;

@@ -24,7 +24,8 @@ struct NewPlugin {
 
 struct NewTree {
   std::string name;
-  bool is_btcpp = false;  // in the language of BehaviorTree.CPP
+  bool is_btcpp = false;    // in the language of BehaviorTree.CPP
+  std::string plugin = {};  // that it names; "": none. A program has its extension: "grip.py"
   std::filesystem::path folder = {};
 };
 

@@ -55,7 +55,9 @@ std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {
   if (!line) {
     failure = fmt::format("its program {}", line.error().message);
   } else if (*line != hello_->line()) {
-    failure = "its program says now that it has other leaves than when it was loaded";
+    failure =
+        "its program says now that it has other leaves than when it was loaded: let 'lockstep "
+        "plugin check --save' write them down";
   } else {
     return conversation;
   }

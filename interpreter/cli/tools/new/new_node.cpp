@@ -93,8 +93,9 @@ int new_node(const NodeOptions& options) {
   return write_results(text->definition + (text->entry.empty() ? "" : '\n' + text->entry + '\n'));
 }
 
-void add_options(CLI::App& app, NodeOptions& options) {
+void add_options(CLI::App& app, NodeOptions& options, const std::vector<std::string>& kinds) {
   app.add_option("id", options.id, "Its ID: the tag in trees")->type_name("ID")->required();
+  app.add_option("--kind", options.kind, "What it is")->check(one_of(kinds))->capture_default_str();
   app.add_option("--port", options.ports,
                  "A port: NAME:TYPE or NAME:TYPE=DEFAULT, with out: or inout: in front of an "
                  "output or an inout; "
@@ -116,11 +117,7 @@ NewPart define(CLI::App& app, const char* name, const char* summary,
   const auto options = std::make_shared<NodeOptions>();
   options->kind = kinds.front();
   CLI::App* command = app.add_subcommand(name, summary);
-  add_options(*command, *options);
-  std::string list;
-  for (const std::string& kind : kinds)
-    list += (list.empty() ? "" : kind == kinds.back() ? " or " : ", ") + kind;
-  command->add_option("--kind", options->kind, list)->check(one_of(kinds))->capture_default_str();
+  add_options(*command, *options, kinds);
   command->footer(footer);
   return {command, [options] { return new_node(*options); }};
 }

@@ -15,18 +15,31 @@ namespace fs = std::filesystem;
 struct TreeOptions {
   std::string name;
   std::string language = "lockstep";
+  std::string plugin;
   bool is_dry_run = false;
 };
 
+// "grip", "grip.so" and "grip.py" name a plugin; of a program the extension stays.
+Result<std::string> plugin_named(const std::string& text) {
+  const fs::path plugin = text;
+  if (text.empty()) return text;
+  if (const auto name = check_file_name("plugin", plugin.stem().string()); !name)
+    return tl::unexpected(name.error());
+  return plugin.extension() == ".so" ? plugin.stem().string() : text;
+}
+
 int new_tree(const TreeOptions& options) {
   if (const auto name = check_file_name("tree", options.name); !name) return refuse(name.error());
-  NewTree tree{options.name, options.language == "btcpp4"};
-  if (fs::is_directory("trees")) tree.folder = "trees";
-  const fs::path file = tree.folder / (tree.name + ".xml");
-  const std::vector<std::string> next{
-      fmt::format("{} run {}", program_word(), file.string()),
-      fmt::format("{} test {}", program_word(),
-                  (tree.folder / (tree.name + ".test.xml")).string())};
+  const auto plugin = plugin_named(options.plugin);
+  if (!plugin) return refuse(plugin.error());
+  const fs::path folder = fs::is_directory("trees") ? "trees" : "";
+  const NewTree tree{options.name, options.language == "btcpp4", *plugin, folder};
+  const std::string path = plugin->empty() ? "" : " --plugin-path build";
+  const auto line = [&](const char* command, const char* end) {
+    return fmt::format("{} {} {}{}", program_word(), command, (folder / (tree.name + end)).string(),
+                       path);
+  };
+  const std::vector<std::string> next{line("run", ".xml"), line("test", ".test.xml")};
   return make_files(plan_tree(tree), options.is_dry_run, next);
 }
 
@@ -43,6 +56,11 @@ NewPart define_new_tree(CLI::App& app) {
       ->add_option("--language", options->language, "lockstep, or btcpp4: that of BehaviorTree.CPP")
       ->check(one_of({"lockstep", "btcpp4"}))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--plugin", options->plugin,
+          "The plugin whose leaves it is to have; of a program the name of the file: grip.py")
+      ->type_name("NAME");
   add_dry_run(*command, options->is_dry_run);
   command->footer("Example: lockstep new tree patrol");
   return {command, [options] { return new_tree(*options); }};
