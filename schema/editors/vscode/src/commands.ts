@@ -1,22 +1,35 @@
-// Commands of the palette and of code lenses: a lens gives the file, and what in it is meant.
+// Commands of the palette, which are about the file of the editor, and of code lenses, which say what they are about.
 import { ProcessExecution, Task, TaskPanelKind, TaskRevealKind, TaskScope, tasks, Uri, window, workspace } from "vscode";
-import { argumentOptions, commandOptions, program, workingDirectory } from "./settings";
+import { argumentOptions, pluginOptions, program, workingDirectory } from "./settings";
 
-// The file of a lens, as a URI or a path, else that of the editor; saved, since a command reads it.
-export async function savedFile(given?: unknown): Promise<Uri | undefined> {
-  const file = fileOf(given) ?? window.activeTextEditor?.document.uri;
+// As the server's code lenses have it: a tree or a scenario of a file. Menus give a URI, the palette nothing.
+export interface Lens {
+  uri: string;
+  name?: string;
+}
+
+export function nameOf(given: unknown): string | undefined {
+  return isLens(given) ? given.name : undefined;
+}
+
+function isLens(given: unknown): given is Lens {
+  return typeof given === "object" && given !== null && typeof (given as Lens).uri === "string";
+}
+
+function fileOf(given: unknown): Uri | undefined {
+  if (given instanceof Uri) return given;
+  return isLens(given) ? Uri.parse(given.uri) : window.activeTextEditor?.document.uri;
+}
+
+// The file, saved, since a command reads it.
+export async function savedFile(given: unknown): Promise<Uri | undefined> {
+  const file = fileOf(given);
   if (file?.scheme !== "file") {
     void window.showErrorMessage("lockstep: save the file first, then run it.");
     return undefined;
   }
   const document = workspace.textDocuments.find((it) => it.uri.toString() === file.toString());
   return document === undefined || (await document.save()) ? file : undefined;
-}
-
-function fileOf(given: unknown): Uri | undefined {
-  if (given instanceof Uri) return given;
-  if (typeof given !== "string") return undefined;
-  return given.startsWith("file:") ? Uri.parse(given) : Uri.file(given);
 }
 
 // Shows the command in a terminal, which stays when it has ended.
@@ -32,24 +45,28 @@ async function inTerminal(words: string[], file: Uri): Promise<void> {
   await tasks.executeTask(task);
 }
 
-const treeOption = (tree: unknown) => (typeof tree === "string" ? ["--tree", tree] : []);
-
-export async function test(given?: unknown, scenario?: unknown): Promise<void> {
-  const file = await savedFile(given);
-  if (file === undefined) return;
-  const filter = typeof scenario === "string" ? ["--filter", scenario] : [];
-  await inTerminal(["test", file.fsPath, ...filter, ...commandOptions(file)], file);
+export function treeOption(given: unknown): string[] {
+  const tree = nameOf(given);
+  return tree === undefined ? [] : ["--tree", tree];
 }
 
-export async function verify(given?: unknown, tree?: unknown): Promise<void> {
+export async function test(given?: unknown): Promise<void> {
   const file = await savedFile(given);
   if (file === undefined) return;
-  await inTerminal(["verify", file.fsPath, ...treeOption(tree), ...argumentOptions(file), ...commandOptions(file)], file);
+  const scenario = nameOf(given);
+  const filter = scenario === undefined ? [] : ["--filter", scenario];
+  await inTerminal(["test", file.fsPath, ...filter, ...pluginOptions(file)], file);
 }
 
-export async function monitor(given?: unknown, tree?: unknown): Promise<void> {
+export async function verify(given?: unknown): Promise<void> {
   const file = await savedFile(given);
   if (file === undefined) return;
-  const options = ["--monitor", "--monitor-open", ...treeOption(tree), ...argumentOptions(file), ...commandOptions(file)];
+  await inTerminal(["verify", file.fsPath, ...treeOption(given), ...argumentOptions(file), ...pluginOptions(file)], file);
+}
+
+export async function monitor(given?: unknown): Promise<void> {
+  const file = await savedFile(given);
+  if (file === undefined) return;
+  const options = ["--monitor", "--monitor-open", ...treeOption(given), ...argumentOptions(file), ...pluginOptions(file)];
   await inTerminal(["run", file.fsPath, ...options], file);
 }

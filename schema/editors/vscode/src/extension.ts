@@ -34,7 +34,7 @@ export async function activate(context: ExtensionContext): Promise<void> {
   const view = new RunView(output);
   context.subscriptions.push(
     output,
-    commands.registerCommand("lockstep.run", (file?: unknown, tree?: unknown) => view.run(file, tree)),
+    commands.registerCommand("lockstep.run", (given?: unknown) => view.run(given)),
     commands.registerCommand("lockstep.test", run.test),
     commands.registerCommand("lockstep.verify", run.verify),
     commands.registerCommand("lockstep.monitor", run.monitor),

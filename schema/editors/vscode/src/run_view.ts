@@ -4,8 +4,8 @@ import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 import { OutputChannel, ProgressLocation, Uri, ViewColumn, WebviewPanel, window } from "vscode";
-import { savedFile } from "./commands";
-import { argumentOptions, commandOptions, program, workingDirectory } from "./settings";
+import { savedFile, treeOption } from "./commands";
+import { argumentOptions, pluginOptions, program, workingDirectory } from "./settings";
 
 interface Ended {
   code: number;
@@ -27,23 +27,23 @@ export class RunView {
 
   constructor(private readonly output: OutputChannel) {}
 
-  async run(given?: unknown, tree?: unknown): Promise<void> {
+  async run(given?: unknown): Promise<void> {
     const file = await savedFile(given);
     if (file === undefined) return;
     const title = `Run of ${basename(file.fsPath)}`;
     await window.withProgress({ location: ProgressLocation.Notification, title, cancellable: true }, async (_, cancel) => {
       const abort = new AbortController();
       cancel.onCancellationRequested(() => abort.abort());
-      await this.show(file, typeof tree === "string" ? tree : undefined, abort.signal);
+      await this.show(file, treeOption(given), abort.signal);
     });
   }
 
-  private async show(file: Uri, tree: string | undefined, signal: AbortSignal): Promise<void> {
+  private async show(file: Uri, tree: string[], signal: AbortSignal): Promise<void> {
     const folder = await mkdtemp(join(tmpdir(), "lockstep-"));
     try {
       const recording = join(folder, "run.jsonl");
       const page = join(folder, "run.html");
-      const options = [...(tree === undefined ? [] : ["--tree", tree]), ...argumentOptions(file), ...commandOptions(file)];
+      const options = [...tree, ...argumentOptions(file), ...pluginOptions(file)];
       const ended = await execute(
         ["run", file.fsPath, "--clock", "virtual", "--view", "plain", "--record", recording, ...options], file, signal);
       if (signal.aborted) return;

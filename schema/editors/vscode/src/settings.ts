@@ -37,7 +37,7 @@ export function serverSettings(file?: Uri): ServerSettings {
 }
 
 // The same as options of a command that runs trees.
-export function commandOptions(file: Uri): string[] {
+export function pluginOptions(file: Uri): string[] {
   const settings = serverSettings(file);
   return [
     ...settings.pluginPath.flatMap((it) => ["--plugin-path", it]),

@@ -1,0 +1,99 @@
+// The commands of the extension for VS Code, with a stand-in for VS Code: what they start, and the page of a run.
+import assert from "node:assert/strict";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, beforeEach, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const FOLDER = new URL("../../schema/editors/vscode/", import.meta.url).pathname;
+const { build } = createRequire(join(FOLDER, "package.json"))("esbuild");
+const work = mkdtempSync(join(tmpdir(), "lockstep-commands-"));
+after(() => rmSync(work, { recursive: true }));
+
+const STUB = new URL("vscode_stub.mjs", import.meta.url).pathname;
+const entry = join(work, "entry.mjs");
+writeFileSync(entry, `export * from ${JSON.stringify(join(FOLDER, "src/commands.ts"))};
+export { RunView } from ${JSON.stringify(join(FOLDER, "src/run_view.ts"))};
+export { stub, Uri } from ${JSON.stringify(STUB)};`);
+await build({ entryPoints: [entry], outfile: join(work, "commands.mjs"), bundle: true, platform: "node", format: "esm", alias: { vscode: STUB } });
+const { monitor, RunView, stub, test: runTest, Uri, verify } = await import(pathToFileURL(join(work, "commands.mjs")).href);
+
+const tree = join(work, "a tree.xml");
+writeFileSync(tree, `<root lockstep="1" main_tree_to_execute="One">
+  <BehaviorTree ID="One"><Wait name="first" seconds="1"/></BehaviorTree>
+  <BehaviorTree ID="Two"><Wait name="second" seconds="1"/></BehaviorTree></root>`);
+const lens = (name) => ({ uri: pathToFileURL(tree).href, path: tree, name });
+
+beforeEach(() => {
+  mkdirSync(join(work, "build"), { recursive: true });
+  Object.assign(stub, { settings: { program: process.env.LOCKSTEP, pluginPath: ["build", "none"] }, folder: work, documents: [tree],
+    active: tree, tasks: [], errors: [], panels: [], saved: [] });
+});
+
+const words = () => stub.tasks[0].execution.words;
+const paths = ["--plugin-path", join(work, "build")]; // and not that of a directory that is not there
+
+test("a lens of a tree or a scenario names it, and the file is saved first", async () => {
+  await verify(lens("Two"));
+  assert.deepEqual(words(), ["verify", tree, "--tree", "Two", ...paths]);
+  assert.deepEqual(stub.saved, [tree]);
+  stub.tasks = [];
+  await runTest(lens("the arm slips"));
+  assert.deepEqual(words(), ["test", tree, "--filter", "the arm slips", ...paths]);
+  assert.equal(stub.tasks[0].execution.options.cwd, work);
+});
+
+test("from the palette, it is the file of the editor, with the settings", async () => {
+  Object.assign(stub.settings, { arguments: { speed: "2" }, plugins: ["motion", "out/arm.so"] });
+  await monitor();
+  assert.deepEqual(words(), ["run", tree, "--monitor", "--monitor-open", "--arg", "speed=2", ...paths, "--plugin", "motion", "--plugin",
+    join(work, "out/arm.so")]);
+  Object.assign(stub, { tasks: [], settings: { pluginPath: ["build"] } });
+  await runTest(Uri.file(tree)); // from a menu
+  assert.deepEqual(words(), ["test", tree, ...paths]);
+});
+
+test("without a file there is a message, and nothing is started", async () => {
+  stub.active = undefined;
+  await verify();
+  assert.equal(stub.tasks.length, 0);
+  assert.match(stub.errors[0], /save the file/);
+});
+
+const output = { text: "", append(text) { this.text += text; }, show() { this.text += "(shown)"; } };
+
+test("a run shows the page of its recording beside the text, in the same place again", async () => {
+  const view = new RunView(output);
+  await view.run(lens("Two"));
+  assert.deepEqual(stub.errors, []);
+  const [panel] = stub.panels;
+  assert.match(panel.webview.html, /^<!doctype html>/i);
+  assert.equal(panel.title, "Run of a tree.xml");
+  assert.ok(panel.options.enableScripts && panel.options.localResourceRoots.length === 0);
+  assert.match(output.text, /run of Two starts/);
+  await view.run();
+  assert.equal(stub.panels.length, 1);
+  assert.match(output.text, /run of One starts/);
+});
+
+test("a tree that is refused has no run: the output says why", async () => {
+  output.text = "";
+  const broken = join(work, "broken.xml");
+  writeFileSync(broken, "<root");
+  stub.active = broken;
+  await new RunView(output).run();
+  assert.equal(stub.panels.length, 0);
+  assert.match(output.text, /broken.xml:1:.*error/);
+  assert.match(output.text, /\(shown\)/);
+  assert.match(stub.errors[0], /no run.*exit code 3/);
+});
+
+test("a program that is not there is told", async () => {
+  output.text = "";
+  stub.settings.program = join(work, "nowhere/lockstep");
+  await new RunView(output).run();
+  assert.match(output.text, /ENOENT/);
+  assert.equal(stub.panels.length, 0);
+});
