@@ -62,7 +62,26 @@ void insert_nodes(const std::vector<std::string>& nodes, const std::string& plug
   }
 }
 
+// The page's first block of this kind, for a lockstep that is where this build is.
+std::string commands_of(const std::string& page) {
+  const std::string text = read_file(LOCKSTEP_SOURCE_DIR "/" + page);
+  const std::string open = "\n```sh\n", first = "lockstep new project";
+  const auto begin = text.rfind(open, text.find(first)) + open.size();
+  const std::string block = text.substr(begin, text.find("```\n", begin) - begin);
+  return "export lockstep_DIR='" LOCKSTEP_BINARY_DIR "/cmake/lockstep'\n" +
+         block.substr(block.find(first));
+}
+
 }  // namespace
+
+TEST_CASE("what README.md and docs/new.md say of a first project works word for word") {
+  for (const char* page : {"README.md", "docs/new.md"}) {
+    const TemporaryDirectory directory;
+    const std::string out =
+        succeed(commands_of(page) + "lockstep new leaf Greet\ncmake --build build\n", directory);
+    CHECK(contains(out, "100% tests passed, 0 tests failed out of 3"));
+  }
+}
 
 TEST_CASE("a project in C++ builds and passes its tests, and nodes of all kinds can be inserted") {
   const TemporaryDirectory directory;

@@ -42,7 +42,7 @@ const std::vector<SourceLanguage>& rows() {
       {"python",
        "Python",
        ".py",
-       "serve()",
+       "lockstep_leaf",
        {"", "Output", "InOut"},
        {{Bool, "bool"},
         {Int, "int"},
