@@ -1,7 +1,9 @@
 // A node is inserted into a source that its author has changed: no byte of the author's goes away.
 #include <catch2/catch.hpp>
+#include <filesystem>
 
 #include "authoring/scaffold/plugin_source.h"
+#include "support/paths.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -71,7 +73,38 @@ const std::vector<Source> kSources{
     {"btcpp", "BT_REGISTER_NODES(factory) {}\n",
      "BT_REGISTER_NODES(factory) {\n  factory.registerNodeType<Open>(\"Open\");}\n"}};
 
+// The sources of plugins in this project, each in its language.
+std::vector<PluginSource> all_sources() {
+  std::vector<PluginSource> found;
+  for (const char* folder :
+       {"plugins", "tests/programs", "tests/abi", "tests/cli", "tests/btcpp", "docs"}) {
+    const std::filesystem::path root = std::filesystem::path(LOCKSTEP_SOURCE_DIR) / folder;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+      if (!entry.is_regular_file()) continue;
+      if (auto source = find_plugin_source(entry.path())) found.push_back(*std::move(source));
+    }
+  }
+  return found;
+}
+
 }  // namespace
+
+TEST_CASE("scaffold: nothing of any plugin of this project changes where a node is inserted") {
+  std::size_t changed = 0;
+  for (const PluginSource& source : all_sources()) {
+    const NewNode node{NewNodeKind::Condition, "Zebra", "", {}};
+    const auto result = insert_node(source, node);
+    INFO(source.path.string() << (result ? *result : result.error().message));
+    if (!result) {
+      CHECK(result.error().message.find("has no place for a node") != std::string::npos);
+      continue;
+    }
+    ++changed;
+    CHECK(is_kept(source.text, *result));
+    CHECK_FALSE(insert_node({source.path, source.language, *result}, node));
+  }
+  CHECK(changed > 20);
+}
 
 TEST_CASE("scaffold: a node goes behind the last one, and nothing of the author's changes") {
   for (const Source& source : kSources) {

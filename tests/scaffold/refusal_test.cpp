@@ -113,6 +113,20 @@ TEST_CASE(
   CHECK(contains(outcome.err, "cannot make the folder 'file/robot'"));
 }
 
+TEST_CASE("after a file that cannot be written, none of the others is there") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = shell("ulimit -f 1; lockstep new project robot", directory);
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "cannot write 'robot/"));
+  CHECK(count_files(directory) == 0);
+  REQUIRE(shell("lockstep new plugin arm", directory).code == 0);
+  const std::string source = read_file(directory.path("arm/arm.cpp"));
+  const Outcome leaf = shell("ulimit -f 1; lockstep new leaf Open", directory);
+  CHECK(leaf.code == 2);
+  CHECK(read_file(directory.path("arm/arm.cpp")) == source);
+  CHECK(count_files(directory) == 5);
+}
+
 TEST_CASE("a dry run lists the files that would be made, and makes none") {
   const TemporaryDirectory directory;
   const Outcome dry = shell("lockstep new project robot --dry-run", directory);

@@ -33,11 +33,13 @@ Result<void> write_all(int file, const std::string& text, const fs::path& path) 
   return {};
 }
 
-// A file that was not there.
+// A file that was not there, and is not there either after a Problem.
 Result<void> create(const fs::path& path, const std::string& text, mode_t mode) {
   const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   if (file.number() < 0) return failed(path);
-  return write_all(file.number(), text, path);
+  auto written = write_all(file.number(), text, path);
+  if (!written) ::unlink(path.c_str());
+  return written;
 }
 
 Result<void> make_folder(const fs::path& folder) {
