@@ -15,10 +15,11 @@ after(() => rmSync(work, { recursive: true }));
 const STUB = new URL("vscode_stub.mjs", import.meta.url).pathname;
 const entry = join(work, "entry.mjs");
 writeFileSync(entry, `export * from ${JSON.stringify(join(FOLDER, "src/commands.ts"))};
+export * from ${JSON.stringify(join(FOLDER, "src/client.ts"))};
 export { RunView } from ${JSON.stringify(join(FOLDER, "src/run_view.ts"))};
 export { stub, Uri } from ${JSON.stringify(STUB)};`);
-await build({ entryPoints: [entry], outfile: join(work, "commands.mjs"), bundle: true, platform: "node", format: "esm", alias: { vscode: STUB } });
-const { monitor, RunView, stub, test: runTest, Uri, verify } = await import(pathToFileURL(join(work, "commands.mjs")).href);
+await build({ entryPoints: [entry], outfile: join(work, "commands.mjs"), bundle: true, platform: "node", format: "esm", alias: { vscode: STUB, "vscode-languageclient/node": STUB } });
+const { monitor, onlyLockstep, RunView, stub, test: runTest, Uri, verify, watchSettings } = await import(pathToFileURL(join(work, "commands.mjs")).href);
 
 const tree = join(work, "a tree.xml");
 writeFileSync(tree, `<root lockstep="1" main_tree_to_execute="One">
@@ -29,7 +30,7 @@ const lens = (name) => ({ uri: pathToFileURL(tree).href, path: tree, name });
 beforeEach(() => {
   mkdirSync(join(work, "build"), { recursive: true });
   Object.assign(stub, { settings: { program: process.env.LOCKSTEP, pluginPath: ["build", "none"] }, folder: work, documents: [tree],
-    active: tree, tasks: [], errors: [], panels: [], saved: [] });
+    active: tree, isTrusted: true, tasks: [], errors: [], panels: [], saved: [] });
 });
 
 const words = () => stub.tasks[0].execution.words;
@@ -96,4 +97,53 @@ test("a program that is not there is told", async () => {
   await new RunView(output).run();
   assert.match(output.text, /ENOENT/);
   assert.equal(stub.panels.length, 0);
+});
+
+// A document whose text changes, and what the server is told of it.
+function watched() {
+  const told = [];
+  const client = { sendNotification: async (type, params) => told.push([type, params]),
+    code2ProtocolConverter: { asOpenTextDocumentParams: (document) => document.getText() } };
+  const document = { uri: Uri.file(join(work, "x.xml")), text: "", getText: () => document.text };
+  const middleware = onlyLockstep(() => client);
+  const next = (what) => async () => void told.push([what]);
+  return { told, async open(text) {
+    document.text = text;
+    await middleware.didOpen(document, next("open"));
+  }, async change(text) {
+    document.text = text;
+    await middleware.didChange({ document }, next("change"));
+  }, save: () => middleware.didSave(document, next("save")), close: () => middleware.didClose(document, next("close")) };
+}
+
+test("the server is told of files of lockstep only, and of others as soon as they become one", async () => {
+  const other = watched();
+  await other.open("<project/>");
+  await other.change("<project><a/></project>");
+  await other.save();
+  await other.close();
+  assert.deepEqual(other.told, []);
+  const becomes = watched();
+  await becomes.open("<project/>");
+  await becomes.change('<root lockstep="1">');
+  await becomes.change('<root lockstep="1"></root>');
+  await becomes.save();
+  await becomes.close();
+  assert.deepEqual(becomes.told, [["didOpen", '<root lockstep="1">'], ["change"], ["save"], ["close"]]);
+  const empty = watched();
+  await empty.open("");
+  await empty.change("<ro");
+  assert.deepEqual(empty.told, [["open"], ["change"]]);
+});
+
+test("the server is told when the workspace is trusted, and when settings change", async () => {
+  const told = [];
+  stub.isTrusted = false;
+  watchSettings(() => ({ sendNotification: async (_, { settings }) => told.push(settings.lockstep) }));
+  stub.changed({ affectsConfiguration: (it) => it === "editor" });
+  stub.changed({ affectsConfiguration: (it) => it === "lockstep" });
+  stub.isTrusted = true;
+  stub.granted();
+  const expected = { plugins: [], pluginPath: [join(work, "build")], arguments: {} };
+  assert.deepEqual(told, [{ trusted: false, ...expected }, { trusted: true, ...expected }]);
 });

@@ -10,10 +10,12 @@ export class Uri {
   toString = () => pathToFileURL(this.fsPath).href;
 }
 
-export const stub = { settings: {}, folder: "", tasks: [], errors: [], panels: [], saved: [] };
+export const stub = { settings: {}, folder: "", tasks: [], errors: [], panels: [], saved: [], isTrusted: true };
 
 export const workspace = {
-  isTrusted: true,
+  get isTrusted() {
+    return stub.isTrusted;
+  },
   get workspaceFolders() {
     return [{ uri: Uri.file(stub.folder) }];
   },
@@ -21,6 +23,8 @@ export const workspace = {
     return stub.documents.map((path) => ({ uri: Uri.file(path), save: async () => stub.saved.push(path) > 0 }));
   },
   getWorkspaceFolder: () => ({ uri: Uri.file(stub.folder) }),
+  onDidChangeConfiguration: (told) => void (stub.changed = told),
+  onDidGrantWorkspaceTrust: (told) => void (stub.granted = told),
   getConfiguration: () => ({ get: (name, otherwise) => stub.settings[name] ?? otherwise }),
 };
 
@@ -49,3 +53,8 @@ export const window = {
     return panel;
   },
 };
+export const Disposable = { from() {} };
+
+// Of vscode-languageclient.
+export const DidOpenTextDocumentNotification = { type: "didOpen" };
+export class LanguageClient {}

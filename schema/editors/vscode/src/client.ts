@@ -5,7 +5,7 @@ import { program, serverSettings } from "./settings";
 import { isLockstep } from "./trees";
 
 // The server gets files that are lockstep's, also those that become one while they are written.
-function onlyLockstep(client: () => LanguageClient): Middleware {
+export function onlyLockstep(client: () => LanguageClient): Middleware {
   const open = new Set<string>();
   const begins = (document: TextDocument) => {
     const key = document.uri.toString();
