@@ -65,6 +65,24 @@ test("each bad tree has the messages of check, in its lines", async () => {
   assert.ok(count > 100, `${count} messages`);
 });
 
+test("the commands of code lenses are those of the extension, and say which file and what in it", async () => {
+  const about = JSON.parse(readFileSync(join(SOURCES, "schema/editors/vscode/package.json"), "utf8"));
+  const known = about.contributes.commands.map((it) => it.command);
+  const texts = { "a.xml": '<root lockstep="1"><BehaviorTree ID="One"><Wait seconds="1"/></BehaviorTree></root>',
+    "a.test.xml": '<scenarios lockstep="1" tree="a.xml"><scenario name="all"/></scenarios>' };
+  const found = [];
+  for (const [name, text] of Object.entries(texts)) {
+    const uri = pathToFileURL(join("/tmp", name)).href;
+    await connection.sendNotification("textDocument/didOpen", { textDocument: { uri, languageId: "xml", version: 1, text } });
+    for (const { command } of await connection.sendRequest("textDocument/codeLens", { textDocument: { uri } })) {
+      assert.ok(known.includes(command.command), command.command);
+      assert.equal(command.arguments[0].uri, uri);
+      found.push(`${command.command} ${command.arguments[0].name}`);
+    }
+  }
+  assert.deepEqual(found.sort(), ["lockstep.run One", "lockstep.test all", "lockstep.verify One"]);
+});
+
 test("a cancelled request is refused as cancelled, and the server goes on", async () => {
   const cancel = new rpc.CancellationTokenSource();
   const answer = connection.sendRequest("textDocument/hover", { textDocument: { uri: "file:///none.xml" }, position: { line: 0, character: 0 } }, cancel.token);
