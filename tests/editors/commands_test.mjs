@@ -91,7 +91,7 @@ test("a tree that is refused has no run: the output says why", async () => {
   assert.match(stub.errors[0], /no run.*exit code 3/);
 });
 
-test("a program that is not there is told", async () => {
+test("a program that is not there is named", async () => {
   output.text = "";
   stub.settings.program = join(work, "nowhere/lockstep");
   await new RunView(output).run();
@@ -99,7 +99,7 @@ test("a program that is not there is told", async () => {
   assert.equal(stub.panels.length, 0);
 });
 
-// A document whose text changes, and what the server is told of it.
+// A document whose text changes, and the notifications that the server gets.
 function watched() {
   const told = [];
   const client = { sendNotification: async (type, params) => told.push([type, params]),
@@ -116,7 +116,7 @@ function watched() {
   }, save: () => middleware.didSave(document, next("save")), close: () => middleware.didClose(document, next("close")) };
 }
 
-test("the server is told of files of lockstep only, and of others as soon as they become one", async () => {
+test("the server gets files of lockstep only, and others as soon as they become one", async () => {
   const other = watched();
   await other.open("<project/>");
   await other.change("<project><a/></project>");
@@ -136,7 +136,7 @@ test("the server is told of files of lockstep only, and of others as soon as the
   assert.deepEqual(empty.told, [["open"], ["change"]]);
 });
 
-test("the server is told when the workspace is trusted, and when settings change", async () => {
+test("the server hears that the workspace is trusted, and that settings change", async () => {
   const told = [];
   stub.isTrusted = false;
   watchSettings(() => ({ sendNotification: async (_, { settings }) => told.push(settings.lockstep) }));

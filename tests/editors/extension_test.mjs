@@ -112,7 +112,7 @@ test("scripts, entries and arguments have colors, and nothing else has", async (
   }
 });
 
-// What stands there when no field was changed.
+// The text of a snippet in which no field was changed.
 function expanded(body) {
   return body.join("\n").replace(/\$\{\d+\|([^,|}]*)[^}]*\|\}/g, "$1").replace(/\$\{\d+:([^}]*)\}/g, "$1").replace(/\$\d+/g, "");
 }

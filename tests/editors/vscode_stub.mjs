@@ -1,4 +1,4 @@
-// What the commands of the extension use of VS Code, and what they have made of it: VS Code itself is not in Debian.
+// A stand-in for VS Code, which is not in Debian: the part that the extension uses, and a record of what was done with it.
 import { pathToFileURL } from "node:url";
 
 export class Uri {
@@ -55,6 +55,6 @@ export const window = {
 };
 export const Disposable = { from() {} };
 
-// Of vscode-languageclient.
+// The part of vscode-languageclient.
 export const DidOpenTextDocumentNotification = { type: "didOpen" };
 export class LanguageClient {}

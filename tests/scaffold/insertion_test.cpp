@@ -132,7 +132,7 @@ TEST_CASE("scaffold: a source without a list of nodes is refused, and says what 
   CHECK(inserted("c", "const lockstep_plugin lockstep_plugin_entry;", kOpen) ==
         "refused: 'plugin' has no place for a node: a list of lockstep_leaf_type* const");
   CHECK(inserted("python", "def f():\n    serve()\n", kOpen) ==
-        "refused: 'plugin' has no place for a node: serve() on a line of its own");
+        "refused: 'plugin' has no place for a node: serve() at the begin of a line");
   CHECK(inserted("cpp", "LOCKSTEP_PLUGIN(\"a\", (", kOpen) ==
         "refused: 'plugin' has no place for a node: LOCKSTEP_PLUGIN(…)");
 }

@@ -1,4 +1,4 @@
-// What `lockstep new` makes builds without a warning, runs, and passes its tests: in each language.
+// The files of `lockstep new` build without a warning, run, and pass their tests: in each language.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <sstream>
@@ -172,7 +172,7 @@ TEST_CASE("a plugin alone builds, and one in Python needs no build") {
       "lockstep new plugin grip --lang python\ncd grip\nlockstep test --plugin-path .\n"
       "lockstep run tree.xml --plugin-path . --clock virtual",
       directory);
-  // What is saved is what the program says.
+  // The saved leaves are those of the program.
   const std::string made = read_file(directory.path("grip/grip.leaves.json"));
   succeed("cd grip\nlockstep plugin check --save ./grip.py", directory);
   CHECK(read_file(directory.path("grip/grip.leaves.json")) == made);

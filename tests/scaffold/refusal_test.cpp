@@ -1,4 +1,4 @@
-// What `lockstep new` refuses, in a sentence; it writes over nothing and leaves nothing half made.
+// `lockstep new` refuses in a sentence, writes over nothing, and leaves nothing half made.
 #include <catch2/catch.hpp>
 #include <filesystem>
 

@@ -41,7 +41,7 @@ std::string in_words(std::string_view id, char separator) {
 constexpr std::string_view kTakenTargets[] = {"all",        "clean",         "default", "depend",
                                               "edit_cache", "help",          "install", "lockstep",
                                               "package",    "rebuild_cache", "test"};
-// What sources of plugins use, and tags of trees that are no nodes.
+// Sources of plugins use these words, or they are tags of trees that are no nodes.
 constexpr std::string_view kTakenIds[] = {
     "Action", "BehaviorTree", "Condition", "Control",        "Decorator", "Here", "InOut",
     "Input",  "Leaf",         "LeafType",  "Output",         "Plugin",    "Port", "Ports",

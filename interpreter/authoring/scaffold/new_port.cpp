@@ -20,7 +20,7 @@ constexpr std::array<std::pair<std::string_view, PortDirection>, 3> kDirections{
      {"out", PortDirection::Output},
      {"inout", PortDirection::InOut}}};
 
-// What other languages call a type.
+// Types, as other languages call them.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOtherWords{
     {{"float", "double"},
      {"real", "double"},

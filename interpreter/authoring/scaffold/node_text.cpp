@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 41> kTakenMembers{
     "float",  "int",      "bool",   "char",    "long",     "short",    "new",
     "delete", "this",     "for",    "while",   "do",       "if",       "else",
     "switch", "operator", "return", "public",  "template", "namespace"};
-// What leaves in Python have beside ports, and its words.
+// Attributes that leaves in Python have beside ports, and words of Python.
 constexpr std::array<std::string_view, 24> kTakenAttributes{
     "clock", "halt",     "kind",   "log",       "now",    "path",  "pause", "period",
     "tick",  "progress", "random", "real_time", "resume", "start", "from",  "in",

@@ -9,8 +9,8 @@
 
 namespace lockstep::host {
 
-// What a template names. In <%#name%>…<%/name%>, a text that is not "" is shown once, and a list
-// once for each of its rows.
+// The values that a template names. In <%#name%>…<%/name%>, a text that is not "" is shown once,
+// and a list once for each of its rows.
 struct Values {
   std::map<std::string, std::string> texts = {};
   std::map<std::string, std::vector<Values>> lists = {};

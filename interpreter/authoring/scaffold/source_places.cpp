@@ -79,7 +79,7 @@ std::size_t inside_namespace(const std::string& text, const std::string& mask, s
 }
 
 SourcePlaces places_in_python(const std::string& mask) {
-  SourcePlaces places{.missing = "serve() on a line of its own"};
+  SourcePlaces places{.missing = "serve() at the begin of a line"};
   const auto call = mask.starts_with("serve()") ? 0 : mask.rfind("\nserve()");
   places.are_complete = call != kNowhere;
   if (places.are_complete) places.definition = call + (call == 0 ? 0 : 1);

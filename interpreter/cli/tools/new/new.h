@@ -32,7 +32,7 @@ void add_language(CLI::App& app, std::string& language);
 // A Problem if lockstep's own nodes, in either language, have that ID.
 Result<void> check_not_built_in(std::string_view id);
 
-// What to type next, on stderr.
+// Prints the commands to type next, on stderr.
 void print_next(std::span<const std::string> lines);
 int refuse(const Problem& problem);
 // Writes the files unless it is a dry run, lists them on stdout, and prints the commands to type

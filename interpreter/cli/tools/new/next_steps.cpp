@@ -1,4 +1,4 @@
-// What to type next: with this program, wherever it is.
+// The commands to type next: with this program, wherever it is.
 #include <unistd.h>
 
 #include <cstdlib>
