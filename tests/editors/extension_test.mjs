@@ -32,7 +32,7 @@ test("its package is small, has what package.json names, and is the same each ti
   assert.ok(bytes.length < 200_000);
   assert.ok(bytes.equals(pack("b.vsix")));
   const names = execFileSync("/usr/bin/python3", ["-m", "zipfile", "-l", join(work, "a.vsix")], { encoding: "utf8" });
-  const needed = [about.main, ...about.contributes.grammars.map((it) => it.path), ...about.contributes.snippets.map((it) => it.path)];
+  const needed = [about.main, "dist/licenses.txt", ...about.contributes.grammars.map((it) => it.path), ...about.contributes.snippets.map((it) => it.path)];
   for (const path of needed) assert.ok(names.includes(join("extension", path)), path);
 });
 

@@ -11,7 +11,8 @@ from xml.sax.saxutils import escape, quoteattr
 HERE = pathlib.Path(__file__).resolve().parent
 MOST = 200_000  # bytes
 FILES = {"package.json": "package.json", "readme.md": "README.md", "LICENSE.txt": "../../../LICENSE",
-         "dist/extension.js": "dist/extension.js", "snippets/trees.json": "snippets/trees.json",
+         "dist/extension.js": "dist/extension.js", "dist/licenses.txt": "dist/licenses.txt",
+         "snippets/trees.json": "snippets/trees.json",
          "syntaxes/script.json": "syntaxes/script.json",
          "syntaxes/script.injection.json": "syntaxes/script.injection.json"}
 TYPES = {".js": "application/javascript", ".json": "application/json", ".md": "text/markdown", ".txt": "text/plain",
