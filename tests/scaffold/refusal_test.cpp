@@ -107,6 +107,9 @@ TEST_CASE(
   std::filesystem::create_directories(directory.path("robot/.git"));
   CHECK(shell("cd robot && lockstep new project .", directory).code == 0);
   CHECK(std::filesystem::exists(directory.path("robot/trees/robot.xml")));
+  CHECK(contains(shell("lockstep new project 'a b/arm/'", directory).err, "cd 'a b/arm'\n"));
+  CHECK(std::filesystem::exists(directory.path("a b/arm/trees/arm.xml")));
+  CHECK(shell("lockstep new tree patrol.xml", directory).out == "patrol.xml\npatrol.test.xml\n");
   directory.file("file", "");
   const Outcome outcome = shell("lockstep new project file/robot", directory);
   CHECK(outcome.code == 2);

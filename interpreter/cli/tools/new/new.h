@@ -39,6 +39,8 @@ int refuse(const Problem& problem);
 // next on stderr.
 int make_files(const NewFiles& files, bool is_dry_run, std::span<const std::string> next);
 
+// A word of a command, in quotes if it needs some.
+std::string in_shell(const std::string& word);
 // How the user calls this program, and what CMake needs to find it: "" or an option.
 std::string program_word();
 std::string configure_option();

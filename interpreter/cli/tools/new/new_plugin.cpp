@@ -72,14 +72,16 @@ int new_plugin(const PluginOptionsOfNew& options) {
 }
 
 int new_project(const PluginOptionsOfNew& options) {
-  const fs::path folder = options.name;
+  fs::path folder = options.name;
+  if (!folder.has_filename()) folder = folder.parent_path();  // robot/
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(folder, error);
   const std::string name = whole.filename();
   const auto plugin = request_of("project", name, options);
   if (!plugin) return refuse(plugin.error());
   std::vector<std::string> next{build_line(), run_line("trees/" + name + ".xml", "build")};
-  if (whole != fs::current_path(error)) next.insert(next.begin(), "cd " + folder.string());
+  if (whole != fs::current_path(error))
+    next.insert(next.begin(), "cd " + in_shell(folder.string()));
   return make_files(plan_project(*plugin, folder), options.is_dry_run, next);
 }
 

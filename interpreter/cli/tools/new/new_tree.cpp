@@ -29,11 +29,13 @@ Result<std::string> plugin_named(const std::string& text) {
 }
 
 int new_tree(const TreeOptions& options) {
-  if (const auto name = check_file_name("tree", options.name); !name) return refuse(name.error());
+  std::string name = options.name;
+  if (name.ends_with(".xml")) name.resize(name.size() - 4);
+  if (const auto checked = check_file_name("tree", name); !checked) return refuse(checked.error());
   const auto plugin = plugin_named(options.plugin);
   if (!plugin) return refuse(plugin.error());
   const fs::path folder = fs::is_directory("trees") ? "trees" : "";
-  const NewTree tree{options.name, options.language == "btcpp4", *plugin, folder};
+  const NewTree tree{name, options.language == "btcpp4", *plugin, folder};
   const std::string path = plugin->empty() ? "" : " --plugin-path build";
   const auto line = [&](const char* command, const char* end) {
     return fmt::format("{} {} {}{}", program_word(), command, (folder / (tree.name + end)).string(),
