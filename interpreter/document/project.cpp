@@ -22,28 +22,23 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxIncludeDepth = 32;
 constexpr std::string_view kIncludeAttributes[] = {"path"};
 
-// The same for all spellings of a path, and for links to one file.
-std::string identity_of(const std::string& path) {
-  std::error_code error;
-  const auto canonical = fs::canonical(path, error);
-  return error ? fs::path(path).lexically_normal().string() : canonical.string();
-}
-
 bool is_root(const Document& document) {
   return document.elements()[0].tag == "root";
 }
 
 class Loader {
  public:
-  Loader(const Arguments& given, const RosPackages& packages, Diagnostics& diagnostics)
+  Loader(const Arguments& given, const RosPackages& packages, const UnsavedTexts& unsaved,
+         Diagnostics& diagnostics)
       : report_(project_->sources, diagnostics),
         arguments_(given, report_),
         packages_(packages),
+        unsaved_(unsaved),
         diagnostics_(diagnostics) {}
 
   std::unique_ptr<Project> load(const std::string& path, std::string text) {
     bytes_ = text.size();
-    if (!add({path, identity_of(path)}, std::move(text))) return nullptr;
+    if (!add({path, file_identity(path)}, std::move(text))) return nullptr;
     arguments_.check_given();
     for (const auto& document : project_->documents) substitute(*document);
     project_->arguments = arguments_.take();
@@ -76,6 +71,7 @@ class Loader {
   Reporter report_;
   ArgumentTable arguments_;
   const RosPackages& packages_;
+  const UnsavedTexts& unsaved_;
   Diagnostics& diagnostics_;
   std::vector<Reading> open_;                  // the chain of includes that is being read
   std::map<std::string, std::uint32_t> read_;  // by identity: its document
@@ -127,7 +123,7 @@ void Loader::include(Document& document, std::uint32_t element) {
   const auto fail = [&](std::string message) {
     report_.at_value(attribute.place, std::move(message));
   };
-  const Reading next{path, identity_of(path)};
+  const Reading next{path, file_identity(path)};
   if (const auto chain = cycle(next); !chain.empty()) return fail("include cycle: " + chain);
   if (const auto known = read_.find(next.identity); known != read_.end()) {
     includes(open_.back().document, known->second);
@@ -135,7 +131,9 @@ void Loader::include(Document& document, std::uint32_t element) {
   }
   if (open_.size() > kMaxIncludeDepth)
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
-  auto text = read_file(path, Document::kMaxBytes);
+  const auto unsaved = unsaved_.find(next.identity);
+  auto text = unsaved != unsaved_.end() ? Result<std::string>(*unsaved->second)
+                                        : read_file(path, Document::kMaxBytes);
   if (!text) return fail(fmt::format("cannot read '{}': {}", brief(path), text.error().message));
   bytes_ += text->size();
   if (bytes_ > Document::kMaxBytes)
@@ -206,6 +204,12 @@ void Loader::substitute(Document& document) {
 
 }  // namespace
 
+std::string file_identity(const std::string& path) {
+  std::error_code error;
+  const auto canonical = fs::canonical(path, error);
+  return error ? fs::path(path).lexically_normal().string() : canonical.string();
+}
+
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
                                       Diagnostics& diagnostics, MainFile main,
                                       const RosPackages& packages) {
@@ -224,8 +228,9 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
 
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
                                            const Arguments& arguments, Diagnostics& diagnostics,
-                                           const RosPackages& packages) {
-  return Loader(arguments, packages, diagnostics).load(path, std::move(text));
+                                           const RosPackages& packages,
+                                           const UnsavedTexts& unsaved) {
+  return Loader(arguments, packages, unsaved, diagnostics).load(path, std::move(text));
 }
 
 }  // namespace lockstep::host

@@ -38,6 +38,12 @@ struct Project {
 // "-" is stdin, called 'stdin', with includes relative to the working directory.
 enum class MainFile : bool { IsRegular, MayBePipe };
 
+// Texts that nobody has saved yet, by file_identity(): they are read instead of the files.
+using UnsavedTexts = std::map<std::string, std::shared_ptr<const std::string>, std::less<>>;
+
+// The same for all spellings of a path, and for links to one file.
+std::string file_identity(const std::string& path);
+
 // Reads `path`, its <include>s (relative to the including file, each file once, a cycle is an error
 // that shows the chain) and its <arg>s, and replaces ${name} in every attribute ($${ is a literal
 // ${). A value with an error is left as written. Reports all errors; returns null only if the main
@@ -50,6 +56,7 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
 // The same from text instead of a main file; includes are relative to `path`.
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
                                            const Arguments& arguments, Diagnostics& diagnostics,
-                                           const RosPackages& packages = {});
+                                           const RosPackages& packages = {},
+                                           const UnsavedTexts& unsaved = {});
 
 }  // namespace lockstep::host

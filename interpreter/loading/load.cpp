@@ -35,30 +35,11 @@ RosPackages ros_packages(const LoadOptions& options) {
 tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const LoadOptions& options,
                                        Diagnostics& diagnostics,
                                        std::shared_ptr<PluginSet> plugins) {
-  const auto failed = failure_of(project.get(), diagnostics);
-  Diagnostics refused;
-  bool good = load_given_plugins(options.plugins, *plugins, refused);
-  if (project) {
-    const bool may_lack = options.unknown == MissingNodes::AreMocked;
-    good &= load_requested_plugins(options.plugins, *project, *plugins, refused,
-                                   may_lack ? MissingPlugins::AreTold : MissingPlugins::AreErrors);
-  }
-  for (const Diagnostic& diagnostic : refused.all()) diagnostics.add(diagnostic);
-  // Without its leaves, most of the tree would be called unknown.
-  if (!good) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
-  std::optional<Definition> definition;
-  if (project) {
-    warn_of_shadowed(*plugins, *project->rules, diagnostics);
-    definition = resolve(*project, make_catalog(*plugins, *project->rules),
-                         {options.main_tree, options.values, options.unknown, options.mocks,
-                          options.opens_entries, options.has_outside},
-                         diagnostics);
-  }
-  if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
-  auto properties = tree_properties(*project, *definition, diagnostics);
-  if (const auto wrong = failure_of(project.get(), diagnostics)) return tl::unexpected(*wrong);
-  return Loaded{std::move(plugins), std::move(project), std::move(definition).value(),
-                std::move(properties)};
+  LoadedPlugins loaded = load_plugins(project.get(), options, std::move(plugins));
+  auto meaning = meaning_of(project.get(), loaded, options, diagnostics);
+  if (!meaning) return tl::unexpected(meaning.error());
+  return Loaded{std::move(loaded.plugins), std::move(project), std::move(meaning->definition),
+                std::move(meaning->properties)};
 }
 
 }  // namespace
@@ -74,9 +55,47 @@ tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOption
 tl::expected<Loaded, LoadFailure> load_text(const std::string& path, std::string text,
                                             const LoadOptions& options, Diagnostics& diagnostics,
                                             std::shared_ptr<PluginSet> plugins) {
-  return load(load_project_text(path, std::move(text), options.arguments, diagnostics,
-                                ros_packages(options)),
-              options, diagnostics, std::move(plugins));
+  return load(load_project_text(path, std::move(text), options, diagnostics), options, diagnostics,
+              std::move(plugins));
+}
+
+std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
+                                           const LoadOptions& options, Diagnostics& diagnostics) {
+  return load_project_text(path, std::move(text), options.arguments, diagnostics,
+                           ros_packages(options), options.unsaved);
+}
+
+LoadedPlugins load_plugins(const Project* project, const LoadOptions& options,
+                           std::shared_ptr<PluginSet> plugins) {
+  LoadedPlugins loaded{std::move(plugins)};
+  loaded.are_all = load_given_plugins(options.plugins, *loaded.plugins, loaded.messages);
+  if (project == nullptr) return loaded;
+  const bool may_lack = options.unknown == MissingNodes::AreMocked;
+  loaded.are_all &=
+      load_requested_plugins(options.plugins, *project, *loaded.plugins, loaded.messages,
+                             may_lack ? MissingPlugins::AreTold : MissingPlugins::AreErrors);
+  return loaded;
+}
+
+tl::expected<Meaning, LoadFailure> meaning_of(const Project* project, const LoadedPlugins& plugins,
+                                              const LoadOptions& options,
+                                              Diagnostics& diagnostics) {
+  const auto failed = failure_of(project, diagnostics);
+  for (const Diagnostic& diagnostic : plugins.messages.all()) diagnostics.add(diagnostic);
+  // Without its leaves, most of the tree would be called unknown.
+  if (!plugins.are_all) return tl::unexpected(failed.value_or(LoadFailure::PluginRefused));
+  std::optional<Definition> definition;
+  if (project != nullptr) {
+    warn_of_shadowed(*plugins.plugins, *project->rules, diagnostics);
+    definition = resolve(*project, make_catalog(*plugins.plugins, *project->rules),
+                         {options.main_tree, options.values, options.unknown, options.mocks,
+                          options.opens_entries, options.has_outside},
+                         diagnostics);
+  }
+  if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
+  auto properties = tree_properties(*project, *definition, diagnostics);
+  if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
+  return Meaning{std::move(definition).value(), std::move(properties)};
 }
 
 Runnable make_runnable(Loaded loaded) {

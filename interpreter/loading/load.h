@@ -29,6 +29,7 @@ struct LoadOptions {
   Mocks mocks = {};
   bool opens_entries = false;  // the program uses entries by their names
   bool has_outside = false;    // "@key" is none of the main tree, but of a board of the program
+  UnsavedTexts unsaved = {};   // read instead of the files that a tree includes
 };
 
 // A definition without errors, and the objects that it refers to.
@@ -56,6 +57,26 @@ enum class LoadFailure : unsigned char {
 [[nodiscard]] tl::expected<Loaded, LoadFailure> load_text(
     const std::string& path, std::string text, const LoadOptions& options, Diagnostics& diagnostics,
     std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());
+
+// The steps of load_text(), for a program that keeps plugins while texts change.
+std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
+                                           const LoadOptions& options, Diagnostics& diagnostics);
+// Whether all are there that the options and `project`, which may be null, ask for.
+struct LoadedPlugins {
+  std::shared_ptr<PluginSet> plugins;
+  bool are_all = true;
+  Diagnostics messages = {};
+};
+LoadedPlugins load_plugins(const Project* project, const LoadOptions& options,
+                           std::shared_ptr<PluginSet> plugins = std::make_shared<PluginSet>());
+struct Meaning {
+  Definition definition;
+  std::vector<Property> properties;
+};
+[[nodiscard]] tl::expected<Meaning, LoadFailure> meaning_of(const Project* project,
+                                                            const LoadedPlugins& plugins,
+                                                            const LoadOptions& options,
+                                                            Diagnostics& diagnostics);
 
 // All that a run needs; the documents and the definition are gone.
 struct Runnable {

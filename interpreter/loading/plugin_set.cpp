@@ -6,9 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "core/plugin_exception.h"
 #include "core/wording.h"
-#include "engine/call_mark.h"
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/initialize.h"
 #include "plugin/open/plugin_path.h"
@@ -193,7 +191,7 @@ bool PluginSet::open(const Request& request, Diagnostics& diagnostics) {
     return true;
   }
   warn_of_writable_plugin(request.origin, request.where, diagnostics);
-  if (isolation_.all || request.isolation == Isolation::Isolated) {
+  if (isolation_.only_described || isolation_.all || request.isolation == Isolation::Isolated) {
     return open_isolated(request, diagnostics);
   }
   auto constant = constant_of(request.origin);
@@ -251,8 +249,9 @@ bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const R
   if (std::ranges::any_of(plugins_, [&](const auto& it) { return it->entry == &entry; })) {
     return true;
   }
+  const bool is_described = isolation_.only_described && request.isolation == Isolation::InProcess;
   auto refusal = read_descriptors(entry, size, plugin->descriptors);
-  if (!refusal) refusal = plugin->check_isolation();
+  if (!refusal && !is_described) refusal = plugin->check_isolation();
   if (!refusal) refusal = check_expected_name(plugin->name(), request.expected_name);
   for (const auto& other : plugins_) {
     if (!refusal) refusal = Plugin::check_against(*plugin, *other);
@@ -260,8 +259,12 @@ bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const R
   if (refusal) return refuse(request.origin, std::move(*refusal), diagnostics, request.where);
   std::unique_ptr<Plugin> rest;
   if (plugin->remote != nullptr && plugin->descriptors.plugin.is_local) {
-    rest = split_off(*plugin, request, diagnostics);
-    if (rest == nullptr) return false;
+    Diagnostic partly = isolated_in_part(*plugin, request);
+    if (!isolation_.only_described) {
+      rest = split_off(*plugin, request, diagnostics);
+      if (rest == nullptr) return false;
+    }
+    diagnostics.add(std::move(partly));
   }
   plugins_.push_back(std::move(plugin));
   if (rest != nullptr) plugins_.push_back(std::move(rest));
@@ -288,15 +291,22 @@ std::unique_ptr<PluginSet::Plugin> PluginSet::split_off(Plugin& isolated, const 
   std::erase_if(rest->descriptors.leaves, [&](const auto& leaf) { return !stays(leaf); });
   rest->descriptors.plugin.is_local = true;
   isolated.descriptors.plugin.is_local = false;
-  std::vector<std::string_view> ids;
-  for (const auto& leaf : rest->descriptors.leaves) ids.push_back(leaf->node_type.id);
-  const std::string why = refuse_isolation(*rest->descriptors.leaves.front())->message;
-  diagnostics.warning(
-      request.where,
-      fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
-                  brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
-      fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2)));
   return rest;
+}
+
+Diagnostic PluginSet::isolated_in_part(const Plugin& plugin, const Request& request) {
+  std::vector<std::string_view> ids;
+  std::string why;
+  for (const auto& leaf : plugin.descriptors.leaves) {
+    const auto refusal = refuse_isolation(*leaf);
+    if (!refusal) continue;
+    if (ids.empty()) why = refusal->message;
+    ids.push_back(leaf->node_type.id);
+  }
+  return {Severity::Warning, request.where,
+          fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
+                      brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
+          fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2))};
 }
 
 bool PluginSet::initialize(Diagnostics& diagnostics) {
@@ -320,18 +330,11 @@ std::vector<const NodeType*> PluginSet::types() const {
   return types;
 }
 
-std::map<std::string, double, std::less<>> PluginSet::words() const {
-  std::map<std::string, double, std::less<>> all;
+PluginWords PluginSet::words() const {
+  PluginWords all;
   for (const auto& plugin : plugins_) {
-    const lockstep_plugin& it = plugin->descriptors.plugin;
-    if (it.get_extension == nullptr) continue;
-    const void* table = nullptr;
-    const MarkedCall mark(CallSite::of_plugin(it.name), PluginFunction::Describe);
-    thrown_by([&] { table = it.get_extension(LOCKSTEP_WORDS); });
-    const auto* const words = static_cast<const lockstep_words*>(table);
-    for (std::uint32_t i = 0; words != nullptr && i < words->count; ++i) {
-      all.emplace(words->words[i], words->numbers[i]);
-    }
+    const bool is_elsewhere = isolation_.only_described && plugin->remote != nullptr;
+    all.merge(is_elsewhere ? plugin->remote->script_words() : words_of(plugin->descriptors.plugin));
   }
   return all;
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +13,7 @@
 #include "core/diagnostics.h"
 #include "core/node_type.h"
 #include "lockstep/leaf.h"
+#include "plugin/contract/words.h"
 #include "remote/isolation_options.h"
 #include "remote/json_lines/hold.h"
 
@@ -75,7 +75,7 @@ class PluginSet {
   std::vector<const NodeType*> types() const;
 
   // The words of all plugins that scripts know as numbers; of two of one name, the first.
-  std::map<std::string, double, std::less<>> words() const;
+  PluginWords words() const;
 
   // The facts about each plugin, in the order of loading.
   struct Info {
@@ -99,6 +99,7 @@ class PluginSet {
   // Takes what cannot be isolated away from a plugin: a part of it in this process. Null: an error.
   static std::unique_ptr<Plugin> split_off(Plugin& isolated, const Request& request,
                                            Diagnostics& diagnostics);
+  static Diagnostic isolated_in_part(const Plugin& plugin, const Request& request);
   bool accept(std::unique_ptr<RemotePlugin> remote, const Request& request,
               Diagnostics& diagnostics);
   bool accept(std::unique_ptr<Plugin> plugin, std::size_t size, const Request& request,

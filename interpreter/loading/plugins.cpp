@@ -64,7 +64,8 @@ IsolationOptions isolation_options(const PluginOptions& options) {
           .hang_limit = from_seconds(options.hang_limit),
           .halt_limit = is_limited ? std::optional(from_seconds(options.halt_limit)) : std::nullopt,
           .all = options.isolate,
-          .run_programs = options.run_programs};
+          .run_programs = options.run_programs,
+          .only_described = options.only_described};
 }
 
 bool load_given_plugins(const PluginOptions& options, PluginSet& plugins,

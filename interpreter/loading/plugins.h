@@ -19,6 +19,8 @@ struct PluginOptions {
   double halt_limit = 1;                 // --halt-limit, in seconds; 0 = never
   // --run-programs: else a program is not started, and its leaves are read from a file beside it.
   bool run_programs = false;
+  // For programs that run no leaves: no code of a plugin enters this process.
+  bool only_described = false;
   // From where what is installed with lockstep is found; "": that of the running program.
   std::string program_directory;
 };

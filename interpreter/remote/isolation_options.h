@@ -15,6 +15,8 @@ struct IsolationOptions {
   std::optional<Nanoseconds> halt_limit = std::chrono::seconds(1);
   bool all = false;           // whatever is passed to a load function
   bool run_programs = false;  // else what they have is read from a file beside them
+  // Nobody runs leaves: all are in other processes, also those that could not do their work there.
+  bool only_described = false;
 };
 
 }  // namespace lockstep::host

@@ -8,6 +8,7 @@
 
 #include "lockstep/leaf.h"
 #include "plugin/contract/process_leaves.h"
+#include "plugin/contract/words.h"
 
 namespace lockstep::host {
 
@@ -52,6 +53,8 @@ class RemotePlugin {
   virtual const lockstep_plugin& entry() const = 0;
   // Calls init. Returns "" or the reason of a failure.
   virtual std::string initialize() { return {}; }
+  // Those of the plugin itself, where it was asked for them.
+  virtual PluginWords script_words() const { return {}; }
   // Null after a failure, which is the caller's error.
   virtual std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) = 0;
 };

@@ -56,6 +56,8 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
   for (const auto& leaf : descriptors.leaves) {
     message.put(leaf->type.kind);
     message.put(leaf->type.flags);
+    message.put(leaf->type.min_children);
+    message.put(leaf->type.max_children);
     message.put(optional_functions(leaf->type));
     message.put_text_or_null(leaf->type.id);
     message.put_text_or_null(leaf->type.doc);
@@ -63,6 +65,12 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
     for (std::uint32_t port = 0; port < leaf->type.port_count; ++port) {
       write_port(*leaf->type.ports[port], leaf->parameters[port].object, message);
     }
+  }
+  const PluginWords words = words_of(plugin);
+  message.put(static_cast<std::uint32_t>(words.size()));
+  for (const auto& [word, number] : words) {
+    message.put_text(word);
+    message.put(number);
   }
 }
 
@@ -100,12 +108,23 @@ bool ReadDescriptors::read_leaf(MessageReader& message) {
   lockstep_leaf_type& leaf = tables_.add_leaf();
   leaf.kind = message.get<lockstep_leaf_kind>();
   leaf.flags = message.get<std::uint64_t>();
+  leaf.min_children = message.get<std::uint32_t>();
+  leaf.max_children = message.get<std::uint32_t>();
   keep_functions(leaf, message.get<std::uint8_t>());
   leaf.id = text(message);
   leaf.doc = text(message);
   const auto ports = message.get<std::uint32_t>();
   if (ports > kMostDescriptors) return false;
   for (std::uint32_t port = 0; port < ports && message.good(); ++port) read_port(message);
+  return message.good();
+}
+
+bool ReadDescriptors::read_words(MessageReader& message) {
+  const auto count = message.get<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && message.good(); ++i) {
+    std::string word(message.text());
+    words_.emplace(std::move(word), message.get<double>());
+  }
   return message.good();
 }
 
@@ -118,7 +137,7 @@ bool ReadDescriptors::read(MessageReader& message, RemoteObjectType::FromText fr
   for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
     if (!read_leaf(message)) return false;
   }
-  return message.good();
+  return read_words(message);
 }
 
 }  // namespace lockstep::host

@@ -10,6 +10,7 @@
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/object_type.h"
 #include "plugin/contract/packed_object.h"
+#include "plugin/contract/words.h"
 #include "remote/owned_descriptors.h"
 #include "remote/shared_memory/message.h"
 
@@ -41,14 +42,17 @@ class ReadDescriptors {
   // texts.
   bool read(MessageReader& message, RemoteObjectType::FromText from_text);
   const lockstep_plugin& plugin() const { return tables_.plugin; }
+  const PluginWords& words() const { return words_; }
 
  private:
   const char* text(MessageReader& message);
   const lockstep_object_type* read_object_type(MessageReader& message);
   void read_port(MessageReader& message);
   bool read_leaf(MessageReader& message);
+  bool read_words(MessageReader& message);
 
   OwnedDescriptors tables_;
+  PluginWords words_;
   RemoteObjectType::FromText from_text_;
   std::deque<RemoteObjectType> object_types_;  // elements do not move when one is added
   std::deque<HostedObjectType> hosted_types_;

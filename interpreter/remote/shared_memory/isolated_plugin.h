@@ -28,6 +28,7 @@ class IsolatedPlugin final : public RemotePlugin {
   const lockstep_plugin& entry() const override { return descriptors_.plugin(); }
   // In the first process.
   std::string initialize() override;
+  PluginWords script_words() const override { return descriptors_.words(); }
   std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
 
   // The place of a leaf type among those of the plugin, by its id, which is the very pointer that
