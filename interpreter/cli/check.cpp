@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
+#include "authoring/check/certainties.h"
 #include "cli/check_formats.h"
 #include "cli/checks.h"
 #include "cli/command.h"
@@ -11,11 +13,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "core/wording.h"
-#include "document/reporter.h"
-#include "engine/compile.h"
-#include "leaves/play/played_leaves.h"
 #include "runtime/outlet.h"
-#include "verify/certain.h"
 
 namespace lockstep::host {
 namespace {
@@ -39,22 +37,6 @@ CheckWriter writer_of(const std::string& format) {
 std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
   diagnostics.sort();
   return diagnostics.all();
-}
-
-// Adds what a short search over all behaviors of the tree is sure of. No plugin is called. Other
-// arguments make another tree.
-void add_certainties(Loaded& loaded, Diagnostics& diagnostics) {
-  if (!loaded.project->arguments.empty()) return;
-  std::vector<Place> places;
-  for (const DefinitionNode& node : loaded.definition.nodes) places.push_back(node.place);
-  PlayedLeaves played;
-  Definition definition = std::move(loaded.definition);
-  played.take_over(definition);
-  const Tree tree = compile(definition);
-  const Reporter reporter(loaded.project->sources, diagnostics);
-  for (Certainty& it : certainties_of(tree, places)) {
-    reporter.at(places[it.node], std::move(it.message), std::move(it.hint), it.severity);
-  }
 }
 
 // For people. `written` is the exit code of what went to stdout so far.
@@ -91,7 +73,7 @@ int check(const CheckOptions& options) {
       continue;
     }
     auto loaded = load_given(tree, load, diagnostics);
-    if (loaded) add_certainties(*loaded, diagnostics);
+    if (loaded) add_certainties(*loaded->project, std::move(loaded->definition), diagnostics);
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
     if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;

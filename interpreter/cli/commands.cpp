@@ -32,13 +32,13 @@ namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
-    kVerifyCommand, kTestCommand, kNewCommand;
+    kVerifyCommand, kTestCommand, kNewCommand, kLspCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
       &kNewCommand,  &kRunCommand,    &kCheckCommand,  &kVerifyCommand,  &kTestCommand,
       &kShowCommand, &kNodesCommand,  &kSchemaCommand, &kConvertCommand, &kPluginCommand,
-      &kLogCommand,  &kReplayCommand, &kStudyCommand,  &kMonitorCommand};
+      &kLogCommand,  &kReplayCommand, &kStudyCommand,  &kMonitorCommand, &kLspCommand};
   return kAll;
 }
 

@@ -1,0 +1,32 @@
+// What the server answers about a position in an open file: a feature is a function in a separate
+// file and a row in features.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "authoring/server/protocol/params.h"
+#include "authoring/server/workspace.h"
+#include "json/json.h"
+
+namespace lockstep::host {
+
+struct Question {
+  const Workspace& workspace;
+  const OpenFile& file;
+  const ClientParams& client;
+  const FileParams& params;
+};
+
+struct Feature {
+  std::string_view method;
+  Json (*answer)(const Question& question);
+  // Else it is asked when the newest text was analyzed.
+  bool takes_older_analysis = true;
+};
+
+std::span<const Feature> features();
+// What `initialize` says of them.
+Json capabilities();
+
+}  // namespace lockstep::host

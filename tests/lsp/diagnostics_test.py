@@ -1,0 +1,85 @@
+"""What the server says is wrong: what `lockstep check` says, for each text as it is in the editor."""
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from client import Client
+
+SOURCE = Path(os.environ["SOURCE"])
+SEVERITIES = {"error": 1, "warning": 2, "note": 3}
+
+
+def utf16(text):
+    return len(text.encode("utf-16-le")) // 2
+
+
+def checked(path, *options):
+    """What `check` says of a file: by file, a set."""
+    run = subprocess.run([os.environ["LOCKSTEP"], "check", "--format", "json", *options, str(path)],
+                         capture_output=True, check=False)
+    found = {}
+    for it in json.loads(run.stdout):
+        file = it["file"] or str(path)
+        lines = Path(file).read_bytes().removeprefix(b"\xef\xbb\xbf").split(b"\n")
+        place = (0, 0)
+        if it["line"]:
+            before = lines[it["line"] - 1][:max(it["column"] - 1, 0)]
+            place = (it["line"] - 1, utf16(before.decode("utf-8", "replace")))
+        found.setdefault(file, set()).add(
+            (*place, SEVERITIES[it["severity"]], it["message"], it["hint"]))
+    return found
+
+
+def said(diagnostics):
+    found = set()
+    for it in diagnostics:
+        related = it.get("relatedInformation", [{"message": ""}])
+        start = it["range"]["start"]
+        found.add((start["line"], start["character"], it["severity"], it["message"],
+                   related[0]["message"]))
+    return found
+
+
+class Diagnostics(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        self.client = Client()
+        self.client.start(SOURCE)
+
+    def tearDown(self):
+        self.assertEqual(self.client.stop(), 0)
+        self.assertEqual(self.client.errors, "")
+
+    def same_as_check(self, files):
+        for path in files:
+            try:
+                path.read_text(encoding="utf-8")
+            except UnicodeDecodeError:
+                continue  # no editor can send it
+            with self.subTest(path.name):
+                expected = checked(path)
+                self.assertEqual(said(self.client.open(path)), expected.pop(str(path), set()))
+                for other, messages in expected.items():
+                    if messages:
+                        self.assertEqual(said(self.client.diagnostics(other)), messages)
+                self.client.close(path)
+                del self.client.versions[path]
+                self.client.diagnostics(path)  # none any more
+
+    def test_bad_files(self):
+        files = sorted((SOURCE / "tests/trees/bad").glob("*.xml"))
+        self.assertGreater(len(files), 50)
+        self.same_as_check(files)
+
+    def test_good_files(self):
+        files = sorted([*(SOURCE / "tests/trees/good").glob("*.xml"), *(SOURCE / "trees").glob("*.xml")])
+        self.assertGreater(len(files), 20)
+        self.same_as_check([it for it in files if not it.name.endswith((".test.xml", ".leaves.xml"))])
+
+
+if __name__ == "__main__":
+    unittest.main()
