@@ -1,5 +1,7 @@
 // The part of Ticker::fold that no NodeKind::fold does.
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "engine/blackboard.h"
 #include "engine/groups.h"
@@ -7,14 +9,6 @@
 
 namespace lockstep::host {
 namespace {
-
-// How often an entry was written is looked at by a few nodes. An entry that may be removed begins
-// at 0 again, so the counts of those are kept as they are.
-bool counts_writes(const Tree& tree, std::uint32_t slot) {
-  return std::ranges::any_of(tree.nodes, [&](const Node& node) {
-    return node.kind->counts_writes && tree.ports[node.params].slot == slot;
-  });
-}
 
 bool has_member(const Tree& tree, NodeIndex first, NodeIndex last) {
   return std::ranges::any_of(tree.members, [&](const Member& member) {
@@ -47,12 +41,18 @@ void Ticker::forget_below_ended() {
   }
 }
 
-// Parameters are read again, so they need no counts.
+// Parameters are read again, so they need no counts. How often an entry was written is looked at by
+// a few nodes. An entry that may be removed begins at 0 again, so the counts of those are kept as
+// they are.
 void Ticker::fold_entries() {
-  for (std::uint32_t slot = 0; slot < board_.entries.size(); ++slot) {
-    std::uint32_t& writes = board_.entries[slot].writes;
-    if (writes != 0 && !counts_writes(tree_, slot)) writes = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> kept;  // slots, and their counts
+  for (const Node& node : tree_.nodes) {
+    if (!node.kind->counts_writes) continue;
+    const std::uint32_t slot = tree_.ports[node.params].slot;
+    if (slot < board_.entries.size()) kept.emplace_back(slot, board_.entries[slot].writes);
   }
+  for (auto& entry : board_.entries) entry.writes = 0;
+  for (const auto& [slot, writes] : kept) board_.entries[slot].writes = writes;
   parameters_.reset();
 }
 
