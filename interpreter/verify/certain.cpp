@@ -135,14 +135,17 @@ class Certainties {
 
 }  // namespace
 
-std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places) {
+std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places,
+                                      std::function<int()> stop_signal) {
   Diagnostics diagnostics;
   if (tree.nodes.size() > kMostNodes || has_clocks(tree) || !not_verifiable(tree).empty())
     return {};
   std::vector<NodeProblem> problems;
   const LeafModels models = make_models(tree, nullptr, diagnostics, problems);
   if (!problems.empty() || has_start_values(tree, models)) return {};
-  const SearchResult found = search(tree, models, {}, from_seconds(1 / kModelRate), bound(tree));
+  SearchLimits limits = bound(tree);
+  limits.stop_signal = std::move(stop_signal);
+  const SearchResult found = search(tree, models, {}, from_seconds(1 / kModelRate), limits);
   if (!found.is_complete()) return {};
   return Certainties(tree, places, found).find();
 }

@@ -3,6 +3,7 @@
 // machine. Of a tree that depends on more than its leaves (clocks, start values) it says nothing.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct Certainty {
 
 // Nodes that no behavior ticks (of a subtree, only its root), and that no behavior ends. `places`
 // are those of the nodes in their documents.
-std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places);
+// Nothing if `stop_signal` is there and returns something else than 0: another thread wants no
+// answer.
+std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places,
+                                      std::function<int()> stop_signal = {});
 
 }  // namespace lockstep::host

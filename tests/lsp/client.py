@@ -12,6 +12,7 @@ class Client:
             stderr=subprocess.PIPE, env={**os.environ, **(environment or {})})
         self.number = 0
         self.versions = {}
+        self.known = {}  # what is wrong, by URI
         self.kept = []  # what was sent while something else was waited for
 
     # Messages.
@@ -118,14 +119,25 @@ class Client:
     def close(self, path):
         self.notify("textDocument/didClose", {"textDocument": {"uri": Path(path).as_uri()}})
 
-    def diagnostics(self, path, version=None):
-        """Those of the newest version that was sent; of a file that is not open: the next."""
+    def diagnostics(self, path, of=None):
+        """Those that the client has once the server has found all; `of` includes the file."""
+        path, of = Path(path), Path(of or path)
+        # It is answered when nothing more can be found.
+        self.about("textDocument/codeAction", of, range=self.range((0, 0), (0, 0)),
+                   context={"diagnostics": []})
+        for message in self.kept:
+            if message.get("method") == "textDocument/publishDiagnostics":
+                self.known[message["params"]["uri"]] = message["params"]["diagnostics"]
+        self.kept = [it for it in self.kept if it.get("method") != "textDocument/publishDiagnostics"]
+        return self.known.get(path.as_uri(), [])
+
+    def first_diagnostics(self, path):
+        """Those of the newest version that come first."""
         path = Path(path)
-        version = self.versions.get(path)
         return self.wait(
             lambda it: it.get("method") == "textDocument/publishDiagnostics" and
             it["params"]["uri"] == path.as_uri() and
-            it["params"].get("version") == version)["params"]["diagnostics"]
+            it["params"].get("version") == self.versions[path])["params"]["diagnostics"]
 
     @staticmethod
     def range(begin, end):

@@ -65,10 +65,9 @@ class Diagnostics(unittest.TestCase):
                 self.assertEqual(said(self.client.open(path)), expected.pop(str(path), set()))
                 for other, messages in expected.items():
                     if messages:
-                        self.assertEqual(said(self.client.diagnostics(other)), messages)
+                        self.assertEqual(said(self.client.diagnostics(other, of=path)), messages)
                 self.client.close(path)
-                del self.client.versions[path]
-                self.client.diagnostics(path)  # none any more
+                self.assertEqual(self.client.diagnostics(path), [])
 
     def test_bad_files(self):
         files = sorted((SOURCE / "tests/trees/bad").glob("*.xml"))

@@ -1,5 +1,6 @@
 #include "authoring/check/certainties.h"
 
+#include <utility>
 #include <vector>
 
 #include "document/reporter.h"
@@ -9,7 +10,8 @@
 
 namespace lockstep::host {
 
-void add_certainties(const Project& project, Definition definition, Diagnostics& diagnostics) {
+void add_certainties(const Project& project, Definition definition, Diagnostics& diagnostics,
+                     std::function<int()> stop_signal) {
   if (!project.arguments.empty()) return;
   std::vector<Place> places;
   for (const DefinitionNode& node : definition.nodes) places.push_back(node.place);
@@ -17,7 +19,7 @@ void add_certainties(const Project& project, Definition definition, Diagnostics&
   played.take_over(definition);
   const Tree tree = compile(definition);
   const Reporter reporter(project.sources, diagnostics);
-  for (Certainty& it : certainties_of(tree, places)) {
+  for (Certainty& it : certainties_of(tree, places, std::move(stop_signal))) {
     reporter.at(places[it.node], std::move(it.message), std::move(it.hint), it.severity);
   }
 }

@@ -1,6 +1,8 @@
 // The last part of what `lockstep check` says of a tree, for all who say the same.
 #pragma once
 
+#include <functional>
+
 #include "core/diagnostics.h"
 #include "definition/definition.h"
 #include "document/project.h"
@@ -9,6 +11,8 @@ namespace lockstep::host {
 
 // Adds what a short search over all behaviors of the tree is sure of. Plugins are not called. A
 // project with arguments is left out: other arguments make another tree.
-void add_certainties(const Project& project, Definition definition, Diagnostics& diagnostics);
+// Adds nothing once `stop_signal` returns something else than 0.
+void add_certainties(const Project& project, Definition definition, Diagnostics& diagnostics,
+                     std::function<int()> stop_signal = {});
 
 }  // namespace lockstep::host

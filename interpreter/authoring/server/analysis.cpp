@@ -31,26 +31,77 @@ void note_left_out(const Project& project, Diagnostics& diagnostics, Analysis& r
   }
 }
 
-void analyze_tree(const AnalysisJob& job, PluginCache& cache, Diagnostics& diagnostics,
-                  Analysis& result) {
-  const LoadOptions options = options_of(job);
-  const std::shared_ptr<Project> project =
-      load_project_text(job.path, *job.text, options, diagnostics);
-  LoadedPlugins none{std::make_shared<PluginSet>()};
-  const LoadedPlugins& loaded = job.settings->trusted ? cache.get(project.get(), options) : none;
-  if (!job.settings->trusted && project) note_left_out(*project, diagnostics, result);
-  const LanguageRules& rules = project ? *project->rules : kLockstepRules;
-  result.project = project;
-  result.plugins = loaded.plugins;
-  result.catalog = make_catalog(*loaded.plugins, rules);
-  auto meaning = meaning_of(project.get(), loaded, options, diagnostics);
-  if (project) {
-    result.texts.assign(project->sources.all().begin(), project->sources.all().end());
+// Of a text that is not readable: the root, its includes, arguments and plugins, as far as they are
+// written.
+std::string declarations_of(std::string_view text) {
+  constexpr std::string_view kDeclarations[] = {"arg", "include", "plugin"};
+  const TolerantTree tree = read_tolerantly(text);
+  std::string declarations;
+  for (const TolerantElement& it : tree.elements) {
+    const bool is_root = it.parent == TolerantElement::kNone && it.tag == "root";
+    const bool is_declaration = it.parent == 0 && it.is_tag_closed &&
+                                std::ranges::count(kDeclarations, it.tag) > 0 &&
+                                text[it.tag_end - 2] == '/';
+    if (is_root && !it.is_tag_closed) return {};
+    if (is_root || is_declaration) declarations += text.substr(it.begin, it.tag_end - it.begin);
   }
-  if (!meaning) return;
-  add_certainties(*project, meaning->definition, diagnostics);
-  result.meaning = std::make_shared<const Meaning>(std::move(*meaning));
+  return declarations.empty() ? declarations : declarations + "</root>";
 }
+
+class TreeAnalysis {
+ public:
+  TreeAnalysis(const AnalysisJob& job, PluginCache& cache, Diagnostics& diagnostics,
+               Analysis& result)
+      : job_(job),
+        cache_(cache),
+        diagnostics_(diagnostics),
+        result_(result),
+        options_(options_of(job)) {}
+
+  void run() {
+    const std::shared_ptr<Project> project =
+        load_project_text(job_.path, *job_.text, options_, diagnostics_);
+    if (!job_.settings->trusted && project) note_left_out(*project, diagnostics_, result_);
+    const LoadedPlugins loaded = plugins_of(project.get());
+    auto meaning = meaning_of(project.get(), loaded, options_, diagnostics_);
+    project ? keep(project, loaded) : keep_declarations();
+    if (!meaning) return;
+    result_.is_whole = false;
+    result_.meaning = std::make_shared<const Meaning>(std::move(*meaning));
+  }
+
+ private:
+  LoadedPlugins plugins_of(const Project* project) {
+    if (!job_.settings->trusted) return {std::make_shared<PluginSet>()};
+    return cache_.get(project, options_);
+  }
+
+  void keep(std::shared_ptr<const Project> project, const LoadedPlugins& loaded) {
+    result_.plugins = loaded.plugins;
+    result_.catalog = make_catalog(*loaded.plugins, *project->rules);
+    result_.texts.assign(project->sources.all().begin(), project->sources.all().end());
+    for (std::size_t i = 1; i < result_.texts.size(); ++i)
+      result_.included.push_back(read_tolerantly(result_.texts[i]->text()));
+    result_.project = std::move(project);
+  }
+
+  void keep_declarations() {
+    std::string text = declarations_of(*job_.text);
+    if (text.empty()) text = "<root lockstep=\"1\"/>";
+    Diagnostics unused;
+    const std::shared_ptr<const Project> project =
+        load_project_text(job_.path, std::move(text), options_, unused);
+    if (project == nullptr) return;
+    keep(project, plugins_of(project.get()));
+    result_.texts.front() = std::make_shared<const Source>(job_.path, *job_.text);
+  }
+
+  const AnalysisJob& job_;
+  PluginCache& cache_;
+  Diagnostics& diagnostics_;
+  Analysis& result_;
+  const LoadOptions options_;
+};
 
 }  // namespace
 
@@ -63,10 +114,11 @@ Analysis analyze(const AnalysisJob& job, PluginCache& cache) {
   Analysis result;
   result.uri = job.uri;
   result.version = job.version;
+  result.serial = job.serial;
   Diagnostics diagnostics;
   switch (kind_of_file(job.path)) {
     case FileKind::Tree:
-      analyze_tree(job, cache, diagnostics, result);
+      TreeAnalysis(job, cache, diagnostics, result).run();
       break;
     case FileKind::Scenarios:
       read_scenarios(job.path, *job.text, diagnostics);
@@ -78,9 +130,23 @@ Analysis analyze(const AnalysisJob& job, PluginCache& cache) {
   if (result.texts.empty()) {
     result.texts.push_back(std::make_shared<const Source>(job.path, *job.text));
   }
+  if (result.plugins == nullptr) {
+    result.plugins = std::make_shared<PluginSet>();
+    result.catalog = make_catalog(*result.plugins);
+  }
   diagnostics.sort();
   result.diagnostics = diagnostics.all();
   return result;
+}
+
+void complete(Analysis& analysis, std::function<int()> stop_signal) {
+  Diagnostics diagnostics;
+  for (Diagnostic& it : analysis.diagnostics) diagnostics.add(std::move(it));
+  add_certainties(*analysis.project, analysis.meaning->definition, diagnostics,
+                  std::move(stop_signal));
+  diagnostics.sort();
+  analysis.diagnostics = diagnostics.all();
+  analysis.is_whole = true;
 }
 
 }  // namespace lockstep::host

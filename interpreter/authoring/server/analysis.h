@@ -2,6 +2,7 @@
 // were found with.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "authoring/server/plugin_cache.h"
 #include "core/diagnostics.h"
 #include "definition/catalog.h"
+#include "document/tolerant.h"
 
 namespace lockstep::host {
 
@@ -25,6 +27,7 @@ struct AnalysisJob {
   std::string path;
   std::shared_ptr<const std::string> text;
   std::int64_t version = 0;
+  std::uint64_t serial = 0;   // later jobs have larger ones
   UnsavedTexts unsaved = {};  // of all open files
   std::shared_ptr<const Settings> settings;
 };
@@ -32,19 +35,27 @@ struct AnalysisJob {
 struct Analysis {
   std::string uri;
   std::int64_t version = 0;
+  std::uint64_t serial = 0;                          // of its job
   std::vector<Diagnostic> diagnostics;               // sorted
   std::vector<std::shared_ptr<const Source>> texts;  // that were read, the file first
-  std::shared_ptr<const Project> project;            // null: it is not readable, or no tree file
-  std::shared_ptr<PluginSet> plugins;                // to which the catalog points
+  std::vector<TolerantTree> included;                // the elements of the other texts
+  // Of a text that is not readable: only the declarations that can be recognized in it.
+  std::shared_ptr<const Project> project;
+  std::shared_ptr<PluginSet> plugins;  // to which the catalog points
   Catalog catalog;
   std::shared_ptr<const Meaning> meaning;  // null after an error
   bool left_plugins_out = false;           // it asks for some, in a workspace without trust
+  bool is_whole = true;                    // false: more messages may come
 };
 
 // What the name of a file says about its content.
 enum class FileKind : unsigned char { Tree, Scenarios, Leaves };
 FileKind kind_of_file(std::string_view path);
 
+// What takes little time: its `is_whole` is false if complete() has more to say.
 Analysis analyze(const AnalysisJob& job, PluginCache& cache);
+// Adds what a search over all behaviors is sure of, unless `stop_signal` returns something else
+// than 0 before.
+void complete(Analysis& analysis, std::function<int()> stop_signal);
 
 }  // namespace lockstep::host

@@ -1,9 +1,11 @@
 // A thread that analyzes the newest texts, so that the editor is answered meanwhile.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <list>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -31,13 +33,18 @@ class AnalysisThread {
 
  private:
   void work();
+  enum class Wait : bool { No, Yes };
+  std::optional<AnalysisJob> next(Wait wait);
+  void finish(std::list<Analysis>& unfinished);
+  void deliver(Analysis analysis);
 
   Pipe wake_;
   Mutex mutex_;
   std::condition_variable changed_;
   std::list<AnalysisJob> jobs_ LOCKSTEP_GUARDED_BY(mutex_);
   std::vector<Analysis> done_ LOCKSTEP_GUARDED_BY(mutex_);
-  bool is_over_ LOCKSTEP_GUARDED_BY(mutex_) = false;
+  std::atomic<int> has_more_ = 0;  // the search over all behaviors gives way to other jobs
+  std::atomic<bool> is_over_ = false;
   std::thread thread_;
 };
 

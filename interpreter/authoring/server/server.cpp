@@ -112,10 +112,9 @@ std::optional<Json> Server::ask(const Feature& feature, Message& message) {
   const FileParams params = read_file_params(connection_.reader(), message);
   const OpenFile* const file = workspace_.find(params.uri);
   if (file == nullptr) return Json();
-  const bool is_newest = file->analysis != nullptr && file->analysis->version == file->version;
-  if (file->analysis == nullptr || (!feature.takes_older_analysis && !is_newest))
+  if (file->analysis == nullptr || (!feature.takes_older_analysis && !file->is_settled()))
     return std::nullopt;
-  return feature.answer({workspace_, *file, client_, params});
+  return feature.answer({workspace_, *file, client_, params, *settings_});
 }
 
 void Server::ask_again() {

@@ -50,7 +50,8 @@ class Server {
   void use(const ClientParams& client);
   void post_jobs();
   void take_analyses();
-  void publish(const std::string& checked);
+  enum class Tell : bool { Changes, Always };
+  void publish(const std::string& checked, Tell tell);
   void say_untrusted();
 
   const Settings own_;  // of the command line
@@ -61,6 +62,7 @@ class Server {
   std::deque<Message> waiting_;                    // requests, for an analysis
   std::map<std::string, DiagnosticsByUri> found_;  // by the URI of the file that was checked
   std::map<std::string, std::string> published_;   // what the client has, by URI
+  std::uint64_t serial_ = 0;                       // of the last job
   bool is_initialized_ = false, is_shut_down_ = false, has_exit_ = false, said_untrusted_ = false;
   AnalysisThread analyses_;
 };

@@ -55,7 +55,7 @@ void Server::close(Message& message) {
   analyses_.forget(params.uri);
   workspace_.close(params.uri);
   found_.erase(params.uri);
-  publish(params.uri);
+  publish(params.uri, Tell::Always);
   workspace_.mark_all_dirty();  // what includes it reads the saved text again
 }
 
@@ -73,7 +73,8 @@ void Server::post_jobs() {
   for (auto& [uri, file] : workspace_.files()) {
     if (!std::exchange(file.is_dirty, false)) continue;
     if (texts.empty()) texts = workspace_.texts();
-    analyses_.post({uri, file.path, file.text, file.version, texts, settings_});
+    file.serial = ++serial_;
+    analyses_.post({uri, file.path, file.text, file.version, file.serial, texts, settings_});
   }
 }
 
@@ -81,20 +82,23 @@ void Server::take_analyses() {
   bool is_news = false;
   for (Analysis& it : analyses_.take()) {
     OpenFile* const file = workspace_.find(it.uri);
-    if (file == nullptr) continue;
+    if (file == nullptr || it.serial > file->serial) continue;
     const std::string uri = it.uri;
     file->analysis = std::make_shared<const Analysis>(std::move(it));
     is_news = true;
     if (file->analysis->left_plugins_out) say_untrusted();
-    if (file->analysis->version != file->version || file->is_dirty) continue;
-    found_[uri] = diagnostics_of(*file->analysis, workspace_, client_.has_related_information);
-    publish(uri);
+    if (file->analysis->version != file->version) continue;
+    DiagnosticsByUri found =
+        diagnostics_of(*file->analysis, workspace_, client_.has_related_information);
+    const bool is_new = std::exchange(file->told, file->version) != file->version;
+    std::swap(found_[uri], found);
+    publish(uri, is_new ? Tell::Always : Tell::Changes);
   }
   if (is_news) ask_again();
 }
 
 // Messages of several files may be about one that they include.
-void Server::publish(const std::string& checked) {
+void Server::publish(const std::string& checked, Tell tell) {
   std::map<std::string, std::vector<Json>> all;
   for (const auto& [uri, text] : published_) all[uri];
   all[checked];
@@ -113,7 +117,7 @@ void Server::publish(const std::string& checked) {
     params["diagnostics"] = Json::array(std::move(messages));
     std::string text = params["diagnostics"].text();
     std::string& before = published_[uri];
-    if (uri != checked && before == text) continue;
+    if (before == text && (uri != checked || tell == Tell::Changes)) continue;
     before = std::move(text);
     connection_.send(notification("textDocument/publishDiagnostics", std::move(params)));
   }

@@ -18,12 +18,18 @@ void OpenFile::change(const std::optional<std::pair<Position, Position>>& range,
     *text = by;
   }
   positions_.reset();
+  tree_.reset();
   is_dirty = true;
 }
 
 const Positions& OpenFile::positions() const {
   if (!positions_) positions_.emplace(*text);
   return *positions_;
+}
+
+const TolerantTree& OpenFile::tree() const {
+  if (!tree_) tree_ = read_tolerantly(*text);
+  return *tree_;
 }
 
 void Workspace::open(const std::string& uri, std::string text, std::int64_t version) {

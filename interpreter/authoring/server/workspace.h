@@ -17,14 +17,22 @@ struct OpenFile {
   std::shared_ptr<std::string> text;
   std::int64_t version = 0;
   bool is_dirty = true;                           // no job was posted for this text
+  std::uint64_t serial = 0;                       // of the last job that was
+  std::int64_t told = -1;                         // the version of which the client has messages
   std::shared_ptr<const Analysis> analysis = {};  // of this text or an earlier one; null: none yet
 
   // Replaces a part of the text, or all of it.
   void change(const std::optional<std::pair<Position, Position>>& range, std::string_view by);
   const Positions& positions() const;
+  const TolerantTree& tree() const;
+  // All that can be found is found.
+  bool is_settled() const {
+    return !is_dirty && analysis != nullptr && analysis->serial == serial && analysis->is_whole;
+  }
 
  private:
   mutable std::optional<Positions> positions_;
+  mutable std::optional<TolerantTree> tree_;
 };
 
 class Workspace {

@@ -16,6 +16,9 @@ struct Question {
   const OpenFile& file;
   const ClientParams& client;
   const FileParams& params;
+  const Settings& settings;
+
+  std::size_t byte() const { return file.positions().byte_at(params.position); }
 };
 
 struct Feature {

@@ -1,14 +1,50 @@
+#include "authoring/server/features/actions.h"
+#include "authoring/server/features/completion.h"
 #include "authoring/server/features/feature.h"
+#include "authoring/server/features/hover.h"
+#include "authoring/server/features/lens.h"
+#include "authoring/server/features/navigation.h"
+#include "authoring/server/features/script_tokens.h"
+#include "authoring/server/features/structure.h"
 
 namespace lockstep::host {
 
 std::span<const Feature> features() {
-  return {};
+  static constexpr Feature kFeatures[] = {
+      {"textDocument/completion", completion},
+      {"textDocument/hover", hover},
+      {"textDocument/definition", definition},
+      {"textDocument/references", references},
+      {"textDocument/documentHighlight", highlights},
+      {"textDocument/documentSymbol", document_symbols},
+      {"textDocument/foldingRange", folding_ranges},
+      {"textDocument/codeAction", code_actions, false},
+      {"textDocument/codeLens", code_lenses},
+      {"textDocument/inlayHint", inlay_hints},
+      {"textDocument/semanticTokens/full", script_tokens},
+  };
+  return kFeatures;
 }
 
 Json capabilities() {
   Json sync{{"openClose", true}, {"change", 2}, {"save", true}};
-  return {{"positionEncoding", "utf-16"}, {"textDocumentSync", std::move(sync)}};
+  std::vector<Json> signs, kinds;
+  for (const char* sign : {"<", "/", " ", "\"", "'", "{", "$"}) signs.emplace_back(sign);
+  kinds.emplace_back("quickfix");
+  Json tokens{{"legend", script_token_legend()}, {"full", true}};
+  return {{"positionEncoding", "utf-16"},
+          {"textDocumentSync", std::move(sync)},
+          {"completionProvider", Json{{"triggerCharacters", Json::array(std::move(signs))}}},
+          {"hoverProvider", true},
+          {"definitionProvider", true},
+          {"referencesProvider", true},
+          {"documentHighlightProvider", true},
+          {"documentSymbolProvider", true},
+          {"foldingRangeProvider", true},
+          {"codeActionProvider", Json{{"codeActionKinds", Json::array(std::move(kinds))}}},
+          {"codeLensProvider", Json{{"resolveProvider", false}}},
+          {"inlayHintProvider", true},
+          {"semanticTokensProvider", std::move(tokens)}};
 }
 
 }  // namespace lockstep::host

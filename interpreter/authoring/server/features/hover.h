@@ -1,0 +1,10 @@
+// What is known of what is under the pointer.
+#pragma once
+
+#include "authoring/server/features/feature.h"
+
+namespace lockstep::host {
+
+Json hover(const Question& question);
+
+}  // namespace lockstep::host

@@ -1,0 +1,11 @@
+// What an editor draws into the text: commands above trees, and values behind attributes and nodes.
+#pragma once
+
+#include "authoring/server/features/feature.h"
+
+namespace lockstep::host {
+
+Json code_lenses(const Question& question);
+Json inlay_hints(const Question& question);
+
+}  // namespace lockstep::host

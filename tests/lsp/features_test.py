@@ -1,0 +1,276 @@
+"""What the server answers about places in a text. '|' in a text is the cursor, and not of the text."""
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from client import Client
+
+SOURCE = Path(os.environ["SOURCE"])
+
+HEAD = """<root lockstep="1" main_tree_to_execute="Main">
+  <plugin name="motion"/>
+  <arg name="pace" default="0.5" doc="How fast."/>
+  <barrier name="table" barriers="0.5"/>
+  <resources name="tools" resources="drill;saw"/>
+  <BehaviorTree ID="Other" _description="The other one.">
+    <Script code="inner := 1"/>
+  </BehaviorTree>
+  <BehaviorTree ID="Main">
+    <Sequence>
+      <Script code="word := 'grüß'; limit := 2"/>
+"""
+TAIL = """
+    </Sequence>
+  </BehaviorTree>
+</root>
+"""
+
+
+class Features(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.path = Path(self.directory.name) / "tree.xml"
+        self.client = Client("--plugin-path", os.environ["BUILD"] + "/plugins")
+        self.client.start(self.directory.name)
+
+    def tearDown(self):
+        self.assertEqual(self.client.stop(), 0)
+        self.assertEqual(self.client.errors, "")
+        self.directory.cleanup()
+
+    def put(self, text, path=None):
+        """Opens or changes the file; the place of the cursor."""
+        path = path or self.path
+        before, cursor, after = text.partition("|")
+        text = before + after if cursor else text
+        if path in self.client.versions:
+            self.client.change(path, text)
+        else:
+            self.client.open(path, text)
+        self.text = text
+        return before.count("\n"), len(before.rpartition("\n")[2].encode("utf-16-le")) // 2
+
+    def complete(self, text, path=None):
+        line, character = self.put(text, path)
+        items = self.client.at("textDocument/completion", path or self.path, line, character)["items"]
+        return {it["label"]: it for it in sorted(items, key=lambda it: it["sortText"])}
+
+    def here(self, line):
+        """The labels where that line stands in a Sequence of a tree."""
+        return list(self.complete(HEAD + line + TAIL))
+
+    def applied(self, item):
+        edit = item["textEdit"]
+        return self.edited([edit])
+
+    def edited(self, edits):
+        text = self.text
+        for edit in sorted(edits, key=lambda it: str(it["range"]["start"]["line"]).zfill(6) +
+                           str(it["range"]["start"]["character"]).zfill(6), reverse=True):
+            begin, end = (self.offset(edit["range"][it]) for it in ("start", "end"))
+            text = text[:begin] + edit["newText"] + text[end:]
+        return text
+
+    def offset(self, position):
+        lines = self.text.split("\n")
+        line = lines[position["line"]].encode("utf-16-le")[:2 * position["character"]]
+        return sum(len(it) + 1 for it in lines[:position["line"]]) + len(line.decode("utf-16-le"))
+
+    def test_completion_of_nodes(self):
+        for line in ("<|", "<Wa|", "<Wa|\n<Wait seconds=\"1\"/>", "|", "<Fallback><|", "<Fallback>\n<Se|\n</Fallback>"):
+            with self.subTest(line):
+                labels = self.here(line)
+                self.assertIn("Wait", labels)
+                self.assertIn("Advance", labels)  # of the plugin
+                self.assertIn("SubTree", labels)
+                self.assertNotIn("barrier", labels)
+                self.assertNotIn("BehaviorTree", labels)
+        items = self.complete(HEAD + "<Wa|" + TAIL)
+        self.assertIn("Wait seconds=\"$1\"/>$0", self.applied(items["Wait"]))
+        self.assertEqual(self.applied(items["Wait"]), HEAD + "<Wait seconds=\"$1\"/>$0" + TAIL)
+        self.assertIn("seconds", items["Wait"]["documentation"]["value"])
+        items = self.complete(HEAD + "<Wa| seconds=\"1\"/>" + TAIL)
+        self.assertEqual(self.applied(items["Wait"]), HEAD + "<Wait seconds=\"1\"/>" + TAIL)
+        items = self.complete(HEAD + "Wa|" + TAIL)
+        self.assertEqual(self.applied(items["Wait"]), HEAD + "<Wait seconds=\"$1\"/>$0" + TAIL)
+
+    def test_completion_beside_trees(self):
+        labels = self.complete("<root lockstep=\"1\">\n <|\n</root>")
+        self.assertEqual({"BehaviorTree", "plugin", "include", "arg", "property", "barrier", "resources"},
+                         set(labels))
+        self.assertEqual(["root"], list(self.complete("<|")))
+        self.assertEqual([], self.here("<Wait seconds=\"1\"><|</Wait>"))
+        self.assertEqual([], self.here("<!-- <| -->"))
+
+    def test_completion_of_end_tags(self):
+        items = self.complete(HEAD + "<Fallback>\n</|" + TAIL)
+        self.assertEqual(["Fallback"], list(items))
+        self.assertEqual(self.applied(items["Fallback"]), HEAD + "<Fallback>\n</Fallback>" + TAIL)
+
+    def test_completion_of_attributes(self):
+        for line in ("<Wait |/>", "<Wait sec|", "<Wait |\n<Wait seconds=\"1\"/>", "<Wait sec|\n</Sequence>"):
+            with self.subTest(line):
+                labels = self.here(line)
+                self.assertEqual("seconds", labels[0])
+                self.assertIn("name", labels)
+                self.assertIn("skip_if", labels)
+        labels = self.here("<Wait seconds=\"1\" | name=\"a\"/>")
+        self.assertNotIn("seconds", labels)
+        self.assertNotIn("name", labels)
+        items = self.complete(HEAD + "<Wait sec|=\"1\"/>" + TAIL)
+        self.assertEqual(self.applied(items["seconds"]), HEAD + "<Wait seconds=\"1\"/>" + TAIL)
+        self.assertIn("number", items["seconds"]["detail"] + "number")
+        self.assertIn("inner", self.here("<SubTree ID=\"Other\" |/>"))
+
+    def test_completion_of_values(self):
+        cases = {
+            "<SubTree ID=\"|\"/>": ["Main", "Other"],
+            "<SubTree ID=\"|": ["Main", "Other"],
+            "<SubTree ID=\"O|\n<Wait seconds=\"1\"/>": ["Main", "Other"],
+            "<Sequence memory=\"|\"/>": ["false", "true"],
+            "<SyncProgress barrier=\"|\"/>": ["table"],
+            "<UseResources pool=\"tools\" resources=\"drill;|\"/>": ["drill", "saw"],
+            "<Wait seconds=\"${|\"/>": ["${pace}"],
+            "<Wait seconds=\"$|": ["${pace}"],
+            "<Wait seconds=\"${p|}\"/>": ["${pace}"],
+        }
+        for line, expected in cases.items():
+            with self.subTest(line):
+                labels = self.here(line)
+                for label in expected:
+                    self.assertIn(label, labels)
+        items = self.complete(HEAD + "<Wait seconds=\"${p|}\"/>" + TAIL)
+        self.assertEqual(self.applied(items["${pace}"]), HEAD + "<Wait seconds=\"${pace}\"/>" + TAIL)
+        items = self.complete(HEAD + "<Wait seconds=\"{li|\n<Wait seconds=\"2\"/>" + TAIL)
+        self.assertEqual(self.applied(items["{limit}"]),
+                         HEAD + "<Wait seconds=\"{limit}\n<Wait seconds=\"2\"/>" + TAIL)
+        self.assertIn("{word}", items)
+
+    def test_completion_in_scripts(self):
+        items = self.complete(HEAD + "<Script code=\"limit = li|\"/>" + TAIL)
+        self.assertEqual(self.applied(items["limit"]), HEAD + "<Script code=\"limit = limit\"/>" + TAIL)
+        self.assertIn("word", items)
+        self.assertIn("limit", self.here("<Wait seconds=\"1\" skip_if=\"|"))
+
+    def test_keys_of_the_right_type(self):
+        text = HEAD + """<Advance step="{step}"/>
+          <Wait seconds="1" name="{step}"/>
+          <UseResources pool="tools" resources="{text}"><AlwaysSuccess/></UseResources>
+          <Wait seconds="{|"/>""" + TAIL
+        labels = self.complete(text)
+        self.assertIn("{step}", labels)  # a number
+        self.assertNotIn("{text}", labels)
+
+    def test_other_files(self):
+        leaves = Path(self.directory.name) / "tree.leaves.xml"
+        labels = self.complete("<leaves lockstep=\"1\"><|</leaves>", leaves)
+        self.assertEqual({"tree", "fact", "leaf", "accept"}, set(labels))
+        labels = self.complete("<leaves lockstep=\"1\"><fact name=\"a\" changes=\"|</leaves>", leaves)
+        self.assertEqual({"never", "freely", "rises", "falls"}, set(labels))
+        tests = Path(self.directory.name) / "tree.test.xml"
+        labels = self.complete("<scenarios lockstep=\"1\"><scenario name=\"a\"><|", tests)
+        self.assertIn("leaf", labels)
+        self.assertIn("expect", labels)
+        labels = self.complete("<scenarios lockstep=\"1\"><scenario name=\"a\"><leaf |", tests)
+        self.assertIn("does", labels)
+
+    def test_the_other_language(self):
+        text = "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence><|</Sequence></BehaviorTree></root>"
+        labels = self.complete(text)
+        self.assertIn("ReactiveSequence", labels)
+        self.assertNotIn("Wait", list(labels))
+        self.assertIn("_skipIf", self.complete(text.replace("<|", "<Sleep |")))
+
+    def test_hover(self):
+        def hover(line):
+            place = self.put(HEAD + line + TAIL)
+            found = self.client.at("textDocument/hover", self.path, *place)
+            return found and found["contents"]["value"]
+        self.assertIn("<Wait seconds=", hover("<Wa|it seconds=\"1\"/>"))
+        self.assertIn("required", hover("<Wait sec|onds=\"1\"/>"))
+        self.assertIn("default 0.5", hover("<Wait seconds=\"${pa|ce}\"/>"))
+        self.assertIn("How fast.", hover("<Wait seconds=\"${pa|ce}\"/>"))
+        entry = hover("<Wait seconds=\"{li|mit}\"/>")
+        self.assertIn("entry limit", entry)
+        self.assertIn("written by Script, line 11", entry)
+        self.assertIn("The other one.", hover("<SubTree ID=\"Ot|her\"/>"))
+        self.assertIsNone(hover("|"))
+
+    def test_definition_and_references(self):
+        def places(method, line):
+            place = self.put(HEAD + line + TAIL)
+            return [(it["range"]["start"]["line"], it["range"]["start"]["character"])
+                    for it in self.client.at(method, self.path, *place)]
+        self.assertEqual([(5, 20)], places("textDocument/definition", "<SubTree ID=\"Ot|her\"/>"))
+        self.assertEqual([(2, 13)], places("textDocument/definition", "<Wait seconds=\"${pa|ce}\"/>"))
+        self.assertEqual([(10, 36)], places("textDocument/definition", "<Wait seconds=\"{li|mit}\"/>"))
+        self.assertEqual([(3, 17)], places("textDocument/definition", "<SyncProgress barrier=\"ta|ble\"/>"))
+        self.assertEqual([(10, 36), (11, 16)], places("textDocument/references", "<Wait seconds=\"{li|mit}\"/>"))
+        self.assertEqual([], places("textDocument/references", "<Wait| seconds=\"1\"/>"))
+
+    def test_included_files(self):
+        part = Path(self.directory.name) / "part.xml"
+        part.write_text("<root lockstep=\"1\"><BehaviorTree ID=\"Saved\"><AlwaysSuccess/></BehaviorTree></root>")
+        text = """<root lockstep="1" main_tree_to_execute="Main"><include path="part.xml"/>
+<BehaviorTree ID="Main"><SubTree ID="Unsav|ed"/></BehaviorTree></root>"""
+        place = self.put(text)
+        self.assertIn("unknown", self.client.change(self.path, self.text)[0]["message"])
+        # What is not saved counts.
+        self.client.open(part, part.read_text().replace("Saved", "Unsaved"))
+        self.assertEqual([], self.client.diagnostics(self.path))
+        found = self.client.at("textDocument/definition", self.path, *place)
+        self.assertEqual([part.as_uri()], [it["uri"] for it in found])
+        self.assertIn("Unsaved", self.complete(text.replace("Unsav|ed", "|")))
+
+    def test_structure(self):
+        self.put(HEAD + "<Wait name=\"pause\" seconds=\"1\"/>" + TAIL)
+        root = self.client.about("textDocument/documentSymbol", self.path)[0]
+        self.assertEqual("root", root["name"])
+        names = [it["name"] for it in root["children"]]
+        self.assertEqual(["motion", "pace", "table", "tools", "Other", "Main"], names)
+        self.assertEqual("pause", root["children"][-1]["children"][0]["children"][1]["name"])
+        folds = self.client.about("textDocument/foldingRange", self.path)
+        self.assertIn({"startLine": 8, "endLine": 13}, folds)
+
+    def test_lenses_and_hints(self):
+        self.put(HEAD + "<Wait seconds=\"${pace}\"/>" + TAIL)
+        lenses = self.client.about("textDocument/codeLens", self.path)
+        self.assertEqual(["lockstep.run", "lockstep.verify"] * 2, [it["command"]["command"] for it in lenses])
+        self.assertEqual("Main", lenses[2]["command"]["arguments"][0]["name"])
+        hints = self.client.about("textDocument/inlayHint", self.path, range=Client.range((0, 0), (99, 0)))
+        self.assertEqual({"= 0.5", "1/2"}, {it["label"] for it in hints})
+
+    def test_tokens(self):
+        self.put(HEAD + "<Wait seconds=\"${pace}\"/>" + TAIL)
+        data = self.client.about("textDocument/semanticTokens/full", self.path)["data"]
+        self.assertEqual(0, len(data) % 5)
+        # inner := 1, word := 'grüß' ; limit := 2, ${pace}
+        self.assertEqual([0, 3, 1, 0, 3, 2, 0, 3, 1, 4], data[3::5])
+
+    def fixes(self, line):
+        self.put(HEAD + line + TAIL)
+        whole = Client.range((0, 0), (99, 0))
+        actions = self.client.about("textDocument/codeAction", self.path, range=whole, context={"diagnostics": []})
+        return {it["title"]: self.edited(it["edit"]["changes"][self.path.as_uri()]) for it in actions}
+
+    def test_quick_fixes(self):
+        cases = {
+            "<Fallbak>\n<AlwaysSuccess/>\n</Fallbak>": "<Fallback>\n<AlwaysSuccess/>\n</Fallback>",
+            "<Wait second=\"1\"/>": "<Wait seconds=\"1\"/>",
+            "<SubTree ID=\"Othr\"/>": "<SubTree ID=\"Other\"/>",
+            "<Parallel policy=\"1\"><AlwaysSuccess/></Parallel>": None,
+            "<SyncProgress barrier=\"tabel\"><AlwaysSuccess/></SyncProgress>":
+                "<SyncProgress barrier=\"table\"><AlwaysSuccess/></SyncProgress>",
+        }
+        for line, expected in cases.items():
+            if expected:
+                with self.subTest(line):
+                    self.assertIn(HEAD + expected + TAIL, self.fixes(line).values())
+        self.assertIn("<Wait seconds=\"1\"/>", self.fixes("<Wait/>")["Add seconds=\"1\""])
+
+
+if __name__ == "__main__":
+    unittest.main()
