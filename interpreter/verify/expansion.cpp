@@ -8,6 +8,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr std::uint64_t kTicksBetweenLooks = 1000;
+constexpr std::uint64_t kTicksBetweenSignals = 32;  // to look at one is quick
 
 void sort_edges(Chunk& chunk, std::size_t first) {
   const auto begin = chunk.edges.begin() + static_cast<std::ptrdiff_t>(first);
@@ -59,7 +60,10 @@ void Expander::expand(StateId state, Chunk& into) {
   do {
     take(step, stepper_.tick(), into);
     ++step.combination;
-    if (++at.transitions < next_look_) continue;
+    const bool looks_at_signal = ++at.transitions % kTicksBetweenSignals == 0;
+    if (looks_at_signal && limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0)
+      at.cut = SearchEnd::Signal;
+    if (at.cut || at.transitions < next_look_) continue;
     next_look_ += kTicksBetweenLooks;
     if (into.edges.size() > most_edges) {
       sort_edges(into, first_edge);

@@ -46,13 +46,18 @@ class Searcher {
  private:
   std::uint32_t depth() const { return static_cast<std::uint32_t>(result_.depths.size()) - 1; }
 
-  // As many as have so many edges, if those are like the ones so far.
+  // As many as have so many edges, if those are like the ones so far, and do not go far over the
+  // limit of transitions.
   StateId states_of_round() const {
     const Graph& graph = result_.graph;
     const std::uint64_t edges_of_state =
         graph.edges.size() / std::max<std::uint64_t>(1, graph.expanded());
-    return static_cast<StateId>(std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1),
-                                                          kStatesOfChunk, kStatesOfRound));
+    const std::uint64_t left =
+        limits_.transitions - std::min(limits_.transitions, result_.transitions);
+    return static_cast<StateId>(
+        std::min(std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1), kStatesOfChunk,
+                                           kStatesOfRound),
+                 left / (edges_of_state + 1) + 1));
   }
 
   // False: a limit was reached.
