@@ -6,8 +6,9 @@
 #include <set>
 #include <vector>
 
+#include "authoring/edit/text_edit.h"
+#include "authoring/edit/value_text.h"
 #include "convert/switch_node.h"
-#include "convert/text_edits.h"
 #include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
@@ -27,29 +28,6 @@ using btcpp::NodePair;
 using btcpp::Side;
 
 constexpr std::string_view kModels = "TreeNodesModel";
-
-std::string quoted_xml(std::string_view value) {
-  std::string text = "\"";
-  for (const char c : value) {
-    switch (c) {
-      case '<':
-        text += "&lt;";
-        break;
-      case '&':
-        text += "&amp;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      case '\n':
-        text += "&#10;";
-        break;
-      default:
-        text += c;
-    }
-  }
-  return text + '"';
-}
 
 class Converter {
  public:
@@ -136,7 +114,7 @@ class Converter {
   }
 
   void add_attribute(const XmlToken& tag, std::string_view name, std::string_view value) {
-    edits_.insert(tag.begin + 1 + tag.name.size(), fmt::format(" {}={}", name, quoted_xml(value)));
+    edits_.insert(tag.begin + 1 + tag.name.size(), fmt::format(" {}={}", name, quoted(value)));
   }
 
   void convert_child_of_root(std::uint32_t element) {
@@ -412,7 +390,7 @@ class Converter {
   }
 
   void replace(const XmlToken& token, std::string_view name, std::string_view value) {
-    edits_.replace(token.begin, end_of(token), fmt::format("{}={}", name, quoted_xml(value)));
+    edits_.replace(token.begin, end_of(token), fmt::format("{}={}", name, quoted(value)));
   }
 
   // With the blanks before it.
@@ -435,7 +413,7 @@ class Converter {
     if (to_ours() && is_glued) edits_.insert(token.begin, " ");
     if (!to_ours() || token.value.find_first_of("<&") == std::string_view::npos) return;
     const auto begin = scanner_.offset_of(token.value) - 1;
-    edits_.replace(begin, end_of(token), quoted_xml(attribute.value));
+    edits_.replace(begin, end_of(token), quoted(attribute.value));
   }
 
   void close_tag(const XmlToken& token) {
@@ -483,7 +461,7 @@ class Converter {
   const Reporter& report_;
   std::string_view text_;
   Scanner scanner_;
-  TextEdits edits_;
+  TextEdit edits_;
   std::vector<Open> open_;
   std::uint32_t next_ = 0;           // element
   const NodePair* pair_ = nullptr;   // of the innermost element
