@@ -32,13 +32,14 @@ namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
-    kVerifyCommand, kTestCommand, kNewCommand, kLspCommand;
+    kVerifyCommand, kTestCommand, kNewCommand, kFmtCommand, kLspCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kNewCommand,  &kRunCommand,    &kCheckCommand,  &kVerifyCommand,  &kTestCommand,
-      &kShowCommand, &kNodesCommand,  &kSchemaCommand, &kConvertCommand, &kPluginCommand,
-      &kLogCommand,  &kReplayCommand, &kStudyCommand,  &kMonitorCommand, &kLspCommand};
+      &kNewCommand,    &kRunCommand,     &kCheckCommand,   &kVerifyCommand,
+      &kTestCommand,   &kShowCommand,    &kNodesCommand,   &kSchemaCommand,
+      &kFmtCommand,    &kConvertCommand, &kPluginCommand,  &kLogCommand,
+      &kReplayCommand, &kStudyCommand,   &kMonitorCommand, &kLspCommand};
   return kAll;
 }
 

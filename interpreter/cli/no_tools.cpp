@@ -8,6 +8,7 @@ extern const Command kShowCommand = absent("show"), kNodesCommand = absent("node
                      kPluginCommand = absent("plugin"), kLogCommand = absent("log"),
                      kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
                      kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
-                     kNewCommand = absent("new"), kLspCommand = absent("lsp");
+                     kNewCommand = absent("new"), kFmtCommand = absent("fmt"),
+                     kLspCommand = absent("lsp");
 
 }  // namespace lockstep::host
