@@ -59,10 +59,12 @@ class Changes {
               std::ranges::count(text_.substr(patch.begin, patch.end - patch.begin), '\n');
   }
 
-  // To the line with this byte.
+  // To the line with this byte; the end of a text without a last line end is in its last line.
   void go_to(std::size_t byte) {
-    while (line_ < old_.size() && begin_ + old_[line_].size() <= byte)
+    while (line_ < old_.size() && old_[line_].ends_with('\n') &&
+           begin_ + old_[line_].size() <= byte) {
       begin_ += old_[line_++].size();
+    }
   }
 
   std::size_t new_line() const {
