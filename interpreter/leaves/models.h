@@ -35,17 +35,22 @@ struct LeafModel {
   struct Set {
     std::uint32_t fact;
     bool value;
+
+    friend bool operator==(const Set&, const Set&) = default;
   };
   std::vector<Set> sets;  // by a success
   struct Output {
     std::uint32_t port;
     std::uint32_t slot;
     std::vector<Value> values;
+
+    friend bool operator==(const Output&, const Output&) = default;
   };
   std::vector<Output> outputs;
   Writes writes = Writes::OnSuccess;
 
   bool drifts() const { return least_drift != 0 || most_drift != 0; }
+  friend bool operator==(const LeafModel&, const LeafModel&) = default;
 };
 
 struct Fact {

@@ -23,14 +23,15 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   const Nanoseconds period = from_seconds(1 / rate);
   constexpr std::uint64_t kBetweenLooks = 1000;  // of a search, at its stop signal
   std::uint64_t looks = 0;
-  const SearchResult found =
-      search(tree, models, {}, period, {.states = kMostStates, .stop_signal = [&looks] {
-                                          return ++looks > kMostTransitions / kBetweenLooks ? 1 : 0;
-                                        }});
+  const SearchResult found = search(
+      tree, models, {}, period,
+      {.states = kMostStates,
+       .stop_signal = [&looks] { return ++looks > kMostTransitions / kBetweenLooks ? 1 : 0; },
+       .symmetry = false});
   if (!found.is_complete()) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
-  Stepper stepper(tree, models, {}, period);
+  Stepper stepper(tree, models, {}, period, found.symmetry);
   for (StateId state = 0; state < found.store.size(); ++state) {
     stepper.load(found.store[state], state == 0);
     const std::vector<Activity> before = stepper.before().run.activity;

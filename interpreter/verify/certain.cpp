@@ -114,8 +114,8 @@ class Certainties {
         return false;
       };
     };
-    const bool goes_on = recurs(graph_, some(graph_.ended_bit(0), graph_.leaves));
-    const bool holds = recurs(graph_, some(graph_.held_bit(0), graph_.held));
+    const bool goes_on = recurs(graph_, some(graph_.shape.ended_bit(0), graph_.shape.leaves));
+    const bool holds = recurs(graph_, some(graph_.shape.held_bit(0), graph_.shape.held));
     if (goes_on || !holds) {
       certainties_.push_back(
           {0, Severity::Note, "this tree never ends, whatever its leaves do", ""});

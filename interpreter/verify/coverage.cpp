@@ -43,14 +43,30 @@ void SearchCoverage::look_at(Ticker& ticker, Synchronized& it) const {
   it.largest_spread = std::max(it.largest_spread, most - least);
 }
 
+void SearchCoverage::add(const Synchronized& from, Synchronized& to) {
+  to.limits.insert(from.limits.begin(), from.limits.end());
+  to.largest_spread = std::max(to.largest_spread, from.largest_spread);
+}
+
 void SearchCoverage::add(const SearchCoverage& other) {
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] |= other.seen_[i];
   for (std::size_t i = 0; i < synchronized_.size(); ++i) {
-    synchronized_[i].limits.insert(other.synchronized_[i].limits.begin(),
-                                   other.synchronized_[i].limits.end());
-    synchronized_[i].largest_spread =
-        std::max(synchronized_[i].largest_spread, other.synchronized_[i].largest_spread);
+    add(other.synchronized_[i], synchronized_[i]);
   }
+}
+
+void SearchCoverage::spread(const Symmetry& symmetry) {
+  for (NodeIndex node = 0; node < seen_.size(); ++node) {
+    seen_[symmetry.first_like(node)] |= seen_[node];
+  }
+  for (NodeIndex node = 0; node < seen_.size(); ++node) {
+    seen_[node] = seen_[symmetry.first_like(node)];
+  }
+  const auto first_of = [&](const Synchronized& it) -> Synchronized& {
+    return *std::ranges::find(synchronized_, symmetry.first_like(it.node), &Synchronized::node);
+  };
+  for (const Synchronized& it : synchronized_) add(it, first_of(it));
+  for (Synchronized& it : synchronized_) add(first_of(it), it);
 }
 
 }  // namespace lockstep::host

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/ticker.h"
+#include "verify/symmetry.h"
 
 namespace lockstep::host {
 
@@ -16,6 +17,8 @@ class SearchCoverage {
   // After each tick, before its state is folded.
   void after_tick(Ticker& ticker);
   void add(const SearchCoverage& other);
+  // What one node did, all did that can come to its place.
+  void spread(const Symmetry& symmetry);
 
   bool was_ticked(NodeIndex node) const { return (seen_[node] & kTicked) != 0; }
   bool has_been(NodeIndex node, Status status) const {
@@ -38,6 +41,7 @@ class SearchCoverage {
   static constexpr std::uint8_t kTicked = 0x80, kFired = 0x40;
 
   void look_at(Ticker& ticker, Synchronized& it) const;
+  static void add(const Synchronized& from, Synchronized& to);
 
   const Tree& tree_;
   std::vector<std::uint8_t> seen_;  // of each node: a bit for each status, and these

@@ -27,11 +27,11 @@ void Chunk::clear() {
 }
 
 Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-                   Nanoseconds period, const SearchLimits& limits)
+                   Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits)
     : tree_(tree),
       limits_(limits),
-      stepper_(tree, models, properties, period),
-      labeller_(tree, models, properties.size()),
+      stepper_(tree, models, properties, period, symmetry),
+      labeller_(tree, models, properties.size(), symmetry),
       coverage_(tree) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
     if (models.entries[slot]) values_.emplace_back(slot, std::set<std::string>());
@@ -107,8 +107,9 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
     return;
   }
   look_at_values(step, into);
-  const std::uint32_t label = labels_.add(labeller_.of(stepper_));
+  labeller_.of(stepper_);
   const StateBytes& state = stepper_.fold();
+  const std::uint32_t label = labels_.add(labeller_.with_moves(stepper_.origins()));
   const std::uint32_t hash = hash_of(state);
   StateId to = known_->find(state, hash);
   if (to == kNoState) {

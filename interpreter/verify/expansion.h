@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "verify/coverage.h"
+#include "verify/edge_rows.h"
 #include "verify/labels.h"
 #include "verify/search_limits.h"
 #include "verify/stepper.h"
@@ -58,13 +59,14 @@ class Expander {
  public:
   // All must outlive this.
   Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-           Nanoseconds period, const SearchLimits& limits);
+           Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits);
 
   StateBytes first_state() { return stepper_.first_state(); }
   // All ticks from these states. They can be cut by limits: then the chunk ends there.
   void expand(const StateStore& known, StateId first, StateId last, Nanoseconds began, Chunk& into);
 
   const LabelTable& labels() const { return labels_; }
+  LabelShape label_shape() const { return labeller_.shape(); }
   const SearchCoverage& coverage() const { return coverage_; }
 
  private:

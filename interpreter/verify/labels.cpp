@@ -1,11 +1,17 @@
 #include "verify/labels.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
 namespace lockstep::host {
+namespace {
+
+constexpr std::uint32_t kStays = 0xffffffff;
+
+}  // namespace
 
 std::vector<Holdable> holdable(const Tree& tree) {
   std::vector<Holdable> found;
@@ -17,12 +23,31 @@ std::vector<Holdable> holdable(const Tree& tree) {
   return found;
 }
 
-Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t properties)
+Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t properties,
+                   const Symmetry& symmetry)
     : tree_(tree),
       models_(models),
       held_(holdable(tree)),
       properties_(properties),
-      bits_((2 * tree.leaves.size() + held_.size() + properties) / 8 + 1) {}
+      number_of_leaf_(tree.nodes.size(), kStays),
+      number_of_held_(tree.nodes.size(), kStays),
+      bits_(LabelShape{tree.leaves.size(), held_.size(), properties}.bytes()) {
+  for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
+    const NodeIndex node = tree.leaves[i].node;
+    if (!symmetry.moves(node)) continue;
+    number_of_leaf_[node] = static_cast<std::uint32_t>(moving_leaves_.size());
+    moving_leaves_.push_back(i);
+  }
+  for (std::uint32_t i = 0; i < held_.size(); ++i) {
+    if (!symmetry.moves(held_[i].child)) continue;
+    number_of_held_[held_[i].child] = static_cast<std::uint32_t>(moving_held_.size());
+    moving_held_.push_back(i);
+  }
+}
+
+LabelShape Labeller::shape() const {
+  return {tree_.leaves.size(), held_.size(), properties_, moving_leaves_, moving_held_};
+}
 
 const LabelTable::Bits& Labeller::of(Stepper& stepper) {
   const Ticker& ticker = stepper.ticker();
@@ -43,6 +68,50 @@ const LabelTable::Bits& Labeller::of(Stepper& stepper) {
     if (stepper.owes(i)) LabelTable::set(bits_, 2 * marks.size() + held_.size() + i);
   }
   return bits_;
+}
+
+const LabelTable::Bits& Labeller::with_moves(std::span<const NodeIndex> origins) {
+  if (origins.empty()) return bits_;
+  with_moves_.resize(bits_.size() +
+                     (moving_leaves_.size() + moving_held_.size()) * sizeof(LabelShape::Place));
+  std::ranges::copy(bits_, with_moves_.begin());
+  const auto put = [&](std::size_t from, std::size_t to) {
+    const auto place = static_cast<LabelShape::Place>(to);
+    std::memcpy(with_moves_.data() + bits_.size() + from * sizeof place, &place, sizeof place);
+  };
+  const std::size_t leaves = moving_leaves_.size();
+  for (std::size_t to = 0; to < leaves; ++to) {
+    put(number_of_leaf_[origins[tree_.leaves[moving_leaves_[to]].node]], to);
+  }
+  for (std::size_t to = 0; to < moving_held_.size(); ++to) {
+    put(leaves + number_of_held_[origins[held_[moving_held_[to]].child]], leaves + to);
+  }
+  return with_moves_;
+}
+
+LabelTable::Bits Labeller::moved(const LabelTable::Bits& bits,
+                                 std::span<const NodeIndex> places) const {
+  const LabelShape shape = this->shape();
+  LabelTable::Bits moved = bits;
+  const auto move = [&](std::size_t from, std::size_t to) {
+    if (LabelTable::has(bits, from)) LabelTable::set(moved, to);
+  };
+  const auto clear = [&](std::size_t bit) { moved[bit / 8] &= ~(std::byte{1} << bit % 8); };
+  for (const std::uint32_t leaf : moving_leaves_) {
+    clear(shape.worked_bit(leaf));
+    clear(shape.ended_bit(leaf));
+  }
+  for (const std::uint32_t child : moving_held_) clear(shape.held_bit(child));
+  for (const std::uint32_t leaf : moving_leaves_) {
+    const std::size_t to = moving_leaves_[number_of_leaf_[places[tree_.leaves[leaf].node]]];
+    move(shape.worked_bit(leaf), shape.worked_bit(to));
+    move(shape.ended_bit(leaf), shape.ended_bit(to));
+  }
+  for (const std::uint32_t child : moving_held_) {
+    const std::size_t to = moving_held_[number_of_held_[places[held_[child].child]]];
+    move(shape.held_bit(child), shape.held_bit(to));
+  }
+  return moved;
 }
 
 // Who waits for resources is held also before it has begun.

@@ -1,7 +1,7 @@
-// What matters of a tick for a run that never ends, read from the engine: see LabelTable.
+// Reads from the engine what matters of a tick for a run that never ends: see LabelShape.
 #pragma once
 
-#include "verify/graph.h"
+#include "verify/label_table.h"
 #include "verify/stepper.h"
 
 namespace lockstep::host {
@@ -14,12 +14,18 @@ std::vector<Holdable> holdable(const Tree& tree);
 
 class Labeller {
  public:
-  // Both must outlive this.
-  Labeller(const Tree& tree, const LeafModels& models, std::size_t properties);
+  // All must outlive this.
+  Labeller(const Tree& tree, const LeafModels& models, std::size_t properties,
+           const Symmetry& symmetry);
 
-  const std::vector<Holdable>& held() const { return held_; }
+  // What a graph with these labels says of them.
+  LabelShape shape() const;
   // After a tick, before its state is folded. Valid until the next call.
   const LabelTable::Bits& of(Stepper& stepper);
+  // The same once the state is folded, with where everything went; `origins` are Stepper's.
+  const LabelTable::Bits& with_moves(std::span<const NodeIndex> origins);
+  // A label without moves, of the same tick in a run where each node is at one of these places.
+  LabelTable::Bits moved(const LabelTable::Bits& bits, std::span<const NodeIndex> places) const;
 
  private:
   bool is_held(const Ticker& ticker, const Holdable& it) const;
@@ -28,7 +34,9 @@ class Labeller {
   const LeafModels& models_;
   const std::vector<Holdable> held_;
   const std::size_t properties_;
-  LabelTable::Bits bits_;
+  std::vector<std::uint32_t> moving_leaves_, moving_held_;
+  std::vector<std::uint32_t> number_of_leaf_, number_of_held_;  // of nodes: among those that move
+  LabelTable::Bits bits_, with_moves_;
 };
 
 }  // namespace lockstep::host

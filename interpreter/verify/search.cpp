@@ -20,13 +20,13 @@ class Searcher {
   Searcher(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
            Nanoseconds period, const SearchLimits& limits)
       : tree_(tree), limits_(limits), crew_(std::max(1u, limits.jobs)), result_(tree) {
+    if (limits.symmetry) result_.symmetry = Symmetry(tree, models, nodes_of(properties, tree));
     for (unsigned i = 0; i < std::max(1u, limits.jobs); ++i) {
-      expanders_.push_back(std::make_unique<Expander>(tree, models, properties, period, limits));
+      expanders_.push_back(
+          std::make_unique<Expander>(tree, models, properties, period, result_.symmetry, limits));
     }
     labels_.resize(expanders_.size());
-    result_.graph.leaves = tree.leaves.size();
-    result_.graph.held = holdable(tree).size();
-    result_.graph.properties = properties.size();
+    result_.graph.shape = expanders_[0]->label_shape();
   }
 
   SearchResult search() {
@@ -39,6 +39,7 @@ class Searcher {
       done = last;
     }
     for (const auto& it : expanders_) result_.coverage.add(it->coverage());
+    result_.coverage.spread(result_.symmetry);
     result_.took = monotonic_now() - began_;
     return std::move(result_);
   }

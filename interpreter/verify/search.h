@@ -9,6 +9,7 @@
 #include <string>
 
 #include "verify/expansion.h"
+#include "verify/graph.h"
 
 namespace lockstep::host {
 
@@ -17,17 +18,13 @@ struct Occurrence {
   std::uint32_t ticks = 0;  // of a run until then, this one too
 };
 
-struct FaultFound {
-  NodeIndex node = 0;
-  std::string message;
-};
-
 struct SearchResult {
   explicit SearchResult(const Tree& tree) : coverage(tree) {}
 
   SearchEnd end = SearchEnd::Complete;
   std::string note;  // of Values: which entry
   int signal = 0;
+  Symmetry symmetry;
   StateStore store;
   std::deque<Step> before;      // of each state: the tick that found it; of the first none
   std::vector<StateId> depths;  // the first state of each depth

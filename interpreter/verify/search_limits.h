@@ -1,4 +1,4 @@
-// What ends a search, and what is told while it goes on.
+// A search ends at these limits. Here is also how it is made, and its progress.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +27,7 @@ struct SearchLimits {
   std::function<int()> stop_signal = {};                 // nonzero: stop; any thread calls it
   std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
   unsigned jobs = 1;                                     // threads; all find the same
+  bool symmetry = true;                                  // states of equal children count once
 };
 
 enum class SearchEnd : std::uint8_t {

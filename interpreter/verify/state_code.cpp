@@ -6,10 +6,9 @@
 #include "engine/blackboard.h"
 
 namespace lockstep::host {
-namespace {
 
 // A value is its alternative and its bytes.
-class Writer {
+class StateCode::Writer {
  public:
   explicit Writer(StateBytes& to) : to_(to) {}
 
@@ -76,9 +75,11 @@ class Writer {
   StateBytes& to_;
 };
 
-class ByteReader {
+class StateCode::ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> from) : from_(from) {}
+
+  std::span<const std::byte> rest() const { return from_; }
 
   void bytes(void* to, std::size_t size) {
     std::memcpy(to, from_.data(), size);
@@ -149,6 +150,8 @@ class ByteReader {
   std::span<const std::byte> from_;
 };
 
+namespace {
+
 // What a node keeps beside its activity may say when it was held.
 bool keeps_pause(const Tree& tree, NodeIndex node, const LeafModels& models) {
   const Node& it = tree.nodes[node];
@@ -160,8 +163,8 @@ bool keeps_pause(const Tree& tree, NodeIndex node, const LeafModels& models) {
 }  // namespace
 
 StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
-                     std::vector<bool> watched)
-    : tree_(tree), models_(models), fresh_(fresh), activity_(tree.nodes.size()) {
+                     std::vector<bool> watched, const Symmetry& symmetry)
+    : tree_(tree), models_(models), fresh_(fresh), order_(tree, symmetry) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
     if (models.entries[slot]) entries_.push_back(slot);
   }
@@ -181,37 +184,41 @@ void StateCode::before_fold(const Ticker& ticker) {
 // A node that is held and would not be told apart from one that runs is one that runs: the next
 // tick holds it again. Not below one that stays held, since nobody looks below it.
 void StateCode::find_held(const Ticker& ticker) {
-  const auto& from = ticker.run_state().activity;
+  kept_.activity = ticker.run_state().activity;
   NodeIndex stays_until = 0;
-  for (NodeIndex node = 0; node < from.size(); ++node) {
-    activity_[node] = from[node];
-    if (from[node] != Activity::Paused || node < stays_until) continue;
+  for (NodeIndex node = 0; node < kept_.activity.size(); ++node) {
+    if (kept_.activity[node] != Activity::Paused || node < stays_until) continue;
     if (keeps_pause_[node]) {
       stays_until = tree_.nodes[node].end;
     } else {
-      activity_[node] = Activity::Running;
+      kept_.activity[node] = Activity::Running;
     }
   }
 }
 
-void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
-                       std::span<const std::byte> properties, StateBytes& into) {
-  find_held(ticker);
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    if (has_ended(status_of(seen_[i]))) activity_[watched_[i]] = seen_[i];
-  }
-  into.clear();
-  Writer writer(into);
-  const RunState& state = ticker.run_state();
-  writer.sparse(reinterpret_cast<const std::byte*>(activity_.data()), activity_.size());
-  writer.sparse(reinterpret_cast<const std::byte*>(state.bytes.data()),
-                state.bytes.size() * sizeof(std::uint64_t));
-  for (std::size_t i = 0; i < leaves.states().size(); ++i) {
-    const LeafState& leaf = leaves.states()[i];
+void StateCode::write(const KeptState& state, Writer& writer) {
+  writer.sparse(reinterpret_cast<const std::byte*>(state.activity.data()), state.activity.size());
+  writer.sparse(reinterpret_cast<const std::byte*>(state.words.data()),
+                state.words.size() * sizeof(std::uint64_t));
+  for (const LeafState& leaf : state.leaves) {
     if (leaf.phase == Phase::Idle) continue;
     writer.number(leaf.ticks);
     writer.number(leaf.level);
   }
+}
+
+void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
+                       std::span<const std::byte> properties, Children children, StateBytes& into) {
+  find_held(ticker);
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (has_ended(status_of(seen_[i]))) kept_.activity[watched_[i]] = seen_[i];
+  }
+  kept_.words = ticker.run_state().bytes;
+  kept_.leaves = leaves.states();
+  if (children == Children::Sorted) order_.sort(kept_);
+  into.clear();
+  Writer writer(into);
+  write(kept_, writer);
   writer.bytes(leaves.facts().data(), leaves.facts().size());
   writer.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {
@@ -226,23 +233,44 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
   }
 }
 
+void StateCode::read(ByteReader& reader, KeptState& state) const {
+  state.activity.resize(tree_.nodes.size());
+  state.words.resize(fresh_.run.bytes.size());
+  state.leaves.assign(tree_.leaves.size(), {});
+  reader.sparse(reinterpret_cast<std::byte*>(state.activity.data()), state.activity.size());
+  reader.sparse(reinterpret_cast<std::byte*>(state.words.data()),
+                state.words.size() * sizeof(std::uint64_t));
+  for (std::size_t i = 0; i < state.leaves.size(); ++i) {
+    const Activity activity = state.activity[tree_.leaves[i].node];
+    if (status_of(activity) != Status::Running) continue;
+    LeafState& leaf = state.leaves[i];
+    leaf.phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
+    leaf.ticks = reader.number();
+    leaf.level = static_cast<std::uint16_t>(reader.number());
+  }
+}
+
+void StateCode::move(std::span<const std::byte> from, std::span<const NodeIndex> places,
+                     StateBytes& into) {
+  ByteReader reader(from);
+  read(reader, kept_);
+  order_.move(kept_, places);
+  into.clear();
+  Writer writer(into);
+  write(kept_, writer);
+  writer.bytes(reader.rest().data(), reader.rest().size());
+}
+
 void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
                        std::vector<LeafState>& leaves, std::vector<FactState>& facts,
-                       std::span<std::byte> properties) const {
+                       std::span<std::byte> properties) {
   ByteReader reader(from);
-  reader.sparse(reinterpret_cast<std::byte*>(run.run.activity.data()), run.run.activity.size());
-  reader.sparse(reinterpret_cast<std::byte*>(run.run.bytes.data()),
-                run.run.bytes.size() * sizeof(std::uint64_t));
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const Activity activity = run.run.activity[tree_.leaves[i].node];
-    const bool runs = status_of(activity) == Status::Running;
-    run.leaves[i].started = runs;
-    leaves[i] = {};
-    if (!runs) continue;
-    leaves[i].phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
-    leaves[i].ticks = reader.number();
-    leaves[i].level = static_cast<std::uint16_t>(reader.number());
-  }
+  read(reader, kept_);
+  run.run.activity = kept_.activity;
+  run.run.bytes = kept_.words;
+  leaves = kept_.leaves;
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+    run.leaves[i].started = leaves[i].phase != Phase::Idle;
   reader.bytes(facts.data(), facts.size());
   reader.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {

@@ -9,6 +9,7 @@
 #include "engine/saved_run.h"
 #include "engine/ticker.h"
 #include "leaves/model_leaf.h"
+#include "verify/child_order.h"
 
 namespace lockstep::host {
 
@@ -19,19 +20,28 @@ class StateCode {
   // `fresh` is a run before its first tick. All must outlive this.
   // `watched`: the nodes whose statuses count even where the tree does not look at them.
   StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
-            std::vector<bool> watched);
+            std::vector<bool> watched, const Symmetry& symmetry);
 
   // What a fold would forget of those.
   void before_fold(const Ticker& ticker);
 
-  // Of a run that is folded.
+  // Of a run that is folded, with equal children in one order or as they are.
+  enum class Children : std::uint8_t { Sorted, AsTheyAre };
   void encode(const Ticker& ticker, ModelLeaves& leaves, std::span<const std::byte> properties,
-              StateBytes& into);
+              Children children, StateBytes& into);
+  // Of each place, the node that was there before it was encoded; empty if none has moved.
+  std::span<const NodeIndex> origins() const { return order_.origins(); }
+  // The state in which each node is at one of these places.
+  void move(std::span<const std::byte> from, std::span<const NodeIndex> places, StateBytes& into);
   void decode(std::span<const std::byte> from, SavedRun& run, std::vector<LeafState>& leaves,
-              std::vector<FactState>& facts, std::span<std::byte> properties) const;
+              std::vector<FactState>& facts, std::span<std::byte> properties);
 
  private:
+  class Writer;
+  class ByteReader;
   void find_held(const Ticker& ticker);
+  static void write(const KeptState& state, Writer& writer);
+  void read(ByteReader& reader, KeptState& state) const;
 
   const Tree& tree_;
   const LeafModels& models_;
@@ -39,8 +49,9 @@ class StateCode {
   std::vector<std::uint32_t> entries_;  // the slots that are in the state
   std::vector<bool> keeps_pause_;       // of each node: it is not the same held or not
   std::vector<NodeIndex> watched_;
-  std::vector<Activity> seen_;      // of those, before the fold
-  std::vector<Activity> activity_;  // of each node, as it is encoded
+  std::vector<Activity> seen_;  // of those, before the fold
+  ChildOrder order_;
+  KeptState kept_;  // as it is encoded
 };
 
 }  // namespace lockstep::host

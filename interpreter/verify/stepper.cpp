@@ -16,7 +16,7 @@ SavedRun saved(const Ticker& ticker) {
 }  // namespace
 
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-                 Nanoseconds period)
+                 Nanoseconds period, const Symmetry& symmetry)
     : period_(period),
       board_(tree),
       leaves_(tree, models, board_, odometer_),
@@ -24,7 +24,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       watch_(tree, properties),
       fresh_(saved(ticker_)),
       from_(fresh_),
-      code_(tree, models, fresh_, nodes_of(properties, tree)),
+      code_(tree, models, fresh_, nodes_of(properties, tree), symmetry),
       parameters_(tree, fresh_),
       from_leaves_(leaves_.states()),
       from_facts_(leaves_.facts()),
@@ -35,7 +35,7 @@ StateBytes Stepper::first_state() {
   ticker_.restore(fresh_);
   watch_.begin(property_bytes_.data());
   StateBytes state;
-  code_.encode(ticker_, leaves_, property_bytes_, state);
+  code_.encode(ticker_, leaves_, property_bytes_, StateCode::Children::AsTheyAre, state);
   return state;
 }
 
@@ -78,8 +78,19 @@ const StateBytes& Stepper::fold() {
   code_.before_fold(ticker_);
   ticker_.fold();
   leaves_.fold();
-  code_.encode(ticker_, leaves_, property_bytes_, folded_);
+  code_.encode(ticker_, leaves_, property_bytes_, StateCode::Children::Sorted, folded_);
   return folded_;
+}
+
+const StateBytes& Stepper::in_place() {
+  code_.encode(ticker_, leaves_, property_bytes_, StateCode::Children::AsTheyAre, moved_);
+  return moved_;
+}
+
+const StateBytes& Stepper::moved(std::span<const std::byte> state,
+                                 std::span<const NodeIndex> places) {
+  code_.move(state, places, moved_);
+  return moved_;
 }
 
 }  // namespace lockstep::host

@@ -16,7 +16,7 @@ class Stepper {
  public:
   // All must outlive this.
   Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-          Nanoseconds period);
+          Nanoseconds period, const Symmetry& symmetry);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -28,8 +28,14 @@ class Stepper {
   // The root's status; Running also after a fault. What the tick did can be looked at until `fold`.
   Status tick();
   bool next() { return odometer_.next(); }
-  // The state after a tick.
+  // The state after a tick, with equal children in one order. Valid until the next call.
   const StateBytes& fold();
+  // After that, of each place: the node that had what it has; empty if none has moved.
+  std::span<const NodeIndex> origins() const { return code_.origins(); }
+  // The same state, with all children where they are.
+  const StateBytes& in_place();
+  // A state in which each node is at one of these places.
+  const StateBytes& moved(std::span<const std::byte> state, std::span<const NodeIndex> places);
 
   // The state that was loaded.
   const SavedRun& before() const { return from_; }
@@ -54,7 +60,7 @@ class Stepper {
   std::vector<FactState> from_facts_;
   StateBytes property_bytes_, from_properties_;
   Nanoseconds time_{0};
-  StateBytes folded_;
+  StateBytes folded_, moved_;
 };
 
 }  // namespace lockstep::host

@@ -1,30 +1,49 @@
 #include "verify/trace.h"
 
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
 
 namespace lockstep::host {
+
+// All of a tick that a search tells apart.
+struct Tracer::Outcome {
+  Status status;
+  std::optional<NodeIndex> fault;
+  bool is_broken;
+  std::vector<std::size_t> violated;
+  LabelTable::Bits label;
+  StateBytes state = {};     // empty: the run has ended
+  StateBytes searched = {};  // the same with equal children in one order
+
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
 
 Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                Nanoseconds period, const SearchResult& found)
     : tree_(tree),
       models_(models),
       found_(found),
-      stepper_(tree, models, properties, period),
-      labeller_(tree, models, properties.size()) {}
+      stepper_(tree, models, properties, period, found.symmetry),
+      labeller_(tree, models, properties.size(), found.symmetry) {}
 
 Step Tracer::step_of(const CycleStep& wanted) {
-  stepper_.load(found_.store[wanted.from], wanted.from == 0);
   const auto to = found_.store[wanted.edge.to];
+  const auto label = found_.graph.labels[wanted.edge.label];
+  stepper_.load(found_.store[wanted.from], wanted.from == 0);
   Step step{wanted.from, 0};
   do {
     const Status status = stepper_.tick();
-    const bool goes_on = status == Status::Running && !stepper_.ticker().faulted();
-    const bool is_label =
-        std::ranges::equal(labeller_.of(stepper_), found_.graph.labels[wanted.edge.label]);
-    if (goes_on && is_label && std::ranges::equal(stepper_.fold(), to)) return step;
+    if (status == Status::Running && !stepper_.ticker().faulted()) {
+      labeller_.of(stepper_);
+      const bool is_there = std::ranges::equal(stepper_.fold(), to);
+      if (is_there && std::ranges::equal(labeller_.with_moves(stepper_.origins()), label)) {
+        return step;
+      }
+    }
     ++step.combination;
   } while (stepper_.next());
-  return step;  // not reached: the edge is of this search
+  throw std::logic_error("an edge of a search is not there any more");
 }
 
 std::vector<Step> Tracer::steps_of(std::span<const CycleStep> edges) {
@@ -33,20 +52,85 @@ std::vector<Step> Tracer::steps_of(std::span<const CycleStep> edges) {
   return steps;
 }
 
-void Tracer::play(std::span<const Step> run, const After& after) {
-  for (std::size_t tick = 0; tick < run.size(); ++tick) {
-    const Step& step = run[tick];
-    stepper_.load(found_.store[step.from], step.from == 0);
-    Status status = stepper_.tick();
-    for (std::uint32_t i = 0; i < step.combination; ++i) {
-      stepper_.next();
-      status = stepper_.tick();
+Trail Tracer::begin(std::vector<NodeIndex> nodes) {
+  if (nodes.empty()) {
+    nodes.resize(tree_.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), NodeIndex{0});
+  }
+  const StateBytes first = stepper_.first_state();
+  return {{}, first, first, std::move(nodes)};
+}
+
+Status Tracer::tick(const TracedTick& tick) {
+  stepper_.load(tick.before, tick.is_first);
+  Status status = stepper_.tick();
+  for (std::uint32_t i = 0; i < tick.combination; ++i) {
+    stepper_.next();
+    status = stepper_.tick();
+  }
+  return status;
+}
+
+Tracer::Outcome Tracer::outcome(Status status) {
+  const Fault* fault = stepper_.ticker().fault();
+  Outcome outcome{status,
+                  fault != nullptr ? std::optional(fault->node) : std::nullopt,
+                  !stepper_.leaves().broken().empty(),
+                  {stepper_.violated().begin(), stepper_.violated().end()},
+                  labeller_.of(stepper_)};
+  if (status == Status::Running && fault == nullptr) {
+    outcome.searched = stepper_.fold();
+    outcome.state = stepper_.in_place();
+  }
+  return outcome;
+}
+
+// The run does in its places what the search does in others.
+void Tracer::go(Trail& trail, std::span<const Step> steps) {
+  const bool may_move = !found_.symmetry.empty();
+  for (const Step& step : steps) {
+    TracedTick next{trail.searched, step.from == 0, step.combination};
+    Outcome wanted = outcome(tick(next));
+    trail.searched = wanted.searched;
+    if (may_move) {
+      const std::vector<NodeIndex> nodes = trail.nodes;
+      if (!wanted.state.empty()) {
+        const auto origins = stepper_.origins();
+        for (std::size_t i = 0; i < origins.size(); ++i) trail.nodes[i] = nodes[origins[i]];
+        wanted.state = stepper_.moved(wanted.state, nodes);
+      }
+      wanted.label = labeller_.moved(wanted.label, nodes);
+      next.before = trail.now;
+      next.combination = find(next, wanted);
     }
-    after(stepper_, status, tick);
+    trail.now = wanted.state;
+    trail.run.push_back(std::move(next));
   }
 }
 
-LeafScripts Tracer::scripts(std::span<const Step> run) {
+// The first combination with this outcome.
+std::uint32_t Tracer::find(const TracedTick& tick, const Outcome& wanted) {
+  stepper_.load(tick.before, tick.is_first);
+  std::uint32_t combination = 0;
+  do {
+    if (outcome(stepper_.tick()) == wanted) return combination;
+    ++combination;
+  } while (stepper_.next());
+  throw std::logic_error("children that change places are not equal");
+}
+
+void Tracer::go_round(Trail& trail, std::span<const Step> cycle) {
+  const StateBytes start = trail.now;
+  do {
+    go(trail, cycle);
+  } while (trail.now != start);
+}
+
+void Tracer::play(const TracedRun& run, const After& after) {
+  for (std::size_t i = 0; i < run.size(); ++i) after(stepper_, tick(run[i]), i);
+}
+
+LeafScripts Tracer::scripts(const TracedRun& run) {
   LeafScripts scripts;
   scripts.ticks = run.size();
   play(run, [&](Stepper&, Status, std::size_t) { add_words(scripts); });

@@ -9,24 +9,52 @@
 
 namespace lockstep::host {
 
+// A tick of a run: the state before it, with each child where it is in that run, and which of its
+// combinations of answers.
+struct TracedTick {
+  StateBytes before;
+  bool is_first = false;
+  std::uint32_t combination = 0;
+};
+using TracedRun = std::vector<TracedTick>;
+
+// A run along steps of a search, as far as it has come. Where equal children have changed places in
+// the search, they stay in theirs in the run.
+struct Trail {
+  TracedRun run;
+  StateBytes now, searched;      // the state that it has come to, and the one of the search
+  std::vector<NodeIndex> nodes;  // of each place in the search: the node of the run that is there
+};
+
 class Tracer {
  public:
   // All must outlive this.
   Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
          Nanoseconds period, const SearchResult& found);
 
-  // The combination of answers that takes a state over this edge.
-  Step step_of(const CycleStep& edge);
+  // The combinations of answers that take states over these edges.
   std::vector<Step> steps_of(std::span<const CycleStep> edges);
+
+  // `nodes`: of each place, the node that begins there; empty: its own.
+  Trail begin(std::vector<NodeIndex> nodes = {});
+  void go(Trail& trail, std::span<const Step> steps);
+  // Rounds of a cycle until everything is where it was.
+  void go_round(Trail& trail, std::span<const Step> cycle);
 
   // After each tick; its state is not folded yet.
   using After = std::function<void(Stepper&, Status status, std::size_t tick)>;
-  void play(std::span<const Step> run, const After& after);
+  void play(const TracedRun& run, const After& after);
 
   // What each leaf does in this run.
-  LeafScripts scripts(std::span<const Step> run);
+  LeafScripts scripts(const TracedRun& run);
 
  private:
+  struct Outcome;
+
+  Step step_of(const CycleStep& edge);
+  Status tick(const TracedTick& tick);
+  Outcome outcome(Status status);
+  std::uint32_t find(const TracedTick& tick, const Outcome& wanted);
   void add_words(LeafScripts& scripts);
 
   const Tree& tree_;

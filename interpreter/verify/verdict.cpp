@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "core/wording.h"
@@ -10,7 +11,8 @@
 #include "engine/synchronized.h"
 #include "measure/stall.h"
 #include "summary/standstill_text.h"
-#include "verify/trace.h"
+#include "verify/fair_cycle.h"
+#include "verify/holds.h"
 
 namespace lockstep::host {
 namespace {
@@ -39,6 +41,7 @@ class VerdictMaker {
         tracer_(tree, models, properties, period_, found) {}
 
   Verdict make() {
+    say_symmetry();
     say_results();
     look_for_traps();
     look_for_cycles();
@@ -63,10 +66,24 @@ class VerdictMaker {
     const std::string place = options_.place ? options_.place(node) : "";
     return place.empty() ? tree_.path(node) : fmt::format("{} ({})", tree_.path(node), place);
   }
-  std::vector<Step> run_to(const Occurrence& it) const {
-    std::vector<Step> run = found_.way_to(it.step.from);
-    run.push_back(it.step);
-    return run;
+  TracedRun run_to(const Occurrence& it) {
+    std::vector<Step> steps = found_.way_to(it.step.from);
+    steps.push_back(it.step);
+    Trail trail = tracer_.begin();
+    tracer_.go(trail, steps);
+    return std::move(trail.run);
+  }
+
+  void say_symmetry() {
+    for (const EqualChildren& it : found_.symmetry.classes()) {
+      const NodeIndex first = it.places.front().node;
+      // One line for the classes of parallels that are alike themselves.
+      if (found_.symmetry.first_like(first) != first) continue;
+      std::vector<std::string> names;
+      for (const auto& place : it.places) names.push_back(tree_.segment(place.node));
+      say("alike", fmt::format("{} of {}: states in which they have changed places count once",
+                               some_of(names), tree_.path(tree_.labels[first].parent)));
+    }
   }
 
   // --- how a run ends ----------------------------------------------------------------------------
@@ -93,8 +110,7 @@ class VerdictMaker {
     }
     const auto state = static_cast<StateId>(doomed - can_end_.begin());
     Finding trap{.name = "trap", .message = {}};
-    trap.run = found_.way_to(state);
-    const std::size_t ticks = trap.run.size();
+    const std::size_t ticks = found_.way_to(state).size();
     const std::vector<bool> reached = reachable_from(graph_, state);
     const EdgeFilter inside = [&](const Edge& edge) { return bool(reached[edge.to]); };
     auto cycle = fair_cycle(graph_, inside);
@@ -111,18 +127,30 @@ class VerdictMaker {
     verdict_.findings.push_back(std::move(trap));
   }
 
-  // From a state to the cycle, and two rounds of it.
-  void add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding) {
-    if (cycle.empty()) return;
-    std::vector<bool> is_goal(graph_.ends.size());
-    is_goal[cycle.front().from] = true;
-    if (from != cycle.front().from) {
-      const auto way = tracer_.steps_of(shortest_way(graph_, from, is_goal));
-      finding.run.insert(finding.run.end(), way.begin(), way.end());
+  // The ticks to a state, from it to the cycle, and two rounds of that. Returns how long one is.
+  std::size_t add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding) {
+    return add_lasso(from, cycle, finding, tracer_.begin());
+  }
+  std::size_t add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding,
+                        Trail trail) {
+    tracer_.go(trail, found_.way_to(from));
+    std::size_t round = 0;
+    if (!cycle.empty()) {
+      tracer_.go(trail, way_to_cycle(from, cycle));
+      finding.repeats = trail.run.size();
+      tracer_.go_round(trail, tracer_.steps_of(cycle));
+      round = trail.run.size() - *finding.repeats;
+      for (std::size_t i = 0; i < round; ++i) trail.run.push_back(trail.run[*finding.repeats + i]);
     }
-    finding.repeats = finding.run.size();
-    const auto round = tracer_.steps_of(cycle);
-    for (int i = 0; i < 2; ++i) finding.run.insert(finding.run.end(), round.begin(), round.end());
+    finding.run = std::move(trail.run);
+    return round;
+  }
+
+  std::vector<Step> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
+    if (from == cycle.front().from) return {};
+    std::vector<bool> is_goal(graph_.states());
+    is_goal[cycle.front().from] = true;
+    return tracer_.steps_of(shortest_way(graph_, from, is_goal));
   }
 
   // Who waits for whom in the end, as a run would report it.
@@ -131,11 +159,11 @@ class VerdictMaker {
     StallWatch watch(tree_, period_ / 2, [&](const Standstill& standstill) {
       lines = standstill_lines(tree_, standstill);
     });
-    std::vector<Step> run = finding.run;
+    TracedRun run = finding.run;
     if (finding.repeats) {
       const std::size_t round = (run.size() - *finding.repeats) / 2;
       while (run.size() < *finding.repeats + 8) {
-        const std::vector<Step> more(run.end() - static_cast<std::ptrdiff_t>(round), run.end());
+        const TracedRun more(run.end() - static_cast<std::ptrdiff_t>(round), run.end());
         run.insert(run.end(), more.begin(), more.end());
       }
     }
@@ -180,14 +208,11 @@ class VerdictMaker {
       return;
     }
     Finding finding{.name = "cycle", .message = {}};
-    finding.run = found_.way_to(cycle.front().from);
-    finding.repeats = finding.run.size();
-    const auto round = tracer_.steps_of(cycle);
-    for (int i = 0; i < 2; ++i) finding.run.insert(finding.run.end(), round.begin(), round.end());
+    const std::string round = counted(add_lasso(cycle.front().from, cycle, finding), "tick");
     finding.message = fmt::format("it may go on for ever: from tick {} on it repeats a cycle of {}",
-                                  *finding.repeats, counted(cycle.size(), "tick"));
+                                  *finding.repeats, round);
     finding.more.push_back(what_happens(finding));
-    say("always ends", fmt::format("NO: a cycle of {}", counted(cycle.size(), "tick")));
+    say("always ends", fmt::format("NO: a cycle of {}", round));
     verdict_.findings.push_back(std::move(finding));
   }
 
@@ -216,15 +241,14 @@ class VerdictMaker {
   // --- who is held -------------------------------------------------------------------------------
 
   void look_for_starvation() {
-    if (models_.tree_ends) return;
-    for (std::size_t i = 0; i < held_.size(); ++i) {
-      const auto cycle = starving(i);
-      if (cycle.empty()) continue;
+    for (std::size_t i = 0; i < held_.size() && !models_.tree_ends; ++i) {
+      const auto& endless = hold_of(i).for_ever;
+      if (!endless) continue;
       const NodeIndex child = held_[i].child;
       Finding finding{.name = "starvation/" + tree_.path(child), .message = {}};
       finding.node = child;
-      finding.run = found_.way_to(cycle.front().from);
-      add_lasso(cycle.front().from, cycle, finding);
+      const StateId start = endless->cycle.front().from;
+      add_lasso(start, endless->cycle, finding, trail_for(child, endless->child, start));
       finding.message = fmt::format("{} may be held for ever by '{}'", at(child),
                                     tree_.labels[held_[i].holder].name);
       finding.more = why_it_stands(finding);
@@ -232,22 +256,49 @@ class VerdictMaker {
     }
   }
 
-  std::vector<CycleStep> starving(std::size_t held) const {
-    const std::size_t bit = graph_.held_bit(held);
-    return fair_cycle(graph_, [&](const Edge& edge) { return graph_.has(edge, bit); });
+  // A run in which the child that is held when it comes to the state is this one.
+  Trail trail_for(NodeIndex child, std::size_t held, StateId state) {
+    if (!found_.symmetry.moves(child)) return tracer_.begin();
+    Trail trail = tracer_.begin();
+    tracer_.go(trail, found_.way_to(state));
+    return tracer_.begin(found_.symmetry.exchange(trail.nodes[held_[held].child], child));
+  }
+
+  struct HoldOfChild {
+    std::optional<std::uint64_t> longest;
+    std::optional<Holds::Endless> for_ever;
+  };
+
+  // One answer for all children that may change places.
+  const HoldOfChild& hold_of(std::size_t held) {
+    const auto is_like = [&](std::size_t other) {
+      return found_.symmetry.first_like(held_[other].child) ==
+             found_.symmetry.first_like(held_[held].child);
+    };
+    std::vector<std::size_t> like;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (i == held || (found_.symmetry.moves(held_[held].child) && is_like(i))) like.push_back(i);
+    }
+    const auto [it, is_new] = holds_.try_emplace(like.front());
+    if (is_new) {
+      const Holds holds(graph_, like);
+      it->second.longest = holds.longest();
+      // Without an end only where a cycle is.
+      if (!it->second.longest) it->second.for_ever = holds.for_ever();
+    }
+    return it->second;
   }
 
   void say_holds() {
     if (!found_.is_complete()) return;
     for (std::size_t i = 0; i < held_.size(); ++i) {
-      const LongestRow row = longest_row(graph_, graph_.held_bit(i));
+      const HoldOfChild& hold = hold_of(i);
       const std::string name = "held: " + tree_.path(held_[i].child);
-      if (row.is_endless) {
-        say(name, starving(i).empty() ? "as long as others take" : "may be held for ever");
-      } else if (row.ticks > 0) {
-        say(name, fmt::format("at most {}", counted(row.ticks, "tick")));
+      if (!hold.longest) {
+        say(name, hold.for_ever ? "may be held for ever" : "as long as others take");
       } else {
-        say(name, "never");
+        say(name, *hold.longest == 0 ? "never"
+                                     : fmt::format("at most {}", counted(*hold.longest, "tick")));
       }
     }
   }
@@ -299,18 +350,17 @@ class VerdictMaker {
       finding.message = fmt::format("property '{}' is violated after {}", name,
                                     counted(it->second.ticks, "tick"));
     } else {
-      const std::size_t bit = graph_.owed_bit(number);
+      const std::size_t bit = graph_.shape.owed_bit(number);
       const auto cycle =
           fair_cycle(graph_, [&](const Edge& edge) { return graph_.has(edge, bit); });
       if (cycle.empty()) {
         if (found_.is_complete()) say_good(fmt::format("property '{}'", name), "holds");
         return;
       }
-      finding.run = found_.way_to(cycle.front().from);
-      add_lasso(cycle.front().from, cycle, finding);
+      const std::size_t round = add_lasso(cycle.front().from, cycle, finding);
       finding.message =
           fmt::format("property '{}' waits for ever: from tick {} on a cycle of {} repeats", name,
-                      *finding.repeats, counted(cycle.size(), "tick"));
+                      *finding.repeats, counted(round, "tick"));
     }
     say(fmt::format("property '{}'", name), "NO");
     verdict_.findings.push_back(std::move(finding));
@@ -409,6 +459,7 @@ class VerdictMaker {
   const Nanoseconds period_;
   Tracer tracer_;
   std::vector<bool> can_end_;
+  std::map<std::size_t, HoldOfChild> holds_;  // by the first child of those that are alike
   Verdict verdict_;
 };
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/search.h"
+#include "verify/trace.h"
 
 namespace lockstep::host {
 
@@ -15,7 +15,7 @@ struct Finding {
   std::string message;                      // a line
   std::vector<std::string> more = {};       // lines that say why
   std::optional<NodeIndex> node = {};       // where
-  std::vector<Step> run = {};               // that shows it; empty: there is none to show
+  TracedRun run = {};                       // that shows it; empty: there is none to show
   std::optional<std::size_t> repeats = {};  // from this tick of it, counted from 0, for ever
   std::string accepted = {};                // why it is as it should be
 };

@@ -37,6 +37,7 @@ struct VerifyOptions {
   std::string format = "text";
   std::vector<std::string> only;
   bool mock = false;
+  bool symmetry = true;
   std::string out = ".";
   std::string save;  // a file of scenarios; "": none
   PropertyOptions properties;
@@ -203,6 +204,7 @@ class VerifyCommand {
     if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
     limits.stop_signal = StopSignals::received;
     limits.jobs = options_.jobs;
+    limits.symmetry = options_.symmetry;
     limits.tell = [&line](const SearchProgress& it) { line.show(it); };
     return limits;
   }
@@ -300,6 +302,8 @@ std::function<int()> define_verify(CLI::App& app) {
                  "text, json, junit (a test for each question) or sarif (2.1.0)")
       ->check(one_of({"text", "json", "junit", "sarif"}))
       ->capture_default_str();
+  app.add_flag("!--no-symmetry", options->symmetry,
+               "Count states that differ only in which equal child does what, each for itself");
   app.add_flag("--json", options->json, "The same as --format json");
   app.add_flag("--mock", options->mock, "Take nodes that no plugin has for leaves");
   add_load_options(app, options->load);
