@@ -110,7 +110,7 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   labeller_.of(stepper_);
   const StateBytes& state = stepper_.fold();
   const std::uint32_t label = labels_.add(labeller_.with_moves(stepper_.origins()));
-  const std::uint32_t hash = hash_of(state);
+  const std::uint64_t hash = hash_of(state);
   StateId to = known_->find(state, hash);
   if (to == kNoState) {
     const auto [number, is_new] = into.fresh.add(state, hash);

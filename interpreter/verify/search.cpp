@@ -20,6 +20,7 @@ class Searcher {
   Searcher(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
            Nanoseconds period, const SearchLimits& limits)
       : tree_(tree), limits_(limits), crew_(std::max(1u, limits.jobs)), result_(tree) {
+    result_.store = StateStore(limits.hash_bits);
     if (limits.symmetry) result_.symmetry = Symmetry(tree, models, nodes_of(properties, tree));
     for (unsigned i = 0; i < std::max(1u, limits.jobs); ++i) {
       expanders_.push_back(
@@ -37,6 +38,7 @@ class Searcher {
           std::min(static_cast<StateId>(result_.store.size()), done + states_of_round());
       if (!do_round(done, last)) break;
       done = last;
+      if (result_.store.keeps_hashes()) result_.store.forget_before(done);
     }
     for (const auto& it : expanders_) result_.coverage.add(it->coverage());
     result_.coverage.spread(result_.symmetry);
@@ -99,7 +101,8 @@ class Searcher {
         take(chunk.news[news], chunk.first + i);
       }
       for (auto fresh = static_cast<StateId>(begin.fresh); fresh < it.fresh; ++fresh) {
-        numbers_.push_back(add(chunk.fresh[fresh], chunk.found_by[fresh], chunk.fresh.hash(fresh)));
+        numbers_.push_back(
+            add(chunk.fresh[fresh], chunk.found_by[fresh], hash_of(chunk.fresh[fresh])));
       }
       if (it.ends) result_.graph.ends[chunk.first + i] = true;
       if (it.cut) {
@@ -139,7 +142,7 @@ class Searcher {
   StateId add(std::span<const std::byte> state, Step step) {
     return add(state, step, hash_of(state));
   }
-  StateId add(std::span<const std::byte> state, Step step, std::uint32_t hash) {
+  StateId add(std::span<const std::byte> state, Step step, std::uint64_t hash) {
     const auto [id, is_new] = result_.store.add(state, hash);
     if (is_new) {
       result_.before.push_back(step);

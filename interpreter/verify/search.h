@@ -37,7 +37,10 @@ struct SearchResult {
   std::optional<std::pair<std::string, Occurrence>> broken = {};         // contract of the leaves
   std::map<std::size_t, Occurrence> violated = {};  // properties, by their place
 
+  // All states were looked at, as far as the store can tell.
   bool is_complete() const { return end == SearchEnd::Complete; }
+  // For sure.
+  bool is_proof() const { return is_complete() && !store.keeps_hashes(); }
   std::uint32_t depth_of(StateId state) const;
   // So many ticks were looked at with all behaviors.
   std::uint32_t complete_depth() const;

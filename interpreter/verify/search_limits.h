@@ -27,6 +27,7 @@ struct SearchLimits {
   std::function<int()> stop_signal = {};                 // nonzero: stop; any thread calls it
   std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
   unsigned jobs = 1;                                     // threads; all find the same
+  unsigned hash_bits = 0;                                // in place of states; 0: states are kept
   bool symmetry = true;                                  // states of equal children count once
 };
 

@@ -27,23 +27,36 @@ Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Prope
       stepper_(tree, models, properties, period, found.symmetry),
       labeller_(tree, models, properties.size(), found.symmetry) {}
 
+// One that the store has forgotten is made again.
+StateBytes Tracer::state_of(StateId state) {
+  if (!found_.store.keeps_hashes()) {
+    const auto bytes = found_.store[state];
+    return {bytes.begin(), bytes.end()};
+  }
+  StateBytes here = stepper_.first_state();
+  for (const Step& step : found_.way_to(state)) {
+    tick({here, step.from == 0, step.combination});
+    here = stepper_.fold();
+  }
+  return here;
+}
+
 Step Tracer::step_of(const CycleStep& wanted) {
-  const auto to = found_.store[wanted.edge.to];
   const auto label = found_.graph.labels[wanted.edge.label];
-  stepper_.load(found_.store[wanted.from], wanted.from == 0);
+  stepper_.load(state_of(wanted.from), wanted.from == 0);
   Step step{wanted.from, 0};
   do {
     const Status status = stepper_.tick();
     if (status == Status::Running && !stepper_.ticker().faulted()) {
       labeller_.of(stepper_);
-      const bool is_there = std::ranges::equal(stepper_.fold(), to);
+      const bool is_there = found_.store.is(wanted.edge.to, stepper_.fold());
       if (is_there && std::ranges::equal(labeller_.with_moves(stepper_.origins()), label)) {
         return step;
       }
     }
     ++step.combination;
   } while (stepper_.next());
-  throw std::logic_error("an edge of a search is not there any more");
+  fail("an edge of a search is not there any more");
 }
 
 std::vector<Step> Tracer::steps_of(std::span<const CycleStep> edges) {
@@ -116,14 +129,24 @@ std::uint32_t Tracer::find(const TracedTick& tick, const Outcome& wanted) {
     if (outcome(stepper_.tick()) == wanted) return combination;
     ++combination;
   } while (stepper_.next());
-  throw std::logic_error("children that change places are not equal");
+  fail("children that change places are not equal");
 }
 
 void Tracer::go_round(Trail& trail, std::span<const Step> cycle) {
+  constexpr int kMostRounds = 100'000;  // changes of places come back to the first far earlier
   const StateBytes start = trail.now;
-  do {
+  for (int round = 0; round < kMostRounds; ++round) {
     go(trail, cycle);
-  } while (trail.now != start);
+    if (trail.now == start) return;
+  }
+  fail("a cycle does not come back to where it began");
+}
+
+// A store that keeps hashes may have taken two states for one.
+void Tracer::fail(const char* what) const {
+  if (!found_.store.keeps_hashes()) throw std::logic_error(what);
+  throw std::runtime_error(
+      "two states have the same hash, so what was found cannot be shown: verify without --compact");
 }
 
 void Tracer::play(const TracedRun& run, const After& after) {

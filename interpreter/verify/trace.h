@@ -51,11 +51,13 @@ class Tracer {
  private:
   struct Outcome;
 
+  StateBytes state_of(StateId state);
   Step step_of(const CycleStep& edge);
   Status tick(const TracedTick& tick);
   Outcome outcome(Status status);
   std::uint32_t find(const TracedTick& tick, const Outcome& wanted);
   void add_words(LeafScripts& scripts);
+  [[noreturn]] void fail(const char* what) const;
 
   const Tree& tree_;
   const LeafModels& models_;

@@ -440,6 +440,7 @@ class VerdictMaker {
       assumed.push_back(
           fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));
     }
+    if (found_.store.keeps_hashes()) assumed.push_back("no two states have the same hash");
     for (const Fact& fact : models_.facts) {
       constexpr std::string_view kWords[] = {"does not change by itself", "changes freely",
                                              "changes from false to true at most",

@@ -103,6 +103,22 @@ TEST_CASE("what a limit has stopped is not called verified") {
   }
 }
 
+TEST_CASE("--compact proves nothing, and says how likely a state was missed") {
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/predictability.xml";
+  const std::vector<std::string> arguments{"verify", tree, "--compact"};
+  const Outcome it = run_lockstep(arguments);
+  INFO(it.out);
+  CHECK(it.code == 124);
+  CHECK(contains(it.out, "\nnot proven: nothing found in "));
+  CHECK(contains(it.out, " states; one was missed with a probability below "));
+  CHECK(contains(it.out, "no two states have the same hash"));
+  CHECK_FALSE(contains(it.out, "verified"));
+  const Outcome json = run_lockstep({"verify", tree, "--compact", "--json"});
+  CHECK(contains(json.out, "\"missed_with_probability_below\": "));
+  const Outcome junit = run_lockstep({"verify", tree, "--compact", "--format", "junit"});
+  CHECK(contains(junit.out, "<skipped message=\"not proven: "));
+}
+
 TEST_CASE("a limit is heeded within a state of very many answers") {
   const TemporaryDirectory directory;
   std::string leaves;

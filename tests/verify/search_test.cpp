@@ -152,4 +152,49 @@ TEST_CASE("a limit that counts ends a search of any number of threads at the sam
   }
 }
 
+TEST_CASE("hashes in place of states: the same states, findings and runs in less memory") {
+  constexpr auto kDeadlock =
+      "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
+      "SyncProgress[barrier=coarse](Sequence[memory=true](b SyncProgress[barrier=fine](c)))) "
+      "barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]";
+  for (const std::string& tree :
+       {absolute(4, 4), std::string("Sequence(a b)"), std::string(kDeadlock)}) {
+    INFO(tree);
+    constexpr auto kFull = R"(<leaf path="*" finish="full" result="success"/>)";
+    const Verified states(tree, kFull, {.symmetry = false});
+    const Verified hashes(tree, kFull, {.hash_bits = 64, .symmetry = false});
+    const Verified threads(tree, kFull, {.jobs = 3, .hash_bits = 64, .symmetry = false});
+    check_same(states.found, hashes.found);
+    check_same(hashes.found, threads.found);
+    CHECK(hashes.findings() == states.findings());
+    for (const Finding& it : states.verdict.findings) {
+      CHECK(hashes.script(it.name) == states.script(it.name));
+    }
+    CHECK(states.found.is_proof());
+    CHECK(hashes.found.is_complete());
+    CHECK_FALSE(hashes.found.is_proof());
+    CHECK(hashes.found.memory() < states.found.memory() + 4096);
+  }
+}
+
+TEST_CASE(
+    "hashes in place of states: some are lost where hashes are short, and it is said how surely") {
+  constexpr auto kFull = R"(<leaf path="*" finish="full" result="success"/>)";
+  const Verified states(absolute(4, 4), kFull, {.symmetry = false});
+  std::size_t lost = 0;
+  for (const unsigned bits : {8u, 10u, 12u, 16u, 32u, 64u}) {
+    INFO(bits);
+    const Verified hashes(absolute(4, 4), kFull, {.hash_bits = bits, .symmetry = false});
+    const double states_found = static_cast<double>(hashes.found.store.size());
+    const double loss = hashes.found.store.probability_of_loss();
+    CHECK(loss == Approx(std::min(1.0, states_found * (states_found + 1) / 2 / std::exp2(bits))));
+    CHECK_FALSE(hashes.found.is_proof());
+    if (hashes.found.store.size() == states.found.store.size()) continue;
+    ++lost;
+    CHECK(hashes.found.store.size() < states.found.store.size());
+    CHECK(loss > 0.5);
+  }
+  CHECK(lost >= 3);
+}
+
 }  // namespace lockstep::host::test

@@ -37,7 +37,7 @@ struct VerifyOptions {
   std::string format = "text";
   std::vector<std::string> only;
   bool mock = false;
-  bool symmetry = true;
+  bool symmetry = true, compact = false;
   std::string out = ".";
   std::string save;  // a file of scenarios; "": none
   PropertyOptions properties;
@@ -205,6 +205,7 @@ class VerifyCommand {
     limits.stop_signal = StopSignals::received;
     limits.jobs = options_.jobs;
     limits.symmetry = options_.symmetry;
+    if (options_.compact) limits.hash_bits = 64;
     limits.tell = [&line](const SearchProgress& it) { line.show(it); };
     return limits;
   }
@@ -242,7 +243,7 @@ class VerifyCommand {
   static int exit_code(const SearchResult& found, const Verdict& verdict) {
     if (verdict.has_findings()) return kExitFailure;
     if (found.end == SearchEnd::Signal) return kExitSignal + found.signal;
-    return found.is_complete() ? kExitSuccess : kExitLimit;
+    return found.is_proof() ? kExitSuccess : kExitLimit;
   }
 
   const VerifyOptions& options_;
@@ -302,6 +303,9 @@ std::function<int()> define_verify(CLI::App& app) {
                  "text, json, junit (a test for each question) or sarif (2.1.0)")
       ->check(one_of({"text", "json", "junit", "sarif"}))
       ->capture_default_str();
+  app.add_flag("--compact", options->compact,
+               "Keep a hash of 64 bits in place of each state: less memory, and no proof, since a "
+               "state may be missed, with a probability that the verdict says");
   app.add_flag("!--no-symmetry", options->symmetry,
                "Count states that differ only in which equal child does what, each for itself");
   app.add_flag("--json", options->json, "The same as --format json");
@@ -320,7 +324,7 @@ extern const Command kVerifyCommand{
     "script of the leaves with which `lockstep run --leaves` does the same again.\n"
     "Exit code: 0 all is verified, 1 there are findings, 2 usage, 3 invalid tree or leaf file, or\n"
     "something that cannot be verified, 4 plugin refused, 124 a limit was reached and nothing was\n"
-    "found, 128 + N signal N, likewise.\n"
+    "found, or nothing with --compact, 128 + N signal N, likewise.\n"
     "\n"
     "Examples:\n"
     "  lockstep verify trees/door_pulling.xml\n"

@@ -57,7 +57,7 @@ std::string to_junit(const VerifyReport& report) {
       add(it.name, fmt::format("<skipped message=\"{}\"/>", in_xml("accepted: " + it.accepted)));
     }
   }
-  if (!report.found.is_complete()) {
+  if (!report.found.is_proof()) {
     ++skipped;
     add("all behaviors", fmt::format("<skipped message=\"{}\"/>", in_xml(conclusion(report))));
   }
@@ -79,7 +79,7 @@ std::string to_sarif(const VerifyReport& report) {
          .message = it.name + ": " + it.message,
          .hint = it.accepted.empty() ? joined(it.more, "; ") : "accepted: " + it.accepted});
   }
-  if (messages.empty() && !report.found.is_complete()) {
+  if (messages.empty() && !report.found.is_proof()) {
     messages.push_back({.severity = Severity::Note,
                         .location = {.file = report.tree},
                         .message = conclusion(report)});

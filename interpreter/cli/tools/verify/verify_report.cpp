@@ -30,13 +30,23 @@ std::string size_text(const SearchResult& found) {
                      to_seconds(found.took));
 }
 
+// Rounded up, to two digits.
+std::string loss_text(const SearchResult& found) {
+  return fmt::format("{:.1e}", found.store.probability_of_loss() * 1.05);
+}
+
 }  // namespace
 
 std::string conclusion(const VerifyReport& report) {
   const std::size_t count = count_findings(report.verdict);
   if (count > 0) return fmt::format("not verified: {}", counted(count, "finding"));
   const SearchResult& found = report.found;
-  if (found.is_complete()) return "verified for all behaviors that are assumed";
+  if (found.is_proof()) return "verified for all behaviors that are assumed";
+  if (found.is_complete()) {
+    return fmt::format(
+        "not proven: nothing found in {}; one was missed with a probability below {}",
+        counted(found.store.size(), "state"), loss_text(found));
+  }
   return fmt::format("bounded: nothing found in the first {} (all behaviors), {}",
                      counted(found.complete_depth(), "tick"), counted(found.store.size(), "state"));
 }
@@ -76,6 +86,9 @@ std::string to_json(const VerifyReport& report) {
   json["conclusion"] = conclusion(report);
   json["complete"] = report.found.is_complete();
   if (!report.found.is_complete()) json["limit"] = std::string(limit_of(report.found.end));
+  if (report.found.store.keeps_hashes()) {
+    json["missed_with_probability_below"] = report.found.store.probability_of_loss();
+  }
   json["states"] = report.found.store.size();
   json["transitions"] = report.found.transitions;
   json["bytes"] = report.found.memory();
