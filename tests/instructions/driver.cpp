@@ -29,7 +29,10 @@ struct Case {
   const char* name;
   const char *control, *attributes, *leaf;
   Watched watched = Watched::No;
+  const char* first = "";  // a node before the leaves
 };
+
+constexpr const char* kWriteEntry = "<Script code='n := 1.5'/>";
 
 constexpr Case kCases[] = {
     {"Sequence, built-in leaf", "Sequence", "", "AlwaysSuccess"},
@@ -45,8 +48,20 @@ constexpr Case kCases[] = {
      Watched::Yes},
     {"Sequence, leaf over leaf.hpp", "Sequence", "", "SdkSuccess"},
     {"Sequence, leaf that reads a port", "Sequence", "", "SdkRead a='1.5'"},
+    {"Sequence, leaf that reads an entry", "Sequence", "", "SdkRead a='{n}'", Watched::No,
+     kWriteEntry},
     {"Sequence, node for BehaviorTree.CPP", "Sequence", "", "BtSuccess"},
     {"Sequence, node for BehaviorTree.CPP that reads a port", "Sequence", "", "BtRead a='1.5'"},
+    {"Sequence, node for BehaviorTree.CPP that reads an entry", "Sequence", "", "BtRead a='{n}'",
+     Watched::No, kWriteEntry},
+    {"Sequence, leaf that reads a port, timed", "Sequence", "", "SdkRead a='1.5'", Watched::Yes},
+    {"Sequence, leaf that reads an entry, timed", "Sequence", "", "SdkRead a='{n}'", Watched::Yes,
+     kWriteEntry},
+    {"Sequence, node for BehaviorTree.CPP, timed", "Sequence", "", "BtSuccess", Watched::Yes},
+    {"Sequence, node for BehaviorTree.CPP that reads a port, timed", "Sequence", "",
+     "BtRead a='1.5'", Watched::Yes},
+    {"Sequence, node for BehaviorTree.CPP that reads an entry, timed", "Sequence", "",
+     "BtRead a='{n}'", Watched::Yes, kWriteEntry},
 };
 
 // Ticks a tree of one control node and this many leaves.
@@ -63,7 +78,9 @@ namespace {
 
 // False: a leaf has a fault.
 bool measure_ticks(const Case& it) {
-  const BenchTree tree(it.control, it.attributes, it.leaf, kLeaves);
+  const std::string leaves = BenchTree::repeated(fmt::format("<{}/>", it.leaf), kLeaves);
+  const BenchTree tree(
+      fmt::format("<{0} {1}>{2}{3}</{0}>", it.control, it.attributes, it.first, leaves));
   StepClock clock;
   LeafWatch watch({.budget = std::chrono::hours(1), .clock = &clock});
   Run run(tree.tree(), {.watch = it.watched == Watched::Yes ? &watch : nullptr});

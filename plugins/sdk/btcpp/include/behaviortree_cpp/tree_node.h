@@ -128,10 +128,10 @@ class TreeNode {
 
   // The value of an input, or why there is none.
   template <class T>
-  [[nodiscard]] Expected<T> getInput(StringView port) const;
+  [[nodiscard, gnu::always_inline]] Expected<T> getInput(StringView port) const;
   // The same; `value` stays as it is if there is none.
   template <class T>
-  Result getInput(StringView port, T& value) const;
+  [[gnu::always_inline]] Result getInput(StringView port, T& value) const;
   // Sets an output; an error when the tree gives it no entry, or the entry does not take the value.
   template <class T>
   Result setOutput(StringView port, const T& value);
@@ -178,9 +178,8 @@ class TreeNode {
   virtual NodeStatus tick() = 0;
   virtual void halt() = 0;
   [[gnu::always_inline]] void setStatus(NodeStatus status) {
-    const NodeStatus before = lockstep_status_.load(std::memory_order_relaxed);
+    if (lockstep_watch_ != nullptr) return lockstep_tell(status);
     lockstep_status_.store(status, std::memory_order_release);
-    if (lockstep_watch_ != nullptr && before != status) lockstep_tell(before, status);
   }
   // A text as a value of a port: of an enum also a word that is registered, or a number.
   template <class T>
@@ -194,11 +193,13 @@ class TreeNode {
   }
   // A tick, and what belongs to it; `work` returns the result.
   template <class Work>
-  [[gnu::always_inline]] NodeStatus lockstep_tick_as(const Work& work);
+  [[gnu::always_inline]] NodeStatus lockstep_tick_as(Work work);
   // Its parts: all but the status, which a thread may set; and the status.
   template <class Work>
-  [[gnu::always_inline]] NodeStatus lockstep_result_of(const Work& work);
+  [[gnu::always_inline]] NodeStatus lockstep_result_of(Work work);
   void lockstep_note(NodeStatus status);
+  // Notes a result that is rare or watched, and returns it.
+  NodeStatus lockstep_noted(NodeStatus status);
   // Throws: what the node did wrong.
   [[noreturn]] void lockstep_refuse(const char* what) const;
   bool lockstep_is_in_tree() const { return lockstep_place_ != nullptr; }
@@ -229,12 +230,17 @@ class TreeNode {
   virtual bool lockstep_is_told() const { return true; }
   virtual void lockstep_find_children(lockstep_detail::Place&) {}
 
+  [[noreturn]] void lockstep_refuse_idle() const;
+  // Null: it has no such port.
+  template <class T>
+  Expected<T> lockstep_read(StringView name, const lockstep_detail::PortEntry* port) const;
   template <class T>
   Expected<T> lockstep_read_other(const lockstep_detail::PortEntry& port) const;
   template <class T>
   Expected<T> lockstep_read_default(const lockstep_detail::PortEntry& port) const;
   Expected<Any> lockstep_read_any(const lockstep_detail::PortEntry& port) const;
-  const lockstep_detail::PortEntry* lockstep_find_port(StringView port) const;
+  [[gnu::always_inline]] const lockstep_detail::PortEntry* lockstep_find_port(
+      StringView port) const;
   AnyPtrLocked lockstep_locked_port(const std::string& port);
   // A node outside of a tree reads and writes what its config says.
   template <class T>
@@ -252,11 +258,11 @@ class TreeNode {
     StatusChangeSignal changes;
   };
   LockstepWatch& lockstep_watch();
-  void lockstep_tell(NodeStatus before, NodeStatus status);
+  void lockstep_tell(NodeStatus status);
   template <class Work>
   [[gnu::always_inline]] NodeStatus lockstep_work(const Work& work);
   template <class Work>
-  [[gnu::noinline]] NodeStatus lockstep_watched_work(const Work& work) {
+  [[gnu::noinline]] NodeStatus lockstep_watched_work(Work work) {
     return lockstep_watched_tick([this, &work] { return lockstep_work(work); });
   }
   NodeStatus lockstep_watched_tick(const std::function<NodeStatus()>& work);

@@ -40,25 +40,16 @@ struct Leaf {
   static void start_unreset(void* /*self*/) {}
   static lockstep_status tick(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
-    try {
-      const InTick scope(leaf.place);
-      return static_cast<lockstep_status>(leaf.node->executeTick());
-    } catch (...) {
-      return leaf.fail();
-    }
+    return leaf.result_of(*leaf.node);
   }
   // For a node that is mostly done in one tick, and so is not told of the first one.
   static lockstep_status tick_at_once(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
-    const bool is_in_program = leaf.node->lockstep_tree_ != nullptr;
-    if (is_in_program && !std::exchange(leaf.is_unreset, false) &&
-        isStatusCompleted(leaf.node->lockstep_status_.load(std::memory_order_relaxed))) {
-      leaf.node->setStatus(NodeStatus::IDLE);
-    }
-    const lockstep_status status = tick(self);
+    TreeNode& node = *leaf.node;
+    if (node.lockstep_tree_ != nullptr) return tick_in_program(leaf);
+    const lockstep_status status = leaf.result_of(node);
     leaf.last = static_cast<NodeStatus>(status);
-    // A program may look at its result.
-    if (status != LOCKSTEP_RUNNING && !is_in_program) leaf.node->setStatus(NodeStatus::IDLE);
+    if (status != LOCKSTEP_RUNNING) node.setStatus(NodeStatus::IDLE);
     return status;
   }
   static void start_unreset_at_once(void* self) {
@@ -86,13 +77,32 @@ struct Leaf {
   }
 
  private:
+  [[gnu::always_inline]] lockstep_status result_of(TreeNode& its_node) {
+    try {
+      const InTick scope(place);
+      return static_cast<lockstep_status>(its_node.executeTick());
+    } catch (...) {
+      return fail();
+    }
+  }
+  // A program may look at the result until the next tick.
+  [[gnu::noinline]] static lockstep_status tick_in_program(Leaf& leaf) {
+    if (!std::exchange(leaf.is_unreset, false) &&
+        isStatusCompleted(leaf.node->lockstep_status_.load(std::memory_order_relaxed))) {
+      leaf.node->setStatus(NodeStatus::IDLE);
+    }
+    const lockstep_status status = leaf.result_of(*leaf.node);
+    leaf.last = static_cast<NodeStatus>(status);
+    return status;
+  }
+
   // Marks a tick.
   class InTick {
    public:
-    explicit InTick(Place& place) : place_(place) {
+    [[gnu::always_inline]] explicit InTick(Place& place) : place_(place) {
       place_.ticking.store(this_thread(), std::memory_order_relaxed);
     }
-    ~InTick() { place_.ticking.store({}, std::memory_order_relaxed); }
+    [[gnu::always_inline]] ~InTick() { place_.ticking.store({}, std::memory_order_relaxed); }
     InTick(const InTick&) = delete;
     InTick& operator=(const InTick&) = delete;
 
@@ -123,6 +133,7 @@ struct Leaf {
     place.node = static_cast<const lockstep_place*>(host.get_extension(LOCKSTEP_PLACE));
     if (place.node == nullptr) throw RuntimeError("this lockstep is too old for the plugin");
     place.registration = find_registration(place.node->id(id));
+    find_constants();
     const NodeConfig config = make_config();
     creating = &place;
     try {
@@ -140,6 +151,18 @@ struct Leaf {
                                             ? number->id
                                             : place.registration->manifest->registration_ID;
     note_made(place.node->path(id), *node);
+  }
+
+  void find_constants() {
+    const void* const found = place.host->get_extension(LOCKSTEP_LASTING);
+    const auto* const lasting = static_cast<const lockstep_lasting*>(found);
+    const std::vector<PortEntry>& ports = place.registration->ports;
+    if (lasting == nullptr || ports.empty()) return;
+    place.constants = std::make_unique<const void*[]>(ports.size());
+    for (const PortEntry& port : ports) {
+      const lockstep_type type = port.info.lockstep_values().type;
+      place.constants[port.index] = lasting->constant(place.caller, port.index, type);
+    }
   }
 
   void lockstep_find_children(const lockstep_host& host) {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace BT::lockstep_detail {
@@ -29,7 +30,10 @@ struct Place {
   const lockstep_place* node = nullptr;
   const lockstep_children* children = nullptr;  // of a control node or decorator
   const Registration* registration = nullptr;   // of its type
-  std::atomic<std::uintptr_t> ticking{};        // the thread that ticks it now; 0: none
+  // By the index of the port: where its constant is, if it is a bool or a number. Null: an older
+  // host does not tell.
+  std::unique_ptr<const void*[]> constants;
+  std::atomic<std::uintptr_t> ticking{};  // the thread that ticks it now; 0: none
 
   bool is_in_tick() const { return ticking.load(std::memory_order_relaxed) == this_thread(); }
   // The tree is ticked at once; from any thread. An older host cannot do that.

@@ -20,33 +20,54 @@ Expected<T> converted(const Expected<Any>& value, const NodeConfig& config) {
   return config.blackboard->template tryCastWithPolymorphicFallback<T>(&*value);
 }
 
+template <class T>
+constexpr bool is_number_or_bool() {
+  constexpr lockstep_type kType = port_type<T>();
+  return kType == LOCKSTEP_BOOL || kType == LOCKSTEP_INT || kType == LOCKSTEP_DOUBLE;
+}
+
+// A constant of the tree as a T, of which port_type<T>() is the type; false: T has no such value.
+template <class T>
+bool from_constant(const void* constant, T& value) {
+  if constexpr (port_type<T>() == LOCKSTEP_INT) {
+    return convert_number(*static_cast<const std::int64_t*>(constant), value);
+  } else if constexpr (port_type<T>() == LOCKSTEP_DOUBLE) {
+    value = static_cast<T>(*static_cast<const double*>(constant));
+  } else {
+    value = *static_cast<const bool*>(constant);
+  }
+  return true;
+}
+
+// The value of a port, in the thread that ticks; false: there is none, or it has another type.
+template <class T>
+[[gnu::always_inline]] inline bool get_at_once(const Place& place, const PortEntry& port,
+                                               T& value) {
+  if (port.info.lockstep_values().type != port_type<T>()) return false;
+  const void* const constant = place.constants == nullptr ? nullptr : place.constants[port.index];
+  return constant != nullptr ? from_constant(constant, value) : get(place, port.index, value);
+}
+
 // Where the node under construction finds its place, so that its class need not pass it on.
 [[gnu::visibility("hidden")]] inline thread_local Place* creating = nullptr;
 
 }  // namespace lockstep_detail
 
-inline void TreeNode::lockstep_note(NodeStatus status) {
-  if (status != NodeStatus::SKIPPED) {
-    setStatus(status);
-  } else if (lockstep_place_ != nullptr || type() == NodeType::ACTION ||
-             type() == NodeType::CONDITION) {
-    setStatus(NodeStatus::IDLE);
-  }  // by hand, a node with children keeps its status: its parent halts it, and so them
-}
-
 template <class Work>
-inline NodeStatus TreeNode::lockstep_tick_as(const Work& work) {
-  const NodeStatus status = lockstep_result_of(work);
-  lockstep_note(status);
+inline NodeStatus TreeNode::lockstep_tick_as(Work work) {
+  if (lockstep_watch_ != nullptr) return lockstep_noted(lockstep_watched_work(work));
+  const NodeStatus status = lockstep_work(work);
+  const bool is_usual = isStatusCompleted(status) || status == NodeStatus::RUNNING;
+  if (!is_usual || lockstep_watch_ != nullptr) return lockstep_noted(status);
+  lockstep_status_.store(status, std::memory_order_release);
   return status;
 }
 
 template <class Work>
-inline NodeStatus TreeNode::lockstep_result_of(const Work& work) {
+inline NodeStatus TreeNode::lockstep_result_of(Work work) {
   const NodeStatus status =
       lockstep_watch_ == nullptr ? lockstep_work(work) : lockstep_watched_work(work);
-  if (status == NodeStatus::IDLE)
-    lockstep_refuse("has returned IDLE, which is no result of a tick");
+  if (status == NodeStatus::IDLE) lockstep_refuse_idle();
   return status;
 }
 
@@ -74,10 +95,23 @@ inline const lockstep_detail::PortEntry* TreeNode::lockstep_find_port(StringView
   return nullptr;
 }
 
+// It is compiled into its caller, where the compiler knows the length of the name.
 template <class T>
-Expected<T> TreeNode::getInput(StringView name) const {
-  if (lockstep_place_ == nullptr) return lockstep_read_by_hand<T>(std::string(name));
+inline Expected<T> TreeNode::getInput(StringView name) const {
   const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
+  if constexpr (lockstep_detail::is_number_or_bool<T>()) {
+    T value{};
+    if (port != nullptr && lockstep_thread_ == nullptr &&
+        lockstep_detail::get_at_once(*lockstep_place_, *port, value)) {
+      return value;
+    }
+  }
+  return lockstep_read<T>(name, port);
+}
+
+template <class T>
+Expected<T> TreeNode::lockstep_read(StringView name, const lockstep_detail::PortEntry* port) const {
+  if (lockstep_place_ == nullptr) return lockstep_read_by_hand<T>(std::string(name));
   if (port == nullptr) {  // one of the node that it stands in for
     if (lockstep_config_.input_ports.count(std::string(name)) == 0) {
       return nonstd::make_unexpected(lockstep_no_port(name));
@@ -97,7 +131,7 @@ Expected<T> TreeNode::getInput(StringView name) const {
 }
 
 template <class T>
-Result TreeNode::getInput(StringView name, T& value) const {
+inline Result TreeNode::getInput(StringView name, T& value) const {
   auto read = getInput<T>(name);
   if (!read) return nonstd::make_unexpected(std::move(read.error()));
   value = std::move(*read);

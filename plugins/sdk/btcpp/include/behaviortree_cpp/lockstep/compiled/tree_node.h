@@ -21,6 +21,25 @@ LOCKSTEP_BTCPP_INLINE NodeStatus TreeNode::executeTick() {
   throw LogicError("node '", lockstep_name_, "' ", what);
 }
 
+[[gnu::cold, gnu::noinline]] LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_refuse_idle() const {
+  lockstep_refuse("has returned IDLE, which is no result of a tick");
+}
+
+LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_note(NodeStatus status) {
+  if (status != NodeStatus::SKIPPED) {
+    setStatus(status);
+  } else if (lockstep_place_ != nullptr || type() == NodeType::ACTION ||
+             type() == NodeType::CONDITION) {
+    setStatus(NodeStatus::IDLE);
+  }  // by hand, a node with children keeps its status: its parent halts it, and so them
+}
+
+[[gnu::noinline]] LOCKSTEP_BTCPP_INLINE NodeStatus TreeNode::lockstep_noted(NodeStatus status) {
+  if (status == NodeStatus::IDLE) lockstep_refuse_idle();
+  lockstep_note(status);
+  return status;
+}
+
 [[gnu::cold]] LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_rethrow(
     const std::exception& thrown) const {
   const bool is_told = dynamic_cast<const NodeExecutionError*>(&thrown) != nullptr;
@@ -35,8 +54,9 @@ LOCKSTEP_BTCPP_INLINE double TreeNode::lockstep_seconds() const {
   return std::chrono::duration<double>(now).count();
 }
 
-[[gnu::noinline]] LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_tell(NodeStatus before,
-                                                                     NodeStatus status) {
+[[gnu::noinline]] LOCKSTEP_BTCPP_INLINE void TreeNode::lockstep_tell(NodeStatus status) {
+  const NodeStatus before = lockstep_status_.exchange(status, std::memory_order_acq_rel);
+  if (before == status) return;
   lockstep_watch_->changes.notify(std::chrono::high_resolution_clock::now(), *this, before, status);
 }
 
