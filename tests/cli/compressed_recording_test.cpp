@@ -63,6 +63,32 @@ TEST_CASE("a compressed recording that is damaged is refused, with line and byte
   CHECK(contains(outcome.err, "its compressed bytes are damaged before byte "));
 }
 
+TEST_CASE("log cat prints the text, and --follow ends with the run") {
+  const TemporaryDirectory directory;
+  const std::string plain = record(directory, "run.jsonl");
+  const std::string packed = record(directory, "run.jsonl.zst");
+  for (const std::string& file : {plain, packed}) {
+    for (const std::vector<std::string> options : {std::vector<std::string>(), {"--follow"}}) {
+      auto command = options;
+      command.insert(command.begin(), {"log", "cat", file});
+      const Outcome outcome = run_lockstep(command);
+      CHECK(outcome.code == 0);
+      CHECK(outcome.err == "");
+      CHECK(outcome.out == read_file(plain));
+    }
+  }
+  // A run on the robot's clock, which is followed from its first line.
+  const std::string live = directory.path("live.jsonl.zst");
+  const Outcome outcome = run({.arguments = {"-c",
+                                             "\"$0\" run \"$1\" --record \"$2\" >/dev/null 2>&1 & "
+                                             "until [ -e \"$2\" ]; do :; done; "
+                                             "\"$0\" log cat -f \"$2\" | tail -n 1",
+                                             LOCKSTEP_BINARY_DIR "/lockstep",
+                                             LOCKSTEP_SOURCE_DIR "/trees/nested.xml", live},
+                               .program = "/bin/sh"});
+  CHECK(outcome.out.starts_with("{\"end\":{\"result\":\"success\""));
+}
+
 TEST_CASE("log csv --from --to is the part of the table, also where the rest is damaged") {
   const TemporaryDirectory directory;
   const std::string plain = record(directory, "run.jsonl");

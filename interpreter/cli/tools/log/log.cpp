@@ -84,6 +84,7 @@ std::function<int()> define_log(CLI::App& app) {
   table->add_option("--to", options->range.to, "The last one; what is behind it is not read")
       ->type_name("TICK")
       ->transform(whole_number());
+  const auto cat = define_log_cat(app);
   const auto events = define_log_events(app);
   const auto other = define_log_export(app);
   const auto measures = define_log_measure(app);
@@ -93,6 +94,7 @@ std::function<int()> define_log(CLI::App& app) {
   const auto check = define_log_check(app);
   const auto scenario = define_log_scenario(app);
   return [=] {
+    if (cat.app->parsed()) return cat.run();
     if (events.app->parsed()) return events.run();
     if (other.app->parsed()) return other.run();
     if (measures.app->parsed()) return measures.run();
@@ -121,6 +123,7 @@ extern const Command kLogCommand{
     "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
     "  lockstep log info run.jsonl\n"
     "  lockstep log csv run.jsonl > run.csv\n"
+    "  lockstep log cat --follow run.jsonl.zst | grep fault\n"
     "  lockstep log events run.jsonl --path 'pull/*' --event hold --event release\n"
     "  lockstep log measure run.jsonl --measure predictability:arm@0.5\n"
     "  lockstep log export run.jsonl --format trace --out run.json\n"

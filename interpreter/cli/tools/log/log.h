@@ -43,6 +43,7 @@ struct LogSubcommand {
   CLI::App* app;
   std::function<int()> run;
 };
+LogSubcommand define_log_cat(CLI::App& log);
 LogSubcommand define_log_events(CLI::App& log);
 LogSubcommand define_log_export(CLI::App& log);
 LogSubcommand define_log_measure(CLI::App& log);

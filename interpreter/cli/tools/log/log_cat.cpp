@@ -1,0 +1,87 @@
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/outputs.h"
+#include "cli/tools/log/log.h"
+#include "compression/decompressed.h"
+#include "recording/lines.h"
+#include "runtime/stop_signals.h"
+
+namespace lockstep::host {
+namespace {
+
+struct LogCatOptions {
+  std::string file;
+  bool follows = false;
+};
+
+bool is_end(std::string_view line) {
+  constexpr std::string_view kEnd = "{\"end\":";
+  static_assert(kEnd.substr(2, 3) == lines::kEndLine["end"]);
+  return line.starts_with(kEnd);
+}
+
+// Whole lines, as long as there are any. The first part of a line waits in `rest` for its end.
+int print_lines(std::istream& in, std::string& rest, bool& has_ended) {
+  std::string line, lines;
+  int written = kExitSuccess;
+  while (written == kExitSuccess && std::getline(in, line)) {
+    rest += line;
+    if (in.eof()) break;
+    has_ended = has_ended || is_end(rest);
+    (lines += rest) += '\n';
+    rest.clear();
+    constexpr std::size_t kFull = 1u << 16u;
+    if (lines.size() < kFull) continue;
+    written = write_results(lines);
+    lines.clear();
+  }
+  return written == kExitSuccess ? write_results(lines) : written;
+}
+
+int follow(std::istream& in, const LogCatOptions& options) {
+  constexpr std::chrono::milliseconds kLook{50};
+  if (options.follows) StopSignals::install();
+  std::string rest;
+  bool has_ended = false;
+  while (true) {
+    if (const int code = print_lines(in, rest, has_ended); code != kExitSuccess) return code;
+    if (!options.follows || has_ended) break;
+    if (StopSignals::received() != 0) return kExitSignal + StopSignals::received();
+    std::this_thread::sleep_for(kLook);
+    in.clear();
+  }
+  if (!has_ended) print_error("the recording is cut: it ends without a closing line");
+  return kExitSuccess;
+}
+
+int cat(const LogCatOptions& options) {
+  return with_file(options.file, [&](std::istream& in) {
+    try {
+      in.exceptions(std::ios_base::badbit);
+      return follow(in, options);
+    } catch (const CannotDecompress& damage) {
+      print_error(printable(options.file + ": " + damage.what()));
+      return int{kExitInvalidTree};
+    }
+  });
+}
+
+}  // namespace
+
+LogSubcommand define_log_cat(CLI::App& log) {
+  const auto options = std::make_shared<LogCatOptions>();
+  CLI::App* app = log.add_subcommand(
+      "cat", "Print the lines of the recording as they are, also of a compressed one");
+  add_recording_file(*app, options->file);
+  app->add_flag("--follow,-f", options->follows,
+                "Also those that are written from now on, until the run ends");
+  return {app, [options] { return cat(*options); }};
+}
+
+}  // namespace lockstep::host
