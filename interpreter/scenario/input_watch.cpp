@@ -51,7 +51,7 @@ void InputWatch::compare(std::size_t number, const lockstep_caller& caller) {
   has_begun_[number] = true;
   const auto port = std::ranges::find(caller.ports, input.port, &BoundPort::name);
   if (is_violated_[number] || port == caller.ports.end()) return;
-  const Value value = read_input(*port);
+  const Value value = read_input(**port);
   if (are_same(value, input)) return;
   is_violated_[number] = true;
   surprises_.push_back(

@@ -19,6 +19,15 @@ class SdkRead : public lockstep::Action<ReadPorts> {
   }
 };
 
+struct TwoPorts : lockstep::Ports {
+  Input<double> a{this, "a", required, "a number"};
+  Input<double> b{this, "b", required, "another one"};
+};
+class SdkTwo : public lockstep::Action<TwoPorts> {
+ public:
+  Status tick() override { return a.get() < b.get() ? Status::Running : Status::Failure; }
+};
+
 class SdkKeeps : public lockstep::ProgressAction<> {
  public:
   Status tick() override {
@@ -44,5 +53,6 @@ class SdkSequence : public lockstep::Control<> {
 LOCKSTEP_PLUGIN("bench_sdk", "1.0", "For benchmarks",
                 lockstep::leaf<SdkSuccess>("SdkSuccess", "Succeeds"),
                 lockstep::leaf<SdkRead>("SdkRead", "Reads a port"),
+                lockstep::leaf<SdkTwo>("SdkTwo", "Reads two ports"),
                 lockstep::leaf<SdkKeeps>("SdkKeeps", "Runs, and keeps its progress"),
                 lockstep::leaf<SdkSequence>("SdkSequence", "A Sequence without memory"));

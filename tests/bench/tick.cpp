@@ -104,6 +104,7 @@ BENCHMARK_CAPTURE(flat, absolute_kept, "ParallelAbsolute", "barriers='0.75'", "S
     ->Apply(sizes);
 BENCHMARK_CAPTURE(flat, relative_kept, "ParallelRelative", "delta='0.1'", "SdkKeeps")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, relative, "ParallelRelative", "delta='0.1'", "BenchRunning")->Apply(sizes);
+BENCHMARK_CAPTURE(flat, two_constants, "Parallel", "", "SdkTwo a='1.5' b='2.5'")->Apply(sizes);
 BENCHMARK_CAPTURE(flat, relative_advance, "ParallelRelative", "delta='0.1'", "BenchAdvance")
     ->Apply(sizes);
 
@@ -138,6 +139,16 @@ BENCHMARK_CAPTURE(script, skip_if, "skip_if='n &gt; 5'");
 BENCHMARK_CAPTURE(script, skips, "skip_if='n &gt; 0'");
 BENCHMARK_CAPTURE(script, holds, "while='n &lt; 5 &amp;&amp; m == 1'");
 BENCHMARK_CAPTURE(script, on_success, "on_success='n = n + 1'");
+
+// --- a run is made, and freed --------------------------------------------------------------------
+
+void start(benchmark::State& state, const char* leaf) {
+  const BenchTree bench("Parallel", "", leaf, state.range(0));
+  for (auto _ : state) benchmark::DoNotOptimize(Run(bench.tree(), {}));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK_CAPTURE(start, no_port, "SdkKeeps")->Arg(1000)->Arg(1'000'000);
+BENCHMARK_CAPTURE(start, two_constants, "SdkTwo a='1.5' b='2.5'")->Arg(1000)->Arg(1'000'000);
 
 // --- the shape of the tree -----------------------------------------------------------------------
 

@@ -48,7 +48,7 @@ PluginNodes::PluginNodes(const Tree& tree, Blackboard& board, std::vector<LeafSl
     caller.random = RandomStream(0, index + 1);
     caller.first_child = node.first_child;
     caller.children = node.children;
-    bind_ports(tree, node, board, ports_.emplace_back());
+    PortBinder(tree, board, ports_.emplace_back()).bind(node);
     ports_.back().give_to(caller);
   }
   create_all();

@@ -64,15 +64,18 @@ bool AttributeLayout::fits(const NodeElement& element) const {
   return true;
 }
 
-const AttributeLayout& AttributeLayouts::of(const NodeElement& element, const NodeType& type,
-                                            CheckedTrees& trees) {
+AttributeLayout& AttributeLayouts::of(const NodeElement& element, const NodeType& type,
+                                      CheckedTrees& trees) {
   bool is_known = true;
   if (&type != last_type_) {
     const auto [entry, is_new] = last_.try_emplace(&type);
     is_known = !is_new;
     last_type_ = &type;
     last_of_type_ = &entry->second;
-    if (is_new) last_of_type_->defaults = add_defaults(type, trees.values);
+    if (is_new) {
+      last_of_type_->defaults = add_defaults(type, trees.values);
+      last_of_type_->last.resize(type.parameters.size());
+    }
   }
   AttributeLayout& layout = *last_of_type_;
   if (is_known && layout.fits(element)) return layout;

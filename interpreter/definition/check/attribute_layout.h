@@ -44,6 +44,12 @@ struct AttributeLayout {
   std::vector<CheckedPort> ports;
   // For each parameter its default in CheckedTrees::values, or kNone.
   std::vector<std::uint32_t> defaults;
+  // For each parameter the constant that a node gave last, and its text: the next one may share it.
+  struct Constant {
+    std::string_view text = {};
+    std::uint32_t value = kNone;  // in CheckedTrees::values
+  };
+  std::vector<Constant> last;
 
   bool fits(const NodeElement& element) const;
 };
@@ -52,7 +58,7 @@ class AttributeLayouts {
  public:
   // Returns the layout of a node of this type. Valid until the next call. Appends defaults to
   // trees.values.
-  const AttributeLayout& of(const NodeElement& element, const NodeType& type, CheckedTrees& trees);
+  AttributeLayout& of(const NodeElement& element, const NodeType& type, CheckedTrees& trees);
 
  private:
   std::unordered_map<const NodeType*, AttributeLayout> last_;  // of each type

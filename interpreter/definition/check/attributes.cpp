@@ -61,8 +61,8 @@ bool is_guessed(const NodeType& type, const Parameter& parameter) {
 
 class AttributeChecker {
  public:
-  AttributeChecker(const NodeElement& element, const Reporter& report,
-                   const AttributeLayout& layout, CheckedNode& node, CheckedTrees& trees)
+  AttributeChecker(const NodeElement& element, const Reporter& report, AttributeLayout& layout,
+                   CheckedNode& node, CheckedTrees& trees)
       : element_(element),
         report_(report),
         layout_(layout),
@@ -111,11 +111,17 @@ class AttributeChecker {
       return read_script(attribute, report_, EmptyScript::IsRefused, port, trees_);
     }
     const auto key = key_of(attribute.value);
-    if (key.empty()) return check_value(attribute, parameter, port);
+    if (key.empty()) return check_value(attribute, given.parameter, port);
     port.place = attribute.place;
     port.key = checked_key(report_, *node_.type, parameter, attribute.place, key);
     port.value = layout_.defaults[given.parameter];
     return !port.key.empty();
+  }
+
+  // Texts that differ mostly differ in their last letter, which takes no call to see.
+  static bool is_same(std::string_view one, std::string_view other) {
+    if (one.size() != other.size()) return false;
+    return one.empty() || (one.back() == other.back() && one == other);
   }
 
   // It is left out, and has no default.
@@ -129,7 +135,8 @@ class AttributeChecker {
     return true;
   }
 
-  bool check_value(const Attribute& attribute, const Parameter& parameter, CheckedPort& port) {
+  bool check_value(const Attribute& attribute, std::uint32_t place, CheckedPort& port) {
+    const Parameter& parameter = node_.type->parameters[place];
     if (!parameter.group.empty()) port.place = attribute.place;
     if (parameter.direction != Direction::Input && !is_guessed(*node_.type, parameter)) {
       report_.at_value(attribute.place,
@@ -139,10 +146,14 @@ class AttributeChecker {
                        fmt::format("write {}=\"{{key}}\"", parameter.name));
       return false;
     }
-    auto value = constant(parameter, attribute);
-    if (!value) return false;
-    port.value = static_cast<std::uint32_t>(trees_.values.size());
-    trees_.values.push_back(*std::move(value));
+    AttributeLayout::Constant& last = layout_.last[place];
+    if (last.value == AttributeLayout::kNone || !is_same(last.text, attribute.value)) {
+      auto value = constant(parameter, attribute);
+      if (!value) return false;
+      last = {attribute.value, static_cast<std::uint32_t>(trees_.values.size())};
+      trees_.values.push_back(*std::move(value));
+    }
+    port.value = last.value;
     return true;
   }
 
@@ -233,7 +244,7 @@ class AttributeChecker {
 
   const NodeElement& element_;
   const Reporter& report_;
-  const AttributeLayout& layout_;
+  AttributeLayout& layout_;
   CheckedNode& node_;
   CheckedTrees& trees_;
   const LanguageRules& rules_;
@@ -300,7 +311,7 @@ std::string parameters_hint(const NodeType& type) {
 
 void check_attributes(const NodeElement& element, const Reporter& report, CheckedNode& node,
                       AttributeLayouts& layouts, CheckedTrees& trees) {
-  const AttributeLayout& layout = layouts.of(element, *node.type, trees);
+  AttributeLayout& layout = layouts.of(element, *node.type, trees);
   AttributeChecker(element, report, layout, node, trees).check();
 }
 

@@ -91,10 +91,10 @@ class PlayedLeaf final : public RemoteLeaf {
 
   void write(const LeafWord& word) {
     for (const auto& [name, text] : word.written) {
-      for (BoundPort& port : caller_.ports) {
-        if (port.name() != name || port.write == nullptr) continue;
-        auto value = parse_value(port.type, text);
-        if (value) write_entry(*port.write, port.type, port.object(), std::move(*value));
+      for (const BoundPort* const port : caller_.ports) {
+        if (port->name() != name || port->write == nullptr) continue;
+        auto value = parse_value(port->type, text);
+        if (value) write_entry(*port->write, port->type, port->object(), std::move(*value));
       }
     }
   }
@@ -160,7 +160,7 @@ class ModelRun final : public RemoteRun {
         leaves_(
             tree, models,
             [this](std::uint32_t leaf, const LeafModel::Output& output, const Value& value) {
-              BoundPort& port = callers_[leaf]->ports[output.port];
+              const BoundPort& port = *callers_[leaf]->ports[output.port];
               if (port.write != nullptr) write_entry(*port.write, port.type, port.object(), value);
             },
             answers_) {

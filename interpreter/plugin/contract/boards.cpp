@@ -86,7 +86,7 @@ std::uint32_t of_port(const lockstep_caller* caller, std::uint32_t port, const c
                       std::size_t* length) {
   BoardsOfRun* const boards = caller->run->boards;
   if (boards == nullptr || port >= caller->ports.size()) return Board::kNone;
-  const Home* const home = boards->home_of_slot(caller->ports[port].entry);
+  const Home* const home = boards->home_of_slot(caller->ports[port]->entry);
   if (home == nullptr) return Board::kNone;
   *name = home->key.data();
   *length = home->key.size();

@@ -2,6 +2,7 @@
 // port's pointer in a table; all the rest of a port lies elsewhere.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -57,21 +58,53 @@ bool has_limits(const Parameter& port);
 class PortTable {
  public:
   void reserve(std::size_t ports);
-  void add(BoundPort&& port);
+  BoundPort& add(BoundPort&& port);
+  // One that another leaf of the run has, too; it must outlive the table.
+  void share(BoundPort& port);
   // Values of entries are not handed out without a further look. Before the first is added.
   void hide_entries() { hides_entries_ = true; }
   std::size_t size() const { return ports_.size(); }
-  // The ports from `first` on.
+  // Those from `first` on, or so many of them. Not before all ports are added.
   void give_to(lockstep_caller& caller, std::size_t first = 0);
-  BoundPort& operator[](std::size_t port) { return ports_[port]; }
+  void give_to(lockstep_caller& caller, std::size_t first, std::size_t count);
+  void shrink();  // to the memory that it needs
+  BoundPort& operator[](std::size_t port) { return *ports_[port]; }
 
  private:
-  std::vector<BoundPort> ports_;
+  std::vector<std::vector<BoundPort>> own_;  // in blocks, so that none of them moves
+  std::vector<BoundPort*> ports_;
   std::vector<const Value*> ordinary_;  // of each
   bool hides_entries_ = false;
 };
 
-// Adds those of a node.
-void bind_ports(const Tree& tree, const LeafNode& node, Blackboard& blackboard, PortTable& ports);
+// Binds the ports of leaves. Ports with the same constant are one, and leaves of a type with the
+// same constants have the same ports.
+class PortBinder {
+ public:
+  PortBinder(const Tree& tree, Blackboard& blackboard, PortTable& ports)
+      : tree_(tree), blackboard_(blackboard), ports_(ports) {}
+  // Adds the ports of a node, unless they are there. Returns the first.
+  std::size_t bind(const LeafNode& node);
+
+ private:
+  void bind(const PortBinding& binding, const Parameter& parameter);
+
+  const Tree& tree_;
+  Blackboard& blackboard_;
+  PortTable& ports_;
+  // What was bound last, at a place that its constant and parameter give, or its type.
+  struct KnownPort {
+    std::uint32_t constant;
+    BoundPort* port = nullptr;
+  };
+  struct KnownLeaf {
+    const LeafNode* leaf = nullptr;
+    std::size_t first;
+  };
+  bool has_same_constants(const LeafNode& node, const LeafNode& other) const;
+
+  std::array<KnownPort, 256> known_ports_{};
+  std::array<KnownLeaf, 64> known_leaves_{};
+};
 
 }  // namespace lockstep::host

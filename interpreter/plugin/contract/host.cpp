@@ -110,7 +110,7 @@ inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, 
   if (is_of(*value, type)) [[likely]]
     return value;
   try {
-    return otherwise_readable(*caller, caller->ports[port], type);
+    return otherwise_readable(*caller, *caller->ports[port], type);
   } catch (const std::exception&) {
     return nullptr;  // out of memory
   }
@@ -151,7 +151,7 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
                                             double* value) {
   if (get_otherwise(caller, port, value)) return true;
   const auto* whole = readable<std::int64_t>(caller, port);
-  if (whole == nullptr || caller->ports[port].type != ValueType::Number) return false;
+  if (whole == nullptr || caller->ports[port]->type != ValueType::Number) return false;
   *value = static_cast<double>(*whole);
   return true;
 }
@@ -181,7 +181,7 @@ bool get_string_list(const lockstep_caller* caller, std::uint32_t port, const lo
   const auto* found = readable<std::vector<std::string>>(caller, port);
   if (found == nullptr) return false;
   try {
-    auto& texts = caller->ports[port].remembered().texts;
+    auto& texts = caller->ports[port]->remembered().texts;
     texts.clear();
     for (const std::string& text : *found) texts.push_back({text.c_str(), text.size()});
     *items = texts.data();
@@ -352,9 +352,9 @@ const Object* unpacked(const lockstep_caller& caller, BoundPort& port, const Obj
 
 bool get_object(const lockstep_caller* caller, std::uint32_t port, void** object) {
   const auto* found = readable<Object>(caller, port);
-  if (found == nullptr || !is_of_type(*found, caller->ports[port].object())) return false;
+  if (found == nullptr || !is_of_type(*found, caller->ports[port]->object())) return false;
   try {
-    if (found->type()->is_packed()) found = unpacked(*caller, caller->ports[port], *found);
+    if (found->type()->is_packed()) found = unpacked(*caller, *caller->ports[port], *found);
   } catch (const std::exception&) {
     return false;
   }
@@ -438,7 +438,8 @@ const void* get_extension(const char* id) {
 // made complete.
 Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
   const InEngine scope(caller.run->lock);
-  for (const BoundPort& port : caller.ports) {
+  for (const BoundPort* const it : caller.ports) {
+    const BoundPort& port = *it;
     if (port.entry.empty() ||
         message.text() != fmt::format("port '{}' has no value", port.name())) {
       continue;
@@ -471,7 +472,7 @@ void take_error(const lockstep_caller& caller, const Shortened& message) {
 }
 
 const Value* read_port(const lockstep_caller& caller, std::uint32_t port) {
-  const ValueType type = caller.ports[port].type;
+  const ValueType type = caller.ports[port]->type;
   if (type != ValueType::Number) return readable(&caller, port, type);
   const Value* const number = readable(&caller, port, ValueType::Double);
   return number != nullptr ? number : readable(&caller, port, ValueType::Int);

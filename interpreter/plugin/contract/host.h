@@ -75,13 +75,12 @@ struct CallerRest {
 struct lockstep_caller {
   const lockstep::host::LeafTime* time;
   const lockstep::host::Value* const* ordinary = nullptr;  // of each port: BoundPort::ordinary
-  std::span<lockstep::host::BoundPort> ports = {};
+  std::span<lockstep::host::BoundPort* const> ports = {};
   lockstep::host::RandomStream random;
   lockstep::host::LeafSlot* slot;  // set_error sets its `error`
   const lockstep::host::CallerRun* run;
   const char* who = "";                            // its path, or the plugin's name
   const lockstep::host::NodeType* type = nullptr;  // null: it is a run
-  const lockstep::host::CallSite* site = nullptr;  // null: it is a run
   lockstep::host::NodeIndex node = 0;              // in the tree of its run
   std::uint32_t first_child = 0, children = 0;     // of a control node or decorator: in the tree
   std::unique_ptr<lockstep::host::CallerRest> rest = {};
@@ -122,7 +121,7 @@ bool write_port(const lockstep_caller& caller, std::uint32_t port, const Value& 
 inline BoundPort* port_of(const lockstep_caller& caller, std::uint32_t port) {
   if (caller.is_foreign() || port >= caller.ports.size()) [[unlikely]]
     return nullptr;
-  return &caller.ports[port];
+  return caller.ports[port];
 }
 
 const NodeTexts& texts_of(const lockstep_caller& caller);

@@ -49,12 +49,6 @@ const CallSite::Origin& origin_of(const NodeType& type) {
                               .is_local = is_local(type)});
 }
 
-std::size_t ports_of(const Tree& tree) {
-  std::size_t ports = 0;
-  for (const LeafNode& leaf : tree.leaves) ports += leaf.type->parameters.size();
-  return ports;
-}
-
 }  // namespace
 
 struct LeafSet::Implementation {
@@ -82,7 +76,8 @@ struct LeafSet::Implementation {
   };
   const Type& know_type(const LeafNode& leaf);
   std::size_t know_context(const NodeType& type, NodeIndex node);
-  void add_caller(const LeafNode& leaf, LeafSlot& slot, const CallSite& site);
+  void add_caller(const LeafNode& leaf, LeafSlot& slot);
+  void bind_ports();
   void create_all(std::uint64_t seed);
   void destroy_all();
   bool create_context(Context& context);
@@ -107,7 +102,6 @@ struct LeafSet::Implementation {
   PortTable ports_;                       // of the leaves
   std::vector<lockstep_caller> callers_;  // of the leaves
   CallSites site_memory_;
-  std::vector<const CallSite*> sites_;  // of the leaves
   std::unordered_map<const NodeType*, Type> types_;
   std::optional<Fault> fault_;
   bool is_destroyed_ = false;
@@ -123,17 +117,15 @@ LeafSet::Implementation::Implementation(const Tree& tree, Blackboard& blackboard
       run_{.log = &log_, .tree = &tree, .boards = boards, .lock = blackboard.lock.get()} {
   if (run_.lock != nullptr) ports_.hide_entries();
   callers_.reserve(tree.leaves.size());
-  sites_.reserve(tree.leaves.size());
-  ports_.reserve(ports_of(tree));
   std::string path;
   for (const LeafNode& leaf : tree.leaves) {
     LeafSlot& slot = slots_[callers_.size()];
     slot.type = leaf.type->leaf;
     tree.path(leaf.node, path);
     slot.site = &site_memory_.add(path, *know_type(leaf).origin);
-    sites_.push_back(slot.site);
-    add_caller(leaf, slot, *sites_.back());
+    add_caller(leaf, slot);
   }
+  bind_ports();
 }
 
 const LeafSet::Implementation::Type& LeafSet::Implementation::know_type(const LeafNode& leaf) {
@@ -157,18 +149,24 @@ std::size_t LeafSet::Implementation::know_context(const NodeType& type, NodeInde
   return contexts_.size() - 1;
 }
 
-void LeafSet::Implementation::add_caller(const LeafNode& leaf, LeafSlot& slot,
-                                         const CallSite& site) {
+void LeafSet::Implementation::add_caller(const LeafNode& leaf, LeafSlot& slot) {
   lockstep_caller& caller = callers_.emplace_back(time_, slot, run_);
-  caller.who = site.path;
+  caller.who = slot.site->path;
   caller.type = leaf.type;
-  caller.site = &site;
   caller.node = leaf.node;
   caller.first_child = leaf.first_child;
   caller.children = leaf.children;
-  const std::size_t first = ports_.size();
-  bind_ports(tree_, leaf, blackboard_, ports_);
-  ports_.give_to(caller, first);
+}
+
+void LeafSet::Implementation::bind_ports() {
+  PortBinder binder(tree_, blackboard_, ports_);
+  std::vector<std::size_t> first;
+  first.reserve(tree_.leaves.size());
+  for (const LeafNode& leaf : tree_.leaves) first.push_back(binder.bind(leaf));
+  ports_.shrink();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    ports_.give_to(callers_[i], first[i], tree_.leaves[i].type->parameters.size());
+  }
 }
 
 // In reverse order; what was not created is passed over.
@@ -186,8 +184,8 @@ void LeafSet::Implementation::destroy_all() {
     if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
   }
   for (lockstep_caller& caller : callers_) {
-    for (BoundPort& port : caller.ports) {
-      if (port.memory != nullptr) port.memory->packed = port.memory->unpacked = Object();
+    for (const BoundPort* const port : caller.ports) {
+      if (port->memory != nullptr) port->memory->packed = port->memory->unpacked = Object();
     }
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {
@@ -200,7 +198,7 @@ void LeafSet::Implementation::destroy_all() {
 
 void LeafSet::Implementation::destroy_leaf(std::size_t index) {
   const LeafSlot& slot = slots_[index];
-  const std::string reason = call(callers_[index], *sites_[index], PluginFunction::Destroy,
+  const std::string reason = call(callers_[index], *slot.site, PluginFunction::Destroy,
                                   [&] { slot.type->destroy(slot.self); });
   if (!reason.empty()) warn(callers_[index], "its destroy " + reason);
 }
@@ -252,7 +250,7 @@ bool LeafSet::Implementation::create_leaf(std::uint32_t index) {
   const LeafNode& leaf = tree_.leaves[index];
   LeafSlot& slot = slots_[index];
   void* const context = contexts_[types_.at(leaf.type).context]->slot.self;
-  std::string reason = call(callers_[index], *sites_[index], PluginFunction::Create, [&] {
+  std::string reason = call(callers_[index], *slot.site, PluginFunction::Create, [&] {
     slot.self = slot.type->create(&host_table(), &callers_[index], context);
     if (slot.self != nullptr) slot.kept_progress = kept_progress_of(slot);
   });

@@ -142,7 +142,7 @@ void open_port(lockstep_caller& caller, std::string_view key) {
   if (rest.ports.size() == 0) {
     if (caller.run->lock != nullptr) rest.ports.hide_entries();
     rest.ports.reserve(caller.ports.size() + 1);
-    for (BoundPort& port : caller.ports) rest.ports.add(std::move(port));
+    for (BoundPort* const port : caller.ports) rest.ports.share(*port);
     rest.ports.give_to(caller);
   }
   const std::string& kept = rest.opened.emplace_back(key);
@@ -154,7 +154,7 @@ std::uint32_t open(const lockstep_caller* caller, const char* text, std::size_t 
   if (!may_open(*caller)) return UINT32_MAX;
   const std::string_view key(text, length);
   for (std::size_t port = first_opened(*caller); port < caller->ports.size(); ++port) {
-    if (caller->ports[port].entry == key) return static_cast<std::uint32_t>(port);
+    if (caller->ports[port]->entry == key) return static_cast<std::uint32_t>(port);
   }
   try {
     const InEngine scope(caller->run->lock);

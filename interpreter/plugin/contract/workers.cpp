@@ -109,9 +109,9 @@ namespace {
 
 lockstep_worker* begin(const lockstep_caller* caller) {
   Workers* const workers = caller->time->workers;
-  if (workers == nullptr || caller->is_foreign() || caller->site == nullptr) return nullptr;
+  if (workers == nullptr || caller->is_foreign() || caller->slot->site == nullptr) return nullptr;
   try {
-    return workers->begin(*caller->site, to_seconds(caller->time->now));
+    return workers->begin(*caller->slot->site, to_seconds(caller->time->now));
   } catch (const std::exception&) {
     host_table().set_error(caller, "there is no memory for a worker");
     return nullptr;

@@ -89,7 +89,7 @@ Value port_value(const lockstep_caller& caller, std::uint32_t port) {
   const Value* const value = read_port(caller, port);
   if (value == nullptr) return {};
   const auto* const whole = std::get_if<std::int64_t>(value);
-  const bool is_number = caller.ports[port].type == ValueType::Number;
+  const bool is_number = caller.ports[port]->type == ValueType::Number;
   return is_number && whole != nullptr ? Value(static_cast<double>(*whole)) : *value;
 }
 
@@ -98,7 +98,7 @@ void append_json_value(std::string& to, const Value& value) {
 }
 
 std::string set_port(const lockstep_caller& caller, std::uint32_t port, JsonValue value) {
-  const BoundPort& it = caller.ports[port];
+  const BoundPort& it = *caller.ports[port];
   const Value taken = value_of(value, it.type);
   const bool fits = !std::holds_alternative<NoValue>(taken);
   if ((fits && write_port(caller, port, taken)) || caller.slot->error != nullptr) return {};

@@ -138,7 +138,7 @@ lockstep_status ProgramLeaf::take(Conversation::News news) {
 void ProgramLeaf::set_ports(std::string line) {
   std::string wrong;
   const auto set = [&](std::string_view name, JsonValue value) {
-    const auto port = std::ranges::find(caller_.ports, name, [](auto& it) { return it.name(); });
+    const auto port = std::ranges::find(caller_.ports, name, &BoundPort::name);
     if (port == caller_.ports.end()) {
       if (wrong.empty()) wrong = fmt::format("set '{}', which is no port of it", name);
       return value.skip();

@@ -47,7 +47,7 @@ Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent)
     if (value == sent[port]) continue;
     sent[port] = std::move(value);
     text_ += before;
-    append_json(text_, caller.ports[port].name());
+    append_json(text_, caller.ports[port]->name());
     text_ += ':';
     append_json_value(text_, sent[port]);
     before = ",";
@@ -62,10 +62,10 @@ Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent)
 
 Request& Request::unbound(const lockstep_caller& caller) {
   const char* before = ",\"unbound\":[";
-  for (const BoundPort& port : caller.ports) {
-    if (!port.is_unbound()) continue;
+  for (const BoundPort* const port : caller.ports) {
+    if (!port->is_unbound()) continue;
     text_ += before;
-    append_json(text_, port.name());
+    append_json(text_, port->name());
     before = ",";
   }
   if (*before == ',' && before[1] == '\0') text_ += ']';

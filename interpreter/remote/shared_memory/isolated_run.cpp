@@ -81,11 +81,11 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
   Leaf(IsolatedRun& run, const lockstep_caller& caller)
       : RemoteLeaf(caller), run_(run), number_(++run.last_number_) {
     RemoteEntries& entries = run.entries_;
-    for (const BoundPort& port : caller.ports) {
-      ports_.push_back(port.read == nullptr ? RemoteEntries::kNone : entries.number_of(port));
-      ports_.push_back(port.fallback == nullptr
+    for (const BoundPort* const port : caller.ports) {
+      ports_.push_back(port->read == nullptr ? RemoteEntries::kNone : entries.number_of(*port));
+      ports_.push_back(port->fallback == nullptr
                            ? RemoteEntries::kNone
-                           : entries.number_of({.read = port.fallback, .type = port.type}));
+                           : entries.number_of({.read = port->fallback, .type = port->type}));
     }
     ++run.leaves_;
     run.session_->add_listener(number_, caller);
@@ -136,7 +136,7 @@ bool IsolatedRun::Leaf::create() {
   request.put_text(texts_of(caller_).name);
   request.put(static_cast<std::uint32_t>(caller_.ports.size()));
   for (std::size_t index = 0; index < caller_.ports.size(); ++index) {
-    const BoundPort& port = caller_.ports[index];
+    const BoundPort& port = *caller_.ports[index];
     request.put(port.type);
     request.put(static_cast<std::uint8_t>(port.write != nullptr));
     request.put(ports_[2 * index]);

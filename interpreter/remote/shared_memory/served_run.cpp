@@ -106,7 +106,7 @@ ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& r
   leaf->caller->texts.set({.name = std::move(name)});
   leaf->type = &declared;
   leaf->caller->type = &descriptors_.leaves[type]->node_type;
-  leaf->site = leaf->caller->site = &site;
+  leaf->site = leaf->slot.site = &site;
   if (!read_ports(request, *leaf, descriptors_.leaves[type]->parameters)) return nullptr;
   return (objects_[number] = std::move(leaf)).get();
 }

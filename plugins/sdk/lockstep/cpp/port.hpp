@@ -1,6 +1,7 @@
-// The ports of a leaf: members of a struct that derives from Ports. The struct is made once as a
-// constant, for the descriptors, and once in every leaf, where its members read and write. Included
-// by lockstep/leaf.hpp.
+// The ports of a leaf: members of a struct that derives from Ports. The struct is made in a
+// constant, where the compiler finds mistakes, when the plugin is loaded, where its members write
+// their descriptors, and in every leaf, where they read and write values. Included by
+// lockstep/leaf.hpp.
 #pragma once
 
 #include <array>
@@ -25,8 +26,22 @@ class InOut;
 struct Required {};
 
 namespace detail {
+
 class Port;
 struct PortsAccess;
+
+// A mistake in a port is found in a constant. The structs of the leaves say the same, and there is
+// one for each leaf.
+constexpr bool is_for_constant() {
+  return __builtin_is_constant_evaluated();
+}
+
+// Where the ports that this thread makes write their descriptors; null: nowhere.
+inline thread_local lockstep_port* describing = nullptr;
+constexpr lockstep_port* descriptors_of_ports() {
+  return is_for_constant() ? nullptr : describing;
+}
+
 }  // namespace detail
 
 class Ports {
@@ -46,7 +61,7 @@ class Ports {
   static constexpr Limits at_most(double max) { return {nullptr, -kInfinity, max}; }
   static constexpr Limits one_of(const char* words) { return {words, 0, 0}; }  // "soft;firm"
 
-  constexpr Ports() = default;
+  constexpr Ports() : descriptors_(detail::descriptors_of_ports()) {}
   Ports(const Ports&) = delete;
   Ports& operator=(const Ports&) = delete;
 
@@ -55,31 +70,30 @@ class Ports {
 
   friend class detail::Port;
   friend struct detail::PortsAccess;
-  detail::Port* first_port_ = nullptr;
   detail::Port* last_port_ = nullptr;
-  std::uint32_t port_count_ = 0;
   const detail::Caller* port_caller_ = nullptr;
+  lockstep_port* descriptors_;  // where each port writes its descriptor; null: in a leaf
+  std::uint32_t port_count_ = 0;
 };
 
 namespace detail {
-
-// A mistake in a port is found in the constant for the descriptors. The structs of the leaves say
-// the same, and there is one for each leaf.
-constexpr bool is_for_descriptors() {
-  return __builtin_is_constant_evaluated();
-}
 
 class Port {
  public:
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
-  constexpr const char* name() const { return description_.name; }
+  constexpr const char* name() const { return name_; }
 
  protected:
-  constexpr Port(Ports* owner, const lockstep_port& description)
-      : description_(description), owner_(owner), index_(owner->port_count_) {
-    if (is_for_descriptors()) check_name(owner);
-    (owner->port_count_ == 0 ? owner->first_port_ : owner->last_port_->next_) = this;
+  constexpr Port(Ports* owner, const lockstep_port& descriptor)
+      : name_(descriptor.name),
+        owner_(owner),
+        before_(owner->last_port_),
+        type_(descriptor.type),
+        index_(static_cast<std::uint16_t>(owner->port_count_)),
+        is_input_(descriptor.direction == LOCKSTEP_INPUT) {
+    if (is_for_constant()) check_name(owner);
+    if (owner->descriptors_) owner->descriptors_[index_] = descriptor;
     owner->last_port_ = this;
     ++owner->port_count_;
   }
@@ -99,28 +113,31 @@ class Port {
   friend struct PortsAccess;
 
   constexpr void check_name(const Ports* owner) const {
-    const std::string_view name(description_.name);
+    const std::string_view name(name_);
     if (!is_name(name)) error_name_must_be_letters_digits_and_underscores();
     if (name == "name" || name == "ID") error_port_name_is_reserved_by_the_tree_language();
     // Counted: with -fsanitize=undefined, g++ takes no comparison with null for a constant.
-    const Port* other = owner->first_port_;
-    for (std::uint32_t i = 0; i < owner->port_count_; ++i, other = other->next_) {
-      if (name == other->description_.name) error_two_ports_have_the_same_name();
+    const Port* other = owner->last_port_;
+    for (std::uint32_t i = 0; i < owner->port_count_; ++i, other = other->before_) {
+      if (name == other->name_) error_two_ports_have_the_same_name();
     }
   }
 
-  lockstep_port description_;
-  const Ports* owner_;
-  std::uint32_t index_;
-  bool is_dropped_ = false;
-  Port* next_ = nullptr;
+  // There is one for each port of each leaf, so what only the descriptor needs is not here.
   const void* constant_ = nullptr;
+  const char* name_;
+  const Ports* owner_;
+  Port* before_;
+  lockstep_type type_;
+  std::uint16_t index_;
+  bool is_input_;
+  bool is_dropped_ = false;
 };
 
 template <class T>
 constexpr Limits all_limits(Limits limits) {
   if constexpr (std::is_enum_v<T>) limits.choices = PortTraits<T>::kWords;
-  if (!is_for_descriptors()) return limits;
+  if (!is_for_constant()) return limits;
   constexpr auto kType = PortTraits<T>::kType;
   constexpr bool kIsNumber = kType == LOCKSTEP_NUMBER || kType == LOCKSTEP_INT ||
                              kType == LOCKSTEP_DOUBLE || kType == LOCKSTEP_INT_LIST ||
@@ -160,7 +177,7 @@ constexpr lockstep_port describe(lockstep_direction direction, const char* name,
                                  Limits limits) {
   lockstep_port port = describe<T>(direction, name, doc, unit, limits);
   port.default_value = default_value;
-  if (!is_for_descriptors()) return port;
+  if (!is_for_constant()) return port;
   if (!PortTraits<T>::accepts(default_value)) error_default_is_not_a_value_of_the_port_type();
   if (port.choices && index_of(default_value, port.choices) >= count_words(port.choices)) {
     error_default_is_not_one_of_the_choices();
@@ -179,7 +196,7 @@ constexpr lockstep_port describe_output(const char* name, const char* doc, const
   constexpr auto kType = PortTraits<T>::kType;
   constexpr bool kIsText = kType == LOCKSTEP_STRING || kType == LOCKSTEP_STRING_LIST;
   const bool is_value =
-      is_for_descriptors() &&
+      is_for_constant() &&
       (is_double(doc) || (!kIsText && *doc != '\0' && PortTraits<T>::accepts(doc)));
   if (is_value) error_an_output_has_no_default();
   return describe<T>(LOCKSTEP_OUTPUT, name, doc, unit, limits);
@@ -311,32 +328,40 @@ struct PortsAccess {
     const void* const found = caller.host->get_extension(LOCKSTEP_LASTING);
     const auto* const lasting = static_cast<const lockstep_lasting*>(found);
     if (lasting == nullptr) return;
-    for (Port* port = ports.first_port_; port != nullptr; port = port->next_) {
-      port->constant_ = lasting->constant(caller.id, port->index_, port->description_.type);
-      const bool is_input = port->description_.direction == LOCKSTEP_INPUT;
-      port->is_dropped_ = !is_input && !lasting->is_set(caller.id, port->index_);
+    for (Port* port = ports.last_port_; port != nullptr; port = port->before_) {
+      port->constant_ = lasting->constant(caller.id, port->index_, port->type_);
+      port->is_dropped_ = !port->is_input_ && !lasting->is_set(caller.id, port->index_);
     }
   }
   static constexpr std::uint32_t count(const Ports& ports) { return ports.port_count_; }
-
-  template <std::uint32_t Count>
-  static constexpr std::array<const lockstep_port*, Count> list(const Ports& ports) {
-    std::array<const lockstep_port*, Count> pointers{};
-    const Port* port = ports.first_port_;
-    for (std::uint32_t i = 0; i < Count; ++i, port = port->next_) {
-      pointers[i] = &port->description_;
-    }
-    return pointers;
-  }
 };
 
-// The descriptors of a struct of ports, without a leaf.
+// The descriptors of a struct of ports, without a leaf. They are written when the plugin is loaded.
 template <class PortsOfLeaf>
 struct PortTable {
-  static constexpr PortsOfLeaf kPorts = PortsOfLeaf();
-  static constexpr std::uint32_t kCount = PortsAccess::count(kPorts);
-  static constexpr std::array<const lockstep_port*, kCount> kList =
-      PortsAccess::list<kCount>(kPorts);
+  static constexpr std::uint32_t count() {
+    PortsOfLeaf ports;
+    return PortsAccess::count(ports);
+  }
+  static constexpr std::uint32_t kCount = count();
+  using Descriptors = std::array<lockstep_port, kCount>;
+
+  static Descriptors describe() {
+    Descriptors all{};
+    describing = all.data();
+    PortsOfLeaf ports;
+    static_cast<void>(ports);
+    describing = nullptr;
+    return all;
+  }
+  static inline const Descriptors kDescriptors = describe();
+
+  static constexpr std::array<const lockstep_port*, kCount> list() {
+    std::array<const lockstep_port*, kCount> pointers{};
+    for (std::uint32_t i = 0; i < kCount; ++i) pointers[i] = kDescriptors.data() + i;
+    return pointers;
+  }
+  static constexpr std::array<const lockstep_port*, kCount> kList = list();
 };
 
 }  // namespace detail
