@@ -1,6 +1,6 @@
-// What is certain of a tree whatever its leaves do, for `lockstep check`: from a search with the
-// most general leaves. Its bound is a number of states and of ticks, so it says the same on every
-// machine. Of a tree that depends on more than its leaves (clocks, start values) it says nothing.
+// A search with the most general leaves finds what is certain of a tree whatever its leaves do, for
+// `lockstep check`. Its bound is a number of states and of ticks, so it says the same on every
+// machine. It says nothing of a tree that depends on more than its leaves (clocks, start values).
 #pragma once
 
 #include <functional>

@@ -13,7 +13,7 @@
 
 namespace lockstep::host {
 
-// What the nodes and leaves of a run keep, in the order of the tree.
+// The nodes and leaves of a run keep this, in the order of the tree.
 struct KeptState {
   std::vector<Activity> activity;
   std::vector<std::uint64_t> words;

@@ -22,7 +22,8 @@ class Components {
   std::uint32_t of(StateId state) const { return of_[state]; }
   std::uint32_t count() const { return count_; }
 
-  // Of these states, over the edges that `uses` says, which do not lead out of them.
+  // Finds the components of these states over the edges that `uses` says, which do not lead out of
+  // them.
   template <class Uses>
   void find(const std::vector<StateId>& states, const Uses& uses) {
     for (const StateId state : states) of_[state] = index_[state] = kNoState;

@@ -14,7 +14,7 @@
 namespace lockstep::host {
 namespace {
 
-// What it is for, for a person who opens one of the files.
+// Says to a person who opens one of the files what it is for.
 std::string heading(const Finding& finding) {
   std::string text = fmt::format("{}: {}", finding.name, finding.message);
   if (finding.repeats) text += fmt::format("; repeats from tick {}", *finding.repeats);

@@ -1,4 +1,4 @@
-// What the ticks of a search have shown of each node.
+// A coverage is what the ticks of a search have shown of each node.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class SearchCoverage {
   // After each tick, before its state is folded.
   void after_tick(Ticker& ticker);
   void add(const SearchCoverage& other);
-  // What one node did, all did that can come to its place.
+  // All nodes that can come to the place of one did what it did.
   void spread(const Symmetry& symmetry);
 
   bool was_ticked(NodeIndex node) const { return (seen_[node] & kTicked) != 0; }
@@ -27,7 +27,7 @@ class SearchCoverage {
   // Timeouts that have ended their child.
   bool has_fired(NodeIndex node) const { return (seen_[node] & kFired) != 0; }
 
-  // Of a synchronized node: the barriers at which somebody could be held, and how far its children
+  // A synchronized node has the barriers at which somebody could be held, and how far its children
   // were apart.
   struct Synchronized {
     NodeIndex node;

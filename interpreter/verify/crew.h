@@ -25,7 +25,7 @@ class Crew {
   void serve(unsigned number);
   void do_part(unsigned number);
 
-  const std::function<void(unsigned)>* job_ = nullptr;  // null: that is all
+  const std::function<void(unsigned)>* job_ = nullptr;  // null: no other comes
   std::vector<std::exception_ptr> failures_;            // of each thread
   std::atomic<std::uint32_t> begun_{0};                 // works
   std::atomic<std::uint32_t> busy_{0};                  // threads beside the caller's

@@ -77,14 +77,15 @@ void Expander::expand(StateId state, Chunk& into) {
   at.news = into.news.size();
 }
 
-// Of one state with very many answers. Where a chunk begins does not depend on the threads, so what
-// counts states and ticks ends at the same one.
+// Cuts off one state with very many answers. Where a chunk begins does not depend on the threads,
+// so what counts states and ticks ends at the same one.
 std::optional<SearchEnd> Expander::why_cut(Chunk::State& at, const Chunk& chunk) {
   if (known_->size() + chunk.fresh.size() > limits_.states) return SearchEnd::States;
   if (at.transitions > limits_.transitions) return SearchEnd::Transitions;
   if (limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0) return SearchEnd::Signal;
   if (limits_.time && monotonic_now() - began_ > *limits_.time) return SearchEnd::Time;
-  const std::size_t memory = chunk.fresh.memory() + chunk.edges.capacity() * sizeof(Edge);
+  const std::size_t memory =
+      chunk.fresh.memory() + chunk.edges.capacity() * sizeof(Edge) + labels_.memory();
   if (memory > limits_.memory) return SearchEnd::Memory;
   return std::nullopt;
 }

@@ -1,6 +1,6 @@
-// What the ticks from some states do. Several threads make chunks of these at a time; the search
-// puts them together in the order of the states, so that all is the same with any number of
-// threads.
+// An expansion finds what the ticks from some states do. Several threads make chunks of these at a
+// time; the search puts them together in the order of the states, so that all is the same with any
+// number of threads.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct Step {
   std::uint32_t combination = 0;
 };
 
-// What a thread sees for the first time: in the order of the states, the first of all threads is
+// A thread sees this for the first time: in the order of the states, the first of all threads is
 // among these.
 struct News {
   enum class Kind : std::uint8_t { Result, Fault, Broken, Violated, EntryValue };

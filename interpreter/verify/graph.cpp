@@ -23,7 +23,7 @@ std::vector<bool> can_end(const Graph& graph) {
   components.find(states, [](StateId, const Edge&) { return true; });
   std::vector<bool> can = graph.ends;
   for (std::size_t state = graph.expanded(); state < can.size(); ++state) can[state] = true;
-  // Of each component. Those that it leads to come before it.
+  // A component comes behind those that it leads to.
   std::vector<bool> component_can(components.count());
   for (const StateId state : components.in_order(states)) {
     const auto leads_out = [&](const Edge& edge) {

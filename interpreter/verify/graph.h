@@ -1,5 +1,5 @@
-// What a search has found: the states as numbers, and what each tick from one of them did. The
-// questions of a verdict are asked here, without the engine.
+// A graph is what a search has found: the states as numbers, and what each tick from one of them
+// did. The questions of a verdict are asked here, without the engine.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,8 @@ struct CycleStep {
 // The edges that it may use.
 using EdgeFilter = std::function<bool(const Edge&)>;
 
-// Of each state: some way leads from it to an end, or to a state that was not looked at.
+// Says of each state whether some way leads from it to an end, or to a state that was not looked
+// at.
 std::vector<bool> can_end(const Graph& graph);
 
 // The states to which some way leads from this one, which is one of them.

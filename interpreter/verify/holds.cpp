@@ -9,7 +9,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of each child that may move, by its place among those: its place among `children`.
+// The place among `children` of each child that may move, by its place among those.
 std::vector<std::size_t> places_of(const LabelShape& shape,
                                    const std::vector<std::size_t>& children) {
   std::vector<std::size_t> places;

@@ -1,4 +1,4 @@
-// What matters of a tick for a run that never ends.
+// A label says what matters of a tick for a run that never ends.
 #pragma once
 
 #include <cstdint>

@@ -114,7 +114,7 @@ LabelTable::Bits Labeller::moved(const LabelTable::Bits& bits,
   return moved;
 }
 
-// Who waits for resources is held also before it has begun.
+// A node that waits for resources is held also before it has begun.
 bool Labeller::is_held(const Ticker& ticker, const Holdable& it) const {
   if (!is_pool(tree_, it.holder)) return ticker.held(it.child);
   return ticker.ticked(it.child - 1) && waits(limit(ticker, it.child - 1));

@@ -18,7 +18,7 @@ class Labeller {
   Labeller(const Tree& tree, const LeafModels& models, std::size_t properties,
            const Symmetry& symmetry);
 
-  // What a graph with these labels says of them.
+  // The shape of these labels, for the graph that has them.
   LabelShape shape() const;
   // After a tick, before its state is folded. Valid until the next call.
   const LabelTable::Bits& of(Stepper& stepper);

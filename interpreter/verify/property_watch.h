@@ -31,8 +31,8 @@ class PropertyWatch {
   bool owes(const std::byte* state, std::size_t property) const;
 
  private:
-  // Of a property. In its state: whether it is decided, the results of its comparisons (which count
-  // while an entry has no value), and what the property itself keeps.
+  // The part of a property. Its state has whether it is decided, the results of its comparisons
+  // (which count while an entry has no value), and what the property itself keeps.
   struct Part {
     const Property* property;
     std::size_t first_byte;

@@ -187,7 +187,7 @@ class Searcher {
     return result_.transitions > limits_.transitions && stop(SearchEnd::Transitions);
   }
 
-  // What depends on the machine, before a round.
+  // Before a round, this looks at all that depends on the machine.
   bool has_ended(StateId state) {
     if (limits_.stop_signal && (result_.signal = limits_.stop_signal()) != 0) {
       return stop(SearchEnd::Signal);
@@ -244,7 +244,8 @@ std::vector<Step> SearchResult::way_to(StateId state) const {
 }
 
 std::size_t SearchResult::memory() const {
-  return store.memory() + before.size() * sizeof(Step) + graph.edges.memory();
+  return store.memory() + before.size() * sizeof(Step) + graph.edges.memory() +
+         graph.labels.memory();
 }
 
 SearchResult search(const Tree& tree, const LeafModels& models,

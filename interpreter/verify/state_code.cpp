@@ -152,7 +152,7 @@ class StateCode::ByteReader {
 
 namespace {
 
-// What a node keeps beside its activity may say when it was held.
+// A node may keep beside its activity when it was held.
 bool keeps_pause(const Tree& tree, NodeIndex node, const LeafModels& models) {
   const Node& it = tree.nodes[node];
   const NodeType& type = *tree.labels[node].type;

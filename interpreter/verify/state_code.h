@@ -22,14 +22,14 @@ class StateCode {
   StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
             std::vector<bool> watched, const Symmetry& symmetry);
 
-  // What a fold would forget of those.
+  // Notes what a fold would forget of those.
   void before_fold(const Ticker& ticker);
 
-  // Of a run that is folded, with equal children in one order or as they are.
+  // Encodes a run that is folded, with equal children in one order or as they are.
   enum class Children : std::uint8_t { Sorted, AsTheyAre };
   void encode(const Ticker& ticker, ModelLeaves& leaves, std::span<const std::byte> properties,
               Children children, StateBytes& into);
-  // Of each place, the node that was there before it was encoded; empty if none has moved.
+  // The node that was in each place before it was encoded; empty if none has moved.
   std::span<const NodeIndex> origins() const { return order_.origins(); }
   // The state in which each node is at one of these places.
   void move(std::span<const std::byte> from, std::span<const NodeIndex> places, StateBytes& into);

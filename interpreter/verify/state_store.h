@@ -45,7 +45,7 @@ class StateStore {
   void clear();
 
   bool keeps_hashes() const { return mask_ != 0; }
-  // Of a store that keeps hashes: forgets the states before this one, which are not read any more.
+  // A store that keeps hashes forgets the states before this one, which are not read any more.
   void forget_before(StateId id) { rows_.forget_before(id); }
   // A bound of the probability that two of its states were taken for one, if hashes are as random
   // numbers: the k-th state has the hash of one before it with a probability of k / 2^bits.

@@ -22,7 +22,7 @@ bool keeps_child(const NodeKind* kind) {
   return std::ranges::find(kKinds, kind) != std::ranges::end(kKinds);
 }
 
-// What it keeps means the same at another place, but for that child.
+// All that such a kind keeps means the same at another place, but for that child.
 bool can_move(const NodeKind* kind) {
   constexpr const NodeKind* kKinds[] = {&kRepeat, &kRetry,    &kTimeout, &kDelay,
                                         &kRate,   &kCooldown, &kRunOnce, &kWait};
@@ -160,7 +160,7 @@ class EqualChildrenFinder {
 
   const Tree& tree_;
   const LeafModels& models_;
-  // Of each node, whether it is so with it or with a node below it.
+  // Each is true for a node if it is so with it or with a node below it.
   std::vector<bool> may_fault_, is_told_apart_;
   std::vector<bool> is_set_;  // of each fact: by a leaf
 };

@@ -45,7 +45,7 @@ class Tracer {
   using After = std::function<void(Stepper&, Status status, std::size_t tick)>;
   void play(const TracedRun& run, const After& after);
 
-  // What each leaf does in this run.
+  // The scripts say what each leaf does in this run.
   LeafScripts scripts(const TracedRun& run);
 
  private:

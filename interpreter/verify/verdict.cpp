@@ -153,7 +153,7 @@ class VerdictMaker {
     return tracer_.steps_of(shortest_way(graph_, from, is_goal));
   }
 
-  // Who waits for whom in the end, as a run would report it.
+  // Says who waits for whom in the end, as a run would report it.
   std::vector<std::string> why_it_stands(const Finding& finding) {
     std::vector<std::string> lines;
     StallWatch watch(tree_, period_ / 2, [&](const Standstill& standstill) {
@@ -382,7 +382,7 @@ class VerdictMaker {
     for (const auto& it : found_.coverage.synchronized()) say_spread(it);
   }
 
-  // What a spread is to be compared with: a step of a tick may come to it.
+  // The bound is what a spread is to be compared with: a step of a tick may come to it.
   std::string bound_of(NodeIndex node) const {
     if (const auto own = delta(tree_, node)) return fmt::format(" (delta {:.6g})", *own);
     const auto list = barriers(tree_, node);

@@ -1,5 +1,5 @@
-// What a search says about a tree: findings, each with a stable name and a run that shows it, and
-// what else is known.
+// A verdict is what a search says about a tree: findings, each with a stable name and a run that
+// shows it, and what else is known.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a search cannot know about a tree: it is told with its place, and never guessed.
+// Finds what a search cannot know about a tree. Each has a place, and nothing is guessed.
 #pragma once
 
 #include <vector>

@@ -33,7 +33,11 @@ std::string mixed() {
   return "<Parallel>" + arm + arm + "</Parallel>";
 }
 
-void verify(benchmark::State& state, const std::string& text, const std::string& rows) {
+// Whether states of equal children count once, or each for itself.
+enum class Equal : bool { Each, Once };
+
+void verify(benchmark::State& state, const std::string& text, const std::string& rows,
+            Equal equal) {
   const BenchTree bench(text);
   const Tree& tree = bench.tree();
   Diagnostics diagnostics;
@@ -44,8 +48,9 @@ void verify(benchmark::State& state, const std::string& text, const std::string&
   const auto jobs = static_cast<unsigned>(state.range(0));
   double ticks = 0, states = 1, memory = 0, seconds = 0;
   for (auto _ : state) {
-    const SearchResult found = search(tree, models, {}, from_seconds(0.1),
-                                      {.memory = std::size_t{4} << 30u, .jobs = jobs});
+    const SearchResult found =
+        search(tree, models, {}, from_seconds(0.1),
+               {.memory = std::size_t{4} << 30u, .jobs = jobs, .symmetry = equal == Equal::Once});
     const Verdict verdict = make_verdict(tree, models, {}, found, {});
     benchmark::DoNotOptimize(verdict.findings.data());
     ticks += static_cast<double>(found.transitions);
@@ -59,8 +64,10 @@ void verify(benchmark::State& state, const std::string& text, const std::string&
   state.counters["ticks/s"] = ticks / seconds;
 }
 
-void add(const char* name, const std::string& tree, const std::string& rows = "") {
-  benchmark::RegisterBenchmark(name, [=](benchmark::State& state) { verify(state, tree, rows); })
+void add(const char* name, const std::string& tree, const std::string& rows = "",
+         Equal equal = Equal::Each) {
+  benchmark::RegisterBenchmark(name,
+                               [=](benchmark::State& state) { verify(state, tree, rows, equal); })
       ->ArgName("jobs")
       ->Arg(1)
       ->Arg(2)
@@ -74,6 +81,9 @@ int main(int argc, char** argv) {
   add("mixed", mixed());
   add("absolute/4/8", absolute(4, 8), kFull);
   add("absolute/6/4", absolute(6, 4), kFull);
+  add("equal/4/8", absolute(4, 8), kFull, Equal::Once);
+  add("equal/6/4", absolute(6, 4), kFull, Equal::Once);
+  add("equal/6/8", absolute(6, 8), kFull, Equal::Once);
   add("sequence/400",
       "<Sequence memory=\"true\">" + BenchTree::repeated(kLeaf, 400) + "</Sequence>");
   benchmark::Initialize(&argc, argv);
