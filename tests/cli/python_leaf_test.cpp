@@ -54,6 +54,27 @@ TEST_CASE("a leaf in Python sets ports that another reads, and its exception has
   CHECK(contains(unset.err, "the port 'width' has no value (grip.py:"));
 }
 
+TEST_CASE("plugin check --list saves what leaves a program has, and makes none") {
+  const TemporaryDirectory directory;
+  const std::string program = directory.file(
+      "grip.py",
+      "#!/usr/bin/python3\nfrom lockstep_leaf import Action, serve\nclass Grip(Action):\n"
+      "    def __init__(self):\n        open('moved', 'w')\n    def tick(self):\n        return "
+      "True\nserve()\n");
+  chmod(program.c_str(), 0755);
+  const Outcome listed =
+      shell("lockstep plugin check --list --save ./grip.py && cat grip.leaves.json", directory);
+  INFO(listed.out << listed.err);
+  CHECK(listed.code == 0);
+  CHECK(contains(listed.out, "that it has 'Grip'"));
+  CHECK(contains(listed.out, "\"id\":\"Grip\""));
+  CHECK_FALSE(std::filesystem::exists(directory.path("moved")));
+  CHECK(shell("lockstep plugin check ./grip.py", directory).code == 0);
+  CHECK(std::filesystem::exists(directory.path("moved")));
+  CHECK(contains(shell("lockstep plugin check --list '" + abi_plugin("good") + "'", directory).err,
+                 "--list is for programs"));
+}
+
 TEST_CASE("plugin check finds what a program does against the protocol, and saves its leaves") {
   const PythonLeaves leaves;
   const auto nodes = [&] { return run_lockstep({"nodes", "Grip", "--plugin", leaves.program}); };

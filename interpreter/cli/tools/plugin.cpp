@@ -24,6 +24,7 @@ struct PluginCheckOptions {
   std::string file;
   PluginOptions plugins;
   bool save = false;
+  bool only_leaves = false;
   std::optional<std::size_t> from_leaf;  // in the child that examines a shared object
 };
 
@@ -73,8 +74,9 @@ std::string text_of(const Conformance& found, const std::string& file, std::stri
 }
 
 int check_object(const PluginCheckOptions& options, const std::string& file) {
-  if (options.save) {
-    print_error("--save is for programs", "commands read what a shared object has from itself");
+  if (options.save || options.only_leaves) {
+    print_error(options.save ? "--save is for programs" : "--list is for programs",
+                "commands read what a shared object has from itself");
     return kExitUsage;
   }
   const Conformance found = check_object(file, options.plugins);
@@ -90,7 +92,8 @@ int check_plugin(const PluginCheckOptions& options) {
   if (!object.empty()) return check_object(options, object);
   const std::string program = find_program(options);
   if (program.empty()) return refuse_file(options);
-  const Conformance found = check_conformance(program, isolation_options(options.plugins));
+  const auto part = options.only_leaves ? ConformancePart::Begin : ConformancePart::All;
+  const Conformance found = check_conformance(program, isolation_options(options.plugins), part);
   const std::string text = text_of(found, program, "the protocol (docs/programs.md)");
   const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
   const int saved =
@@ -112,6 +115,9 @@ std::function<int()> define_plugin(CLI::App& app) {
       "--save", options->save,
       "Write what leaves a program has to a file beside it, grip.leaves.json for grip.py, "
       "which commands read that run no programs");
+  check->add_flag(
+      "--list", options->only_leaves,
+      "Only ask a program what leaves it has: none of them is started, so nothing moves");
   check
       ->add_option("--plugin-path", options->plugins.directories,
                    "Search the plugin in this directory first; may be repeated")
@@ -136,7 +142,8 @@ extern const Command kPluginCommand{"plugin", "Check a plugin, a shared object o
                                     "  lockstep plugin check build/grip.so\n"
                                     "  lockstep plugin check ./grip.py\n"
                                     "  lockstep plugin check grip --plugin-path leaves\n"
-                                    "  lockstep plugin check ./grip.py --save",
+                                    "  lockstep plugin check ./grip.py --save\n"
+                                    "  lockstep plugin check ./grip.py --list --save",
                                     define_plugin};
 
 }  // namespace lockstep::host

@@ -74,10 +74,10 @@ class Examiner {
   Examiner(const std::string& path, const IsolationOptions& options)
       : path_(path), options_(options) {}
 
-  Conformance examine() {
+  Conformance examine(ConformancePart part) {
     if (begin()) {
       for (const auto& leaf : descriptors_.leaves) {
-        if (!examine_leaf(*leaf)) return std::move(result_);
+        if (part == ConformancePart::All && !examine_leaf(*leaf)) return std::move(result_);
       }
       end();
     }
@@ -214,8 +214,9 @@ class Examiner {
 
 }  // namespace
 
-Conformance check_conformance(const std::string& path, const IsolationOptions& options) {
-  return Examiner(path, options).examine();
+Conformance check_conformance(const std::string& path, const IsolationOptions& options,
+                              ConformancePart part) {
+  return Examiner(path, options).examine(part);
 }
 
 }  // namespace lockstep::host

@@ -20,6 +20,11 @@ struct Conformance {
   bool is_good() const { return std::ranges::all_of(steps, &ConformanceStep::is_good); }
 };
 
-Conformance check_conformance(const std::string& path, const IsolationOptions& options);
+// Begin: it is started and says what leaves it has, but none of them is made, so that nothing
+// moves.
+enum class ConformancePart { Begin, All };
+
+Conformance check_conformance(const std::string& path, const IsolationOptions& options,
+                              ConformancePart part);
 
 }  // namespace lockstep::host
