@@ -56,6 +56,14 @@ test("from the palette, it is the file of the editor, with the settings", async 
   assert.deepEqual(words(), ["test", tree, ...paths]);
 });
 
+test("in a workspace that is not trusted nothing runs, also from a lens", async () => {
+  stub.isTrusted = false;
+  for (const command of [runTest, verify, monitor, (given) => new RunView(output).run(given)]) await command(lens("One"));
+  assert.equal(stub.tasks.length + stub.panels.length + stub.saved.length, 0);
+  assert.equal(stub.errors.length, 4);
+  assert.match(stub.errors[0], /trust the workspace/);
+});
+
 test("without a file there is a message, and nothing is started", async () => {
   stub.active = undefined;
   await verify();

@@ -89,7 +89,7 @@ std::vector<PluginSource> all_sources() {
 
 }  // namespace
 
-TEST_CASE("scaffold: nothing of any plugin of this project changes where a node is inserted") {
+TEST_CASE("nothing of any plugin of this project changes where a node is inserted") {
   std::size_t changed = 0;
   for (const PluginSource& source : all_sources()) {
     const NewNode node{NewNodeKind::Condition, "Zebra", "", {}};
@@ -106,7 +106,7 @@ TEST_CASE("scaffold: nothing of any plugin of this project changes where a node 
   CHECK(changed > 20);
 }
 
-TEST_CASE("scaffold: a node goes behind the last one, and nothing of the author's changes") {
+TEST_CASE("a node goes behind the last one, and nothing of the author's changes") {
   for (const Source& source : kSources) {
     const std::string result = inserted(source.language, source.text, kOpen);
     INFO(source.language << "\n" << source.text << "----\n" << result);
@@ -117,7 +117,7 @@ TEST_CASE("scaffold: a node goes behind the last one, and nothing of the author'
   }
 }
 
-TEST_CASE("scaffold: a second node goes behind the first") {
+TEST_CASE("a second node goes behind the first") {
   for (const Source& source : kSources) {
     const NewNode next{NewNodeKind::Action, "Shut", "", {}};
     const std::string once = inserted(source.language, source.text, kOpen);
@@ -128,7 +128,7 @@ TEST_CASE("scaffold: a second node goes behind the first") {
   }
 }
 
-TEST_CASE("scaffold: a source without a list of nodes is refused, and says what was looked for") {
+TEST_CASE("a source without a list of nodes is refused, and says what was looked for") {
   CHECK(inserted("c", "const lockstep_plugin lockstep_plugin_entry;", kOpen) ==
         "refused: 'plugin' has no place for a node: a list of lockstep_leaf_type* const");
   CHECK(inserted("python", "def f():\n    serve()\n", kOpen) ==

@@ -21,8 +21,13 @@ function fileOf(given: unknown): Uri | undefined {
   return isLens(given) ? Uri.parse(given.uri) : window.activeTextEditor?.document.uri;
 }
 
-// The file, saved, since a command reads it.
+// The file of a command that runs trees, saved, since lockstep reads it. A code lens calls a command whatever package.json
+// says of trust.
 export async function savedFile(given: unknown): Promise<Uri | undefined> {
+  if (!workspace.isTrusted) {
+    void window.showErrorMessage("lockstep: a tree runs the code of plugins: trust the workspace first.");
+    return undefined;
+  }
   const file = fileOf(given);
   if (file?.scheme !== "file") {
     void window.showErrorMessage("lockstep: save the file first, then run it.");
