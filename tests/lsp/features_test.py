@@ -225,6 +225,41 @@ class Features(unittest.TestCase):
         self.assertEqual([part.as_uri()], [it["uri"] for it in found])
         self.assertIn("Unsaved", self.complete(text.replace("Unsav|ed", "|")))
 
+    def renamed(self, text, name):
+        place = self.put(text)
+        params = {"textDocument": {"uri": self.path.as_uri()}, "newName": name,
+                  "position": {"line": place[0], "character": place[1]}}
+        answer = self.client.answer(self.client.send("textDocument/rename", params))
+        if "error" in answer:
+            return answer["error"]["message"]
+        return self.edited(answer["result"]["changes"][self.path.as_uri()])
+
+    def test_rename(self):
+        text = HEAD + """<SubTree ID="Other" inner="{limit}"/>
+      <Wait seconds="{limit}" skip_if="limit &gt; 3 &amp;&amp; limit != 5"/>
+      <Wait seconds="${pace}"/>
+      <SyncProgress barrier="table"><AlwaysSuccess/></SyncProgress>""" + TAIL
+        changes = {
+            "<SubTree ID=\"Oth|er\"": ("Other", "Else", 2),
+            "{lim|it}\"/>": ("limit", "most", 5),
+            "in|ner=": ("inner", "its", 2),
+            "${pa|ce}": ("pace", "speed", 2),
+            "barrier=\"ta|ble": ("table", "desk", 2),
+        }
+        for cursor, (old, new, count) in changes.items():
+            with self.subTest(old):
+                self.assertEqual(text.count(cursor.replace("|", "")), 1)
+                found = self.renamed(text.replace(cursor.replace("|", ""), cursor), new)
+                self.assertEqual(found.count(new), count)
+                self.assertNotRegex(found, rf"\b{old}\b")
+                messages = [it["message"] for it in self.client.diagnostics(self.path)]
+                again = [it["message"] for it in self.client.change(self.path, found)]
+                self.assertEqual([it.replace(old, new) for it in messages], again)
+        self.assertIn("taken", self.renamed(text.replace("{limit}\"/>", "{lim|it}\"/>"), "word"))
+        self.assertIn("cannot be a name", self.renamed(text.replace("{limit}\"/>", "{lim|it}\"/>"), "a b"))
+        self.assertIn("_autoremap", self.renamed(
+            text.replace("inner=\"{limit}\"", "inner=\"{lim|it}\" _autoremap=\"true\""), "most"))
+
     def test_structure(self):
         self.put(HEAD + "<Wait name=\"pause\" seconds=\"1\"/>" + TAIL)
         root = self.client.about("textDocument/documentSymbol", self.path)[0]

@@ -4,20 +4,18 @@
 
 #include <algorithm>
 
+#include "authoring/edit/text_edit.h"
+#include "authoring/edit/value_text.h"
 #include "authoring/server/diagnostics_json.h"
 #include "authoring/server/features/names.h"
 #include "authoring/server/features/site.h"
+#include "authoring/server/features/workspace_edit.h"
 #include "document/lines.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::string_view kMarkOfFile = "\xEF\xBB\xBF";
-
-struct Patch {
-  ByteRange range;
-  std::string text;
-};
 
 // The words between single quotes of a message.
 std::vector<std::string_view> quoted_words(std::string_view message) {
@@ -65,18 +63,12 @@ class Fixes {
   }
 
  private:
-  void add(std::string title, const std::vector<Patch>& patches) {
-    std::vector<Json> edits;
-    for (const Patch& it : patches) {
-      edits.push_back(
-          Json{{"range", question_.file.positions().json(it.range)}, {"newText", it.text}});
-    }
-    Json changes = Json::object();
-    changes[question_.file.uri] = Json::array(std::move(edits));
+  void add(std::string title, const TextEdit& edit) {
+    Json change = workspace_edit({{question_.file.uri, json_of(edit, question_.file.positions())}});
     actions_.push_back(Json{{"title", std::move(title)},
                             {"kind", "quickfix"},
                             {"isPreferred", true},
-                            {"edit", Json{{"changes", std::move(changes)}}}});
+                            {"edit", std::move(change)}});
   }
 
   void replace_word(const Diagnostic& message, ByteRange place) {
@@ -85,9 +77,10 @@ class Fixes {
     for (const std::string_view wrong : quoted_words(message.message)) {
       const auto found = find_word(wrong, place);
       if (!found) continue;
-      std::vector<Patch> patches{{*found, std::string(right)}};
-      add_end_tag(*found, right, patches);
-      return add(fmt::format("Replace '{}' by '{}'", wrong, right), patches);
+      TextEdit edit;
+      edit.replace(found->begin, found->end, escaped(right));
+      add_end_tag(*found, right, edit);
+      return add(fmt::format("Replace '{}' by '{}'", wrong, right), edit);
     }
   }
 
@@ -103,12 +96,12 @@ class Fixes {
     return std::nullopt;
   }
 
-  void add_end_tag(ByteRange name, std::string_view right, std::vector<Patch>& patches) const {
+  void add_end_tag(ByteRange name, std::string_view right, TextEdit& edit) const {
     const TolerantElement* const element = tree_.at(name.begin);
     if (element == nullptr || range_of(tree_, element->tag) != name) return;
     if (element->close == element->end) return;
     const std::size_t begin = element->close + 2;
-    patches.push_back({{begin, begin + element->tag.size()}, std::string(right)});
+    edit.replace(begin, begin + element->tag.size(), std::string(right));
   }
 
   void add_missing(const Diagnostic& message, ByteRange place) {
@@ -119,8 +112,10 @@ class Fixes {
     std::size_t end = tree_.offset_of(element->tag) + element->tag.size();
     for (const TolerantAttribute& it : tree_.attributes_of(*element))
       end = range_of(tree_, it.value).end + 1;
-    const std::string text = fmt::format("{}=\"{}\"", name, value_for(*element, name));
-    add(fmt::format("Add {}", text), {{{end, end}, " " + text}});
+    const std::string text = fmt::format("{}={}", name, host::quoted(value_for(*element, name)));
+    TextEdit edit;
+    edit.insert(end, " " + text);
+    add(fmt::format("Add {}", text), edit);
   }
 
   // One that the check accepts where that is possible.

@@ -4,6 +4,7 @@
 #include "authoring/server/features/hover.h"
 #include "authoring/server/features/lens.h"
 #include "authoring/server/features/navigation.h"
+#include "authoring/server/features/rename.h"
 #include "authoring/server/features/script_tokens.h"
 #include "authoring/server/features/structure.h"
 
@@ -18,6 +19,8 @@ std::span<const Feature> features() {
       {"textDocument/documentHighlight", highlights},
       {"textDocument/documentSymbol", document_symbols},
       {"textDocument/foldingRange", folding_ranges},
+      {"textDocument/prepareRename", prepare_rename},
+      {"textDocument/rename", rename, false},
       {"textDocument/codeAction", code_actions, false},
       {"textDocument/codeLens", code_lenses},
       {"textDocument/inlayHint", inlay_hints},
@@ -41,6 +44,7 @@ Json capabilities() {
           {"documentHighlightProvider", true},
           {"documentSymbolProvider", true},
           {"foldingRangeProvider", true},
+          {"renameProvider", Json{{"prepareProvider", true}}},
           {"codeActionProvider", Json{{"codeActionKinds", Json::array(std::move(kinds))}}},
           {"codeLensProvider", Json{{"resolveProvider", false}}},
           {"inlayHintProvider", true},

@@ -132,6 +132,24 @@ Names::Names(const Question& question) {
   }
   for (const ProjectText& it : texts_)
     NameVisitor(it, analysis.catalog, rules_of(question), places_).run();
+  for (const ProjectText& it : texts_) add_remappings(it, rules_of(question));
+}
+
+// <SubTree ID="Inner" key="…">: `key` is an entry of Inner.
+void Names::add_remappings(const ProjectText& text, const LanguageRules& rules) {
+  for (const TolerantElement& element : text.tree->elements) {
+    if (!is_sub_tree(element.tag)) continue;
+    const TolerantElement* const tree = tree_named(text.tree->value_of(element, "ID"));
+    for (const TolerantAttribute& it : text.tree->attributes_of(element)) {
+      const bool is_own = it.name == "ID" || it.name == "name" || it.name.starts_with('_');
+      if (tree == nullptr || is_own || hook_named(it.name, rules)) continue;
+      const std::size_t begin = text.tree->offset_of(it.name);
+      NamePlace place{NameKind::Entry, it.name, &text, {begin, begin + it.name.size()}, &element};
+      place.scope = tree;
+      place.is_declaration = true;
+      places_.push_back(place);
+    }
+  }
 }
 
 const NamePlace* Names::at(std::size_t byte) const {

@@ -45,6 +45,8 @@ class Names {
   const TolerantElement* tree_named(std::string_view id) const;
 
  private:
+  void add_remappings(const ProjectText& text, const LanguageRules& rules);
+
   std::vector<ProjectText> texts_;
   std::vector<NamePlace> places_;
 };
