@@ -31,6 +31,17 @@ void note_left_out(const Project& project, Diagnostics& diagnostics, Analysis& r
   }
 }
 
+// That no plugin has a node is known of all of them. That it is near to one of the language may
+// help.
+Diagnostics without_missing_nodes(const Diagnostics& diagnostics) {
+  Diagnostics rest;
+  for (const Diagnostic& it : diagnostics.all()) {
+    const bool is_about_plugins = it.message.starts_with("no plugin has ");
+    if (!is_about_plugins || it.hint.starts_with("did you mean ")) rest.add(it);
+  }
+  return rest;
+}
+
 // Of a text that is not readable: the root, its includes, arguments and plugins, as far as they are
 // written.
 std::string declarations_of(std::string_view text) {
@@ -64,6 +75,7 @@ class TreeAnalysis {
     if (!job_.settings->trusted && project) note_left_out(*project, diagnostics_, result_);
     const LoadedPlugins loaded = plugins_of(project.get());
     auto meaning = meaning_of(project.get(), loaded, options_, diagnostics_);
+    if (!job_.settings->trusted) diagnostics_ = without_missing_nodes(diagnostics_);
     project ? keep(project, loaded) : keep_declarations();
     if (!meaning) return;
     result_.is_whole = false;

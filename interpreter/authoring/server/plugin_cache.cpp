@@ -31,7 +31,7 @@ std::string stamp_of_named(const std::string& name, const std::vector<std::strin
   return file ? stamp_of(*file) : stamp_of_program(program_named(name, directories));
 }
 
-// All on which the result of loading depends. Messages have places, which move with the text.
+// All on which the result of loading depends.
 std::string stamp_of(const Project* project, const PluginOptions& options) {
   const auto directories = plugin_directories(options);
   std::string stamp;
@@ -42,8 +42,7 @@ std::string stamp_of(const Project* project, const PluginOptions& options) {
   if (project == nullptr) return stamp;
   Diagnostics unused;
   for (const PluginRequest& it : requested_plugins(*project, unused)) {
-    stamp += fmt::format("{}|{}|{}|{}@{}=", it.name, it.isolate, it.program, it.hold,
-                         to_text(project->sources.locate_value(it.place)));
+    stamp += fmt::format("{}|{}|{}|{}=", it.name, it.isolate, it.program, it.hold);
     const auto program = find_program_file(it.program, directories);
     stamp += it.program.empty() ? stamp_of_named(it.name, directories)
                                 : stamp_of_program(program ? *program : "");
@@ -52,16 +51,29 @@ std::string stamp_of(const Project* project, const PluginOptions& options) {
   return stamp;
 }
 
+// Messages have these places, which move with the text.
+std::string places_of(const Project* project) {
+  std::string places;
+  Diagnostics unused;
+  if (project == nullptr) return places;
+  for (const PluginRequest& it : requested_plugins(*project, unused))
+    places += to_text(project->sources.locate_value(it.place)) + ';';
+  return places;
+}
+
 }  // namespace
 
 const LoadedPlugins& PluginCache::get(const Project* project, const LoadOptions& options) {
   std::string stamp = stamp_of(project, options.plugins);
-  const auto known = std::ranges::find(kept_, stamp, &Kept::stamp);
+  std::string places = places_of(project);
+  const auto known = std::ranges::find_if(kept_, [&](const Kept& it) {
+    return it.stamp == stamp && (it.plugins.messages.all().empty() || it.places == places);
+  });
   if (known != kept_.end()) {
     kept_.splice(kept_.begin(), kept_, known);
     return kept_.front().plugins;
   }
-  kept_.push_front({std::move(stamp), load_plugins(project, options)});
+  kept_.push_front({std::move(stamp), std::move(places), load_plugins(project, options)});
   if (kept_.size() > kMost) kept_.pop_back();
   return kept_.front().plugins;
 }

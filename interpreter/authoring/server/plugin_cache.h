@@ -18,7 +18,8 @@ class PluginCache {
   // Those of many files that are open at once.
   static constexpr std::size_t kMost = 16;
   struct Kept {
-    std::string stamp;
+    std::string stamp;   // of the files
+    std::string places;  // where the project asks for them
     LoadedPlugins plugins;
   };
   std::list<Kept> kept_;  // what was used last comes first

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "authoring/server/server.h"
+#include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -40,6 +41,11 @@ std::function<int()> define_lsp(CLI::App& app) {
                  "Search plugins in this directory first; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  app.add_option("--hang-limit", options->plugins.hang_limit,
+                 "A plugin that takes longer than S seconds to be loaded is a hang; 0 = never")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e6))
+      ->capture_default_str();
   app.add_flag("--no-plugins", options->no_plugins,
                "Load no plugin, as in a workspace that is not trusted");
   app.add_flag("--stdio", options->stdio,
