@@ -128,6 +128,21 @@ TEST_CASE("a second node goes behind the first") {
   }
 }
 
+TEST_CASE("a long comment anywhere in a source is no harm") {
+  const std::string comment = "/*" + std::string(1 << 17, 'x') + "*/";
+  for (const Source& source : kSources) {
+    if (std::string_view(source.language) == "python") continue;
+    for (const char* word : {"(", " ", "{"}) {
+      std::string text = source.text;
+      const auto at = text.find(word);
+      if (at == text.npos) continue;
+      inserted(source.language, text.insert(at + 1, comment), kOpen);
+    }
+  }
+  CHECK(inserted("cpp", "class " + comment + " A;\nLOCKSTEP_PLUGIN(\"a\");\n", kOpen)
+            .find("class Open") != std::string::npos);
+}
+
 TEST_CASE("a source without a list of nodes is refused, and says what was looked for") {
   CHECK(inserted("c", "const lockstep_plugin lockstep_plugin_entry;", kOpen) ==
         "refused: 'plugin' has no place for a node: a list of lockstep_leaf_type* const");

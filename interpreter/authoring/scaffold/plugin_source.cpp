@@ -71,7 +71,7 @@ std::string import_names(const PluginSource& source, const std::string& mask, co
 
 bool has_node(const PluginSource& source, const std::string& mask, const NewNode& node,
               const NodeText& text) {
-  const std::regex is_class("\\b(class|struct)\\s+" + node.id + "\\b");
+  const std::regex is_class("\\b(class|struct)\\s{1,99}" + node.id + "\\b");
   const bool is_listed = !text.entry.empty() && mask.find(text.entry) != kNowhere;
   const bool is_named =
       source.language->name != "python" && source.text.find('"' + node.id + '"') != kNowhere;
@@ -83,7 +83,8 @@ std::string entry_of(const PluginSource& source, const std::string& mask, std::s
   std::smatch match;
   const bool is_named =
       source.language->name == "btcpp" &&
-      std::regex_search(mask, match, std::regex("BT_REGISTER_NODES\\(\\s*(\\w+)\\s*\\)"));
+      std::regex_search(mask, match,
+                        std::regex("BT_REGISTER_NODES\\(\\s{0,99}(\\w{1,99})\\s{0,99}\\)"));
   return is_named ? match.str(1) + entry.substr(entry.find('.')) : entry;
 }
 

@@ -9,8 +9,10 @@
 namespace lockstep::host {
 namespace {
 
-// How a language lists the nodes of a plugin. The last character that `list` finds is the bracket;
-// the definition of a node goes in front of the last line before it that begins with `mark`.
+// How a language lists the nodes of a plugin. No part of a pattern is without a limit, since a
+// match takes stack for each character, and a comment is as many blanks. The last character that
+// `list` finds is the bracket; the definition of a node goes in front of the last line before it
+// that begins with `mark`.
 struct Listing {
   std::string_view language;
   const char* list;
@@ -27,17 +29,17 @@ const std::array<Listing, 4>& listings() {
         {kNowhere, kNowhere, Separator::Comma, std::string(16, ' '), false},
         "LOCKSTEP_PLUGIN(…)"},
        {"btcpp",
-        R"(\bBT_REGISTER_NODES\([^)]*\)\s*\{)",
+        R"(\bBT_REGISTER_NODES\([^)]{0,200}\)\s{0,200}\{)",
         "BT_REGISTER_NODES(",
         {kNowhere, kNowhere, Separator::Line, "  ", false},
         "BT_REGISTER_NODES(…) {…}"},
        {"c",
-        R"(lockstep_leaf_type\s*\*\s*const\s+\w+\s*\[\w*\]\s*=\s*\{)",
+        R"(lockstep_leaf_type\s{0,9}\*\s{0,9}const\s{1,9}\w{1,99}\s{0,9}\[\w{0,99}\]\s{0,9}=\s{0,99}\{)",
         "",
         {kNowhere, kNowhere, Separator::Comma, "    ", true},
         "a list of lockstep_leaf_type* const"},
        {"rust",
-        R"(\bPlugin::of\([^;]*?&\[)",
+        R"(\bPlugin::of\([^;]{0,2000}?&\[)",
         "#[no_mangle]",
         {kNowhere, kNowhere, Separator::Comma, "    ", true},
         "#[no_mangle] and Plugin::of(…, &[…])"}}};
