@@ -110,7 +110,7 @@ ItemList import_list(const PluginSource& source, const std::string& mask) {
   ItemList list{.indentation = "    ", .may_stay_on_line = true};
   const bool is_rust = source.language->name == "rust";
   const char* const import =
-      is_rust ? R"(\buse lockstep::\{)" : R"(\bfrom lockstep_leaf import\b[ \t]*\(?)";
+      is_rust ? R"(\buse lockstep::\{)" : R"(\bfrom lockstep_leaf import\b[ \t]{0,99}\(?)";
   list.open = end_of_match(mask, import);
   if (list.open == kNowhere) return list;
   const bool has_bracket = mask[list.open] == '(' || mask[list.open] == '{';
