@@ -64,8 +64,9 @@ std::vector<std::string> next_steps(const PluginSource& source, const NewNode& n
   const bool is_built = std::filesystem::exists(source.path.parent_path() / "CMakeLists.txt");
   const bool is_program = source.language->name == "python" && !is_built;
   const std::string path = source.path.string();
-  next.push_back(is_program ? fmt::format("{} plugin check --list --save ./{}", program_word(), path)
-                            : "cmake --build build");
+  next.push_back(is_program
+                     ? fmt::format("{} plugin check --list --save ./{}", program_word(), path)
+                     : "cmake --build build");
   next.push_back("and in a tree: " + tag_of(node));
   return next;
 }
