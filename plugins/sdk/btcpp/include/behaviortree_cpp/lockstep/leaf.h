@@ -45,11 +45,12 @@ struct Leaf {
   // For a node that is mostly done in one tick, and so is not told of the first one.
   static lockstep_status tick_at_once(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
-    TreeNode& node = *leaf.node;
-    if (node.lockstep_tree_ != nullptr) return tick_in_program(leaf);
-    const lockstep_status status = leaf.result_of(node);
+    if (leaf.node->lockstep_tree_ != nullptr) return tick_in_program(leaf);
+    const lockstep_status status = leaf.result_of(*leaf.node);
     leaf.last = static_cast<NodeStatus>(status);
-    if (status != LOCKSTEP_RUNNING) node.setStatus(NodeStatus::IDLE);
+    if (status == LOCKSTEP_RUNNING) return status;
+    if (leaf.node->lockstep_watch_ != nullptr) return tell_end(leaf, status);
+    leaf.node->lockstep_status_.store(NodeStatus::IDLE, std::memory_order_release);
     return status;
   }
   static void start_unreset_at_once(void* self) {
@@ -82,8 +83,13 @@ struct Leaf {
       const InTick scope(place);
       return static_cast<lockstep_status>(its_node.executeTick());
     } catch (...) {
-      return fail();
+      fail();
+      return LOCKSTEP_FAILURE;
     }
+  }
+  [[gnu::noinline]] static lockstep_status tell_end(Leaf& leaf, lockstep_status status) {
+    leaf.node->setStatus(NodeStatus::IDLE);
+    return status;
   }
   // A program may look at the result until the next tick.
   [[gnu::noinline]] static lockstep_status tick_in_program(Leaf& leaf) {
@@ -111,9 +117,8 @@ struct Leaf {
   };
 
   // In a catch: what was thrown is an error of the node. Out of line, so that a tick stays small.
-  [[gnu::cold, gnu::noinline]] lockstep_status fail() const {
-    return lockstep::detail::guarded(caller(), lockstep_status{LOCKSTEP_FAILURE},
-                                     []() -> lockstep_status { throw; });
+  [[gnu::cold, gnu::noinline]] void fail() const {
+    lockstep::detail::guarded(caller(), false, []() -> bool { throw; });
   }
 
   lockstep::detail::Caller caller() const { return {place.host, place.caller}; }

@@ -39,13 +39,14 @@ bool from_constant(const void* constant, T& value) {
   return true;
 }
 
-// The value of a port, in the thread that ticks; false: there is none, or it has another type.
+// False: there is no such value, or, unless it is a constant, a thread of the node may be asking.
 template <class T>
 [[gnu::always_inline]] inline bool get_at_once(const Place& place, const PortEntry& port,
-                                               T& value) {
+                                               bool has_thread, T& value) {
   if (port.info.lockstep_values().type != port_type<T>()) return false;
   const void* const constant = place.constants == nullptr ? nullptr : place.constants[port.index];
-  return constant != nullptr ? from_constant(constant, value) : get(place, port.index, value);
+  if (constant != nullptr) return from_constant(constant, value);
+  return !has_thread && get(place, port.index, value);
 }
 
 // Where the node under construction finds its place, so that its class need not pass it on.
@@ -88,7 +89,7 @@ T TreeNode::parseString(const std::string& text) const {
 }
 
 inline const lockstep_detail::PortEntry* TreeNode::lockstep_find_port(StringView port) const {
-  if (lockstep_place_ == nullptr || lockstep_place_->registration == nullptr) return nullptr;
+  if (lockstep_place_ == nullptr) return nullptr;
   for (const lockstep_detail::PortEntry& it : lockstep_place_->registration->ports) {
     if (it.name == port) return &it;
   }
@@ -101,8 +102,9 @@ inline Expected<T> TreeNode::getInput(StringView name) const {
   const lockstep_detail::PortEntry* const port = lockstep_find_port(name);
   if constexpr (lockstep_detail::is_number_or_bool<T>()) {
     T value{};
-    if (port != nullptr && lockstep_thread_ == nullptr &&
-        lockstep_detail::get_at_once(*lockstep_place_, *port, value)) {
+    const bool has_thread = lockstep_thread_ != nullptr;
+    if (port != nullptr &&
+        lockstep_detail::get_at_once(*lockstep_place_, *port, has_thread, value)) {
       return value;
     }
   }
