@@ -43,6 +43,15 @@ class LeafCall {
   }
   // The same, and `child` is the sibling after it then: of a leaf that is known at once.
   [[gnu::always_inline]] static Status tick_and_pass(NodeContext& context, NodeIndex& child);
+  // The same of `child` and the siblings after it, up to `end`, as long as each is an action of a
+  // plugin with nothing to be done around its call, and returns `kGoesOn`. Returns the first that
+  // is not so, and what it returned; Idle: it was not ticked.
+  struct Stop {
+    NodeIndex child;
+    Status status;
+  };
+  template <Status kGoesOn>
+  [[gnu::noinline]] static Stop tick_row(NodeContext& context, NodeIndex child, NodeIndex end);
   // The usual case of a tick: an action of a plugin that runs. Idle: it is not that, or something
   // is to be done around the call, and nothing was done; else its result, and `child` is the
   // sibling.
@@ -63,6 +72,12 @@ class LeafCall {
   static bool is_result(lockstep_status status) {
     return static_cast<unsigned>(status - LOCKSTEP_RUNNING) < static_cast<unsigned>(kLastStatus);
   }
+
+  // Nothing but the call belongs to the tick of a plugin's action. That tick.
+  [[gnu::always_inline]] static bool is_ready(const NodeContext& context, NodeIndex node,
+                                              const LeafSlot& leaf);
+  [[gnu::always_inline]] static Status tick_ready(NodeContext& context, NodeIndex node,
+                                                  LeafSlot& leaf);
 
   // In nodes/leaf.cpp: what did not go well.
   static Status spoiled_tick(NodeContext& context, NodeIndex node, lockstep_status result);
@@ -138,6 +153,24 @@ inline bool LeafCall::progress_of_running(NodeContext& context, NodeIndex& child
   return true;
 }
 
+inline bool LeafCall::is_ready(const NodeContext& context, NodeIndex node, const LeafSlot& leaf) {
+  const Activity before = context.state_.activity[node];
+  const bool is_simple =
+      before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
+  return is_simple && !leaf.failed && !leaf.unreset;
+}
+
+inline Status LeafCall::tick_ready(NodeContext& context, NodeIndex node, LeafSlot& leaf) {
+  leaf.started = true;
+  const lockstep_status result =
+      in_line<PluginFunction::Tick>(context, node, leaf, leaf.type->tick);
+  if (leaf.error != nullptr || !is_result(result)) [[unlikely]]
+    return spoiled_tick(context, node, result);
+  context.state_.activity[node] = static_cast<Activity>(result);
+  context.state_.last_tick[node] = context.state_.tick_number;
+  return static_cast<Status>(result);
+}
+
 inline Status LeafCall::tick_and_pass(NodeContext& context, NodeIndex& child) {
   const NodeIndex node = child;
   const Node& it = context.nodes_[node];
@@ -147,18 +180,20 @@ inline Status LeafCall::tick_and_pass(NodeContext& context, NodeIndex& child) {
   }
   ++child;
   LeafSlot& leaf = context.leaves_.data()[it.params];
-  const Activity before = context.state_.activity[node];
-  const bool is_simple =
-      before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
-  if (!is_simple || leaf.failed || leaf.unreset) return context.tick_apart(node);
-  leaf.started = true;
-  const lockstep_status result =
-      in_line<PluginFunction::Tick>(context, node, leaf, leaf.type->tick);
-  if (leaf.error != nullptr || !is_result(result)) [[unlikely]]
-    return spoiled_tick(context, node, result);
-  context.state_.activity[node] = static_cast<Activity>(result);
-  context.state_.last_tick[node] = context.state_.tick_number;
-  return static_cast<Status>(result);
+  return is_ready(context, node, leaf) ? tick_ready(context, node, leaf) : context.tick_apart(node);
+}
+
+template <Status kGoesOn>
+LeafCall::Stop LeafCall::tick_row(NodeContext& context, NodeIndex child, NodeIndex end) {
+  for (; child != end; ++child) {
+    const Node& it = context.nodes_[child];
+    if (it.kind != &kPluginAction || context.in_line_ == nullptr) break;
+    LeafSlot& leaf = context.leaves_.data()[it.params];
+    if (!is_ready(context, child, leaf)) break;
+    const Status status = tick_ready(context, child, leaf);
+    if (status != kGoesOn) return {child, status};
+  }
+  return {child, Status::Idle};
 }
 
 }  // namespace lockstep::host

@@ -46,6 +46,8 @@ constexpr Case kCases[] = {
     {"Parallel, timed", "Parallel", "", "BenchRunning", Watched::Yes},
     {"ParallelAbsolute, timed", "ParallelAbsolute", "barriers='0.75'", "BenchRunning",
      Watched::Yes},
+    {"Sequence, leaf with on_success='n = n + 1'", "Sequence", "",
+     "BenchSuccess on_success='n = n + 1'", Watched::No, "<Script code='n := 1'/>"},
     {"Sequence, leaf over leaf.hpp", "Sequence", "", "SdkSuccess"},
     {"Sequence, leaf that reads a port", "Sequence", "", "SdkRead a='1.5'"},
     {"Sequence, leaf that reads an entry", "Sequence", "", "SdkRead a='{n}'", Watched::No,

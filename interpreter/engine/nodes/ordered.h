@@ -50,9 +50,20 @@ Status tick(NodeContext& context, NodeIndex self) {
   const NodeIndex begin = resume ? state.current : self + 1;
   std::uint32_t skipped = resume ? state.skipped : 0;
   for (NodeIndex next = begin; next != end;) {
-    const NodeIndex child = next;
-    const Status status = LeafCall::tick_and_pass(context, next);
-    if (status == kGoOn) continue;
+    NodeIndex child = next;
+    Status status = Status::Idle;
+    if (context.node(child).kind == &kPluginAction) {
+      const LeafCall::Stop stop = LeafCall::tick_row<kGoOn>(context, child, end);
+      if (stop.child == end) break;
+      child = stop.child;
+      status = stop.status != Status::Idle ? stop.status : context.tick_apart(child);
+      next = context.end_of(child);
+      if (status == kGoOn) continue;
+    } else {
+      next = context.end_of(child);
+      status = context.tick(child);
+      if (status == kGoOn) continue;
+    }
     if (status == Status::Skipped) {
       if (!has_memory<kMemory>(context, self)) context.forget_range(child, next);
       ++skipped;
