@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "describe/xsd.h"
+#include "authoring/edit/value_text.h"
 #include "document/document.h"
 #include "document/file.h"
 #include "system/descriptors.h"
@@ -61,31 +61,31 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
     for (auto at = safe.find("--"); at != std::string::npos; at = safe.find("--")) safe[at] = ' ';
     text += fmt::format("  <!-- {} -->\n", safe);
   }
-  text += fmt::format("  <scenario name=\"{}\"", xsd_escaped(about.name));
+  text += fmt::format("  <scenario name=\"{}\"", escaped(about.name));
   if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
   const bool is_cut = words.result.empty() || words.result == "stopped";
   if (is_cut && words.ticks) text += fmt::format(" max-ticks=\"{}\"", *words.ticks);
   text += ">\n";
   for (const auto& [name, value] : words.arguments) {
-    text += fmt::format("    <arg name=\"{}\" value=\"{}\"/>\n", name, xsd_escaped(value));
+    text += fmt::format("    <arg name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
   }
   for (const auto& it : words.changes) {
-    text += fmt::format("    <set key=\"{}\" value=\"{}\" tick=\"{}\"/>\n", xsd_escaped(it.key),
-                        xsd_escaped(it.value), it.tick);
+    text += fmt::format("    <set key=\"{}\" value=\"{}\" tick=\"{}\"/>\n", escaped(it.key),
+                        escaped(it.value), it.tick);
   }
   for (const auto& [path, leaf] : words.leaves) {
-    text += fmt::format("    <leaf path=\"{}\" does=\"{}\"/>\n", xsd_escaped(path),
-                        xsd_escaped(words_text(leaf)));
+    text += fmt::format("    <leaf path=\"{}\" does=\"{}\"/>\n", escaped(path),
+                        escaped(words_text(leaf)));
   }
   for (const std::string& it : about.expected) {
-    text += fmt::format("    <expect>{}</expect>\n", xsd_escaped(it));
+    text += fmt::format("    <expect>{}</expect>\n", escaped(it));
   }
   if (about.expected.empty()) text += ending_text(words);
   return text + "  </scenario>\n";
 }
 
 std::string scenario_file(const std::string& tree, const std::string& scenarios) {
-  return fmt::format("<scenarios lockstep=\"1\" tree=\"{}\">\n{}{}\n", xsd_escaped(tree), scenarios,
+  return fmt::format("<scenarios lockstep=\"1\" tree=\"{}\">\n{}{}\n", escaped(tree), scenarios,
                      kEnd);
 }
 

@@ -4,28 +4,13 @@
 #include "cli/check_formats.h"
 #include "cli/tools/verify/verify_report.h"
 #include "core/wording.h"
+#include "describe/xsd.h"
 
 namespace lockstep::host {
 namespace {
 
 std::string in_xml(std::string_view text) {
-  std::string safe;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '<':
-        safe += "&lt;";
-        break;
-      case '&':
-        safe += "&amp;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
+  return xsd_escaped(printable(text));
 }
 
 std::string why(const Finding& finding) {
