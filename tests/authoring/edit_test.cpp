@@ -4,24 +4,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include "authoring/edit/edits.h"
 #include "authoring/element_model.h"
 #include "property/random_source.h"
-#include "support/paths.h"
 
 namespace lockstep::host::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::unique_ptr<Document> parsed(std::string text) {
-  Diagnostics diagnostics;
-  return Document::parse("tree.xml", std::move(text), diagnostics);
-}
 
 std::string with_carriage_returns(std::string_view text) {
   std::string result;
@@ -32,21 +22,14 @@ std::string with_carriage_returns(std::string_view text) {
   return result;
 }
 
-// Those that can be read.
-std::vector<std::string> texts_of_trees() {
-  std::vector<std::string> texts;
-  for (const char* folder : {"trees", "tests/trees"}) {
-    for (const auto& file :
-         fs::recursive_directory_iterator(fs::path(LOCKSTEP_SOURCE_DIR) / folder)) {
-      if (file.path().extension() != ".xml") continue;
-      std::ifstream stream(file.path(), std::ios::binary);
-      std::string text{std::istreambuf_iterator<char>(stream), {}};
-      if (parsed(text) == nullptr) continue;
-      texts.push_back(with_carriage_returns(text));
-      texts.push_back(std::move(text));
-    }
+// With both line ends.
+std::vector<std::string> both_of(const std::vector<std::string>& texts) {
+  std::vector<std::string> both;
+  for (const std::string& text : texts) {
+    both.push_back(text);
+    both.push_back(with_carriage_returns(text));
   }
-  return texts;
+  return both;
 }
 
 // One edit, and the same of the model. It does nothing where the edit is refused.
@@ -277,7 +260,7 @@ void check_edit(const std::string& text, RandomSource& random) {
 }  // namespace
 
 TEST_CASE("edit: a random edit does what it says and nothing else, and can be undone") {
-  const auto texts = texts_of_trees();
+  const auto texts = both_of(texts_of_trees());
   REQUIRE(texts.size() > 200);
   const char* const given = std::getenv("LOCKSTEP_EDITS");
   const int count = given != nullptr ? std::atoi(given) : 2'000;

@@ -1,6 +1,11 @@
 #include "authoring/element_model.h"
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
 #include "core/pre_order.h"
+#include "support/paths.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -28,6 +33,32 @@ ElementModel model_of(const Document& document, std::uint32_t element) {
 
 ElementModel& part_of(ElementModel& model, std::uint32_t element) {
   return *find(model, element);
+}
+
+std::unique_ptr<Document> parsed(std::string text) {
+  Diagnostics diagnostics;
+  return Document::parse("tree.xml", std::move(text), diagnostics);
+}
+
+bool has_errors(const std::string& text) {
+  Diagnostics diagnostics;
+  return Document::parse("tree.xml", text, diagnostics) == nullptr || diagnostics.has_errors();
+}
+
+std::vector<std::string> texts_of_trees() {
+  namespace fs = std::filesystem;
+  std::vector<std::string> texts;
+  for (const char* folder : {"trees", "tests/trees"}) {
+    for (const auto& file :
+         fs::recursive_directory_iterator(fs::path(LOCKSTEP_SOURCE_DIR) / folder)) {
+      if (file.path().extension() != ".xml") continue;
+      std::ifstream stream(file.path(), std::ios::binary);
+      std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if (parsed(text) != nullptr) texts.push_back(std::move(text));
+    }
+  }
+  std::sort(texts.begin(), texts.end());  // in the same order everywhere
+  return texts;
 }
 
 std::vector<std::string> comments_in(std::string_view text) {

@@ -129,6 +129,7 @@ TEST_CASE("help fits into 80 columns where there is no terminal") {
                                                   {"nodes"},
                                                   {"schema"},
                                                   {"convert"},
+                                                  {"fmt"},
                                                   {"plugin"},
                                                   {"plugin", "check"},
                                                   {"log"},

@@ -29,6 +29,7 @@ TEST_CASE("a program without tools says what it leaves out, and how to get it") 
   const std::vector<std::string> calls[] = {{"show", kDoor},
                                             {"nodes"},
                                             {"schema"},
+                                            {"fmt", kDoor},
                                             {"convert", kDoor, "--to", "btcpp"},
                                             {"plugin", "check"},
                                             {"log", "info", "x"},

@@ -7,12 +7,12 @@
 namespace lockstep::host {
 namespace {
 
-struct Range {
+struct FixedPart {
   std::size_t begin, end;
 };
 
 // The bytes of a token that have a meaning; none of a tag, a comment or the end.
-Range fixed_part(const Scanner& scanner, const XmlToken& token, std::string_view xml) {
+FixedPart fixed_part(const Scanner& scanner, const XmlToken& token, std::string_view xml) {
   switch (token.kind) {
     case TokenKind::Text:
     case TokenKind::Attribute: {
@@ -51,7 +51,7 @@ std::vector<std::size_t> movable_lines(std::string_view xml, Grammar grammar) {
   for (bool is_end = false; !is_end;) {
     const XmlToken token = scanner.next();
     is_end = token.kind == TokenKind::End || token.kind == TokenKind::Fault;
-    const Range fixed = fixed_part(scanner, token, xml);
+    const FixedPart fixed = fixed_part(scanner, token, xml);
     if (fixed.end == 0) continue;
     take_until(fixed.begin, false);
     take_until(fixed.end, true);

@@ -73,14 +73,14 @@ class FormatRun {
     if (named == Named::ByDirectory && is_foreign) return std::nullopt;
     if (named == Named::ByDirectory && document == nullptr && !may_be_ours(text))
       return std::nullopt;
-    if (document == nullptr || found.has_errors()) {
-      for (const Diagnostic& it : found.all()) diagnostics_.add(it);
-      code_ = first_failure(code_, kExitInvalidTree);
-      return std::nullopt;
-    }
     if (is_foreign) {
       fail(name, fmt::format("its root is '{}'", brief(document->elements()[0].tag)),
            "trees have 'root', scenarios 'scenarios', leaf files 'leaves'");
+      return std::nullopt;
+    }
+    if (document == nullptr || found.has_errors()) {
+      for (const Diagnostic& it : found.all()) diagnostics_.add(it);
+      code_ = first_failure(code_, kExitInvalidTree);
       return std::nullopt;
     }
     auto edit = format(*document, options_.format);
@@ -158,9 +158,11 @@ class FormatRun {
   void tell() const {
     const bool is_to_stdout = std::ranges::count(options_.paths, "-") != 0;
     if (is_to_stdout && !options_.check) return;
-    const std::string_view done = options_.check || options_.diff ? "to be formatted" : "formatted";
-    print_note(fmt::format("{} {}, {} as {} should be", counted(changed_, "file"), done, unchanged_,
-                           unchanged_ == 1 ? "it" : "they"));
+    const bool is_written = !options_.check && !options_.diff;
+    print_note(
+        is_written
+            ? fmt::format("{} formatted, {} unchanged", counted(changed_, "file"), unchanged_)
+            : fmt::format("{} not formatted, {} formatted", counted(changed_, "file"), unchanged_));
   }
 
   const FormatCommandOptions& options_;
