@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "authoring/convert/convert.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "convert/convert.h"
 #include "document/file.h"
 #include "loading/plugins.h"
 

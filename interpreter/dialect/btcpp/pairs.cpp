@@ -109,7 +109,7 @@ constexpr NodePair kPairs[] = {
     {.theirs = "AlwaysFailure", .ours = "AlwaysFailure"},
 };
 
-// A Switch is converted too, by convert/switch_node.h.
+// A Switch is converted too, by authoring/convert/switch_node.h.
 constexpr NodePair kSimilar[] = {
     {.theirs = "AsyncSequence", .ours = "Sequence", .in_ours = kRemembers},
     {.theirs = "AsyncFallback", .ours = "Fallback", .in_ours = kRemembers},

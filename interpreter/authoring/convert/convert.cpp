@@ -1,4 +1,4 @@
-#include "convert/convert.h"
+#include "authoring/convert/convert.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
+#include "authoring/convert/switch_node.h"
 #include "authoring/edit/text_edit.h"
 #include "authoring/edit/value_text.h"
-#include "convert/switch_node.h"
 #include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/wording.h"

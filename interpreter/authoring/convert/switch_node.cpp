@@ -1,4 +1,4 @@
-#include "convert/switch_node.h"
+#include "authoring/convert/switch_node.h"
 
 #include <fmt/format.h>
 
