@@ -152,7 +152,9 @@ class RandomEdit {
                 [&] { part_of(model_, element).tag = "Renamed"; });
   }
 
-  Slot any_slot() { return {any_element(), static_cast<std::uint32_t>(random_.between(0, 6))}; }
+  ChildSlot any_slot() {
+    return {any_element(), static_cast<std::uint32_t>(random_.between(0, 6))};
+  }
 
   static void put(ElementModel& parent, std::uint32_t index, ElementModel child) {
     const auto at = std::min<std::size_t>(index, parent.children.size());
@@ -161,7 +163,7 @@ class RandomEdit {
   }
 
   TextEdit insert() {
-    const Slot slot = any_slot();
+    const ChildSlot slot = any_slot();
     what = "insert";
     return done(insert_element(document_, slot, "<New a='1'>\n  <Inner b=\"2\n3\"/>\n</New>"), [&] {
       put(part_of(model_, slot.parent), slot.index,
@@ -188,7 +190,7 @@ class RandomEdit {
 
   TextEdit move() {
     const auto element = any_but_root();
-    const Slot slot = any_slot();
+    const ChildSlot slot = any_slot();
     what = "move";
     keeps_comments = false;  // their order
     return done(move_element(document_, element, slot), [&] {

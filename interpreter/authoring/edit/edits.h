@@ -27,18 +27,18 @@ Result<TextEdit> rename_element(const Document& document, std::uint32_t element,
 
 // A place among the children of `parent`: before the child `index`; behind the last one if there
 // are no more.
-struct Slot {
+struct ChildSlot {
   std::uint32_t parent = 0;
   std::uint32_t index = 0;
 };
 
 // `xml` is one element, or several, indented as if it began at the first column. Its lines get the
 // indentation of the place.
-Result<TextEdit> insert_element(const Document& document, Slot slot, std::string_view xml);
+Result<TextEdit> insert_element(const Document& document, ChildSlot slot, std::string_view xml);
 // With its lines if nothing else is in them. Comments beside it stay.
 Result<TextEdit> delete_element(const Document& document, std::uint32_t element);
 // `slot` counts the children as they are before the move.
-Result<TextEdit> move_element(const Document& document, std::uint32_t element, Slot slot);
+Result<TextEdit> move_element(const Document& document, std::uint32_t element, ChildSlot slot);
 // Puts it into a new element; `tag` is what stands between '<' and '>': "Retry attempts=\"3\"".
 Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
                               std::string_view tag);

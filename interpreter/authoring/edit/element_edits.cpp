@@ -32,7 +32,7 @@ void remove_part(TextEdit& edit, std::string_view text, std::size_t begin, std::
   edit.remove(begin, end);
 }
 
-void insert_at(TextEdit& edit, const SlotText& slot, std::string_view xml) {
+void insert_at(TextEdit& edit, const ChildSlotText& slot, std::string_view xml) {
   edit.replace(slot.begin, slot.end, fmt::format("{}{}{}", slot.before, xml, slot.after));
 }
 
@@ -84,7 +84,7 @@ std::optional<std::string_view> indentation_inside(const Document& document,
 
 }  // namespace
 
-Result<TextEdit> insert_element(const Document& document, Slot slot, std::string_view xml) {
+Result<TextEdit> insert_element(const Document& document, ChildSlot slot, std::string_view xml) {
   const Grammar grammar = grammar_of(document);
   if (auto wrong = check_fragment(xml, grammar)) return tl::unexpected(std::move(*wrong));
   const auto at = slot_text(document, slot);
@@ -105,7 +105,7 @@ Result<TextEdit> delete_element(const Document& document, std::uint32_t element)
   return edit;
 }
 
-Result<TextEdit> move_element(const Document& document, std::uint32_t element, Slot slot) {
+Result<TextEdit> move_element(const Document& document, std::uint32_t element, ChildSlot slot) {
   if (element == 0) return is_root();
   if (slot.parent >= element && slot.parent < document.elements()[element].end) {
     return problem("an element cannot move into itself");

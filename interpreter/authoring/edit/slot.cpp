@@ -11,7 +11,7 @@ namespace {
 // The children of an element that begin a line say how the next one is laid out.
 class SlotFinder {
  public:
-  SlotFinder(const Document& document, Slot slot, const ElementText& parent)
+  SlotFinder(const Document& document, ChildSlot slot, const ElementText& parent)
       : document_(document),
         text_(document.source()->text()),
         parent_(parent),
@@ -21,29 +21,29 @@ class SlotFinder {
     before_ = std::min<std::size_t>(slot.index, children_.size());
   }
 
-  std::optional<SlotText> find() const {
+  std::optional<ChildSlotText> find() const {
     const auto outer = indentation(text_, parent_.tag.begin);
     const auto inner = indentation_of_children();
     if (parent_.tag.is_empty) return in_empty_tag(outer);
     const bool is_in_line = children_.empty() ? !outer : !inner;
     const auto anchor = find_anchor();
     if (!anchor) return std::nullopt;
-    if (is_in_line) return SlotText{*anchor, *anchor, {}, {}, {}};
+    if (is_in_line) return ChildSlotText{*anchor, *anchor, {}, {}, {}};
     const std::string indent =
         inner ? std::string(*inner) : std::string(*outer).append(indentation_unit(document_));
     const std::size_t at = behind_comment(*anchor);
-    SlotText found{at, at, line_end_ + indent, {}, indent};
+    ChildSlotText found{at, at, line_end_ + indent, {}, indent};
     const bool closes_here = line_end(text_, at) > parent_.close;
     if (children_.empty() && closes_here) found.after = line_end_ + std::string(*outer);
     return found;
   }
 
  private:
-  SlotText in_empty_tag(std::optional<std::string_view> outer) const {
+  ChildSlotText in_empty_tag(std::optional<std::string_view> outer) const {
     const auto name =
         text_.substr(parent_.tag.begin + 1, parent_.tag.name_end - parent_.tag.begin - 1);
     const std::string close = std::string("</").append(name).append(">");
-    SlotText found{parent_.tag.inside_end, parent_.tag.end, ">", close, {}};
+    ChildSlotText found{parent_.tag.inside_end, parent_.tag.end, ">", close, {}};
     if (!outer) return found;
     found.indentation = std::string(*outer).append(indentation_unit(document_));
     found.before += line_end_ + found.indentation;
@@ -102,7 +102,7 @@ std::string indentation_unit(const Document& document) {
   return "  ";
 }
 
-std::optional<SlotText> slot_text(const Document& document, Slot slot) {
+std::optional<ChildSlotText> slot_text(const Document& document, ChildSlot slot) {
   const auto parent = element_text(document, slot.parent);
   if (!parent) return std::nullopt;
   return SlotFinder(document, slot, *parent).find();

@@ -15,14 +15,14 @@ namespace lockstep::host {
 std::string indentation_unit(const Document& document);
 
 // Replaces [begin, end) by `before`, the element and `after`.
-struct SlotText {
+struct ChildSlotText {
   std::size_t begin, end;
   std::string before, after;
   std::string indentation;  // of the new element's lines
 };
 
 // Nothing if the text is broken there.
-std::optional<SlotText> slot_text(const Document& document, Slot slot);
+std::optional<ChildSlotText> slot_text(const Document& document, ChildSlot slot);
 
 // Whether nothing but blanks comes after `at` in its line.
 bool ends_line(std::string_view text, std::size_t at);
