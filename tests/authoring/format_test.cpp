@@ -57,6 +57,10 @@ std::vector<Row> rows() {
       {"what only BehaviorTree.CPP reads",
        "<root BTCPP_format=\"4\"><A x=\"a<b\"y=\"&&\"/>\n<!-- a -- b --></root>",
        "<root BTCPP_format=\"4\">\n  <A x=\"a<b\" y=\"&&\"/>\n  <!-- a -- b -->\n</root>\n"},
+      {"a text that BehaviorTree.CPP ignores is in a separate line",
+       "<root BTCPP_format=\"4\"> a\nb <A>c </A><M><P> d </P></M></root>",
+       "<root BTCPP_format=\"4\">\n  a\nb\n  <A>c </A>\n  <M>\n    <P> d </P>\n  "
+       "</M>\n</root>\n"},
       {"the first line says the line end", "<root lockstep=\"1\">\r\n<a/>\n\n\n<b/></root>",
        "<root lockstep=\"1\">\r\n  <a/>\r\n\r\n  <b/>\r\n</root>\r\n"},
   };

@@ -70,7 +70,7 @@ bool is_tag(std::string_view tag, Grammar grammar) {
   return token.kind == TokenKind::TagEnd && scanner.next().kind == TokenKind::End;
 }
 
-// What the first child that begins a line is indented by.
+// The indentation of the first child that begins a line.
 std::optional<std::string_view> indentation_inside(const Document& document,
                                                    std::uint32_t element) {
   const auto elements = document.elements();

@@ -109,7 +109,7 @@ class UseFinder {
     }
   }
 
-  // What the tree inside uses, and no attribute binds.
+  // Adds the entries that the tree inside uses and no attribute binds.
   void visit_sub_tree(ElementAt at) {
     const std::string id(texts_.value(at, "ID"));
     for (const ElementAt port : texts_.modeled_ports(id)) {

@@ -37,8 +37,8 @@ std::optional<Problem> names_at_run_time(const ProjectTexts& texts);
 
 // Whether a SubTree passes on entries without an attribute.
 bool passes_on_all(const ProjectTexts& texts, ElementAt sub_tree);
-// What a SubTree binds a key of its tree to: its attribute, or the default of a model. Nothing if
-// neither is there.
+// The value to which a SubTree binds a key of its tree: its attribute, or the default of a model.
+// Nothing if neither is there.
 std::optional<std::string_view> binding_of(const ProjectTexts& texts, ElementAt sub_tree,
                                            std::string_view key);
 // Whether an attribute of a SubTree binds a key, and is not of the language.

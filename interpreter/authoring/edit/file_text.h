@@ -9,7 +9,7 @@
 
 namespace lockstep::host {
 
-// What a document leaves out: a byte order mark, or "".
+// The byte order mark, which a document leaves out, or "".
 std::string_view byte_order_mark(std::string_view text);
 
 // Replaces the file in one step: it has the old text or the new one, whatever happens. A link

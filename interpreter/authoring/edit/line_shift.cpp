@@ -63,7 +63,7 @@ std::vector<std::size_t> movable_lines(std::string_view xml, Grammar grammar) {
 void shift_lines(TextEdit& edit, std::size_t at, std::string_view xml, Grammar grammar,
                  std::string_view from, std::string_view to) {
   if (from == to) return;
-  // What both begin with stays: an edit has the bytes that differ.
+  // The edit has only the bytes that differ.
   const auto same = static_cast<std::size_t>(std::ranges::mismatch(from, to).in1 - from.begin());
   for (const std::size_t line : movable_lines(xml, grammar)) {
     if (!xml.substr(line).starts_with(from)) continue;

@@ -51,7 +51,7 @@ std::optional<Problem> check_key(const ProjectTexts& texts, std::string_view key
   return std::nullopt;
 }
 
-// What binds the key in a SubTree of its tree.
+// Renames the key in a SubTree of its tree.
 void rename_remapping(ProjectEdit& edit, const ProjectTexts& texts, ElementAt sub_tree,
                       const std::string& key, std::string_view new_key) {
   const Document& document = texts.document(sub_tree.document);
@@ -69,7 +69,7 @@ void rename_remapping(ProjectEdit& edit, const ProjectTexts& texts, ElementAt su
   }
 }
 
-// In what is said beside the trees: properties and scenarios, which are about the main tree.
+// Properties and scenarios beside the trees are about the main tree.
 void rename_beside(ProjectEdit& edit, const ProjectTexts& texts, ElementAt at, std::string_view key,
                    std::string_view new_key) {
   const std::string_view tag = tag_of(texts, at);

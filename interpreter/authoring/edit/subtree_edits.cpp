@@ -128,7 +128,7 @@ class Inliner {
     return name;
   }
 
-  // What the SubTree says beside its entries, of the first node.
+  // The first node gets what the SubTree says beside its entries.
   std::optional<Problem> keep(const Attribute& attribute) {
     const std::string_view name = attribute.name;
     const bool is_hook = hook_named(name, texts_.rules()).has_value();

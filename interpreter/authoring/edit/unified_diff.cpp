@@ -105,7 +105,7 @@ void append(std::string& diff, char sign, std::string_view line) {
   if (!line.ends_with('\n')) diff += "\n\\ No newline at end of file\n";
 }
 
-// Of an empty range, the line before it.
+// An empty range is written as the line before it.
 std::string range(std::size_t begin, std::size_t count) {
   return count == 1 ? fmt::format("{}", begin + 1)
                     : fmt::format("{},{}", count == 0 ? begin : begin + 1, count);

@@ -124,7 +124,7 @@ std::string changed_value(std::string_view raw, std::string_view value, char quo
   auto text = std::string(raw.substr(0, front_raw))
                   .append(escaped(value.substr(front, back - front), quote))
                   .append(raw.substr(back_raw));
-  // What is left may read as one: a '\r' and a '\n' as a line end.
+  // Two parts may read as one: a '\r' and a '\n' as a line end.
   return unescaped(text) == value ? text : escaped(value, quote);
 }
 

@@ -11,7 +11,7 @@ std::string escaped(std::string_view value, char quote = '"');
 // The same with the quotes.
 std::string quoted(std::string_view value);
 
-// What a reader makes of it: references and line ends are replaced.
+// The value that a reader makes of it: references and line ends are replaced.
 std::string unescaped(std::string_view raw);
 
 // `raw` with the value `value`: what both have at their begin and end stays as it is written.

@@ -12,24 +12,31 @@ namespace {
 
 constexpr std::size_t kStep = 2;
 
-// For each start tag in the order of the text: whether a text is directly in its element, where
-// blanks belong to the text.
+// For each start tag in the order of the text: whether its element is kept as it is written, since
+// blanks in it belong to a text. The lenient grammar ignores a text beside elements.
 std::vector<bool> elements_with_text(std::string_view text, Grammar grammar) {
-  std::vector<bool> has_text;
+  struct Seen {
+    bool text = false, element = false;
+  };
+  std::vector<Seen> seen;
   std::vector<std::size_t> open;
   Scanner scanner(text, grammar);
-  for (;;) {
-    const XmlToken token = scanner.next();
-    if (token.kind == TokenKind::End || token.kind == TokenKind::Fault) return has_text;
+  XmlToken token = scanner.next();
+  for (; token.kind != TokenKind::End && token.kind != TokenKind::Fault; token = scanner.next()) {
     if (token.kind == TokenKind::OpenTag) {
-      open.push_back(has_text.size());
-      has_text.push_back(false);
+      if (!open.empty()) seen[open.back()].element = true;
+      open.push_back(seen.size());
+      seen.emplace_back();
     } else if (token.kind == TokenKind::EmptyTagEnd || token.kind == TokenKind::CloseTag) {
       if (!open.empty()) open.pop_back();
     } else if (token.kind == TokenKind::Text && !open.empty()) {
-      has_text[open.back()] = true;
+      seen[open.back()].text = true;
     }
   }
+  std::vector<bool> kept;
+  for (const Seen& it : seen)
+    kept.push_back(it.text && !(grammar == Grammar::Lenient && it.element));
+  return kept;
 }
 
 class Formatter {
@@ -81,7 +88,7 @@ class Formatter {
       case TokenKind::Comment:
         return comment(token);
       case TokenKind::Text:
-        return outer_text(token);
+        return ignored_text(token);
       case TokenKind::Instruction:
       case TokenKind::Doctype:
         to_own_line(token.begin);
@@ -153,8 +160,8 @@ class Formatter {
     return next == std::string_view::npos || text_[next] == '\n';
   }
 
-  // Outside of the root, where the lenient grammar ignores it.
-  void outer_text(const XmlToken& token) {
+  // The lenient grammar ignores it.
+  void ignored_text(const XmlToken& token) {
     const std::size_t begin = text_.find_first_not_of(" \t\r\n", token.begin);
     to_own_line(begin);
     const bool is_section = text_.substr(begin).starts_with("<![CDATA[");

@@ -91,7 +91,7 @@ class FormatRun {
     return Formatted{std::move(document), std::move(*edit)};
   }
 
-  // Of a text that cannot be read.
+  // Whether a text that cannot be read seems to be one of our files.
   static bool may_be_ours(std::string_view text) {
     return text.find("<root") != std::string_view::npos ||
            text.find("<scenarios") != std::string_view::npos ||
