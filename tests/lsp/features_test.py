@@ -1,5 +1,6 @@
 """What the server answers about places in a text. '|' in a text is the cursor, and not of the text."""
 import os
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -259,6 +260,18 @@ class Features(unittest.TestCase):
         self.assertIn("cannot be a name", self.renamed(text.replace("{limit}\"/>", "{lim|it}\"/>"), "a b"))
         self.assertIn("_autoremap", self.renamed(
             text.replace("inner=\"{limit}\"", "inner=\"{lim|it}\" _autoremap=\"true\""), "most"))
+
+    def test_formatting(self):
+        for text in (HEAD + "<Wait    seconds='1'   />" + TAIL, "\ufeff<root   lockstep=\"1\"><BehaviorTree/></root>"):
+            with self.subTest(text[:20]):
+                self.put(text)
+                edits = self.client.about("textDocument/formatting", self.path, options={"tabSize": 2})
+                formatted = subprocess.run([os.environ["LOCKSTEP"], "fmt", "-"], input=text.encode(),
+                                           capture_output=True, check=True).stdout.decode()
+                self.assertNotEqual(text, formatted)
+                self.assertEqual(formatted, self.edited(edits))
+        self.put("<root")
+        self.assertIsNone(self.client.about("textDocument/formatting", self.path, options={}))
 
     def test_structure(self):
         self.put(HEAD + "<Wait name=\"pause\" seconds=\"1\"/>" + TAIL)

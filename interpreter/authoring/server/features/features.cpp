@@ -1,6 +1,7 @@
 #include "authoring/server/features/actions.h"
 #include "authoring/server/features/completion.h"
 #include "authoring/server/features/feature.h"
+#include "authoring/server/features/formatting.h"
 #include "authoring/server/features/hover.h"
 #include "authoring/server/features/lens.h"
 #include "authoring/server/features/navigation.h"
@@ -19,6 +20,7 @@ std::span<const Feature> features() {
       {"textDocument/documentHighlight", highlights},
       {"textDocument/documentSymbol", document_symbols},
       {"textDocument/foldingRange", folding_ranges},
+      {"textDocument/formatting", formatting},
       {"textDocument/prepareRename", prepare_rename},
       {"textDocument/rename", rename, false},
       {"textDocument/codeAction", code_actions, false},
@@ -44,6 +46,7 @@ Json capabilities() {
           {"documentHighlightProvider", true},
           {"documentSymbolProvider", true},
           {"foldingRangeProvider", true},
+          {"documentFormattingProvider", true},
           {"renameProvider", Json{{"prepareProvider", true}}},
           {"codeActionProvider", Json{{"codeActionKinds", Json::array(std::move(kinds))}}},
           {"codeLensProvider", Json{{"resolveProvider", false}}},
