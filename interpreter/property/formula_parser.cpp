@@ -9,6 +9,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "property/node_names.h"
+#include "property/property_words.h"
 
 namespace lockstep::host {
 namespace {
@@ -18,12 +19,6 @@ using Kind = PropertyToken::Kind;
 constexpr unsigned bit(Status status) {
   return 1u << index_of(status);
 }
-
-constexpr auto kFields = std::to_array<std::string_view>(
-    {"running", "success", "failure", "idle", "skipped", "done", "ticked", "held", "progress"});
-constexpr auto kReserved = std::to_array<std::string_view>(
-    {"never", "sometimes", "finally", "leads", "to", "within", "ticks", "tick", "only", "after",
-     "at", "most", "until", "and", "or", "not"});
 
 constexpr std::string_view kTermHint = "such as arm.running, arm.progress < 0.5 or {key} == 'text'";
 
@@ -140,15 +135,16 @@ void FormulaParser::node_term() {
   } else {
     const auto point = path.rfind('.');
     if (point == std::string_view::npos) {
-      if (std::ranges::find(kReserved, path) != kReserved.end()) {
+      if (std::ranges::find(kPropertyWords, path) != kPropertyWords.end()) {
         token_ = name;
         has_token_ = true;
         expected("what holds in a tick", std::string(kTermHint));
       }
-      throw PropertyError{fmt::format("'{}' says nothing of a tick", brief(path)),
-                          fmt::format("add what of the node is meant: '{}.running'; also {}",
-                                      brief(path), joined(std::span(kFields).subspan(1), ", ")),
-                          name.offset};
+      throw PropertyError{
+          fmt::format("'{}' says nothing of a tick", brief(path)),
+          fmt::format("add what of the node is meant: '{}.running'; also {}", brief(path),
+                      joined(std::span(kPropertyFields).subspan(1), ", ")),
+          name.offset};
     }
     field = path.substr(point + 1);
     field_offset = name.offset + point + 1;
@@ -170,7 +166,7 @@ void FormulaParser::field_of(std::uint32_t place, std::string_view field, std::s
   if (field == "held") return add(What::Held, place);
   if (field == "progress") return progress_of(place);
   throw PropertyError{fmt::format("a node has no '{}'", brief(field)),
-                      suggest(field, kFields, "what a node has"), offset};
+                      suggest(field, kPropertyFields, "what a node has"), offset};
 }
 
 void FormulaParser::progress_of(std::uint32_t place) {

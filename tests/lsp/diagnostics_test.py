@@ -79,6 +79,27 @@ class Diagnostics(unittest.TestCase):
         self.assertGreater(len(files), 20)
         self.same_as_check([it for it in files if not it.name.endswith((".test.xml", ".leaves.xml"))])
 
+    def test_scenarios_and_leaf_files(self):
+        files = [*(SOURCE / "trees").glob("*.test.xml"), *(SOURCE / "trees").glob("*.leaves.xml")]
+        self.assertGreater(len(files), 5)
+        for path in files:
+            with self.subTest(path.name):
+                self.assertEqual([], self.client.open(path))
+        scenarios = SOURCE / "a.test.xml"
+        found = self.client.open(scenarios, "<scenarios lockstep=\"1\"><scenario nam=\"a\"/></scenarios>")
+        self.assertIn("unknown attribute 'nam' of 'scenario'", [it["message"] for it in found])
+        leaves = SOURCE / "a.leaves.xml"
+        found = self.client.open(leaves, "<leaves lockstep=\"1\">\n <fact name=\"a\" changes=\"nevr\"/></leaves>")
+        self.assertEqual({"line": 1, "character": 25}, found[0]["range"]["start"])
+        self.assertEqual("did you mean 'never'?", found[0]["relatedInformation"][0]["message"])
+
+    def test_hints_for_editors_without_related_information(self):
+        client = Client()
+        client.start(SOURCE, related=False)
+        found = client.open(SOURCE / "a.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"M\"><Wiat/></BehaviorTree></root>")
+        self.assertEqual("unknown node 'Wiat'\nhint: did you mean 'Wait'?", found[0]["message"])
+        self.assertEqual(0, client.stop())
+
 
 if __name__ == "__main__":
     unittest.main()

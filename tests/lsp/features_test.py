@@ -156,6 +156,15 @@ class Features(unittest.TestCase):
         self.assertIn("word", items)
         self.assertIn("limit", self.here("<Wait seconds=\"1\" skip_if=\"|"))
 
+    def test_completion_in_properties(self):
+        text = HEAD + "<Wait name=\"pause\" seconds=\"1\"/>" + TAIL
+        for typed, expected in (("|", "never"), ("never pau|", "pause"), ("never pause.|", "held"),
+                                ("never pause.r|", "running")):
+            with self.subTest(typed):
+                items = self.complete(text.replace("</root>", f"<property name=\"p\">{typed}</property></root>"))
+                self.assertIn(expected, items)
+        self.assertIn("never pause.running</property>", self.applied(items["running"]))
+
     def test_keys_of_the_right_type(self):
         text = HEAD + """<Advance step="{step}"/>
           <Wait seconds="1" name="{step}"/>

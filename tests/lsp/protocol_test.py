@@ -50,6 +50,11 @@ class Protocol(unittest.TestCase):
         self.client.start()
         self.assertEqual(1, self.ends())
 
+    def test_all_at_once(self):
+        self.client.write({"id": 1, "method": "initialize", "params": {"capabilities": {}}},
+                          {"id": 2, "method": "shutdown"}, {"method": "exit"})
+        self.assertEqual(0, self.ends())
+
     def test_exit_without_shutdown(self):
         self.client.start()
         self.client.notify("exit")

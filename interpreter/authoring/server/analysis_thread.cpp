@@ -5,13 +5,22 @@
 #include <array>
 #include <utility>
 
+#include "system/own_thread.h"
+
 namespace lockstep::host {
 
 AnalysisThread::AnalysisThread() {
   wake_.open();
   fcntl(wake_.reading.number(), F_SETFL, O_NONBLOCK);
   fcntl(wake_.writing.number(), F_SETFL, O_NONBLOCK);
-  thread_ = std::thread([this] { work(); });
+  thread_ = own_thread([this] {
+    try {
+      work();
+    } catch (...) {
+      wake();
+      throw;  // to take()
+    }
+  });
 }
 
 AnalysisThread::~AnalysisThread() {
@@ -44,6 +53,7 @@ std::vector<Analysis> AnalysisThread::take() {
   std::array<char, 64> bytes;
   while (::read(wakes(), bytes.data(), bytes.size()) > 0) {
   }
+  rethrow_thread_failure();
   const Lock lock(mutex_);
   return std::exchange(done_, {});
 }
@@ -88,7 +98,11 @@ void AnalysisThread::finish(std::list<Analysis>& unfinished) {
 void AnalysisThread::deliver(Analysis analysis) {
   const Lock lock(mutex_);
   done_.push_back(std::move(analysis));
-  // A full pipe wakes, too.
+  wake();
+}
+
+// A full pipe wakes, too.
+void AnalysisThread::wake() {
   [[maybe_unused]] const auto written = ::write(wake_.writing.number(), "", 1);
 }
 

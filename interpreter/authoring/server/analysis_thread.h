@@ -37,6 +37,7 @@ class AnalysisThread {
   std::optional<AnalysisJob> next(Wait wait);
   void finish(std::list<Analysis>& unfinished);
   void deliver(Analysis analysis);
+  void wake();
 
   Pipe wake_;
   Mutex mutex_;

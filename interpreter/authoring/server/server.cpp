@@ -41,9 +41,13 @@ Server::Take Server::take_of(std::string_view method) {
 }
 
 int Server::run() {
-  while (!connection_.is_over() && !has_exit_) {
-    connection_.receive(analyses_.wakes(), Connection::Wait::Yes);
-    if (connection_.has_message()) handle(connection_.take());
+  while (!has_exit_) {
+    if (!connection_.is_over()) connection_.receive(analyses_.wakes(), Connection::Wait::Yes);
+    if (connection_.has_message()) {
+      handle(connection_.take());
+    } else if (connection_.is_over()) {
+      break;
+    }
     take_analyses();
     // Only the newest text counts.
     if (!connection_.has_message()) post_jobs();

@@ -89,7 +89,11 @@ Json completion(const Question& question) {
       break;
     case Site::Part::Content:
       replaced = word_before(tree.text, byte);
-      complete_elements(at, items);
+      if (site.element != nullptr && site.element->tag == "property") {
+        complete_property(at, items, replaced);
+      } else {
+        complete_elements(at, items);
+      }
       break;
     case Site::Part::Tag:
       complete_elements(at, items);

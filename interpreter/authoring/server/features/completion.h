@@ -56,6 +56,10 @@ void complete_attributes(const CompletionSite& at, std::vector<CompletionItem>& 
 void complete_values(const CompletionSite& at, std::vector<CompletionItem>& items,
                      ByteRange& replaced);
 
+// In the text of a property.
+void complete_property(const CompletionSite& at, std::vector<CompletionItem>& items,
+                       ByteRange& replaced);
+
 // Without the characters that mean something in a snippet.
 std::string snippet_text(std::string_view text);
 
