@@ -130,6 +130,7 @@ TEST_CASE("help fits into 80 columns where there is no terminal") {
                                                   {"schema"},
                                                   {"convert"},
                                                   {"fmt"},
+                                                  {"lsp"},
                                                   {"plugin"},
                                                   {"plugin", "check"},
                                                   {"log"},

@@ -31,6 +31,7 @@ TEST_CASE("a program without tools says what it leaves out, and how to get it") 
                                             {"schema"},
                                             {"fmt", kDoor},
                                             {"convert", kDoor, "--to", "btcpp"},
+                                            {"lsp"},
                                             {"plugin", "check"},
                                             {"log", "info", "x"},
                                             {"replay", "--speed", "2"},
