@@ -71,6 +71,18 @@ class Plugins(unittest.TestCase):
         self.assertIn("cannot be loaded", found[0])
         self.assertEqual(0, client.stop())
 
+    def test_a_request_that_waits_for_a_plugin_is_cancelled(self):
+        self.compile("slow", "__attribute__((constructor)) void f(void) { for (;;) {} }")
+        client = self.session("--hang-limit", "1")
+        client.notify("textDocument/didOpen", {"textDocument": {
+            "uri": self.path.as_uri(), "languageId": "xml", "version": 1, "text": TREE.replace("NAME", "slow")}})
+        number = client.send("textDocument/codeLens", {"textDocument": {"uri": self.path.as_uri()}})
+        # What needs no plugin is answered meanwhile.
+        client.ask("textDocument/codeLens", {"textDocument": {"uri": "file:///none"}})
+        client.notify("$/cancelRequest", {"id": number})
+        self.assertEqual(-32800, client.answer(number)["error"]["code"])
+        self.assertEqual(0, client.stop())
+
     def test_a_plugin_that_changes(self):
         client = self.session()
         text = TREE.replace("NAME", "mine")

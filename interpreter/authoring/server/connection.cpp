@@ -51,10 +51,12 @@ void Connection::accept(std::string body) {
       const RequestId id = cancelled_id(reader_, message);
       const bool waits =
           std::ranges::any_of(messages_, [&](const Message& it) { return it.id == id; });
-      if (waits) cancelled_.insert(id);
-    } else {
-      messages_.push_back(std::move(message));
+      if (waits) {
+        cancelled_.insert(id);
+        return;
+      }
     }
+    messages_.push_back(std::move(message));
   } catch (const NotJson& error) {
     send(refusal({}, RpcError::ParseError, error.what()));
   } catch (const JsonError& error) {

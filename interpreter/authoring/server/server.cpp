@@ -29,6 +29,7 @@ Server::Take Server::take_of(std::string_view method) {
   };
   static constexpr Row kRows[] = {
       {"initialized", &Server::initialized},
+      {"$/cancelRequest", &Server::cancel},
       {"textDocument/didOpen", &Server::open},
       {"textDocument/didChange", &Server::change},
       {"textDocument/didClose", &Server::close},
@@ -140,6 +141,13 @@ Json Server::shutdown(Message&) {
   for (const Message& it : std::exchange(waiting_, {}))
     connection_.send(refusal(it.id, RpcError::RequestCancelled, "the server was shut down"));
   return {};
+}
+
+// One that waits for an analysis; else it is over already.
+void Server::cancel(Message& message) {
+  const RequestId id = cancelled_id(connection_.reader(), message);
+  if (std::erase_if(waiting_, [&](const Message& it) { return it.id == id; }) == 0) return;
+  connection_.send(refusal(id, RpcError::RequestCancelled, "the request was cancelled"));
 }
 
 // Files that trees include, and plugins, may change without the editor.

@@ -41,6 +41,7 @@ class Server {
   Json initialize(Message& message);
   Json shutdown(Message& message);
   void initialized(Message& message);
+  void cancel(Message& message);
   void open(Message& message);
   void change(Message& message);
   void close(Message& message);
