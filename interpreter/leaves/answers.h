@@ -1,4 +1,4 @@
-// What the leaves of a model ask: which of several things they do. Who answers decides what a run
+// The leaves of a model ask which of several things they do. The answers decide what a run
 // is: all combinations in turn, those of a script, or random ones.
 #pragma once
 

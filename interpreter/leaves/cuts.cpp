@@ -87,7 +87,7 @@ class CutFinder {
     return place;
   }
 
-  // Of a node that counts rounds in its progress; 1: it does not; negative: not known.
+  // The rounds that a node counts in its progress; 1: it counts none; negative: not known.
   double rounds_of(NodeIndex node) const {
     const NodeType& type = *tree_.labels[node].type;
     if (type.id != "Repeat") return 1;

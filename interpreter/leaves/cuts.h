@@ -9,7 +9,7 @@
 
 namespace lockstep::host {
 
-// Of one node.
+// The cuts of one node.
 struct Cuts {
   std::vector<double> values;  // in (0, 1], rising: what its progress is compared with
   std::vector<double> deltas;  // it is compared with others that are so far away
@@ -19,7 +19,7 @@ struct Cuts {
 // The barriers that an entry may hold, by slot. An entry that is not there is unknown.
 using BarriersOfEntries = std::map<std::uint32_t, std::vector<double>>;
 
-// Of each node.
+// The cuts of each node.
 std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries,
                           std::span<const Observed::Progress> compared = {});
 

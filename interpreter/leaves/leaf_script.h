@@ -1,4 +1,5 @@
-// What leaves do, tick by tick, as text: NAME.leaves. A counter-example of verify is one, and `run
+// Scripts say tick by tick what leaves do, as text: NAME.leaves. A counter-example of verify is
+// one, and `run
 // --leaves` plays it. docs/verify.md has the grammar.
 //   @rate 10
 //   @ticks 14

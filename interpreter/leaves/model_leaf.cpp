@@ -117,7 +117,7 @@ void ModelLeaves::begin_tick() {
   }
 }
 
-// What only says how often something was counts no further than it matters.
+// A number that only says how often something was counts no further than it matters.
 void ModelLeaves::fold() {
   for (const std::uint32_t leaf : touched_) {
     LeafState& state = states_[leaf];

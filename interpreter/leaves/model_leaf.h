@@ -17,7 +17,7 @@ namespace lockstep::host {
 
 enum class Phase : std::uint8_t { Idle, Running, Paused };
 
-// Of a leaf between two ticks; all 0 while it is idle.
+// The state of a leaf between two ticks; all 0 while it is idle.
 struct LeafState {
   std::uint32_t ticks = 0;  // of this activation, as far as their number matters
   std::uint16_t level = 0;
@@ -28,7 +28,7 @@ struct LeafState {
 
 enum class FactState : std::uint8_t { False, True, Unknown };
 
-// What a leaf did in a tick of the tree.
+// A mark says what a leaf did in a tick of the tree.
 struct LeafMark {
   bool ticked = false, ended = false;
   Status result = Status::Idle;  // of its tick
@@ -51,7 +51,7 @@ class ModelLeaves {
   ModelLeaves(const ModelLeaves&) = delete;
   ModelLeaves& operator=(const ModelLeaves&) = delete;
 
-  // What the engine asks of a leaf, by its number.
+  // The engine calls these for a leaf, by its number.
   void start(std::uint32_t leaf);
   Status tick(std::uint32_t leaf);
   void halt(std::uint32_t leaf);
@@ -73,7 +73,7 @@ class ModelLeaves {
   std::span<const LeafMark> marks() const { return marks_; }
   // The leaves that have marks, each once.
   std::span<const std::uint32_t> touched() const { return touched_; }
-  // What the engine did against the contract; "" for nothing.
+  // The call of the engine that the contract forbids; "" for none.
   const std::string& broken() const { return broken_; }
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 using leaf_words::Word;
 
-// Of a word whose pattern is a choice between plain words.
+// Whether the value is one of the words that a plain choice has; true for all other patterns.
 bool is_one_of(const Attribute& it, const Word& word, const Reporter& report) {
   const bool is_choice = word.pattern.find('|') != std::string_view::npos &&
                          word.pattern.find_first_of("()[]:\\") == std::string_view::npos;

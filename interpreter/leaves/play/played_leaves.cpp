@@ -30,7 +30,7 @@ class PlayedLeaf final : public RemoteLeaf {
     progress_ = 0;
     is_first_ = true;
     if (restarts_) at_ = 0;
-    // What it writes at its start is there before other nodes look.
+    // A value that it writes at its start is there before other nodes look.
     if (const LeafWord* word = current()) write(*word);
   }
   void start_unreset() override { start(); }

@@ -39,7 +39,7 @@ class PlayedLeaves final : public RemotePlugin {
   }
   // Before a run, which it must outlive; null: nobody looks.
   void set_watch(PlayedLeafWatch* watch) { watch_ = watch; }
-  // What is wrong with scripts for a tree: a path that it does not have, a port, a value.
+  // The mistakes of scripts for a tree: a path that it does not have, a port, a value.
   static std::optional<Problem> check(const LeafScripts& scripts, const Tree& tree);
 
   const lockstep_plugin& entry() const override { return plugin_; }
