@@ -4,6 +4,7 @@
 #include "core/parameter_value.h"
 #include "core/wording.h"
 #include "describe/node_reference.h"
+#include "leaves/declared.h"
 
 namespace lockstep::host {
 
@@ -73,6 +74,14 @@ std::string facts_text(const Parameter& parameter) {
     text += parameter.required ? ", required" : ", optional";
   }
   if (parameter.constant || parameter.is_script) text += ", never a {key}";
+  return text;
+}
+
+std::string behavior_text(const NodeType& type) {
+  std::string text;
+  for (const Statement& it : declared_behavior(type)) {
+    text += fmt::format("{}{}=\"{}\"", text.empty() ? "" : " ", it.word, it.value);
+  }
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include "core/parameter_value.h"
 #include "describe/node_reference.h"
 #include "json/json.h"
+#include "leaves/declared.h"
 
 namespace lockstep::host {
 namespace {
@@ -48,6 +49,10 @@ std::string nodes_as_json(NodeTypes types) {
   for (const NodeType* type : types) {
     auto parameters = Json::array();
     for (const Parameter& it : type->parameters) parameters.push_back(parameter_json(it));
+    auto behavior = Json::object();
+    for (const Statement& it : declared_behavior(*type)) {
+      behavior[std::string(it.word)] = it.value;
+    }
     all.push_back({{"id", type->id},
                    {"category", to_string(type->category)},
                    {"plugin", type->plugin},
@@ -55,6 +60,7 @@ std::string nodes_as_json(NodeTypes types) {
                    {"children", children_json(*type)},
                    {"has_progress", type->has_progress},
                    {"real_time", type->real_time},
+                   {"behavior", std::move(behavior)},
                    {"parameters", std::move(parameters)}});
   }
   return all.printable(2) + "\n";

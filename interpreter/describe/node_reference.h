@@ -34,6 +34,8 @@ std::span<const NodeGroup> node_groups();
 std::string children_text(const NodeType& type);
 // "number in s, required, from 0 to 1": everything except the name and the doc.
 std::string facts_text(const Parameter& parameter);
+// result="success" ticks="2..40": what its plugin says that it does; "" for nothing.
+std::string behavior_text(const NodeType& type);
 // A line that shows how the node is written in a tree.
 std::string usage_text(const NodeType& type);
 // The attributes that are not parameters of one node, one sentence each.

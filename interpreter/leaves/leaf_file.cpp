@@ -21,18 +21,6 @@ namespace {
 using leaf_words::Tag;
 using leaf_words::Word;
 
-// "3", "1..5", "2..inf".
-std::optional<WholeRange> parse_range(std::string_view text) {
-  const auto parts = split(text, "..");
-  const auto least = parse_int(parts.front());
-  if (!least || parts.size() > 2) return std::nullopt;
-  if (parts.size() == 1) return WholeRange{*least, least};
-  if (parts[1] == "inf") return WholeRange{*least, std::nullopt};
-  const auto most = parse_int(parts[1]);
-  if (!most || *most < *least) return std::nullopt;
-  return WholeRange{*least, most};
-}
-
 class Reader {
  public:
   Reader(const Document& document, LeafFile& file, Diagnostics& diagnostics)
@@ -125,32 +113,14 @@ class Reader {
     if (name == "of" || name == "path") {
       (name == "of" ? row.of : row.path) = value;
       row.place = it.place;
-    } else if (name == "result") {
-      row.results = results(it);
-    } else if (name == "ticks") {
-      row.ticks = range(it, 1, "1..5, 3 or 2..inf");
-    } else if (name == "ends") {
-      row.ends = value == "yes";
-    } else if (name == "progress") {
-      row.progress = progress(it);
-    } else if (name == "step") {
-      row.step = range(it, std::nullopt, "0..2, 1 or 0..inf");
-    } else if (name == "finish") {
-      row.finishes_full = value == "full";
-    } else if (name == "held") {
-      row.held = value == "still" ? WholeRange{0, 0} : range(it, std::nullopt, "still or -1..0");
-      if (!row.held->most) report_.at_value(it.place, "'held' has no end", "still or -1..0");
-    } else if (name == "writes") {
-      row.writes = value == "start"  ? Writes::AtStart
-                   : value == "tick" ? Writes::InEachTick
-                                     : Writes::OnSuccess;
     } else if (name == "fact") {
       row.fact = LeafRow::Named{std::string(value), "", it.place};
     } else if (name == "sets") {
       for (const std::string_view part : split(value, ";")) read_set(it, part, row);
-    } else if (name.starts_with(leaf_words::kOutput)) {
-      row.outputs.push_back(
-          {std::string(name.substr(leaf_words::kOutput.size())), std::string(value), it.place});
+    } else if (is_behavior_word(name)) {
+      const auto wrong = add_statement(name, value, row);
+      if (wrong) report_.at_value(it.place, wrong->message, wrong->hint);
+      if (name.starts_with(kOutputWord)) row.outputs.back().place = it.place;
     }
   }
 
@@ -164,48 +134,6 @@ class Reader {
                        fmt::format("'{}' does not say what becomes of a fact", brief(part)),
                        "write charged=true, or charged=true;seen=false");
     }
-  }
-
-  std::optional<ResultSet> results(const Attribute& it) {
-    constexpr std::array<std::string_view, 4> kWords{"success", "failure", "skipped", "fault"};
-    std::array<bool, 4> has{};
-    for (const std::string_view part : split(it.value, ";")) {
-      const auto* const word = std::ranges::find(kWords, part);
-      if (word == kWords.end()) {
-        report_.at_value(it.place, fmt::format("'{}' is no result", brief(part)),
-                         suggest(part, kWords, "results"));
-        return std::nullopt;
-      }
-      has[static_cast<std::size_t>(word - kWords.begin())] = true;
-    }
-    return ResultSet{has[0], has[1], has[2], has[3]};
-  }
-
-  WholeRange range(const Attribute& it, std::optional<std::int64_t> least, std::string_view as) {
-    constexpr std::int64_t kMost = 1'000'000;
-    const auto range = parse_range(it.value);
-    const bool fits = range && std::abs(range->least) <= kMost &&
-                      (!least || range->least >= *least) &&
-                      std::abs(range->most.value_or(0)) <= kMost;
-    if (fits) return *range;
-    report_.at_value(it.place, fmt::format("'{}' is no range", brief(it.value)),
-                     fmt::format("write {}", as));
-    return {1, std::nullopt};
-  }
-
-  std::optional<ProgressWay> progress(const Attribute& it) {
-    constexpr std::int64_t kMost = 1000;
-    if (it.value == "none") return ProgressWay{ProgressWay::Kind::None, 0};
-    if (it.value == "cuts") return ProgressWay{ProgressWay::Kind::Cuts, 0};
-    constexpr std::string_view kGrid = "grid:";
-    const auto parts =
-        it.value.starts_with(kGrid) ? parse_int(it.value.substr(kGrid.size())) : std::nullopt;
-    if (parts && *parts >= 1 && *parts <= kMost) {
-      return ProgressWay{ProgressWay::Kind::Grid, static_cast<std::uint32_t>(*parts)};
-    }
-    report_.at_value(it.place, fmt::format("'{}' is no kind of progress", brief(it.value)),
-                     "write none, cuts, or grid:10 (at most 1000 parts)");
-    return std::nullopt;
   }
 
   const Document& document_;

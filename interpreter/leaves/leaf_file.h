@@ -8,38 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "core/behavior.h"
 #include "core/diagnostics.h"
 #include "core/place.h"
 #include "document/sources.h"
 
 namespace lockstep::host {
 
-// Of a number that the tree changes: from `least` to `most`; none: without end.
-struct WholeRange {
-  std::int64_t least = 0;
-  std::optional<std::int64_t> most;
-
-  friend bool operator==(const WholeRange&, const WholeRange&) = default;
-};
-
-// The results that an activation may have.
-struct ResultSet {
-  bool success = true, failure = true, skipped = false, fault = false;
-
-  friend bool operator==(const ResultSet&, const ResultSet&) = default;
-};
-
-struct ProgressWay {
-  enum class Kind : std::uint8_t { None, Cuts, Grid } kind = Kind::Cuts;
-  std::uint32_t parts = 0;  // of a grid
-
-  friend bool operator==(const ProgressWay&, const ProgressWay&) = default;
-};
-
 // How a fact of the world changes by itself.
 enum class Changes : std::uint8_t { Never, Freely, Rises, Falls };
-// When a leaf writes its outputs.
-enum class Writes : std::uint8_t { OnSuccess, AtStart, InEachTick };
 
 struct FactRow {
   std::string name;
@@ -47,27 +24,11 @@ struct FactRow {
   Place place = {};
 };
 
-// What is not said is not there.
-struct LeafRow {
+struct LeafRow : Behavior {
   std::string of, path;  // one of both: the id of a type, or a pattern for paths
   Place place = {};      // of that attribute
-  std::optional<ResultSet> results = {};
-  std::optional<WholeRange> ticks = {};
-  std::optional<bool> ends = {};
-  std::optional<ProgressWay> progress = {};
-  std::optional<WholeRange> step = {};
-  std::optional<bool> finishes_full = {};
-  std::optional<WholeRange> held = {};  // 0..0: it stands still
-  std::optional<Writes> writes = {};
-
-  struct Named {
-    std::string name;
-    std::string text;
-    Place place = {};
-  };
   std::optional<Named> fact = {};
-  std::vector<Named> sets = {};     // a fact, and "true" or "false"
-  std::vector<Named> outputs = {};  // a port, and its values with '|' between
+  std::vector<Named> sets = {};  // a fact, and "true" or "false"
 };
 
 // A finding that is as it should be.

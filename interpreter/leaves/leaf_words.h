@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/behavior.h"
+
 namespace lockstep::host::leaf_words {
 
 struct Word {
@@ -48,8 +50,8 @@ inline constexpr Word kLeaf[] = {
     {"writes", "success|start|tick",
      "When it writes its outputs; on success when nothing is said."},
 };
-// Of a leaf, also "out.PORT".
-inline constexpr std::string_view kOutput = "out.";
+// A leaf also has "out.PORT".
+inline constexpr std::string_view kOutput = kOutputWord;
 inline constexpr Word kAccept[] = {
     {"finding", "", "The name of a finding, as verify gives it.", true},
     {"because", "", "Why it is as it should be.", true},

@@ -11,12 +11,15 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "document/reporter.h"
+#include "engine/synchronized.h"
 #include "leaves/cuts.h"
+#include "leaves/declared.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::int64_t kNoEnd = 1'000'000'000;
+constexpr std::string_view kProgress = "progress";
 constexpr std::uint32_t kUsualParts = 10, kMostParts = 1000;
 
 bool is_whole(double value) {
@@ -34,15 +37,17 @@ std::uint32_t parts_for(const std::vector<double>& deltas) {
 class ModelMaker {
  public:
   ModelMaker(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-             std::vector<NodeProblem>& problems, const Observed& observed)
+             std::vector<NodeProblem>& problems, const Observed& observed, Declared declared)
       : tree_(tree),
         file_(file),
         diagnostics_(diagnostics),
         problems_(problems),
-        observed_(observed) {}
+        observed_(observed),
+        declared_(declared) {}
 
   LeafModels make() {
     make_general();
+    if (declared_ == Declared::Counts) apply_declared();
     if (file_ != nullptr) {
       models_.rate = file_->rate;
       models_.tree_ends = file_->tree_ends;
@@ -54,6 +59,7 @@ class ModelMaker {
     for (const std::uint32_t slot : observed_.entries) models_.entries[slot] = true;
     add_missing_outputs();
     find_levels();
+    list_declared();
     return std::move(models_);
   }
 
@@ -66,6 +72,7 @@ class ModelMaker {
 
   void make_general() {
     ways_.resize(tree_.leaves.size());
+    said_.resize(tree_.leaves.size());
     for (std::size_t i = 0; i < tree_.leaves.size(); ++i) {
       const NodeType& type = type_of(i);
       LeafModel& model = models_.leaves.emplace_back();
@@ -80,6 +87,54 @@ class ModelMaker {
                                          type.id, to_string(type.category), type.plugin),
                              "use nodes of the language here"});
       }
+    }
+  }
+
+  // --- what plugins declare ----------------------------------------------------------------------
+
+  void apply_declared() {
+    for (std::size_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
+      said_[leaf] = declared_behavior(type_of(leaf));
+      Behavior behavior;
+      for (const Statement& it : said_[leaf]) add_statement(it.word, it.value, behavior);
+      apply(behavior, {}, leaf);
+    }
+  }
+
+  // The statements of the plugin that the row replaces no longer count. A step in other parts than
+  // the row's is none.
+  void replace_declared(const LeafRow& row, std::size_t leaf) {
+    std::vector<Statement>& said = said_[leaf];
+    if (said.empty()) return;
+    LeafModel& model = models_.leaves[leaf];
+    const auto forget = [&](std::string_view word) {
+      return std::erase_if(said, [&](const auto& it) { return it.word == word; }) != 0;
+    };
+    std::erase_if(said, [&](const auto& it) { return says(row, it.word); });
+    if (row.fact && forget("result")) model.results = {};
+    if (!row.progress) return;
+    if (forget("step")) {
+      model.least_step = 0;
+      model.most_step = kNoEnd;
+    }
+    if (forget("held")) model.least_drift = model.most_drift = 0;
+  }
+
+  void list_declared() {
+    std::map<std::string_view, std::string> lines;  // by type
+    for (std::size_t leaf = 0; leaf < said_.size(); ++leaf) {
+      std::string& line = lines[type_of(leaf).id];
+      for (const Statement& it : said_[leaf]) {
+        const std::string text = fmt::format(" {}=\"{}\"", it.word, it.value);
+        if (line.find(text) == std::string::npos) line += text;
+      }
+      if (line.empty()) lines.erase(type_of(leaf).id);
+    }
+    for (const auto& [id, line] : lines) {
+      const auto leaf = std::ranges::find(
+          tree_.leaves, id, [](const LeafNode& it) { return std::string_view(it.type->id); });
+      models_.declared.push_back(
+          fmt::format("{} does as plugin '{}' says:{}", id, leaf->type->plugin, line));
     }
   }
 
@@ -118,6 +173,14 @@ class ModelMaker {
   }
 
   void apply(const LeafRow& row, std::size_t leaf) {
+    replace_declared(row, leaf);
+    apply(row, row.place, leaf);
+    LeafModel& model = models_.leaves[leaf];
+    if (row.fact) model.fact = fact(*row.fact);
+    for (const LeafRow::Named& it : row.sets) add_set(model, it);
+  }
+
+  void apply(const Behavior& row, Place place, std::size_t leaf) {
     LeafModel& model = models_.leaves[leaf];
     if (row.results) model.results = *row.results;
     if (row.ticks) {
@@ -125,7 +188,7 @@ class ModelMaker {
       model.most_ticks = row.ticks->most.value_or(0);
     }
     if (row.ends) model.ends = *row.ends;
-    if (row.progress) ways_[leaf] = {*row.progress, row.place};
+    if (row.progress) ways_[leaf] = {*row.progress, place};
     if (row.step) {
       model.least_step = row.step->least;
       model.most_step = row.step->most.value_or(kNoEnd);
@@ -136,9 +199,7 @@ class ModelMaker {
       model.most_drift = row.held->most.value_or(0);
     }
     if (row.writes) model.writes = *row.writes;
-    if (row.fact) model.fact = fact(*row.fact);
-    for (const LeafRow::Named& it : row.sets) add_set(model, it);
-    for (const LeafRow::Named& it : row.outputs) add_output(leaf, it);
+    for (const Behavior::Named& it : row.outputs) add_output(leaf, it);
   }
 
   std::uint32_t fact(const LeafRow::Named& named) {
@@ -272,11 +333,14 @@ class ModelMaker {
 
   void find_levels(std::size_t leaf, const Cuts& cuts) {
     LeafModel& model = models_.leaves[leaf];
-    const auto& [way, place] = ways_[leaf];
+    auto [way, place] = ways_[leaf];
     using Kind = ProgressWay::Kind;
     if (way && way->kind == Kind::None) model.has_progress = false;
     if (!model.has_progress) return;
     const bool wants_grid = !cuts.deltas.empty() || cuts.is_unknown;
+    const bool is_declared =
+        std::ranges::any_of(said_[leaf], [](const auto& it) { return it.word == kProgress; });
+    if (is_declared && wants_grid && way->kind == Kind::Cuts) way.reset();
     if (way && way->kind == Kind::Grid) model.parts = way->parts;
     if (way && way->kind == Kind::Cuts && wants_grid) {
       report().at(place, "its progress is compared with a distance: no set of cuts is exact",
@@ -284,7 +348,10 @@ class ModelMaker {
     }
     if (!way && wants_grid) model.parts = parts_for(cuts.deltas);
     if (wants_grid && model.parts == 0) model.parts = kUsualParts;
-    if (way && way->kind == Kind::Grid) check_parts(*way, place, cuts.deltas);
+    if (way && way->kind == Kind::Grid) {
+      is_declared ? check_declared_parts(model.node, *way, cuts.deltas)
+                  : check_parts(*way, place, cuts.deltas);
+    }
     for (std::uint32_t part = 1; part <= model.parts; ++part) {
       add_level(model, static_cast<double>(part) / model.parts);
     }
@@ -304,6 +371,19 @@ class ModelMaker {
     }
   }
 
+  void check_declared_parts(NodeIndex node, const ProgressWay& way,
+                            const std::vector<double>& deltas) {
+    for (const double delta : deltas) {
+      if (is_whole(delta * way.parts)) continue;
+      problems_.push_back(
+          {node,
+           fmt::format("its plugin declares progress in parts of 1/{}, of which the delta {} is no "
+                       "multiple",
+                       way.parts, delta),
+           fmt::format("say in the leaf file: progress=\"grid:{}\"", parts_for(deltas))});
+    }
+  }
+
   struct Way {
     std::optional<ProgressWay> way;
     Place place = {};
@@ -314,6 +394,8 @@ class ModelMaker {
   Diagnostics& diagnostics_;
   std::vector<NodeProblem>& problems_;
   const Observed& observed_;
+  const Declared declared_;
+  std::vector<std::vector<Statement>> said_;  // of each leaf, by its plugin, what counts
   std::optional<Reporter> report_;
   std::vector<Way> ways_;  // of each leaf
   std::set<std::uint32_t> told_;
@@ -359,8 +441,9 @@ std::vector<bool> entries_of_engine(const Tree& tree) {
 }
 
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-                       std::vector<NodeProblem>& problems, const Observed& observed) {
-  return ModelMaker(tree, file, diagnostics, problems, observed).make();
+                       std::vector<NodeProblem>& problems, const Observed& observed,
+                       Declared declared) {
+  return ModelMaker(tree, file, diagnostics, problems, observed, declared).make();
 }
 
 }  // namespace lockstep::host

@@ -1,6 +1,6 @@
-// What each leaf of a tree may do, as data: a leaf file's rows found in the tree, and where it says
-// nothing the most general leaf that keeps the contract of lockstep/leaf.h and stands still while
-// it is held. leaves/model_leaf.h does it.
+// Models say what each leaf of a tree may do: a leaf file's rows found in the tree, then what
+// plugins declare, and where nobody says anything the most general leaf that keeps the contract of
+// lockstep/leaf.h and stands still while it is held. leaves/model_leaf.h does it.
 #pragma once
 
 #include <cstdint>
@@ -65,9 +65,11 @@ struct LeafModels {
   bool tree_ends = true;
   std::vector<AcceptedFinding> accepted;
   std::vector<bool> entries;  // by slot: those whose values matter
+  // The types whose leaves do as their plugin says, each with the statements that count.
+  std::vector<std::string> declared;
 };
 
-// What is looked at beside what the tree itself does.
+// The progress and entries that somebody looks at beside the tree itself.
 struct Observed {
   struct Progress {
     NodeIndex node;
@@ -77,16 +79,20 @@ struct Observed {
   std::vector<std::uint32_t> entries = {};  // by slot
 };
 
-// What is wrong with a node of the tree.
+// A node of the tree with a mistake.
 struct NodeProblem {
   NodeIndex node;
   std::string message, hint;
 };
 
-// `file` may be null. Errors in the file go to `diagnostics`; those of nodes, which need something
-// that nothing says, to `problems`.
+// Whether the statements of plugins about their leaves count.
+enum class Declared : std::uint8_t { Counts, Ignored };
+
+// `file` may be null, and wins over what plugins declare. Errors in the file go to `diagnostics`;
+// those of nodes, which need something that nothing says, to `problems`.
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-                       std::vector<NodeProblem>& problems, const Observed& observed = {});
+                       std::vector<NodeProblem>& problems, const Observed& observed = {},
+                       Declared declared = Declared::Counts);
 
 // The entries that the engine itself reads or writes: in scripts, parameters and built-in nodes.
 std::vector<bool> entries_of_engine(const Tree& tree);

@@ -20,4 +20,11 @@ lockstep_port& OwnedDescriptors::add_port() {
   return port;
 }
 
+void OwnedDescriptors::add_behavior(std::string_view word, std::string_view value) {
+  Leaf& leaf = leaves_.back();
+  leaf.behavior.push_back({keep(word), keep(value)});
+  leaf.type.behavior = leaf.behavior.data();
+  leaf.type.behavior_count = static_cast<std::uint32_t>(leaf.behavior.size());
+}
+
 }  // namespace lockstep::host

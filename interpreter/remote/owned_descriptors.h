@@ -22,6 +22,8 @@ class OwnedDescriptors {
   lockstep_leaf_type& add_leaf();
   // Adds a port to the last leaf.
   lockstep_port& add_port();
+  // Adds a statement to the last leaf; both texts are kept.
+  void add_behavior(std::string_view word, std::string_view value);
 
   lockstep_plugin plugin = proxy_plugin();
 
@@ -29,6 +31,7 @@ class OwnedDescriptors {
   struct Leaf {
     lockstep_leaf_type type = proxy_leaf_type();
     std::vector<const lockstep_port*> ports = {};
+    std::vector<lockstep_behavior> behavior = {};
   };
   std::deque<std::string> texts_;
   std::deque<lockstep_port> ports_;

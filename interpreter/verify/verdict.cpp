@@ -441,6 +441,7 @@ class VerdictMaker {
           fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));
     }
     if (found_.store.keeps_hashes()) assumed.push_back("no two states have the same hash");
+    assumed.insert(assumed.end(), models_.declared.begin(), models_.declared.end());
     for (const Fact& fact : models_.facts) {
       constexpr std::string_view kWords[] = {"does not change by itself", "changes freely",
                                              "changes from false to true at most",

@@ -115,7 +115,7 @@ MEMBER_AT(lockstep_host, set_string_list, 208);
 MEMBER_AT(lockstep_host, get_object, 216);
 MEMBER_AT(lockstep_host, set_object, 224);
 
-SIZE_IS(lockstep_leaf_type, 136);
+SIZE_IS(lockstep_leaf_type, 152);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
 MEMBER_AT(lockstep_leaf_type, kind, 4);
 MEMBER_AT(lockstep_leaf_type, id, 8);
@@ -135,6 +135,11 @@ MEMBER_AT(lockstep_leaf_type, flags, 112);
 MEMBER_AT(lockstep_leaf_type, min_children, 120);
 MEMBER_AT(lockstep_leaf_type, max_children, 124);
 MEMBER_AT(lockstep_leaf_type, start_unreset, 128);
+MEMBER_AT(lockstep_leaf_type, behavior_count, 136);
+MEMBER_AT(lockstep_leaf_type, behavior, 144);
+SIZE_IS(lockstep_behavior, 16);
+MEMBER_AT(lockstep_behavior, word, 0);
+MEMBER_AT(lockstep_behavior, value, 8);
 
 SIZE_IS(lockstep_workers, 64);
 MEMBER_AT(lockstep_workers, struct_size, 0);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/node_kind.h"
+#include "plugin/contract/descriptor_behavior.h"
 #include "plugin/contract/descriptor_port.h"
 
 namespace lockstep::host {
@@ -101,7 +102,8 @@ std::optional<Problem> read_leaf(const lockstep_leaf_type* from, std::string_vie
   }
   leaf.type = covered_copy(from, from->struct_size);
   if (auto refusal = check_leaf(leaf.type)) return refusal;
-  return read_ports(leaf.type, plugin, leaf);
+  if (auto refusal = read_ports(leaf.type, plugin, leaf)) return refusal;
+  return check_behavior(leaf.type, leaf.parameters);
 }
 
 }  // namespace lockstep::host

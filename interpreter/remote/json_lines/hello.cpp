@@ -114,6 +114,13 @@ struct Hello::Reader {
          {"answers_pause", into_flag(answers_pause), kMayLack},
          {"real_time", into_flag(real_time), kMayLack},
          {"ports", [&](JsonValue ports) { ports.each_item([&](auto it) { read_port(it); }); },
+          kMayLack},
+         {"behavior",
+          [&](JsonValue behavior) {
+            behavior.object().each_field([&](std::string_view word, JsonValue said) {
+              tables().add_behavior(word, said.text());
+            });
+          },
           kMayLack}});
     leaf.kind = one_of<lockstep_leaf_kind>(
         "kind of a leaf", kind, {{"action", LOCKSTEP_ACTION}, {"condition", LOCKSTEP_CONDITION}});

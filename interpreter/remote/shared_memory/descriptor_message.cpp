@@ -65,6 +65,11 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
     for (std::uint32_t port = 0; port < leaf->type.port_count; ++port) {
       write_port(*leaf->type.ports[port], leaf->parameters[port].object, message);
     }
+    message.put(leaf->type.behavior_count);
+    for (std::uint32_t i = 0; i < leaf->type.behavior_count; ++i) {
+      message.put_text(leaf->type.behavior[i].word);
+      message.put_text(leaf->type.behavior[i].value);
+    }
   }
   const PluginWords words = words_of(plugin);
   message.put(static_cast<std::uint32_t>(words.size()));
@@ -116,6 +121,12 @@ bool ReadDescriptors::read_leaf(MessageReader& message) {
   const auto ports = message.get<std::uint32_t>();
   if (ports > kMostDescriptors) return false;
   for (std::uint32_t port = 0; port < ports && message.good(); ++port) read_port(message);
+  const auto statements = message.get<std::uint32_t>();
+  if (statements > kMostDescriptors) return false;
+  for (std::uint32_t i = 0; i < statements && message.good(); ++i) {
+    const std::string word(message.text());
+    tables_.add_behavior(word, message.text());
+  }
   return message.good();
 }
 

@@ -457,6 +457,15 @@ typedef struct lockstep_lasting {
 
 #define LOCKSTEP_LASTING "lockstep.lasting"
 
+/* Since 1.3: one statement about what an action or a condition does, in the words of a leaf file:
+ * {"ticks", "2..40"}. The words are result, ticks, ends, progress, step, finish, held, writes and
+ * out.PORT, each at most once; docs/verify.md says what they mean. `lockstep verify` relies on them
+ * where no leaf file says otherwise. */
+typedef struct lockstep_behavior {
+  const char* word;
+  const char* value;
+} lockstep_behavior;
+
 /* A type of leaf. Functions marked (optional) may be NULL.
  *
  * An activation: start, then tick once per tick of the tree until it returns success, failure or
@@ -504,6 +513,10 @@ typedef struct lockstep_leaf_type {
   /* [run] (optional) In place of start, when the node has completed and its parent ticks it again
    * by tick_unreset: it goes on from its last result. */
   void (*start_unreset)(void* leaf);
+
+  /* Since 1.3. */
+  uint32_t behavior_count; /* at most 4096; 0: the type says nothing about what it does */
+  const lockstep_behavior* behavior;
 } lockstep_leaf_type;
 
 /* Since 1.2: where a leaf keeps its progress, for one that has it as a number: a const double *,

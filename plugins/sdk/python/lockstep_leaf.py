@@ -76,7 +76,7 @@ def _plain(value):
 
 
 # What a leaf has beside its ports.
-_TAKEN = {"clock", "halt", "kind", "log", "name", "now", "path", "pause", "period", "progress", "random", "real_time",
+_TAKEN = {"behavior", "clock", "halt", "kind", "log", "name", "now", "path", "pause", "period", "progress", "random", "real_time",
           "resume", "start", "tick"}
 
 
@@ -122,6 +122,7 @@ class _Attribute:
 class _Leaf:
     kind = ""
     real_time = False  # it works in real time, whether ticks come or not
+    behavior = {}  # what it does, for `lockstep verify`, in the words of a leaf file: {"ticks": "2..40"}
 
     # What lockstep says: of the run, and of this tick.
     name = path = clock = ""
@@ -159,7 +160,8 @@ class _Leaf:
                 "ports": [port.fact for port in cls._ports.values()]}
         flags = {"progress": hasattr(cls, "progress"), "real_time": cls.real_time,
                  "pause": cls._pauses(), "answers_pause": cls._pauses()}
-        return fact | {name: True for name, is_set in flags.items() if is_set}
+        said = {"behavior": {word: str(value) for word, value in cls.behavior.items()}} if cls.behavior else {}
+        return fact | {name: True for name, is_set in flags.items() if is_set} | said
 
 
 _classes = {}

@@ -9,10 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "core/behavior.h"
 #include "core/parameter_value.h"
 #include "core/random.h"
 #include "core/wording.h"
 #include "engine/leaf_watch.h"
+#include "leaves/declared.h"
 #include "loading/load.h"
 #include "loading/plugins.h"
 #include "lockstep/leaf.h"
@@ -238,10 +240,33 @@ class Examiner {
     if (!found.fault.empty()) {
       return note(true, fmt::format("answers tick {} with an error: {}", found.ticks, found.fault));
     }
+    const std::string denied = denied_statement(found);
+    if (!denied.empty()) return note(false, denied);
     const bool is_running = found.status == Status::Running;
     return note(true, fmt::format("answers {}; it is {}{}", counted(found.ticks, "tick"),
                                   is_running ? "running, progress " : to_string(found.status),
                                   is_running ? fmt::format("{:g}", found.progress) : ""));
+  }
+
+  // How an activation was not as the plugin says; "" if it was.
+  std::string denied_statement(const Finding& found) const {
+    Behavior said;
+    for (const Statement& it : declared_behavior(type_)) add_statement(it.word, it.value, said);
+    const auto ticks = static_cast<std::int64_t>(found.ticks);
+    const std::string after = counted(found.ticks, "tick");
+    if (found.status == Status::Running) {
+      const bool is_late = said.ticks && said.ticks->most && ticks >= *said.ticks->most;
+      return is_late ? fmt::format("runs after {}, but its 'ticks' end before", after) : "";
+    }
+    if (said.ticks && ticks < said.ticks->least) {
+      return fmt::format("ends after {}, but its 'ticks' begin at {}", after, said.ticks->least);
+    }
+    const ResultSet results = said.results.value_or(ResultSet{true, true, true, true});
+    const bool may_be = found.status == Status::Success   ? results.success
+                        : found.status == Status::Failure ? results.failure
+                                                          : results.skipped;
+    return may_be ? ""
+                  : fmt::format("is {}, which its 'result' does not have", to_string(found.status));
   }
 
   bool passes(const Runnable& tree, const char* what, std::span<const Do> steps) const {

@@ -10,6 +10,11 @@
 
 namespace lockstep {
 inline namespace sdk1 {
+
+// A statement about what a leaf does, of its class: `lockstep verify` relies on it.
+//   static constexpr lockstep::Behavior behavior[] = {{"result", "success"}, {"ticks", "2..40"}};
+using Behavior = lockstep_behavior;
+
 namespace detail {
 
 struct LeafAccess {
@@ -122,6 +127,24 @@ struct DeinitPart {
   void (*function)();
 };
 
+// The statements of T about what it does: its member `behavior`, if it has one.
+template <class T, class = void>
+struct BehaviorOf {
+  static constexpr void add(lockstep_leaf_type&) {}
+};
+template <class T>
+struct BehaviorOf<
+    T,
+    std::enable_if_t<std::is_same_v<std::remove_extent_t<decltype(T::behavior)>, const Behavior>>> {
+  static_assert(
+      std::is_array_v<decltype(T::behavior)>,
+      "write: static constexpr lockstep::Behavior behavior[] = {{\"ticks\", \"2..40\"}};");
+  static constexpr void add(lockstep_leaf_type& type) {
+    type.behavior = &T::behavior[0];
+    type.behavior_count = static_cast<std::uint32_t>(std::extent_v<decltype(T::behavior)>);
+  }
+};
+
 // All of a plugin but the pointers to its own parts.
 template <std::size_t LeafCount>
 struct PluginParts {
@@ -206,6 +229,7 @@ constexpr lockstep_leaf_type leaf_type(const char* id, const char* doc) {
   type.tick = &Functions::tick;
   type.flags = (T::kRealTime ? LOCKSTEP_REAL_TIME : 0) | (T::kWakes ? LOCKSTEP_WAKES : 0);
   if constexpr (Functions::kIsAction) add_optional_functions<T>(type);
+  BehaviorOf<T>::add(type);
   if constexpr (std::is_base_of_v<ControlFunctions, T>) {
     type.min_children = T::kMinChildren;
     type.max_children = T::kMaxChildren;

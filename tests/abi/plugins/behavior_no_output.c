@@ -1,0 +1,5 @@
+#include <lockstep/leaf.h>
+static const lockstep_behavior said[] = {{"out.ticks", "2|3"}};
+#define LEAF_BEHAVIOR_COUNT sizeof said / sizeof *said
+#define LEAF_BEHAVIOR said
+#include "entry.h"

@@ -1,0 +1,2 @@
+#define LEAF_BEHAVIOR_COUNT 1
+#include "entry.h"
