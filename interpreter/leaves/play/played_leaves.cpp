@@ -268,6 +268,10 @@ void PlayedLeaves::take_over(Definition& definition) {
       type.leaf.kind = is_condition ? LOCKSTEP_CONDITION : LOCKSTEP_ACTION;
       type.leaf.flags = is_condition && type.node.can_run ? LOCKSTEP_MAY_RUN : 0;
       type.leaf.id = type.node.leaf != nullptr ? type.node.leaf->id : "leaf";
+      if (type.node.leaf != nullptr) {
+        type.leaf.behavior_count = type.node.leaf->behavior_count;
+        type.leaf.behavior = type.node.leaf->behavior;
+      }
       if (!type.node.has_progress) type.leaf.progress = nullptr;
       type.node.mock = nullptr;
       type.node.leaf = &type.leaf;
