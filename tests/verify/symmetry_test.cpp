@@ -175,6 +175,8 @@ constexpr Row kRows[] = {
   {"the first member of a pool comes first",
    "Parallel(Repeat(UseResources[pool=p resources=A](a)) Repeat(UseResources[pool=p resources=A](b))) "
    "resources[name=p increment=0]", R"(<tree ends="no"/><leaf path="*" result="success" ticks="1..2"/>)", "", false},
+  {"a barrier remembers its members by their numbers",
+   "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=.5]", "", "", false},
   {"the last script that writes decides", "Parallel(Script[code=n:=1] Script[code=n:=1] a)", "", "", false},
   {"a Sequence is at a child of its own place",
    "Parallel(Sequence[memory=true](a b) Sequence[memory=true](a b) Sequence[memory=true](a b))", "", "", true},
