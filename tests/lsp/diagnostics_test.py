@@ -93,6 +93,13 @@ class Diagnostics(unittest.TestCase):
         self.assertEqual({"line": 1, "character": 25}, found[0]["range"]["start"])
         self.assertEqual("did you mean 'never'?", found[0]["relatedInformation"][0]["message"])
 
+    def test_xml_of_other_programs(self):
+        for text in ("<package format=\"3\"><name>a</name></package>",
+                     "<?xml version=\"1.0\"?><svg><g/></svg>"):
+            self.assertEqual([], self.client.open(SOURCE / "package.xml", text))
+        for text in ("<rot lockstep=\"1\"/>", "<tree><BehaviorTree/></tree>"):
+            self.assertIn("'root'", self.client.open(SOURCE / "b.xml", text)[0]["message"])
+
     def test_hints_for_editors_without_related_information(self):
         client = Client()
         client.start(SOURCE, related=False)

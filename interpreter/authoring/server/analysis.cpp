@@ -59,6 +59,15 @@ std::string declarations_of(std::string_view text) {
   return declarations.empty() ? declarations : declarations + "</root>";
 }
 
+// Some editors ask about each XML file, as package.xml. In one of another program nothing is wrong.
+bool is_of_another_program(std::string_view text) {
+  const TolerantTree tree = read_tolerantly(text);
+  const bool is_written = !tree.elements.empty() && tree.elements[0].is_tag_closed;
+  return is_written && tree.elements[0].tag != "root" &&
+         text.find("lockstep=") == std::string_view::npos &&
+         text.find("BehaviorTree") == std::string_view::npos;
+}
+
 class TreeAnalysis {
  public:
   TreeAnalysis(const AnalysisJob& job, PluginCache& cache, Diagnostics& diagnostics,
@@ -131,6 +140,7 @@ Analysis analyze(const AnalysisJob& job, PluginCache& cache) {
   switch (kind_of_file(job.path)) {
     case FileKind::Tree:
       TreeAnalysis(job, cache, diagnostics, result).run();
+      if (is_of_another_program(*job.text)) diagnostics = {};
       break;
     case FileKind::Scenarios:
       read_scenarios(job.path, *job.text, diagnostics);
