@@ -155,8 +155,8 @@ std::string changed(const std::string& nodes,
                     const std::function<Result<ProjectEdit>(const ProjectTexts&)>& make) {
   Diagnostics diagnostics;
   const auto project = load_project_text(
-      "t.xml", "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n" + nodes + "</root>\n", {},
-      diagnostics);
+      "t.xml", "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n" + nodes + "</root>\n",
+      Arguments(), diagnostics);
   REQUIRE(project != nullptr);
   const PluginSet none;
   const Catalog catalog = make_catalog(none);

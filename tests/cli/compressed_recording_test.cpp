@@ -68,7 +68,7 @@ TEST_CASE("log cat prints the text, and --follow ends with the run") {
   const std::string plain = record(directory, "run.jsonl");
   const std::string packed = record(directory, "run.jsonl.zst");
   for (const std::string& file : {plain, packed}) {
-    for (const std::vector<std::string> options : {std::vector<std::string>(), {"--follow"}}) {
+    for (const std::vector<std::string>& options : {std::vector<std::string>(), {"--follow"}}) {
       auto command = options;
       command.insert(command.begin(), {"log", "cat", file});
       const Outcome outcome = run_lockstep(command);

@@ -24,10 +24,28 @@ static const newer_port port = {{sizeof(newer_port), LOCKSTEP_INT, LOCKSTEP_INPU
                                  NULL, NULL, NULL, 0, 0, NULL, 0},
                                 "more"};
 static const lockstep_port* const ports[] = {&port.base};
-static const newer_leaf_type leaf_type = {
-    {sizeof(newer_leaf_type), LOCKSTEP_ACTION, "Probe", NULL, 1, ports, probe_create, probe_destroy,
-     probe_start, probe_tick, probe_halt, NULL, NULL, NULL, NULL, 0, 0, 0, NULL},
-    more};
+static const newer_leaf_type leaf_type = {{sizeof(newer_leaf_type),
+                                           LOCKSTEP_ACTION,
+                                           "Probe",
+                                           NULL,
+                                           1,
+                                           ports,
+                                           probe_create,
+                                           probe_destroy,
+                                           probe_start,
+                                           probe_tick,
+                                           probe_halt,
+                                           NULL,
+                                           NULL,
+                                           NULL,
+                                           NULL,
+                                           0,
+                                           0,
+                                           0,
+                                           NULL,
+                                           0,
+                                           NULL},
+                                          more};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type.base};
 
 extern LOCKSTEP_EXPORT const newer_plugin lockstep_plugin_entry;
