@@ -57,10 +57,10 @@ class Searcher {
         graph.edges.size() / std::max<std::uint64_t>(1, graph.expanded());
     const std::uint64_t left =
         limits_.transitions - std::min(limits_.transitions, result_.transitions);
-    return static_cast<StateId>(
-        std::min(std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1), kStatesOfChunk,
-                                           kStatesOfRound),
-                 left / (edges_of_state + 1) + 1));
+    const std::uint64_t wanted = std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1),
+                                                           kStatesOfChunk, kStatesOfRound);
+    // At least one: a round without states would never end the search.
+    return static_cast<StateId>(std::clamp<std::uint64_t>(left / (edges_of_state + 1), 1, wanted));
   }
 
   // False: a limit was reached.

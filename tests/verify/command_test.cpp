@@ -103,7 +103,7 @@ TEST_CASE("what a limit has stopped is not called verified") {
   }
 }
 
-TEST_CASE("--compact proves nothing, and says how likely a state was missed") {
+TEST_CASE("verify --compact proves nothing, and says how likely a state was missed") {
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/predictability.xml";
   const std::vector<std::string> arguments{"verify", tree, "--compact"};
   const Outcome it = run_lockstep(arguments);

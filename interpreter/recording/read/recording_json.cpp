@@ -354,6 +354,12 @@ std::optional<std::uint64_t> RecordingJson::tick_of(std::string_view line) {
   return end.ec == std::errc() && end.ptr != digits ? std::optional(tick) : std::nullopt;
 }
 
+bool RecordingJson::is_end(std::string_view line) {
+  constexpr std::string_view kBegin = "{\"end\":";
+  static_assert(kBegin.substr(2, 3) == lines::kEndLine["end"]);
+  return line.starts_with(kBegin);
+}
+
 // Within a text, a quote would have a backslash before it.
 bool RecordingJson::may_be_whole(std::string_view line) {
   constexpr std::string_view kKey = ",\"whole\":[";

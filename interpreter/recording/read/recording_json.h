@@ -21,6 +21,7 @@ class RecordingJson {
   // The tick of a line; none: it is a line of another kind, or not one that a recorder writes.
   static std::optional<std::uint64_t> tick_of(std::string_view line);
   static bool may_be_whole(std::string_view line);
+  static bool is_end(std::string_view line);
 
   // Parses any other line. The changes of a tick are stored in `states`; what it points to is valid
   // until the next call.

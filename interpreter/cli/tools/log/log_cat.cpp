@@ -9,7 +9,7 @@
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
 #include "compression/decompressed.h"
-#include "recording/lines.h"
+#include "recording/read/recording_json.h"
 #include "runtime/stop_signals.h"
 
 namespace lockstep::host {
@@ -20,12 +20,6 @@ struct LogCatOptions {
   bool follows = false;
 };
 
-bool is_end(std::string_view line) {
-  constexpr std::string_view kEnd = "{\"end\":";
-  static_assert(kEnd.substr(2, 3) == lines::kEndLine["end"]);
-  return line.starts_with(kEnd);
-}
-
 // Whole lines, as long as there are any. The first part of a line waits in `rest` for its end.
 int print_lines(std::istream& in, std::string& rest, bool& has_ended) {
   std::string line, lines;
@@ -33,7 +27,7 @@ int print_lines(std::istream& in, std::string& rest, bool& has_ended) {
   while (written == kExitSuccess && std::getline(in, line)) {
     rest += line;
     if (in.eof()) break;
-    has_ended = has_ended || is_end(rest);
+    has_ended = has_ended || RecordingJson::is_end(rest);
     (lines += rest) += '\n';
     rest.clear();
     constexpr std::size_t kFull = 1u << 16u;
