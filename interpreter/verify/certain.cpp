@@ -141,7 +141,8 @@ std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> p
   if (tree.nodes.size() > kMostNodes || has_clocks(tree) || !not_verifiable(tree).empty())
     return {};
   std::vector<NodeProblem> problems;
-  const LeafModels models = make_models(tree, nullptr, diagnostics, problems, {}, Declared::Ignored);
+  const LeafModels models =
+      make_models(tree, nullptr, diagnostics, problems, {}, Declared::Ignored);
   if (!problems.empty() || has_start_values(tree, models)) return {};
   SearchLimits limits = bound(tree);
   limits.stop_signal = std::move(stop_signal);

@@ -79,9 +79,8 @@ TEST_CASE("log export --format trace: slices of nodes, progress, entries") {
     if (event["ph"] == "C") progress += event["args"].dump();
     if (event["ph"] == "i") instants += event["name"];
   }
-  CHECK(
-      progress ==
-      R"({"arm":0,"base":0}{"arm":0.25,"base":0.5}{"arm":0.5,"base":0.5}{"arm":0.75,"base":1})");
+  CHECK(progress ==
+        R"({"arm":0,"base":0}{"arm":0.25,"base":0.5}{"arm":0.5,"base":0.5}{"arm":0.75,"base":1})");
   CHECK(instants == "done = true");
 }
 
