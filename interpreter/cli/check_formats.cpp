@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 
+#include "core/path_in_uri.h"
 #include "core/utf8.h"
 #include "json/json.h"
 
@@ -52,16 +52,8 @@ std::string github_line(const Diagnostic& message) {
                      escaped(whole_text(message), kData));
 }
 
-// Escapes a path, which may hold any byte: RFC 3986.
 std::string uri_of(const std::string& path) {
-  std::string uri = std::filesystem::path(path).is_absolute() ? "file://" : "";
-  constexpr std::string_view kPlain = "/-._~";
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (byte < 0x80 && std::isalnum(byte) != 0) || kPlain.find(c) != kPlain.npos;
-    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return uri;
+  return (std::filesystem::path(path).is_absolute() ? "file://" : "") + path_in_uri(path);
 }
 
 // SARIF counts characters, we count bytes; nothing where the line is not known so far.

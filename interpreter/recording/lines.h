@@ -201,10 +201,9 @@ constexpr Field kTickFields[] = {
      "`debug`, `info` or `warning`, the text. At most 64 KiB for each tick; the closing `notes` "
      "count the rest. `--log-level` has no effect"},
     {"whole", "EntryValue[]", kMaybe,
-     "only in a line, each few thousand ticks, whose `nodes`, `limits` and `rounds` have all that "
-     "is "
-     "not as before the run, also what has not changed: {} for each entry that has a value. A "
-     "reader may begin with it"},
+     "only in a line each few thousand ticks: {} for each entry that has a value. The `nodes`, "
+     "`limits` and `rounds` of that line are the whole state, also what has not changed. A reader "
+     "may begin with it"},
     {"counts", "NodeCounts[]", kMaybe,
      "only in a line with `full`: {} for each node, how often this happened to it until then"},
     {"written", "EntryCount[]", kMaybe,

@@ -89,6 +89,35 @@ TEST_CASE("log cat prints the text, and --follow ends with the run") {
   CHECK(outcome.out.starts_with("{\"end\":{\"result\":\"success\""));
 }
 
+TEST_CASE("log cat prints recordings only") {
+  const TemporaryDirectory directory;
+  for (const std::string text : {"", "{}\n", "{\"lockstep_recording\":1", "no JSON\n"}) {
+    const Outcome outcome = run_lockstep({"log", "cat", directory.file("other", text)});
+    CHECK(outcome.code == 3);
+    CHECK(outcome.out == "");
+    CHECK(contains(outcome.err, "other:1: no header of a recording"));
+  }
+}
+
+TEST_CASE("a part that is not there is a mistake") {
+  const TemporaryDirectory directory;
+  const std::string file = record(directory, "run.jsonl.zst");
+  for (const std::string command : {"csv", "events"}) {
+    const Outcome behind = run_lockstep({"log", command, file, "--from", "99999999"});
+    CHECK(behind.code == 2);
+    CHECK(contains(behind.err, "--from 99999999: the recording has ticks 0 to 3182"));
+    const Outcome backward = run_lockstep({"log", command, file, "--from", "20", "--to", "10"});
+    CHECK(backward.code == 2);
+    CHECK(contains(backward.err, "--to: is before --from"));
+  }
+}
+
+TEST_CASE("run --record-compress without --record is a mistake") {
+  const Outcome outcome = run_lockstep({"run", kTree, "--record-compress"});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "--record-compress requires --record"));
+}
+
 TEST_CASE("log csv --from --to is the part of the table, also where the rest is damaged") {
   const TemporaryDirectory directory;
   const std::string plain = record(directory, "run.jsonl");

@@ -100,8 +100,11 @@ class Features(unittest.TestCase):
 
     def test_completion_beside_trees(self):
         labels = self.complete("<root lockstep=\"1\">\n <|\n</root>")
-        self.assertEqual({"BehaviorTree", "plugin", "include", "arg", "property", "barrier", "resources"},
-                         set(labels))
+        self.assertEqual({"BehaviorTree", "plugin", "include", "arg", "property", "scenario", "barrier",
+                          "resources"}, set(labels))
+        inside = self.complete("<root lockstep=\"1\">\n <scenario name=\"a\">\n  <|\n </scenario>\n</root>")
+        self.assertIn("expect", inside)
+        self.assertNotIn("Sequence", inside)
         self.assertEqual(["root"], list(self.complete("<|")))
         self.assertEqual([], self.here("<Wait seconds=\"1\"><|</Wait>"))
         self.assertEqual([], self.here("<!-- <| -->"))

@@ -95,7 +95,7 @@ std::string result_of(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("bad trees: all that is wrong or doubtful is reported, at its place, and nothing else") {
+TEST_CASE("bad trees: each mistake and doubt is reported, at its place, and nothing else") {
   auto files = files_in(kTrees + "bad");
   REQUIRE(files.size() >= 30);
   append(files, files_in(kTrees + "btcpp/bad"));

@@ -43,7 +43,7 @@ Made make(const Declaring& declaring, std::string_view tree_text, std::string_vi
 
 }  // namespace
 
-TEST_CASE("what a plugin declares is what its leaves do, and is told") {
+TEST_CASE("a leaf does what its plugin declares, and the verdict says so") {
   const Declaring declaring({{"result", "success"},
                              {"ticks", "2..40"},
                              {"progress", "grid:4"},

@@ -1,9 +1,8 @@
 #include "authoring/server/uri.h"
 
-#include <fmt/format.h>
-
-#include <cctype>
 #include <charconv>
+
+#include "core/path_in_uri.h"
 
 namespace lockstep::host {
 
@@ -29,14 +28,7 @@ std::string path_of_uri(std::string_view uri) {
 
 std::string uri_of_path(std::string_view path) {
   if (!path.starts_with('/')) return std::string(path);
-  std::string uri = "file://";
-  constexpr std::string_view kPlain = "/-._~";
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (byte < 0x80 && std::isalnum(byte) != 0) || kPlain.find(c) != kPlain.npos;
-    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return uri;
+  return "file://" + path_in_uri(path);
 }
 
 }  // namespace lockstep::host

@@ -212,7 +212,8 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
                  "it")
       ->type_name("FILE.jsonl");
   app.add_flag("--record-compress", options.record_compress,
-               "Compress the recording with zstd, whatever its name");
+               "Compress the recording with zstd, whatever its name")
+      ->needs("--record");
   app.add_option(
          "--record-entries", options.record_entries,
          "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "recording/read/recording_json.h"
@@ -126,8 +127,9 @@ void RecordingReader::read_line(Read read) {
 
 void RecordingReader::fail(const std::string& message) {
   const LineReader::Position& at = lines_.position();
-  error_ = at.knows_lines ? fmt::format("{}:{}: {}", name_, at.lines, message)
-                          : fmt::format("{}: before byte {}: {}", name_, at.bytes, message);
+  error_ = at.knows_lines
+               ? fmt::format("{}:{}: {}", name_, std::max<std::uint64_t>(at.lines, 1), message)
+               : fmt::format("{}: before byte {}: {}", name_, at.bytes, message);
 }
 
 }  // namespace lockstep::host

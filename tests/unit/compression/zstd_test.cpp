@@ -122,6 +122,45 @@ TEST_CASE("zstd: reading goes on at any earlier place") {
   }
 }
 
+// A file that counts what is read of it.
+class Counted final : public std::stringbuf {
+ public:
+  using std::stringbuf::stringbuf;
+  std::size_t read = 0;
+
+ private:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    const std::streamsize got = std::stringbuf::xsgetn(to, count);
+    read += static_cast<std::size_t>(got);
+    return got;
+  }
+};
+
+TEST_CASE("zstd: with a table a place is found without reading what is before it") {
+  std::mt19937 random(4);
+  ZstdFrames frames(kPiece);
+  Compressed it;
+  while (it.text.size() < (8u << 20)) {
+    const std::string piece = some_text(random, kPiece);
+    it.add(piece, frames.add(piece));
+    frames.make_room();
+  }
+  it.file += frames.end();
+  for (const bool has_table : {true, false}) {
+    Counted file(has_table ? it.file + frames.table() : it.file);
+    Decompressed text(file);
+    std::istream read(&text);
+    REQUIRE(read.seekg(0, std::ios_base::end));
+    CHECK(static_cast<std::size_t>(read.tellg()) == it.text.size());
+    const std::size_t place = it.text.size() / 2;
+    REQUIRE(read.seekg(static_cast<std::streamoff>(place)));
+    std::string part(100, '\0');
+    read.read(part.data(), 100);
+    CHECK(part == it.text.substr(place, 100));
+    CHECK((file.read < it.file.size() / 4) == has_table);
+  }
+}
+
 TEST_CASE("zstd: what is damaged is an error, or other text, and never more") {
   const Compressed it = some_file(5);
   std::mt19937 random(5);

@@ -107,7 +107,7 @@ TEST_CASE(
                kLeaf + "crashed in tick 12: SIGBUS, nonexistent memory");
 }
 
-TEST_CASE("a stack overflow is reported on a stack of its own") {
+TEST_CASE("a stack overflow is reported on a separate stack") {
   const Ended ended = in_tick([] { overflow(0); });
   CHECK(ended.exit_code == kCrashed);
   CHECK(has(ended, kLeaf + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
@@ -115,7 +115,7 @@ TEST_CASE("a stack overflow is reported on a stack of its own") {
   CHECK(has(ended, "lockstep: backtrace:\n"));
 }
 
-TEST_CASE("a stack overflow in a thread of our own is reported, too") {
+TEST_CASE("a stack overflow in a thread of lockstep is reported, too") {
   const Ended ended = outside([] {
     std::thread([] {
       adopt_thread();
@@ -194,7 +194,7 @@ TEST_CASE("a crash in a thread that a plugin started is not that of a leaf") {
       "reference (address 0x10)");
 }
 
-TEST_CASE("a crash of our own is reported as such") {
+TEST_CASE("a crash of lockstep is reported as such") {
   const Ended ended = outside([] { write_to(0x10); });
   check_report(ended,
                "lockstep: error: lockstep crashed: SIGSEGV, invalid memory reference "

@@ -17,6 +17,12 @@ class ElementItems {
   void add() {
     if (around_ == nullptr) return add_word({at_.words.root, at_.words.root_words, ""}, 0);
     if (at_.kind == FileKind::Scenarios) return add_scenario_words();
+    if (around_->tag == "scenario") {
+      for (const leaf_words::Tag& it : vocabulary_of(FileKind::Scenarios).tags) {
+        if (it.name != "scenario") add_word(it, 0);
+      }
+      return;
+    }
     if (around_->tag == at_.words.root) {
       for (const leaf_words::Tag& it : at_.words.tags) add_word(it, 0);
       if (at_.kind == FileKind::Tree) add_nodes(true);

@@ -36,15 +36,16 @@ constexpr Word kPlugin[] = {
 constexpr Word kProperty[] = {
     {"name", "", "What messages call it.", true},
 };
+constexpr Tag kScenario{"scenario", scenario_words::kScenario,
+                        "What the leaves do, and what is to come of it."};
 constexpr Tag kTree[] = {
     {"BehaviorTree", kBehaviorTree, "A tree, with one node in it."},
     {"plugin", kPlugin, "The nodes of a plugin can be used in the file."},
     {"include", kInclude, "The trees of another file can be used in this one."},
     {"arg", kArgument, "A value that is given when the tree is loaded."},
     {"property", kProperty, "What every run must have, as text: never arm.failure"},
+    kScenario,
 };
-constexpr Tag kScenario{"scenario", scenario_words::kScenario,
-                        "What the leaves do, and what is to come of it."};
 
 std::span<const Tag> scenario_tags() {
   static const std::vector<Tag> kAll = [] {

@@ -23,13 +23,6 @@ struct LogOptions {
   TickRange range;
 };
 
-// What comes behind a range has not been read.
-int report_range(const LogOptions& options, const RecordingReader& reader) {
-  RecordingOutcome outcome = reader.outcome();
-  if (!options.range.is_open()) outcome.cut.clear();
-  return report_end(outcome);
-}
-
 int csv_to_file(const LogOptions& options, RecordingReader& reader) {
   const NamedFile recording[] = {named_file(options.file)};
   if (would_overwrite("--out", options.out, recording)) return kExitUsage;
@@ -44,7 +37,7 @@ int csv_to_file(const LogOptions& options, RecordingReader& reader) {
     return reason == 0;
   };
   if (write_csv(reader, write, CsvNames::Exact, options.range) && !out.take_name()) reason = errno;
-  return reason == 0 ? report_range(options, reader) : cannot_use("write", options.out, reason);
+  return reason == 0 ? report_end(reader, options.range) : cannot_use("write", options.out, reason);
 }
 
 int csv(const LogOptions& options) {
@@ -57,7 +50,8 @@ int csv(const LogOptions& options) {
       return written == kExitSuccess;
     };
     // Where a reader stops, the recording is not cut.
-    return write_csv(reader, write, names, options.range) ? report_range(options, reader) : written;
+    return write_csv(reader, write, names, options.range) ? report_end(reader, options.range)
+                                                          : written;
   });
 }
 
@@ -78,12 +72,7 @@ std::function<int()> define_log(CLI::App& app) {
   for (CLI::App* command : {table, summary}) add_recording_file(*command, options->file);
   table->add_option("--out", options->out, "Write the table to this file instead of stdout")
       ->type_name("FILE");
-  table->add_option("--from", options->range.from, "The first tick in the table")
-      ->type_name("TICK")
-      ->transform(whole_number());
-  table->add_option("--to", options->range.to, "The last one; what is behind it is not read")
-      ->type_name("TICK")
-      ->transform(whole_number());
+  add_tick_range(*table, options->range);
   const auto cat = define_log_cat(app);
   const auto events = define_log_events(app);
   const auto other = define_log_export(app);

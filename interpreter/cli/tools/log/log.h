@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "recording/read/recording_reader.h"
+#include "recording/use/tick_range.h"
 
 namespace CLI {
 class App;
@@ -18,6 +19,8 @@ namespace lockstep::host {
 // Adds the argument that names the recording.
 void add_recording_file(CLI::App& app, std::string& file);
 
+// Adds --from and --to.
+void add_tick_range(CLI::App& app, TickRange& range);
 // Opens the recording ("-" is stdin) and returns the result of `use`, or the exit code for a file
 // that is not a recording.
 int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use);
@@ -32,6 +35,9 @@ int make_page(std::istream& in, const std::string& path,
 // Reports an error in the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);
+// The same for a part of it: what comes behind the range has not been read, so that it is not known
+// whether it is cut. A range that begins behind the last tick is a mistake.
+int report_end(const RecordingReader& reader, TickRange range);
 // Reports a mistake of the user. Returns the exit code.
 int usage_error(const std::string& message);
 // Reports that `path` cannot be read or written. Returns the exit code.

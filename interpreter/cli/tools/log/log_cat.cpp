@@ -38,11 +38,26 @@ int print_lines(std::istream& in, std::string& rest, bool& has_ended) {
   return written == kExitSuccess ? write_results(lines) : written;
 }
 
+// Prints the header. False: it is none, or cut.
+bool begin(std::istream& in, int& written) {
+  std::string header;
+  std::getline(in, header);
+  if (in.eof() || header.find("\"lockstep_recording\"") == std::string::npos) return false;
+  written = write_results(header += '\n');
+  return true;
+}
+
 int follow(std::istream& in, const LogCatOptions& options) {
   constexpr std::chrono::milliseconds kLook{50};
   if (options.follows) StopSignals::install();
   std::string rest;
   bool has_ended = false;
+  int written = kExitSuccess;
+  if (!begin(in, written)) {
+    print_error(printable(options.file + ":1: no header of a recording"));
+    return kExitInvalidTree;
+  }
+  if (written != kExitSuccess) return written;
   while (true) {
     if (const int code = print_lines(in, rest, has_ended); code != kExitSuccess) return code;
     if (!options.follows || has_ended) break;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
@@ -53,9 +52,7 @@ int events(const LogEventsOptions& options) {
       return lines.size() < kFull || write();
     });
     if (written == kExitSuccess) write();
-    RecordingOutcome outcome = reader.outcome();
-    if (!options.range.is_open()) outcome.cut.clear();  // that is not known
-    return written == kExitSuccess ? report_end(outcome) : written;
+    return written == kExitSuccess ? report_end(reader, options.range) : written;
   });
 }
 
@@ -80,12 +77,7 @@ LogSubcommand define_log_events(CLI::App& log) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"start", "success", "failure", "skipped", "halt", "hold", "release",
                              "fault", "entry", "log", "lost", "end"}));
-  app->add_option("--from", options->range.from, "The first tick")
-      ->type_name("TICK")
-      ->transform(whole_number());
-  app->add_option("--to", options->range.to, "The last one; what is behind it is not read")
-      ->type_name("TICK")
-      ->transform(whole_number());
+  add_tick_range(*app, options->range);
   return {app, [options] { return events(*options); }};
 }
 

@@ -36,9 +36,7 @@ int export_to(const LogExportOptions& options, RecordingReader& reader) {
           : write_trace(reader, options.range, write);
   if (is_written && !out.take_name()) reason = errno;
   if (reason != 0) return cannot_use("write", options.out, reason);
-  RecordingOutcome outcome = reader.outcome();
-  if (!options.range.is_open()) outcome.cut.clear();  // that is not known
-  return report_end(outcome);
+  return report_end(reader, options.range);
 }
 
 int export_recording(const LogExportOptions& options) {
@@ -60,12 +58,7 @@ LogSubcommand define_log_export(CLI::App& log) {
       ->check(CLI::IsMember({"mcap", "trace"}))
       ->required();
   app->add_option("--out", options->out, "The file")->type_name("FILE")->required();
-  app->add_option("--from", options->range.from, "The first tick")
-      ->type_name("TICK")
-      ->transform(whole_number());
-  app->add_option("--to", options->range.to, "The last one; what is behind it is not read")
-      ->type_name("TICK")
-      ->transform(whole_number());
+  add_tick_range(*app, options->range);
   app->add_option(
          "--start-time", options->start_time,
          "With mcap: when the run began, in seconds since 1970; 0: times are those of the run")

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
@@ -53,6 +54,29 @@ int report_end(const RecordingOutcome& outcome) {
 
 int report_end(const RecordingReader& reader) {
   return report_end(reader.outcome());
+}
+
+int report_end(const RecordingReader& reader, TickRange range) {
+  RecordingOutcome outcome = reader.outcome();
+  if (!range.is_open()) outcome.cut.clear();
+  const int code = report_end(outcome);
+  const std::uint64_t ticks = reader.position().next_tick;
+  if (code != kExitSuccess || range.from < ticks || range.from == 0) return code;
+  return usage_error(
+      fmt::format("--from {}: the recording has {}", range.from,
+                  ticks == 0 ? "no ticks" : fmt::format("ticks 0 to {}", ticks - 1)));
+}
+
+void add_tick_range(CLI::App& app, TickRange& range) {
+  app.add_option("--from", range.from, "The first tick")
+      ->type_name("TICK")
+      ->transform(whole_number());
+  app.add_option("--to", range.to, "The last one; what is behind it is not read")
+      ->type_name("TICK")
+      ->transform(whole_number())
+      ->check([&range](const std::string& text) {
+        return std::stoull(text) < range.from ? "is before --from" : std::string();
+      });
 }
 
 int usage_error(const std::string& message) {
