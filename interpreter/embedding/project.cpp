@@ -84,7 +84,7 @@ bool load_with(lockstep_project* project, const char* name, const void* argument
          });
 }
 
-const Tree* tree_of(const lockstep_project* project) {
+const Tree* loaded_tree(const lockstep_project* project) {
   return project == nullptr || !project->program ? nullptr : &project->program->runnable.tree;
 }
 
@@ -248,7 +248,7 @@ bool lockstep_project_diagnostic(const lockstep_project* project, uint32_t index
 }
 
 uint32_t lockstep_project_node_count(const lockstep_project* project) {
-  const Tree* const tree = tree_of(project);
+  const Tree* const tree = loaded_tree(project);
   return tree == nullptr ? 0 : static_cast<uint32_t>(tree->nodes.size());
 }
 
@@ -271,7 +271,7 @@ bool lockstep_project_node(const lockstep_project* project, uint32_t index, lock
 bool lockstep_project_find_node(const lockstep_project* project, const char* path,
                                 uint32_t* index) {
   return guarded([&] {
-    if (tree_of(project) == nullptr) return fail("the project has not been loaded");
+    if (loaded_tree(project) == nullptr) return fail("the project has not been loaded");
     if (!is_text("the path", path)) return false;
     if (index == nullptr) return fail("an argument is NULL");
     const auto& paths = project->program->texts().paths;
@@ -283,7 +283,7 @@ bool lockstep_project_find_node(const lockstep_project* project, const char* pat
 }
 
 uint32_t lockstep_project_entry_count(const lockstep_project* project) {
-  const Tree* const tree = tree_of(project);
+  const Tree* const tree = loaded_tree(project);
   return tree == nullptr ? 0 : static_cast<uint32_t>(tree->slots.size());
 }
 
@@ -305,7 +305,7 @@ bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
 bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
                                  uint32_t* index) {
   return guarded([&] {
-    const Tree* const tree = tree_of(project);
+    const Tree* const tree = loaded_tree(project);
     if (tree == nullptr) return fail("the project has not been loaded");
     if (index == nullptr) return fail("an argument is NULL");
     const auto slot = find_slot(*tree, key);

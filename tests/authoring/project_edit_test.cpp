@@ -10,7 +10,7 @@
 #include "authoring/edit/entry_uses.h"
 #include "authoring/edit/renames.h"
 #include "authoring/edit/subtree_edits.h"
-#include "cli/program.h"
+#include "support/program.h"
 #include "loading/load.h"
 #include "property/random_source.h"
 

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

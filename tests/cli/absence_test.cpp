@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <regex>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;

@@ -1,7 +1,7 @@
 // Barriers across branches from outside: what a run says of them, its recording says too.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -48,7 +48,7 @@ std::string busy_tree(const TemporaryDirectory& directory) {
   return directory.file("tree.xml", tree_text("<Parallel>" + nodes + "</Parallel>"));
 }
 
-Call recorded(const std::string& tree, const std::string& file) {
+Invocation recorded(const std::string& tree, const std::string& file) {
   return {.arguments = {"run", tree, "--rate", "1000", "--view", "none", "--record", file,
                         "--plugin", LOCKSTEP_BINARY_DIR "/tests/abi/plugins/good.so"}};
 }
@@ -58,7 +58,7 @@ Call recorded(const std::string& tree, const std::string& file) {
 TEST_CASE("a run whose recording waits for its reader without end is ended by a second signal") {
   const TemporaryDirectory directory;
   const StuckPipe pipe(directory);
-  Call call = recorded(busy_tree(directory), pipe.path());
+  Invocation call = recorded(busy_tree(directory), pipe.path());
   call.arguments.insert(call.arguments.end(), {"--halt-limit", "0"});
   Process process(call);
   pipe.read_line();  // the header, which the first tick waits for
@@ -76,7 +76,7 @@ TEST_CASE("a run whose recording waits for its reader without end is ended by a 
 TEST_CASE("a run whose recording nobody reads ends all the same, and says so") {
   const TemporaryDirectory directory;
   const StuckPipe pipe(directory);
-  Call call = recorded(busy_tree(directory), pipe.path());
+  Invocation call = recorded(busy_tree(directory), pipe.path());
   call.arguments.insert(call.arguments.end(),
                         {"--halt-limit", "0.2", "--timeout", "0.5", "--json"});
   Process process(call);

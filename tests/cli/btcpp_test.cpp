@@ -1,7 +1,7 @@
 // Trees for BehaviorTree.CPP on the command line: without their plugins, and with models.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;

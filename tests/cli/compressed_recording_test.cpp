@@ -2,18 +2,18 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
 namespace {
 
-constexpr const char* kTree = LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml";
+constexpr const char* kCompressedRecordingTree = LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml";
 
 std::string record(const TemporaryDirectory& directory, const std::string& name,
                    std::vector<std::string> more = {}) {
   const std::string file = directory.path(name);
-  more.insert(more.begin(), {"run", kTree, "--clock", "virtual", "--record", file});
+  more.insert(more.begin(), {"run", kCompressedRecordingTree, "--clock", "virtual", "--record", file});
   REQUIRE(run_lockstep(more).code == 0);
   return file;
 }
@@ -113,7 +113,7 @@ TEST_CASE("a part that is not there is a mistake") {
 }
 
 TEST_CASE("run --record-compress without --record is a mistake") {
-  const Outcome outcome = run_lockstep({"run", kTree, "--record-compress"});
+  const Outcome outcome = run_lockstep({"run", kCompressedRecordingTree, "--record-compress"});
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "--record-compress requires --record"));
 }

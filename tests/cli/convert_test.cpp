@@ -1,7 +1,7 @@
 // lockstep convert: the same tree in the other language.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;

@@ -5,7 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;

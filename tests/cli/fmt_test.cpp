@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <functional>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -27,7 +27,7 @@ constexpr double kMaxMegabytes = 256;
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 
 const std::string kHead = "<root lockstep=\"1\" main_tree_to_execute=\"A\">\n";
-const std::string kTree = "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>\n";
+const std::string kHostileDocumentTree = "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>\n";
 
 std::string in_tree(const std::string& nodes) {
   return kHead + "<BehaviorTree ID=\"A\">" + nodes + "</BehaviorTree></root>";
@@ -88,7 +88,7 @@ auto many(std::string head, int times, std::string part, std::string tail) {
 // A tree that is right, with a comment that makes the file so long.
 auto padded(std::size_t bytes) {
   return [=](const TemporaryDirectory&, std::ostream& out) {
-    const std::string begin = kHead + kTree + "<!--";
+    const std::string begin = kHead + kHostileDocumentTree + "<!--";
     const std::string end = "--></root>";
     const std::string line(1023, 'x');
     out << begin;
@@ -99,7 +99,7 @@ auto padded(std::size_t bytes) {
 }
 
 auto including(std::string path) {
-  return text(kHead + "<include path=\"" + path + "\"/>\n" + kTree + "</root>");
+  return text(kHead + "<include path=\"" + path + "\"/>\n" + kHostileDocumentTree + "</root>");
 }
 
 }  // namespace
@@ -134,14 +134,14 @@ TEST_CASE("a document that is deep or wide is refused or checked in time and mem
       {"a million siblings, all empty", many(kHead + sequence, kMany, "<Sequence/>\n", end), 3,
        "$:2:32: error:"},
       {"100,000 trees",
-       many(kHead + kTree, 100'000, "<BehaviorTree ID=\"T{}\"><AlwaysSuccess/></BehaviorTree>\n",
+       many(kHead + kHostileDocumentTree, 100'000, "<BehaviorTree ID=\"T{}\"><AlwaysSuccess/></BehaviorTree>\n",
             "</root>"),
        0, ""},
-      {"100,000 plugins", many(kHead, 100'000, "<plugin name=\"p{}\"/>\n", kTree + "</root>"), 4,
+      {"100,000 plugins", many(kHead, 100'000, "<plugin name=\"p{}\"/>\n", kHostileDocumentTree + "</root>"), 4,
        "$:258:1: error: more than 256 plugins"},
-      {"100,000 arguments", many(kHead, 100'000, "<arg name=\"a{}\"/>\n", kTree + "</root>"), 3,
+      {"100,000 arguments", many(kHead, 100'000, "<arg name=\"a{}\"/>\n", kHostileDocumentTree + "</root>"), 3,
        "$:2:1: error: argument 'a0' has no default"},
-      {"100,000 includes", many(kHead, 100'000, "<include path=\"f{}.xml\"/>\n", kTree + "</root>"),
+      {"100,000 includes", many(kHead, 100'000, "<include path=\"f{}.xml\"/>\n", kHostileDocumentTree + "</root>"),
        3, "$:2:16: error: cannot read '"},
       {"100,000 attributes",
        many(kHead + "<BehaviorTree ID=\"A\"><AlwaysSuccess", 100'000, " a{}=\"\"",
@@ -206,12 +206,12 @@ TEST_CASE("bytes that are no text, and entities, are refused where they stand") 
       {"an entity of one's own", text(laughs + in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
        "$:1:16: error: definitions in a DOCTYPE are not supported"},
       {"an external entity",
-       text("<!DOCTYPE r [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n" + kHead + kTree +
+       text("<!DOCTYPE r [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n" + kHead + kHostileDocumentTree +
             "</root>"),
        3, "$:1:13: error: definitions in a DOCTYPE are not supported"},
       {"an entity that is not declared", text(in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
        "$:2:43: error: '&' does not begin a known reference"},
-      {"a NUL", text(kHead + "<!--\0-->"s + kTree + "</root>"), 3, "$:2:5: error: NUL byte"},
+      {"a NUL", text(kHead + "<!--\0-->"s + kHostileDocumentTree + "</root>"), 3, "$:2:5: error: NUL byte"},
       {"only NULs", text(std::string(1000, '\0')), 3, "$:1:1: error: NUL byte"},
       {"a NUL as a reference", text(in_tree("<AlwaysSuccess name=\"&#0;\"/>")), 3,
        "$:2:43: error:"},
@@ -262,12 +262,12 @@ TEST_CASE("includes neither hang nor multiply") {
       std::ofstream part(directory.path(fmt::format("{}.xml", i)), std::ios::binary);
       part << "<root lockstep=\"1\"><!--" << std::string(20'000'000, 'x') << "--></root>";
     }
-    out << kTree << "</root>";
+    out << kHostileDocumentTree << "</root>";
   };
   // A file and the one that it includes have so many bytes together.
   const auto two_files = [](std::size_t bytes) {
     return [=](const TemporaryDirectory& directory, std::ostream& out) {
-      const std::string main = kHead + "<include path=\"part.xml\"/>\n" + kTree + "</root>";
+      const std::string main = kHead + "<include path=\"part.xml\"/>\n" + kHostileDocumentTree + "</root>";
       const std::string begin = "<root lockstep=\"1\"><!--", end = "--></root>";
       std::ofstream part(directory.path("part.xml"), std::ios::binary);
       std::size_t left = bytes - main.size() - begin.size() - end.size();
@@ -304,7 +304,7 @@ TEST_CASE("a plugin is a name, never a path") {
     const TemporaryDirectory directory;
     directory.file("x.so", "");
     const std::string path =
-        directory.file("tree.xml", kHead + "<plugin name=\"" + name + "\"/>\n" + kTree + "</root>");
+        directory.file("tree.xml", kHead + "<plugin name=\"" + name + "\"/>\n" + kHostileDocumentTree + "</root>");
     const Outcome outcome = run_lockstep({"check", path, "--plugin-path", directory.path("a/b")});
     INFO(outcome.err);
     CHECK(outcome.code == 4);
@@ -369,7 +369,7 @@ TEST_CASE("thousands of mistakes among thousands of long names are reported in t
       {"many", trees_and_uses(300'000, short_id, 100'000, long_id), 3, "100000 errors, of which"},
       {"arguments",
        [=](const TemporaryDirectory&, std::ostream& out) {
-         out << kHead << kTree;
+         out << kHead << kHostileDocumentTree;
          for (int i = 0; i < 3000; ++i)
            out << "<arg name=\"" << random(i) << "\" default=\"${" << other(i) << "}\"/>\n";
          out << "</root>";
@@ -486,7 +486,7 @@ TEST_CASE("arguments that expand to megabytes are refused") {
     return nodes + "</Sequence></BehaviorTree>";
   };
   check_all({
-      {"30 times doubled", doubling(30, kTree), 3,
+      {"30 times doubled", doubling(30, kHostileDocumentTree), 3,
        "$:19:26: error: the value of 'default' is larger than 1 MiB"},
       {"40 times half a megabyte", doubling(15, uses(40)), 0, ""},
       {"100,000 times half a megabyte", doubling(15, uses(100'000)), 3,

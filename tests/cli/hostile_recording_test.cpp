@@ -6,34 +6,34 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kMaxSeconds = 60, kMaxTimes = 100;
+constexpr double kMaxReadSeconds = 60, kMaxTimes = 100;
 #else
-constexpr double kMaxSeconds = 5, kMaxTimes = 17;
+constexpr double kMaxReadSeconds = 5, kMaxTimes = 17;
 #endif
 constexpr double kAlways = 30;  // MB, whatever is read
 constexpr std::size_t kMegabytes = 8;
 
-const std::string kHead =
+const std::string kHeadLines =
     R"({"lockstep_recording":1,"tree":"M","file":"f","version":"0","rate_hz":100.0,)"
     R"("clock":"virtual","seed":0,"arguments":{)";
 const std::string kNode = R"({"index":0,"path":"M/W","kind":"W","name":"W","parent":null)";
-const std::string kHeader = kHead + R"(},"nodes":[)" + kNode + "}]}\n";
+const std::string kHeader = kHeadLines + R"(},"nodes":[)" + kNode + "}]}\n";
 const std::string kTick = R"({"tick":0,"time_s":0,"nodes":[)";
 
 // A recording with one line of kMegabytes: after `begin` come as many of `part` as fit, and then
 // `end`. In a part, {0} is its number and {1} the one before it.
-struct Hostile {
+struct HostileRecording {
   std::string name, begin, part, end;
   std::string error;  // in stderr; "" when the line can be read
 };
 
-const std::vector<Hostile> kRecordings{
+const std::vector<HostileRecording> kRecordings{
     {"a status that is a list of lists of lists", kHeader + kTick + "[0,", "[", "}",
      "'s change has a status that is not a string"},
     {"lists in lists under a key that is not known", kHeader + kTick + "],\"x\":", "[", "}",
@@ -56,11 +56,11 @@ const std::vector<Hostile> kRecordings{
          R"("notes":["")",
      ",\"\"", "]}}", ""},
     {"a long fault", kHeader + kTick + "],\"faults\":[[0,\"", "\\u0001", "\"]]}", ""},
-    {"arguments", kHead + "\"\":\"\"", ",\"{0:x}\":\"\"", "},\"nodes\":[" + kNode + "}]}", ""},
-    {"barriers", kHead + "},\"nodes\":[" + kNode + ",\"barriers\":[0", ",0", "]}]}", ""},
-    {"nodes", kHead + "},\"nodes\":[" + kNode + "}",
+    {"arguments", kHeadLines + "\"\":\"\"", ",\"{0:x}\":\"\"", "},\"nodes\":[" + kNode + "}]}", ""},
+    {"barriers", kHeadLines + "},\"nodes\":[" + kNode + ",\"barriers\":[0", ",0", "]}]}", ""},
+    {"nodes", kHeadLines + "},\"nodes\":[" + kNode + "}",
      ",{{\"index\":{0},\"path\":\"{0}\",\"kind\":\"\",\"name\":\"\",\"parent\":0}}", "]}", ""},
-    {"synchronized nodes in each other", kHead + "},\"nodes\":[" + kNode + ",\"delta\":0}",
+    {"synchronized nodes in each other", kHeadLines + "},\"nodes\":[" + kNode + ",\"delta\":0}",
      ",{{\"index\":{0},\"path\":\"{0}\",\"kind\":\"\",\"name\":\"\",\"parent\":{1},\"delta\":0}}",
      "]}", ""},
     {"nothing but zeros", kHeader, std::string(4, '\0'), "", "not JSON"},
@@ -68,7 +68,7 @@ const std::vector<Hostile> kRecordings{
 };
 
 // Piece by piece: what this process holds counts as its child's.
-void write(const Hostile& hostile, const std::string& path) {
+void write(const HostileRecording& hostile, const std::string& path) {
   constexpr std::size_t kBytes = kMegabytes * 1'000'000;
   std::ofstream out(path, std::ios::binary);
   out << hostile.begin;
@@ -90,7 +90,7 @@ TEST_CASE("a hostile line of a recording is refused or read, in a few times its 
   const std::string file = directory.path("run.jsonl");
   const std::vector<std::string> commands[] = {
       {"log", "info"}, {"log", "measure"}, {"log", "csv"}, {"log", "diff"}, {"replay", "--print"}};
-  for (const Hostile& hostile : kRecordings) {
+  for (const HostileRecording& hostile : kRecordings) {
     write(hostile, file);
     for (auto command : commands) {
       command.push_back(file);
@@ -103,7 +103,7 @@ TEST_CASE("a hostile line of a recording is refused or read, in a few times its 
         WARN(fmt::format("{}, {}: {:.2f} s, {:.0f} MB", hostile.name, command[1],
                          outcome.cpu_seconds, outcome.peak_megabytes));
       }
-      CHECK(outcome.cpu_seconds < kMaxSeconds * readers);
+      CHECK(outcome.cpu_seconds < kMaxReadSeconds * readers);
       CHECK(outcome.peak_megabytes < kAlways + kMaxTimes * kMegabytes * readers);
       CHECK(outcome.err.size() < 1000);
       CHECK(outcome.code < 128);

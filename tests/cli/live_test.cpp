@@ -1,7 +1,7 @@
 // The live view on a terminal: what it shows, its keys, and the terminal as it was in the end.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
@@ -31,7 +31,7 @@ struct Live {
       : process(call(directory.file("tree.xml", tree), std::move(more), std::move(environment)),
                 Process::Output::Terminal) {}
 
-  static Call call(const std::string& file, std::vector<std::string> more,
+  static Invocation call(const std::string& file, std::vector<std::string> more,
                    std::map<std::string, std::string> environment) {
     environment.insert({"NO_COLOR", "1"});
     std::vector<std::string> arguments{"run", file};

@@ -1,14 +1,14 @@
 // `lockstep log events`: what happened in a run, a line each.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
 namespace {
 
 // `base` reaches the barrier first, is held for a tick, and completes first.
-constexpr const char* kTree =
+constexpr const char* kLogEventsTree =
     "<root lockstep=\"1\"><plugin name=\"motion\"/><BehaviorTree ID=\"Test\">"
     "<Sequence on_success=\"done := 'yes, &quot;it&quot; is'\">"
     "<ParallelAbsolute name=\"pull\" barriers=\"0.5;1\"><Advance name=\"arm\" step=\"0.25\"/>"
@@ -16,7 +16,7 @@ constexpr const char* kTree =
 
 std::string events(const TemporaryDirectory& directory, std::vector<std::string> more = {}) {
   const std::string file = directory.path("run.jsonl.zst");
-  const std::string tree = directory.file("tree.xml", kTree);
+  const std::string tree = directory.file("tree.xml", kLogEventsTree);
   REQUIRE(
       run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--record", file}).code ==
       0);

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

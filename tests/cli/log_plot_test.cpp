@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <map>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;
@@ -33,18 +33,18 @@ std::string record(const TemporaryDirectory& directory, const std::string& node)
   return file;
 }
 
-Outcome log(std::vector<std::string> arguments) {
+Outcome plot_log(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "log");
   return run_lockstep(std::move(arguments));
 }
 
 double measure(const std::string& recording, const std::string& name) {
-  const Outcome outcome = log({"measure", recording, "--measure", name, "--json"});
+  const Outcome outcome = plot_log({"measure", recording, "--measure", name, "--json"});
   REQUIRE(outcome.code == 0);
-  const auto json = parse_json(outcome.out);
-  REQUIRE(json.size() == 1);
-  CHECK(json[0]["measure"] == name);
-  return json[0]["value"];
+  const auto values = parse_json(outcome.out);
+  REQUIRE(values.size() == 1);
+  CHECK(values[0]["measure"] == name);
+  return values[0]["value"];
 }
 
 bool is_svg(const std::string& file) {
@@ -75,7 +75,7 @@ TEST_CASE("log measure gives the numbers of the worked traces") {
 
 TEST_CASE("log measure prints a table, of what a study measures") {
   const TemporaryDirectory directory;
-  const Outcome outcome = log({"measure", record(directory, kA1)});
+  const Outcome outcome = plot_log({"measure", record(directory, kA1)});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   CHECK(outcome.out ==
@@ -95,7 +95,7 @@ TEST_CASE("log measure: what was not reached has no value, a far target has a ga
                                           "--measure", "step-length",
                                           "--measure", "predictability:base@0.6",
                                           "--measure", "predictability:leap@0.7"};
-  const Outcome table = log(measures);
+  const Outcome table = plot_log(measures);
   CHECK(table.code == 0);
   CHECK(table.out ==
         "node                              measure                  value  gap\n"
@@ -105,12 +105,12 @@ TEST_CASE("log measure: what was not reached has no value, a far target has a ga
         "Main/Fallback/Sequence/leap       predictability:leap@0.7  1      0.3\n");
   auto with_json = measures;
   with_json.emplace_back("--json");
-  const auto json = parse_json(log(with_json).out);
-  CHECK(json.at(0)["value"].is_null());
-  CHECK_FALSE(json.at(0).contains("gap"));
-  CHECK(json.at(2)["value"].is_null());
-  CHECK(json.at(2)["gap"].is_null());
-  CHECK(json.at(3)["gap"] == Approx(0.3));
+  const auto values = parse_json(plot_log(with_json).out);
+  CHECK(values.at(0)["value"].is_null());
+  CHECK_FALSE(values.at(0).contains("gap"));
+  CHECK(values.at(2)["value"].is_null());
+  CHECK(values.at(2)["gap"].is_null());
+  CHECK(values.at(3)["gap"] == Approx(0.3));
 }
 
 TEST_CASE("log measure tells which name it does not know") {
@@ -142,7 +142,7 @@ TEST_CASE("log measure tells which name it does not know") {
       {"predictability:elbow@0.5", "no node 'elbow', there are: 'Main/pull', 'Main/pull/arm'"},
   };
   for (const auto& [name, message] : wrong) {
-    const Outcome outcome = log({"measure", recording, "--measure", name});
+    const Outcome outcome = plot_log({"measure", recording, "--measure", name});
     INFO(outcome.err);
     CHECK(outcome.code == 2);
     CHECK(contains(outcome.err, message));
@@ -157,7 +157,7 @@ TEST_CASE("log measure: the end of a path must mean one node") {
              "<Parallel><Sequence name=\"a\"><Advance name=\"arm\"/></Sequence>"
              "<Sequence name=\"b\"><Advance name=\"arm\"/></Sequence></Parallel>");
   CHECK(measure(recording, "predictability:a/arm@0.5") == 50);
-  const Outcome outcome = log({"measure", recording, "--measure", "predictability:arm@0.5"});
+  const Outcome outcome = plot_log({"measure", recording, "--measure", "predictability:arm@0.5"});
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "/a/arm' as well as "));
 }
@@ -165,13 +165,13 @@ TEST_CASE("log measure: the end of a path must mean one node") {
 TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory, GENERATE(kA1, kR1));
-  const Outcome svg = log({"plot", recording, "--out", directory.path("x.svg")});
+  const Outcome svg = plot_log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(svg.code == 0);
   CHECK(svg.err.empty());
   CHECK(svg.out == directory.path("x.svg") + "\n");
   CHECK(is_svg(directory.path("x.svg")));
   CHECK(contains(read_file(directory.path("x.svg")), ">arm</text>"));
-  CHECK(log({"plot", recording, "--out", directory.path("x.png"), "--width", "360"}).code == 0);
+  CHECK(plot_log({"plot", recording, "--out", directory.path("x.png"), "--width", "360"}).code == 0);
   CHECK(read_file(directory.path("x.png")).starts_with("\x89PNG\r\n\x1a\n"));
   CHECK(contains(read_file(directory.path("x.gp")), "size 720,"));
   // The last line leads to what the last tick reached: a period after it.
@@ -182,13 +182,13 @@ TEST_CASE("log plot draws a file for each synchronized node, or for the one that
   const TemporaryDirectory directory;
   const std::string recording =
       record(directory, "<Sequence memory=\"true\">" + kA1 + kR1 + "</Sequence>");
-  const Outcome both = log({"plot", recording, "--out", directory.path("x.svg")});
+  const Outcome both = plot_log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(both.code == 0);
   CHECK(both.out == directory.path("x-pull.svg") + "\n" + directory.path("x-point.svg") + "\n");
-  const Outcome one = log({"plot", recording, "--out", directory.path("y.svg"), "--node", "point"});
+  const Outcome one = plot_log({"plot", recording, "--out", directory.path("y.svg"), "--node", "point"});
   CHECK(one.code == 0);
   CHECK(one.out == directory.path("y.svg") + "\n");
-  const Outcome none = log({"plot", recording, "--out", directory.path("z.svg"), "--node", "arm"});
+  const Outcome none = plot_log({"plot", recording, "--out", directory.path("z.svg"), "--node", "arm"});
   CHECK(none.code == 2);
   CHECK(contains(none.err, "no node 'arm', there are: 'Main/Sequence/pull', '"));
 }
@@ -196,21 +196,21 @@ TEST_CASE("log plot draws a file for each synchronized node, or for the one that
 TEST_CASE("log plot says what it cannot draw") {
   const TemporaryDirectory directory;
   const std::string plain = record(directory, "<Parallel><Advance name=\"arm\"/></Parallel>");
-  const Outcome none = log({"plot", plain, "--out", directory.path("x.svg")});
+  const Outcome none = plot_log({"plot", plain, "--out", directory.path("x.svg")});
   CHECK(none.code == 2);
   CHECK(contains(none.err, "the recording has no synchronized node"));
   CHECK(!std::filesystem::exists(directory.path("x.gp")));
   const std::string recording = record(directory, kA1);
-  const Outcome format = log({"plot", recording, "--out", directory.path("x.pdf")});
+  const Outcome format = plot_log({"plot", recording, "--out", directory.path("x.pdf")});
   CHECK(format.code == 2);
   CHECK(contains(format.err, "expected a name that ends in .svg or .png"));
-  const Outcome nowhere = log({"plot", recording, "--out", directory.path("none/x.svg")});
+  const Outcome nowhere = plot_log({"plot", recording, "--out", directory.path("none/x.svg")});
   CHECK(nowhere.code == 2);
   CHECK(contains(nowhere.err, "No such file or directory"));
-  CHECK(log({"plot", recording}).code == 2);
+  CHECK(plot_log({"plot", recording}).code == 2);
   const std::string text = read_file(recording);
   const std::string named = directory.file("run.dat", text);
-  CHECK(log({"plot", named, "--out", directory.path("run.svg")}).code == 2);
+  CHECK(plot_log({"plot", named, "--out", directory.path("run.svg")}).code == 2);
   CHECK((read_file(named) == text));
 }
 
@@ -218,7 +218,7 @@ TEST_CASE("log plot refuses a picture that nobody could read") {
   const TemporaryDirectory directory;
   const std::string recording = record(directory, kA1);
   const auto plot = [&](const std::string& option, const std::string& pixels) {
-    return log({"plot", recording, "--out", directory.path("x.svg"), option, pixels});
+    return plot_log({"plot", recording, "--out", directory.path("x.svg"), option, pixels});
   };
   CHECK(plot("--width", "360").code == 0);
   CHECK(plot("--height", "240").code == 0);
@@ -242,7 +242,7 @@ TEST_CASE("log plot of a large recording takes what its picture needs, not what 
   REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--max-ticks", "20000",
                         "--record", recording})
               .code == 124);
-  const Outcome outcome = log({"plot", recording, "--out", directory.path("x.svg")});
+  const Outcome outcome = plot_log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(outcome.code == 0);
   CHECK(std::filesystem::file_size(directory.path("x.dat")) < 2'000'000);
   CHECK(std::filesystem::file_size(directory.path("x.svg")) < 8'000'000);
@@ -313,7 +313,7 @@ TEST_CASE("log measure and log plot read what a cut recording has") {
   text.resize(text.size() * 3 / 4);
   const std::string cut = directory.file("cut.jsonl", text);
   for (const Outcome& outcome :
-       {log({"measure", cut}), log({"plot", cut, "--out", directory.path("x.svg")})}) {
+       {plot_log({"measure", cut}), plot_log({"plot", cut, "--out", directory.path("x.svg")})}) {
     CHECK(outcome.code == 0);
     CHECK(!outcome.out.empty());
     CHECK(contains(outcome.err, "the recording is cut"));
@@ -332,12 +332,12 @@ TEST_CASE(
                  "barrier 0.4\n"));
   std::vector<std::string> limits;
   for (const std::string& line : lines(read_file(file))) {
-    const auto json = parse_json(line);
-    if (json.contains("limits")) limits.push_back(json["tick"].dump() + json["limits"].dump());
+    const auto values = parse_json(line);
+    if (values.contains("limits")) limits.push_back(values["tick"].dump() + values["limits"].dump());
   }
   CHECK(limits == std::vector<std::string>{"0[[2,0.5]]", "100[[2,0.4]]", "200[[2,0.55]]",
                                            "275[[2,0.7]]", "350[[2,0.85]]", "425[[2,null]]"});
-  REQUIRE(log({"plot", file, "--out", directory.path("plot.svg")}).code == 0);
+  REQUIRE(plot_log({"plot", file, "--out", directory.path("plot.svg")}).code == 0);
   std::map<double, double> limit_at;  // the third column
   for (const std::string& line : lines(read_file(directory.path("plot.dat")))) {
     double time = 0, least = 0, limit = 0;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
 
@@ -73,7 +73,7 @@ TEST_CASE("leaves of plugins are listed with their ports, found by file and by n
 
 TEST_CASE("LOCKSTEP_PLUGIN_PATH is searched, after --plugin-path") {
   const TemporaryDirectory empty;
-  const Call call{
+  const Invocation call{
       .arguments = {"nodes", "good", "--plugin", "good"},
       .environment = {{"LOCKSTEP_PLUGIN_PATH",
                        empty.path("none") + ":" LOCKSTEP_BINARY_DIR "/tests/abi/plugins"}}};

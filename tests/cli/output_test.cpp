@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kTree = tree_text("<Advance step=\"0.1\"/>");
+const std::string kOutputTree = tree_text("<Advance step=\"0.1\"/>");
 
 // tree.xml, which includes part.xml; links to both; a plugin; a recording.
 void fill(const TemporaryDirectory& directory) {

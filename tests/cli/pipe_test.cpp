@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {
@@ -13,14 +13,14 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-const std::string kTree =
+const std::string kPipeTree =
     "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><AlwaysSuccess/></BehaviorTree></root>\n";
 
 }  // namespace
 
 TEST_CASE("a tree is read from stdin, from a pipe and from a process substitution") {
   const TemporaryDirectory directory;
-  directory.file("tree.xml", kTree);
+  directory.file("tree.xml", kPipeTree);
   const std::vector<std::pair<std::string, std::string>> rows = {
       {"cat tree.xml | lockstep check -", "stdin: ok\n"},
       {"lockstep check - < tree.xml", "stdin: ok\n"},
@@ -62,7 +62,7 @@ TEST_CASE("a pipe has the limit of a file, and its writer is not kept waiting") 
 
 TEST_CASE("devices, and pipes that no user has named, are not read") {
   const TemporaryDirectory directory;
-  directory.file("tree.xml", kTree);
+  directory.file("tree.xml", kPipeTree);
   const std::string includes = "<root lockstep=\"1\"><include path=\"";
   directory.file("fifo.xml", includes + "f\"/></root>");
   directory.file("stdin.xml", includes + "/dev/stdin\"/></root>");

@@ -1,7 +1,7 @@
 // The leaf Recorded of the plugin motion: what one run has recorded, another one plays.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

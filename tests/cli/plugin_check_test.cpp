@@ -1,7 +1,7 @@
 // `lockstep plugin check` of shared objects.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;

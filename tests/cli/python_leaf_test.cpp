@@ -5,7 +5,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;

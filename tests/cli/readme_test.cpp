@@ -1,7 +1,7 @@
 // What the README shows is what happens: its action is compiled, its tree is run with it.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;

@@ -1,7 +1,7 @@
 // Leaves that work in real time, on a clock where no tick waits for them: a warning names them.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;

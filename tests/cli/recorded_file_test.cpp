@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 
@@ -20,12 +20,12 @@ Outcome call(std::vector<std::string> arguments) {
   return run_lockstep(std::move(arguments));
 }
 
-const std::string kTree = tree_text(
+const std::string kReplayTree = tree_text(
     "<ParallelAbsolute name=\"pull\" barriers=\"0.5;1\">"
     "<Advance name=\"arm\" step=\"0.25\"/><Advance name=\"base\" step=\"0.5\"/>"
     "</ParallelAbsolute>");
 
-std::string record(const TemporaryDirectory& directory, const std::string& tree = kTree,
+std::string record_tree(const TemporaryDirectory& directory, const std::string& tree = kReplayTree,
                    const std::string& ticks = "100") {
   const std::string file = directory.path("run.jsonl");
   const Outcome outcome =
@@ -51,7 +51,7 @@ constexpr const char* kTick1 =
 
 TEST_CASE("a replay shows which round of Retry and Repeat it is") {
   const TemporaryDirectory directory;
-  const std::string file = record(
+  const std::string file = record_tree(
       directory,
       tree_text("<Parallel><ForceSuccess><Retry attempts=\"8\"><Inverter><Advance step=\"0.5\"/>"
                 "</Inverter></Retry></ForceSuccess><Repeat><Advance step=\"0.4\"/></Repeat>"
@@ -68,7 +68,7 @@ TEST_CASE("a replay shows which round of Retry and Repeat it is") {
 
 TEST_CASE("without a terminal a replay prints one tick: that of --at, else the last") {
   const TemporaryDirectory directory;
-  const std::string file = record(directory);
+  const std::string file = record_tree(directory);
   const Outcome at = call({"replay", file, "--at", "1"});
   CHECK(at.code == 0);
   CHECK(at.out == kTick1);
@@ -91,7 +91,7 @@ TEST_CASE("without a terminal a replay prints one tick: that of --at, else the l
 
 TEST_CASE("a replay of what is cut, damaged or has gaps shows what is there") {
   const TemporaryDirectory directory;
-  const std::string text = read_file(record(directory));
+  const std::string text = read_file(record_tree(directory));
   const std::string cut = directory.file("cut.jsonl", text.substr(0, text.find("{\"tick\":2") + 9));
   const Outcome of_cut = call({"replay", cut});
   CHECK(of_cut.code == 0);
@@ -120,7 +120,7 @@ TEST_CASE("a replay of what is cut, damaged or has gaps shows what is there") {
 
 TEST_CASE("keys on a terminal: steps, jumps, the end, and the terminal as it was") {
   const TemporaryDirectory directory;
-  const std::string file = record(directory, kTree);
+  const std::string file = record_tree(directory, kReplayTree);
   // Slow enough that it stays where the keys put it.
   Process process({.arguments = {"replay", file, "--speed", "0.001"}}, Process::Output::Terminal);
   const auto expect = keys_of(process);
@@ -147,7 +147,7 @@ TEST_CASE("keys on a terminal: steps, jumps, the end, and the terminal as it was
 TEST_CASE(
     "keys scroll and fold a replay as the live view, and a number that is typed comes first") {
   const TemporaryDirectory directory;
-  const std::string file = record(directory, kTree);
+  const std::string file = record_tree(directory, kReplayTree);
   Process process(
       {.arguments = {"replay", file, "--speed", "0.001"}, .environment = {{"NO_COLOR", "1"}}},
       Process::Output::Terminal);
@@ -166,7 +166,7 @@ TEST_CASE(
 
 TEST_CASE("without a terminal that can draw a replay prints one tick") {
   const TemporaryDirectory directory;
-  const Outcome outcome = Process({.arguments = {"replay", record(directory), "--at", "1"},
+  const Outcome outcome = Process({.arguments = {"replay", record_tree(directory), "--at", "1"},
                                    .environment = {{"TERM", "dumb"}}},
                                   Process::Output::Terminal)
                               .finish();
@@ -177,7 +177,7 @@ TEST_CASE("without a terminal that can draw a replay prints one tick") {
 
 TEST_CASE("a replay is drawn anew when the window gets another size, also while it is paused") {
   const TemporaryDirectory directory;
-  const std::string file = record(directory, kTree);
+  const std::string file = record_tree(directory, kReplayTree);
   Process process(
       {.arguments = {"replay", file, "--speed", "0.001"}, .environment = {{"NO_COLOR", "1"}}},
       Process::Output::Terminal);
@@ -207,7 +207,7 @@ TEST_CASE("a replay is drawn anew when the window gets another size, also while 
 
 TEST_CASE("a replay plays by itself to the end") {
   const TemporaryDirectory directory;
-  Process process({.arguments = {"replay", record(directory), "--speed", "1000"}},
+  Process process({.arguments = {"replay", record_tree(directory), "--speed", "1000"}},
                   Process::Output::Terminal);
   REQUIRE(process.wait_for("end\x1b[0m  tick 3 of 3"));
   process.type("q");
@@ -216,7 +216,7 @@ TEST_CASE("a replay plays by itself to the end") {
 
 TEST_CASE("however a replay ends, the terminal is as it was") {
   const TemporaryDirectory directory;
-  const std::string file = record(directory);
+  const std::string file = record_tree(directory);
   for (const int number :
        {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGALRM, SIGXCPU, SIGSEGV, SIGABRT}) {
     Process process({.arguments = {"replay", file, "--speed", "0.001"}}, Process::Output::Terminal);
@@ -238,7 +238,7 @@ TEST_CASE("however a replay ends, the terminal is as it was") {
 TEST_CASE("replay --print prints on a terminal too") {
   const TemporaryDirectory directory;
   const Outcome outcome =
-      Process({.arguments = {"replay", record(directory), "--at", "1", "--print"},
+      Process({.arguments = {"replay", record_tree(directory), "--at", "1", "--print"},
                .environment = {{"NO_COLOR", "1"}}},
               Process::Output::Terminal)
           .finish();

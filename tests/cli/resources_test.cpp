@@ -1,7 +1,7 @@
 // Resources from outside: every room knows who owns what, and who waits for whom.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;
@@ -10,7 +10,7 @@ using nlohmann::json;
 namespace {
 
 // Three that need two of three forks each, so one can move at a time.
-constexpr const char* kTree = R"(<root lockstep="1" main_tree_to_execute="Main">
+constexpr const char* kResourcesTree = R"(<root lockstep="1" main_tree_to_execute="Main">
   <plugin name="motion"/>
   <resources name="forks"/>
   <BehaviorTree ID="Main">
@@ -27,7 +27,7 @@ constexpr const char* kTree = R"(<root lockstep="1" main_tree_to_execute="Main">
 
 class Dinner {
  public:
-  Dinner() : tree_(directory_.file("dinner.xml", kTree)) {}
+  Dinner() : tree_(directory_.file("dinner.xml", kResourcesTree)) {}
   std::string recording() const { return directory_.path("dinner.jsonl"); }
   std::string path(const std::string& name) const { return directory_.path(name); }
   Outcome run(std::vector<std::string> more) const {

@@ -2,7 +2,7 @@
 #include <map>
 #include <regex>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
 
@@ -390,7 +390,7 @@ TEST_CASE("a terminal gets the live view, in color unless NO_COLOR asks for none
       directory.file("tree.xml", tree_text("<Parallel><Advance step=\"0.02\"/></Parallel>"));
   const std::regex color("\x1b\\[[0-9;]*m");
   for (const bool no_color : {false, true}) {
-    Call call{.arguments = {"run", file, "--rate", "100"}};
+    Invocation call{.arguments = {"run", file, "--rate", "100"}};
     if (no_color) call.environment["NO_COLOR"] = "1";
     const Outcome outcome = Process(call, Process::Output::Terminal).finish();
     CHECK(outcome.code == 0);

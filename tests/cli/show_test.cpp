@@ -1,13 +1,13 @@
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;
 
 namespace {
 
-const std::string kTree = R"(<root lockstep="1" main_tree_to_execute="Main">
+const std::string kShowTree = R"(<root lockstep="1" main_tree_to_execute="Main">
   <plugin name="motion"/>
   <arg name="delta" default="0.1"/>
   <BehaviorTree ID="Main">
@@ -22,7 +22,7 @@ const std::string kTree = R"(<root lockstep="1" main_tree_to_execute="Main">
 
 struct Shown {
   TemporaryDirectory directory;
-  std::string file = directory.file("tree.xml", kTree);
+  std::string file = directory.file("tree.xml", kShowTree);
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 using namespace lockstep::host::test;

@@ -2,7 +2,7 @@
 // not as text, in the live view, in a replay, in JSON, nor in a message of what is wrong with them.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "core/diagnostics.h"
 #include "core/wording.h"
 #include "support/json.h"
@@ -135,7 +135,7 @@ TEST_CASE("texts of a tree reach the terminal visible, whatever is done with it"
   });
   // On a terminal: the live view, and what it prints above.
   for (const std::string locale : {"C", "C.UTF-8"}) {
-    const Call call{.arguments = {"run", good, "--view", "live", "--max-ticks", "3"},
+    const Invocation call{.arguments = {"run", good, "--view", "live", "--max-ticks", "3"},
                     .environment = {{"LC_ALL", locale}}};
     check_clean(Process(call, Process::Output::Terminal).finish(), "live view", true);
   }
@@ -148,7 +148,7 @@ TEST_CASE("texts of what is reported while a tree runs reach the terminal visibl
                               "\" step=\"0\"/><Advance name=\"b" + kEvil +
                               "\" step=\"0.3\"/></ParallelAbsolute>"));
   const auto run = [&](const std::string& view) {
-    return Call{
+    return Invocation{
         .arguments = {"run", stands, "--view", view, "--stall", "0.01", "--max-ticks", "9"}};
   };
   for (const std::string view : {"plain", "none", "live"}) {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {

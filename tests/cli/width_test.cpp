@@ -1,7 +1,7 @@
 // What commands print for people fits into the terminal.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

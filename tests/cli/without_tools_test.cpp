@@ -1,7 +1,7 @@
 // The program that only runs trees, as LOCKSTEP_TOOLS=OFF builds it.
 #include <catch2/catch.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "document/document.h"
 #include "document/language_of.h"
 
@@ -186,7 +186,7 @@ Verdict verdict_of(const std::string& text) {
 // The numbers of the texts that are not XML.
 std::set<std::size_t> refused_by_xmllint(const Words& texts) {
   const TemporaryDirectory directory;
-  Call call{.arguments = {"--noout", "--nonet"}, .program = "xmllint"};
+  Invocation call{.arguments = {"--noout", "--nonet"}, .program = "xmllint"};
   for (std::size_t i = 0; i < texts.size(); ++i) {
     call.arguments.push_back(directory.file(std::to_string(i) + ".xml", texts[i]));
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 
 namespace lockstep::host::test {

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kAlwaysRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"AlwaysSuccess succeeds", "AlwaysSuccess", "", "S[]=1 S[]=1"},
@@ -18,7 +18,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("AlwaysSuccess, AlwaysFailure, AlwaysRunning") {
-  check_rows(kRows);
+  check_rows(kAlwaysRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kBranchesRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"IfThenElse ticks its second child when the first succeeds",
@@ -39,7 +39,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("IfThenElse and WhileDoElse") {
-  check_rows(kRows);
+  check_rows(kBranchesRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kCooldownRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"Cooldown is skipped for a time after a Success",
@@ -34,7 +34,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Cooldown") {
-  check_rows(kRows);
+  check_rows(kCooldownRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kDelayRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"runs until the time is over and ticks its child in that tick",
@@ -31,7 +31,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Delay") {
-  check_rows(kRows);
+  check_rows(kDelayRows);
 }
 
 }  // namespace lockstep::host::test

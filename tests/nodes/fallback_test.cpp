@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kFallbackRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"fails when all children fail",
@@ -41,7 +41,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Fallback") {
-  check_rows(kRows);
+  check_rows(kFallbackRows);
 }
 
 }  // namespace lockstep::host::test

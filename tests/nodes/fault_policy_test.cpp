@@ -8,7 +8,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kFaultPolicyRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"an error in tick: the leaf is halted and its tick is a Failure; the next activation starts it anew",
@@ -114,7 +114,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("faults that the run goes on after") {
-  check_rows(kRows, FaultPolicy::Fail);
+  check_rows(kFaultPolicyRows, FaultPolicy::Fail);
 }
 
 TEST_CASE("a fault that the run goes on after says what the leaf did and ends nothing") {

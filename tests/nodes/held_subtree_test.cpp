@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kHeldSubtreeRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"every running leaf of a held subtree is told once, and again when its tick comes",
@@ -59,7 +59,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("held subtrees, and synchronized nodes in each other") {
-  check_rows(kRows);
+  check_rows(kHeldSubtreeRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kKeepRunningUntilFailureRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"runs while its child runs or succeeds, and fails when it fails",
@@ -21,7 +21,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("KeepRunningUntilFailure") {
-  check_rows(kRows);
+  check_rows(kKeepRunningUntilFailureRows);
 }
 
 }  // namespace lockstep::host::test

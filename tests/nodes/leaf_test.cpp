@@ -7,7 +7,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kLeafRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"an activation is start, then a tick in each tick",
@@ -86,7 +86,7 @@ constexpr FaultRow kFaults[] = {
 }  // namespace
 
 TEST_CASE("plugin leaves: life cycle and faults") {
-  check_rows(kRows);
+  check_rows(kLeafRows);
 }
 
 TEST_CASE("a fault says what the leaf did") {

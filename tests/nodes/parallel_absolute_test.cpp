@@ -24,7 +24,7 @@ constexpr SynchronizedTrace kTraces[] = {
    "12 12 1- 1- 12", 0.85},
 };
 
-constexpr TickRow kRows[] = {
+constexpr TickRow kParallelAbsoluteRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"without barriers is a Parallel that waits for nobody",
@@ -103,7 +103,7 @@ TEST_CASE("ParallelAbsolute: worked traces") {
 }
 
 TEST_CASE("ParallelAbsolute") {
-  check_rows(kRows);
+  check_rows(kParallelAbsoluteRows);
 }
 
 }  // namespace lockstep::host::test

@@ -8,7 +8,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr SynchronizedTrace kTraces[] = {
+constexpr SynchronizedTrace kRelativeTraces[] = {
   {"R1", "ParallelRelative[delta=.2](a b)", "a+.1 b+.3",
    "12 12 1- 1- 12 1- 1- 12 1. 1.", 2.30},
   {"R2", "ParallelRelative[delta=0](a b)", "a+.2 b+.3",
@@ -19,7 +19,7 @@ constexpr SynchronizedTrace kTraces[] = {
    "12 12 1. 1.", 1.00},
 };
 
-constexpr TickRow kRows[] = {
+constexpr TickRow kParallelRelativeRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"R5: keeps perpetual actions in step, in every corner of their progress",
@@ -79,7 +79,7 @@ int ticks_to_end(const std::string& delta) {
 }  // namespace
 
 TEST_CASE("ParallelRelative: worked traces") {
-  check_traces(kTraces);
+  check_traces(kRelativeTraces);
 }
 
 TEST_CASE("ParallelRelative: progress that falls while it is held can keep it from ending") {
@@ -89,7 +89,7 @@ TEST_CASE("ParallelRelative: progress that falls while it is held can keep it fr
 }
 
 TEST_CASE("ParallelRelative") {
-  check_rows(kRows);
+  check_rows(kParallelRelativeRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kParallelRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"ticks all children in one tick, from the left",
@@ -67,7 +67,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Parallel") {
-  check_rows(kRows);
+  check_rows(kParallelRows);
 }
 
 }  // namespace lockstep::host::test

@@ -13,7 +13,7 @@ namespace {
 const KnownPlugin kKnown(kControlNodes);
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kPluginControlRows[] = {
   {"ticks its children when it wants to",
    "InOrder(a b)", "a=RS b=RS", "R[a] R[a b] S[a b]"},
   {"begins a new activation of a completed child that it ticks again",
@@ -69,7 +69,7 @@ std::string fault_of(std::string_view tree) {
 }  // namespace
 
 TEST_CASE("control nodes of plugins") {
-  check_rows(kRows);
+  check_rows(kPluginControlRows);
   check_rows(kFailRows, FaultPolicy::Fail);
 }
 

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kRateRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"Rate starts its child at most once in the time, and returns the last result in between",
@@ -37,7 +37,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Rate") {
-  check_rows(kRows);
+  check_rows(kRateRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kRepeatRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"succeeds after so many successes, one iteration a tick at most",
@@ -33,7 +33,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Repeat") {
-  check_rows(kRows);
+  check_rows(kRepeatRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kResultRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"Inverter turns Success into Failure", "Inverter(a)", "a=RS", "R[a] F[a]"},
@@ -28,7 +28,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Inverter, ForceSuccess, ForceFailure, SubTree") {
-  check_rows(kRows);
+  check_rows(kResultRows);
 }
 
 }  // namespace lockstep::host::test

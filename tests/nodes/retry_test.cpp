@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kRetryRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"fails when the last attempt fails, one attempt a tick at most",
@@ -29,7 +29,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Retry") {
-  check_rows(kRows);
+  check_rows(kRetryRows);
 }
 
 }  // namespace lockstep::host::test

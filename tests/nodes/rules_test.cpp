@@ -12,7 +12,7 @@ struct RuleRow {
 };
 
 // clang-format off
-constexpr RuleRow kRows[] = {
+constexpr RuleRow kRulesRows[] = {
   {"ParallelAbsolute[barriers=.25;.5;1](a b)", ""},
   {"ParallelAbsolute[barriers=](a b)", ""},
   {"ParallelAbsolute[barrier_count=0](a b)", ""},
@@ -58,7 +58,7 @@ std::string reason_against(std::string_view tree) {
 }  // namespace
 
 TEST_CASE("what node kinds refuse") {
-  for (const RuleRow& row : kRows) {
+  for (const RuleRow& row : kRulesRows) {
     INFO(row.tree);
     const std::string reason = reason_against(row.tree);
     CHECK(reason.empty() == row.reason.empty());

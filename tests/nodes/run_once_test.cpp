@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kRunOnceRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"returns its child's success again without ticking it",
@@ -27,7 +27,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("RunOnce") {
-  check_rows(kRows);
+  check_rows(kRunOnceRows);
 }
 
 }  // namespace lockstep::host::test

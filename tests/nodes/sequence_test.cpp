@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kSequenceRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"succeeds when all children succeed, in one tick if they do",
@@ -57,7 +57,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Sequence") {
-  check_rows(kRows);
+  check_rows(kSequenceRows);
 }
 
 }  // namespace lockstep::host::test

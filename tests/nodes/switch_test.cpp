@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kSwitchRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"Switch ticks the child of the case that equals the value",
@@ -39,7 +39,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Switch") {
-  check_rows(kRows);
+  check_rows(kSwitchRows);
 }
 
 }  // namespace lockstep::host::test

@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kTimeoutRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"returns what its child returns in time",
@@ -42,7 +42,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Timeout") {
-  check_rows(kRows);
+  check_rows(kTimeoutRows);
 }
 
 }  // namespace lockstep::host::test

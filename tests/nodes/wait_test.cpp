@@ -6,7 +6,7 @@ namespace lockstep::host::test {
 namespace {
 
 // clang-format off
-constexpr TickRow kRows[] = {
+constexpr TickRow kWaitRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
   {"runs for its time and succeeds in the tick at which it is over",
@@ -30,7 +30,7 @@ constexpr TickRow kRows[] = {
 }  // namespace
 
 TEST_CASE("Wait") {
-  check_rows(kRows);
+  check_rows(kWaitRows);
 }
 
 }  // namespace lockstep::host::test

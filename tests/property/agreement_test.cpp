@@ -8,7 +8,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kTrees = 10000, kGroupTrees = 5000, kRepeatedTrees = 500;
+constexpr std::uint64_t kAgreementTrees = 10000, kGroupTrees = 5000, kRepeatedTrees = 500;
 
 // Which trials: so many, from a first seed.
 struct Seeds {
@@ -74,9 +74,9 @@ void check_same_again(const Trial& trial) {
 
 TEST_CASE("the engine agrees with the reference interpreter on random trees") {
   Coverage coverage;
-  const Seeds trials = seeds(kTrees);
+  const Seeds trials = seeds(kAgreementTrees);
   compare_all(trials, random_trial, &coverage, nullptr);
-  if (trials.count >= kTrees) coverage.check();
+  if (trials.count >= kAgreementTrees) coverage.check();
 }
 
 TEST_CASE("the engine agrees with the law of barriers and resources on random trees") {

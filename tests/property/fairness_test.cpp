@@ -8,7 +8,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTrees = 6000;
+constexpr int kFairnessTrees = 6000;
 constexpr int kFewestWaits = 1000;  // members that waited
 
 bool may_keep(const Plan& plan) {
@@ -66,7 +66,7 @@ class PoolWatch {
 
 TEST_CASE("resources have one owner, and with an increment nobody waits for N ticks") {
   int waited = 0, longest = 0;
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kFairnessTrees; ++seed) {
     const Trial trial = random_trial(seed);
     ScriptedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     std::vector<PoolWatch> pools;

@@ -7,7 +7,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTrees = 6000;
+constexpr int kFaultTrees = 6000;
 constexpr int kFewestFaults = 200;
 constexpr int kFewestInHalt = 10;  // of these
 
@@ -44,7 +44,7 @@ bool tick_until_fault(ScriptedRun& run, const Trial& trial) {
 
 TEST_CASE("after a fault every ancestor of the leaf runs until the halt") {
   int faults = 0, in_halt = 0;
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kFaultTrees; ++seed) {
     const Trial trial = random_trial(seed);
     ScriptedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     if (!tick_until_fault(run, trial)) continue;

@@ -17,7 +17,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTicks = 40;
+constexpr int kFoldMutantTicks = 40;
 
 using Fold = void (*)(NodeContext& context, NodeIndex self);
 
@@ -59,7 +59,7 @@ struct Subject {
 bool differs(const Subject& subject, const Tree& other) {
   ScriptedRun plain(subject.tree, subject.leaves), folded(other, subject.leaves);
   const Nanoseconds step = from_seconds(subject.period);
-  for (int tick = 0; tick < kTicks && plain.ticker().fault() == nullptr; ++tick) {
+  for (int tick = 0; tick < kFoldMutantTicks && plain.ticker().fault() == nullptr; ++tick) {
     subject.write(plain, tick);
     subject.write(folded, tick);
     plain.events.clear();
@@ -95,7 +95,7 @@ bool differs_or_ends(const Subject& subject, const Tree& other) {
 std::size_t count_states(const Subject& subject, const Tree& tree) {
   ScriptedRun run(tree, subject.leaves);
   std::vector<RunState> states;
-  for (int tick = 0; tick < kTicks && run.ticker().fault() == nullptr; ++tick) {
+  for (int tick = 0; tick < kFoldMutantTicks && run.ticker().fault() == nullptr; ++tick) {
     subject.write(run, tick);
     run.tick(tick == 0 ? Nanoseconds(0) : from_seconds(subject.period));
     run.ticker().fold();

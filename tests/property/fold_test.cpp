@@ -10,9 +10,9 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kTrees = 1000;
+constexpr std::uint64_t kFoldTrees = 1000;
 constexpr std::uint64_t kDocuments = 6000;
-constexpr int kTicks = 40;
+constexpr int kFoldTicks = 40;
 
 // What is seen of a tick. Below a node that has ended, nothing is.
 struct Seen {
@@ -80,7 +80,7 @@ using Write = std::function<void(ScriptedRun&, int tick)>;
 
 // The folded run begins at time 0 again in each tick.
 void check_folded(ScriptedRun& plain, ScriptedRun& folded, double period, const Write& write) {
-  for (int tick = 0; tick < kTicks && plain.ticker().fault() == nullptr; ++tick) {
+  for (int tick = 0; tick < kFoldTicks && plain.ticker().fault() == nullptr; ++tick) {
     INFO("tick " << tick);
     write(plain, tick);
     write(folded, tick);
@@ -122,7 +122,7 @@ TEST_CASE("an endless run goes through a few states") {
 }
 
 TEST_CASE("a run that is folded after each tick goes on as the run that is not") {
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kFoldTrees; ++seed) {
     INFO("seed " << seed);
     check_folded(random_trial(seed));
     check_folded(random_group_trial(seed));

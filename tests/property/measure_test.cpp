@@ -16,7 +16,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTrees = 1500;
+constexpr int kMeasureTrees = 1500;
 constexpr double kRate = 10;  // of WatchedRun
 
 // All measures of a tree with all their arguments, as far as it has such nodes.
@@ -67,7 +67,7 @@ struct Measured {
 
 TEST_CASE("a recording of a random tree has the measures of its run") {
   std::map<std::string_view, int> above_zero;  // how often each measure was
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kMeasureTrees; ++seed) {
     const Trial trial = random_trial(seed);
     INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));

@@ -15,7 +15,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTrees = 1500, kProperties = 20;
+constexpr int kPropertyTrees = 1500, kProperties = 20;
 
 class PropertyGenerator : private RandomSource {
  public:
@@ -87,7 +87,7 @@ struct Verdict {
 
 TEST_CASE("a recording of a random tree has the verdicts of its run") {
   std::map<std::string, int> seen;
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kPropertyTrees; ++seed) {
     const Trial trial = random_trial(seed);
     INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));

@@ -12,8 +12,8 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kTrees = 300;
-constexpr int kTicks = 30;
+constexpr std::uint64_t kRestoreTrees = 300;
+constexpr int kRestoreTicks = 30;
 
 // What is seen of a tick.
 struct Seen {
@@ -55,13 +55,13 @@ class Walk {
   void check() {
     std::vector<ScriptedRun::Saved> saved;
     std::vector<Seen> seen;
-    for (int number = 0; number < kTicks; ++number) {
+    for (int number = 0; number < kRestoreTicks; ++number) {
       saved.push_back(run_.save());
       seen.push_back(tick(number));
     }
-    for (int from = kTicks - 1; from >= 0; from -= 3) {
+    for (int from = kRestoreTicks - 1; from >= 0; from -= 3) {
       run_.restore(saved[static_cast<std::size_t>(from)]);
-      for (int number = from; number < kTicks; ++number) {
+      for (int number = from; number < kRestoreTicks; ++number) {
         INFO("taken back to tick " << from << ", at tick " << number);
         REQUIRE(tick(number) == seen[static_cast<std::size_t>(number)]);
       }
@@ -85,7 +85,7 @@ void check_restored(const Trial& trial) {
 }  // namespace
 
 TEST_CASE("a run that is taken back goes on as it did") {
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kRestoreTrees; ++seed) {
     INFO("seed " << seed);
     check_restored(random_trial(seed));
     check_restored(random_group_trial(seed));
@@ -136,7 +136,7 @@ TEST_CASE("a run that is taken back has what it had kept, and the entries that i
 }
 
 TEST_CASE("a run of a tree for BehaviorTree.CPP that is taken back goes on as it did") {
-  for (std::uint64_t seed = 1; seed <= kTrees; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kRestoreTrees; ++seed) {
     const law::Document document = law::random_document(seed);
     INFO("seed " << seed << ": " << law::to_xml(document));
     ScriptedRun run(law::tree_of(document), law::leaves_text(document));

@@ -9,7 +9,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTrees = 10000;
+constexpr int kSyncProgressTrees = 10000;
 
 // A barrier or a pool. A member of a pool asks later where a parallel has held it.
 bool has_group(const Plan& plan) {
@@ -102,14 +102,14 @@ bool compare(const Trial& trial, const Plan& parallel) {
 TEST_CASE("SyncProgress on all children of one Parallel is a synchronized parallel") {
   int compared = 0;
   std::uint64_t seed = 0;
-  for (; compared < kTrees && seed < 10 * kTrees; ++seed) {
+  for (; compared < kSyncProgressTrees && seed < 10 * kSyncProgressTrees; ++seed) {
     const Trial trial = random_trial(seed);
     const Plan* parallel = synchronized_in(trial.plan);
     if (parallel == nullptr) continue;
     INFO("seed " << seed);
     compared += compare(trial, *parallel);
   }
-  CHECK(compared == kTrees);
+  CHECK(compared == kSyncProgressTrees);
 }
 
 }  // namespace lockstep::host::test

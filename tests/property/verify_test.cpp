@@ -11,7 +11,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTicks = 3;
+constexpr int kVerifyTicks = 3;
 constexpr std::size_t kMostLeaves = 2;
 constexpr std::uint64_t kSeeds = 12000;
 
@@ -55,13 +55,13 @@ std::optional<Results> by_reference(const Trial& trial) {
   Trial each = trial;
   const auto leaves = leaves_of(each.plan);
   std::vector<std::vector<std::string>> scripts;
-  for (const Plan* leaf : leaves) scripts.push_back(scripts_of(*leaf, kTicks));
+  for (const Plan* leaf : leaves) scripts.push_back(scripts_of(*leaf, kVerifyTicks));
   std::vector<std::size_t> at(leaves.size());
   Results results;
   while (true) {
     for (std::size_t i = 0; i < leaves.size(); ++i) leaves[i]->script = scripts[i][at[i]];
     Reference reference(each.plan);
-    for (int tick = 0; tick < kTicks; ++tick) {
+    for (int tick = 0; tick < kVerifyTicks; ++tick) {
       const Status status = reference.tick(tick * from_seconds(trial.period));
       if (reference.fault()) return std::nullopt;
       if (status == Status::Running) continue;
@@ -83,7 +83,7 @@ std::optional<Results> by_search(const Tree& tree, double period) {
   const LeafModels models = make_models(tree, file.get(), diagnostics, problems);
   if (!problems.empty()) return std::nullopt;
   const SearchResult found =
-      search(tree, models, {}, from_seconds(period), {.depth = std::uint32_t{kTicks}});
+      search(tree, models, {}, from_seconds(period), {.depth = std::uint32_t{kVerifyTicks}});
   if (!found.faults.empty()) return std::nullopt;
   CHECK_FALSE(found.broken);
   Results results;

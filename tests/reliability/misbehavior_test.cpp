@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using Strings = std::vector<std::string>;
 
-constexpr int kFault = 5;
+constexpr int kFaultExit = 5;
 constexpr int kCrash = 6;
 
 const Strings kFast = {"--clock", "virtual"};
@@ -39,7 +39,7 @@ void check_fault(const Misdeed& misdeed, const std::string& message) {
   INFO(misdeed.how << " in " << misdeed.where);
   for (const Where where : {Where::InProcess, Where::Isolated}) {
     INFO((where == Where::Isolated ? "isolated" : "in-process"));
-    check(run_hostile(misdeed, where, kFast), kFault,
+    check(run_hostile(misdeed, where, kFast), kFaultExit,
           {"arm' (Misbehave of plugin 'hostile') failed", message});
     const Outcome outcome =
         run_hostile(misdeed, where, with(kFast, {"--on-fault", "fail", "--json"}));
@@ -56,7 +56,7 @@ void check_crash(const Misdeed& misdeed, const std::string& in_process,
   INFO(misdeed.how << " in " << misdeed.where);
   check(run_hostile(misdeed, Where::InProcess, kFast), kCrash,
         {"arm' (Misbehave of plugin 'hostile')", in_process, "backtrace"});
-  check(run_hostile(misdeed, Where::Isolated, kFast), kFault,
+  check(run_hostile(misdeed, Where::Isolated, kFast), kFaultExit,
         {"arm' (Misbehave of plugin 'hostile') failed", isolated});
   const Outcome outcome =
       run_hostile(misdeed, Where::Isolated, with(kFast, {"--on-fault", "fail", "--json"}));
@@ -87,7 +87,7 @@ TEST_CASE("of what an exception says, 500 bytes are reported and the rest is cou
     const std::string file = directory.path("run.jsonl");
     const Outcome outcome =
         run_hostile({"throw long", "create"}, where, with(kFast, {"--record", file}));
-    check(outcome, kFault, {"could not be created: threw an exception: " + shortened});
+    check(outcome, kFaultExit, {"could not be created: threw an exception: " + shortened});
     CHECK(outcome.err.size() < 2000);
     CHECK(read_file(file).size() < 3000);
   }
@@ -99,7 +99,7 @@ TEST_CASE("to ask an exception what it is, and to destroy it, is a part of the c
     const Strings options = with(kFast, kShortLimits);
     check(run_hostile({how}, Where::InProcess, options), kCrash,
           {"arm' (Misbehave of plugin 'hostile') has not returned from tick 0"});
-    check(run_hostile({how}, Where::Isolated, options), kFault, {"did not return from tick"});
+    check(run_hostile({how}, Where::Isolated, options), kFaultExit, {"did not return from tick"});
   }
 }
 
@@ -158,9 +158,9 @@ TEST_CASE("a leaf that cannot be created ends the run before its first tick") {
   const TemporaryDirectory directory;
   const std::string file = directory.path("run.jsonl");
   for (const Where where : {Where::InProcess, Where::Isolated}) {
-    check(run_hostile({"throw exception", "create"}, where, kFast), kFault,
+    check(run_hostile({"throw exception", "create"}, where, kFast), kFaultExit,
           {"failed before the first tick: could not be created: threw an exception: out of reach"});
-    check(run_hostile({"nonsense", "create"}, where, kFast), kFault,
+    check(run_hostile({"nonsense", "create"}, where, kFast), kFaultExit,
           {"could not be created: its create returned NULL without an error"});
     const Outcome outcome =
         run_hostile({"throw exception", "create"}, where,

@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 
@@ -56,7 +56,7 @@ struct ProgramRun {
   TemporaryDirectory directory;
   std::string pids = directory.path("pids");
   std::string tree;
-  Call call;
+  Invocation call;
 
   ProgramRun(const std::string& text, std::vector<std::string> more) {
     tree = directory.file("tree.xml", text);

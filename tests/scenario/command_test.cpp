@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 using namespace lockstep::host::test;

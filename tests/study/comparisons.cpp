@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 

@@ -1,7 +1,7 @@
 // Studies made by the program, in a directory of their own.
 #pragma once
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {

@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "cli/program.h"
+#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
 

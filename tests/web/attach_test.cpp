@@ -29,7 +29,7 @@ class Attachable {
     begin();
   }
   void begin() {
-    process.emplace(Call{.arguments = arguments, .environment = environment()});
+    process.emplace(Invocation{.arguments = arguments, .environment = environment()});
     // It has the socket first, and is listed a moment later.
     while (!contains(lockstep({"monitor"}).out, std::to_string(process->id()))) {
     }

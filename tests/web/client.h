@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/program.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 

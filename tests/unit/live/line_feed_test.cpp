@@ -12,16 +12,14 @@
 #include "recording/write/json_lines.h"
 #include "recording/write/recorder.h"
 #include "support/json.h"
+#include "support/text.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 using nlohmann::json;
+using test::contains;
 using test::TemporaryPath;
 using test::WatchedRun;
 

@@ -6,14 +6,13 @@
 #include <catch2/catch.hpp>
 
 #include "recording/write/json_lines.h"
+#include "support/text.h"
 #include "web/server_sent.h"
 
 namespace lockstep::host {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::contains;
 
 std::string line(int tick, bool is_full = false, std::size_t length = 0) {
   return fmt::format("{{\"tick\":{},\"nodes\":[{}]{}}}\n", tick, std::string(length, '1'),

@@ -35,12 +35,12 @@ struct Taker final : Observer {
 };
 
 // Nodes that change in each tick, so that the ring is full sooner or later.
-constexpr const char* kTree = "Repeat(ParallelAbsolute[barriers=.5](a b))";
-constexpr const char* kLeaves = "a=RRS... b+.3";
+constexpr const char* kFeedTree = "Repeat(ParallelAbsolute[barriers=.5](a b))";
+constexpr const char* kFeedLeaves = "a=RRS... b+.3";
 
 TEST_CASE("the statuses that were passed on are those of the run") {
   for (const std::uint64_t ticks : {1u, 7u, 50'000u}) {
-    WatchedRun run(kTree, kLeaves);
+    WatchedRun run(kFeedTree, kFeedLeaves);
     Taker taker(run.run.tree(), ticks);
     run.watch({&taker}, 100'002);
     CHECK(taker.looks >= static_cast<int>(100'000 / ticks));

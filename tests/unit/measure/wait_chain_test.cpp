@@ -65,23 +65,23 @@ TEST_CASE("a circle through a pool whose owner keeps") {
 }
 
 TEST_CASE("without keep, the first in the tree owns for ever where priorities do not rise") {
-  constexpr std::string_view kTree =
+  constexpr std::string_view kChain =
       "Parallel(UseResources[pool=p resources=A](Parallel(SyncProgress[barrier=b](x) w))"
       " UseResources[pool=p resources=A](SyncProgress[barrier=b](y)))"
       " barrier[name=b barriers=.5] resources[name=p increment=";
-  CHECK(chain(std::string(kTree) + "0]", "x+.05 w+.1 y+.05", "b") ==
+  CHECK(chain(std::string(kChain) + "0]", "x+.05 w+.1 y+.05", "b") ==
         "b: x waits for y; p: SyncProgress waits for Parallel; circle");
-  CHECK(chain(std::string(kTree) + "1]", "x+.05 w+.1 y=R.1", "b") == "b: x waits for y; running");
+  CHECK(chain(std::string(kChain) + "1]", "x+.05 w+.1 y=R.1", "b") == "b: x waits for y; running");
 }
 
 TEST_CASE("a chain leads over several nodes to what is to blame") {
   const std::string_view leaves = "x+.05 a+.2 b+.05 c=R.1";
-  constexpr const char* kTree =
+  constexpr const char* kChain =
       "Parallel(SyncProgress[barrier=one](SyncProgress[barrier=two](x)) "
       "SyncProgress[barrier=one](a)"
       " ParallelAbsolute[barriers=.2](SyncProgress[barrier=two](b) c))"
       " barrier[name=one barriers=.5] barrier[name=two barriers=.25]";
-  CHECK(chain(kTree, leaves, "one") ==
+  CHECK(chain(kChain, leaves, "one") ==
         "one: a waits for SyncProgress; two: x waits for b; ParallelAbsolute: SyncProgress waits "
         "for c; running");
 }

@@ -32,8 +32,8 @@ class CallClock final : public Clock {
   int reads = 0;
 };
 
-struct Fixture {
-  explicit Fixture(std::uint32_t full, std::uint32_t bare = 0, LeafWatchOptions options = {})
+struct WatchFixture {
+  explicit WatchFixture(std::uint32_t full, std::uint32_t bare = 0, LeafWatchOptions options = {})
       : probe(full, bare), watch(completed(std::move(options))), blackboard(probe.tree()) {
     set.emplace(probe.tree(), blackboard, time, 1,
                 [this](std::string_view who, lockstep_log_level, std::string_view text) {
@@ -42,9 +42,9 @@ struct Fixture {
     ticker.emplace(probe.tree(), set->slots(), blackboard, FaultPolicy::Stop, &watch);
     watch.begin_tick();
   }
-  ~Fixture() { on_probe_call = nullptr; }
-  Fixture(const Fixture&) = delete;
-  Fixture& operator=(const Fixture&) = delete;
+  ~WatchFixture() { on_probe_call = nullptr; }
+  WatchFixture(const WatchFixture&) = delete;
+  WatchFixture& operator=(const WatchFixture&) = delete;
 
   LeafWatchOptions completed(LeafWatchOptions options) {
     options.clock = &clock;
@@ -102,7 +102,7 @@ TEST_CASE("a leaf is not blamed for what lockstep carries between processes") {
   options.on_carried = [&](NodeIndex leaf, Nanoseconds took) {
     carried.push_back(std::to_string(leaf) + " " + std::to_string(took / 1ms));
   };
-  Fixture fixture(1, 0, options);
+  WatchFixture fixture(1, 0, options);
   const auto call = [&](Nanoseconds own, Nanoseconds on_the_way) {
     on_probe_call = [&, own, on_the_way](PluginFunction, void*) {
       fixture.clock.time += own + on_the_way;
@@ -126,7 +126,7 @@ TEST_CASE("a leaf is not blamed for what lockstep carries between processes") {
 }
 
 TEST_CASE("every call reaches its leaf, marked with its function, site and tick") {
-  Fixture fixture(2);
+  WatchFixture fixture(2);
   std::vector<void*> leaves;
   Strings seen;
   on_probe_call = [&](PluginFunction function, void* self) {
@@ -152,7 +152,7 @@ TEST_CASE("every call reaches its leaf, marked with its function, site and tick"
 }
 
 TEST_CASE("a call within a call of a control node is marked and timed by itself") {
-  Fixture fixture(2, 0, {.budget = 30ms});
+  WatchFixture fixture(2, 0, {.budget = 30ms});
   int depth = 0;
   on_probe_call = [&](PluginFunction, void*) {
     if (depth++ != 0) {
@@ -198,7 +198,7 @@ TEST_CASE("an exception of a watched leaf is a fault of the run") {
 }
 
 TEST_CASE("a leaf that changes the rounding mode has it set back, and is reported once") {
-  Fixture fixture(2);
+  WatchFixture fixture(2);
   const FloatMode before = FloatMode::current();
   on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
   for (const std::size_t leaf : {0, 1, 1, 0}) {
@@ -211,7 +211,7 @@ TEST_CASE("a leaf that changes the rounding mode has it set back, and is reporte
 }
 
 TEST_CASE("long double is set back, too") {
-  Fixture fixture(1);
+  WatchFixture fixture(1);
   volatile long double one = 1, three = 3;
   const long double third = one / three;
   on_probe_call = [](PluginFunction, void*) { std::fesetround(FE_UPWARD); };
@@ -221,7 +221,7 @@ TEST_CASE("long double is set back, too") {
 }
 
 TEST_CASE("what a computation raises is no change of the mode") {
-  Fixture fixture(1);
+  WatchFixture fixture(1);
   on_probe_call = [](PluginFunction, void*) { std::feraiseexcept(FE_ALL_EXCEPT); };
   fixture.tick(0);
   on_probe_call = nullptr;
@@ -231,7 +231,7 @@ TEST_CASE("what a computation raises is no change of the mode") {
 }
 
 TEST_CASE("a leaf whose create changes the rounding mode has it set back, and a line in the log") {
-  Fixture fixture(1);
+  WatchFixture fixture(1);
   fixture.set->destroy_all();
   on_probe_call = [](PluginFunction function, void*) {
     if (function == PluginFunction::Create) std::fesetround(FE_DOWNWARD);
@@ -243,7 +243,7 @@ TEST_CASE("a leaf whose create changes the rounding mode has it set back, and a 
 }
 
 TEST_CASE("a call over the budget counts, and is reported with what it took") {
-  Fixture fixture(2, 0, {.budget = 5ms});
+  WatchFixture fixture(2, 0, {.budget = 5ms});
   for (const auto took : {1ms, 5ms, 6ms, 7ms, 2ms}) fixture.tick(1, took);
   CHECK(fixture.slow == Strings{"1 tick 6"});
   const std::vector<LeafWatch::Timing> over = fixture.watch.over_budget();
@@ -257,7 +257,7 @@ TEST_CASE("a call over the budget counts, and is reported with what it took") {
 }
 
 TEST_CASE("slow calls are reported once a second, whichever leaf it is, and all count") {
-  Fixture fixture(2, 0, {.budget = 5ms});
+  WatchFixture fixture(2, 0, {.budget = 5ms});
   const Nanoseconds start = fixture.clock.time;
   const auto call_at = [&](Nanoseconds end, std::size_t leaf) {
     fixture.clock.time = start + end - 10ms;
@@ -276,7 +276,7 @@ TEST_CASE("slow calls are reported once a second, whichever leaf it is, and all 
 }
 
 TEST_CASE("a slow halt counts, though it is no tick, and the longest call comes first") {
-  Fixture fixture(2, 0, {.budget = 5ms});
+  WatchFixture fixture(2, 0, {.budget = 5ms});
   fixture.tick(0, 6ms);
   on_probe_call = [&](PluginFunction, void*) { fixture.clock.time += 1500ms; };
   fixture.call(1, PluginFunction::Halt);
@@ -290,7 +290,7 @@ TEST_CASE("a slow halt counts, though it is no tick, and the longest call comes 
 }
 
 TEST_CASE("the slowest call is that of the tick that goes on") {
-  Fixture fixture(3, 0, {.budget = 1s});
+  WatchFixture fixture(3, 0, {.budget = 1s});
   fixture.watch.begin_tick();
   CHECK(fixture.watch.slowest().function == PluginFunction::None);
   fixture.tick(0, 2ms);
@@ -305,7 +305,7 @@ TEST_CASE("the slowest call is that of the tick that goes on") {
 }
 
 TEST_CASE("calls are not timed when there is no budget") {
-  Fixture fixture(1);
+  WatchFixture fixture(1);
   fixture.tick(0, 1s);
   CHECK(fixture.clock.reads == 0);
   CHECK(fixture.watch.slowest().function == PluginFunction::None);

@@ -9,7 +9,7 @@
 namespace lockstep::host::test {
 namespace {
 
-const lockstep_host& host = host_table();
+const lockstep_host& entry_host = host_table();
 
 // One Lab leaf; its inouts are bound to entries 0 to 3: int, double, string, list.
 struct LooseFixture {
@@ -34,20 +34,20 @@ struct LooseFixture {
 
 std::optional<std::int64_t> read_int(const LooseFixture& fixture) {
   std::int64_t value = 0;
-  if (!host.get_int(fixture.leaf(), kCount, &value)) return std::nullopt;
+  if (!entry_host.get_int(fixture.leaf(), kCount, &value)) return std::nullopt;
   return value;
 }
 
 std::optional<double> read_double(const LooseFixture& fixture) {
   double value = 0;
-  if (!host.get_double(fixture.leaf(), kSpeed, &value)) return std::nullopt;
+  if (!entry_host.get_double(fixture.leaf(), kSpeed, &value)) return std::nullopt;
   return value;
 }
 
 std::optional<std::string> read_string(const LooseFixture& fixture) {
   const char* text = nullptr;
   std::size_t length = 0;
-  if (!host.get_string(fixture.leaf(), kText, &text, &length)) return std::nullopt;
+  if (!entry_host.get_string(fixture.leaf(), kText, &text, &length)) return std::nullopt;
   return std::string(text, length);
 }
 
@@ -77,12 +77,12 @@ TEST_CASE("a leaf reads what an entry of another type has, converted") {
   fixture.entry(3).value = std::string("1;2.5");
   const double* list = nullptr;
   std::size_t count = 0;
-  REQUIRE(host.get_double_list(fixture.leaf(), kList, &list, &count));
+  REQUIRE(entry_host.get_double_list(fixture.leaf(), kList, &list, &count));
   CHECK(std::vector(list, list + count) == std::vector{1.0, 2.5});
 
   fixture.entry(1).value = 2.5;
   std::int64_t whole = 77;
-  CHECK_FALSE(host.get_int(fixture.leaf(), kSpeed, &whole));  // another type than the port's
+  CHECK_FALSE(entry_host.get_int(fixture.leaf(), kSpeed, &whole));  // another type than the port's
   unset_entry(fixture.entry(0));
   CHECK_FALSE(read_int(fixture));
   CHECK(fixture.entry(0).writes == 0);                                      // unset
@@ -93,7 +93,7 @@ TEST_CASE("the error of a leaf that reads what is not of its type says what the 
   LooseFixture fixture;
   fixture.entry(0).value = std::string("many");
   CHECK_FALSE(read_int(fixture));
-  host.set_error(fixture.leaf(), "port 'count' has no value");
+  entry_host.set_error(fixture.leaf(), "port 'count' has no value");
   const std::string entry = fixture.tree.slots[0].name;
   CHECK(std::string(fixture.set->slots()[0].error) ==
         "port 'count' has no value: the entry '{" + entry +
@@ -103,23 +103,23 @@ TEST_CASE("the error of a leaf that reads what is not of its type says what the 
 TEST_CASE("a leaf writes entries as their type says, and gives them one") {
   LooseFixture fixture;
   fixture.entry(0).type = ValueType::Double;
-  CHECK(host.set_int(fixture.leaf(), kCount, 3));
+  CHECK(entry_host.set_int(fixture.leaf(), kCount, 3));
   CHECK(fixture.entry(0).value == Value(3.0));
   CHECK(read_int(fixture) == 3);
   fixture.entry(2).type = ValueType::Int;
-  CHECK(host.set_string(fixture.leaf(), kText, "12", 2));
+  CHECK(entry_host.set_string(fixture.leaf(), kText, "12", 2));
   CHECK(fixture.entry(2).value == Value(std::int64_t{12}));
-  CHECK_FALSE(host.set_string(fixture.leaf(), kText, "a", 1));
+  CHECK_FALSE(entry_host.set_string(fixture.leaf(), kText, "a", 1));
   CHECK(fixture.entry(2).value == Value(std::int64_t{12}));
   CHECK(fixture.entry(2).writes == 2);  // with the start value
 
   LooseFixture open(Typing::Any);
-  CHECK(host.set_int(open.leaf(), kCount, 3));
+  CHECK(entry_host.set_int(open.leaf(), kCount, 3));
   CHECK(open.entry(0).typing == Typing::Declared);
   CHECK(open.entry(0).type == ValueType::Int);
   const double list[] = {1, 2};
   unset_entry(open.entry(3));
-  CHECK(host.set_double_list(open.leaf(), kList, list, 2));
+  CHECK(entry_host.set_double_list(open.leaf(), kList, list, 2));
   CHECK(open.entry(3).type == ValueType::DoubleList);
   CHECK(open.entry(3).is_present);
   CHECK(open.entry(3).value == Value(std::vector<double>{1, 2}));

@@ -29,7 +29,7 @@ std::string cut_verdict(std::string_view text, const Trace& trace) {
   return verdict(text, trace, RunIsOver::FromOutside);
 }
 
-struct Row {
+struct PropertyRow {
   const char* property;
   const char* a;
   const char* b;
@@ -40,7 +40,7 @@ struct Row {
 }  // namespace
 
 TEST_CASE("each pattern has its verdict on a trace") {
-  constexpr Row kRows[] = {
+  constexpr PropertyRow kRows[] = {
       {"never a.failure", "rrrr", "iiii", "holds", "holds"},
       {"never a.failure", "rrfr", "iiii", "violated 2", "violated 2"},
       {"sometimes a.failure", "rrrr", "iiii", "violated", "open"},
@@ -79,7 +79,7 @@ TEST_CASE("each pattern has its verdict on a trace") {
       {"a.running until b.success", "rf", "is", "holds 1", "holds 1"},
       {"a.running until b.success", "f", "s", "holds 0", "holds 0"},
   };
-  for (const Row& row : kRows) {
+  for (const PropertyRow& row : kRows) {
     const Trace trace{{{kA, row.a}, {kB, row.b}}};
     INFO(row.property << " on " << row.a << " and " << row.b);
     CHECK(verdict(row.property, trace) == row.ended);

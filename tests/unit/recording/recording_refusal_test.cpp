@@ -6,9 +6,12 @@
 #include <sstream>
 
 #include "recording/read/recording_reader.h"
+#include "support/text.h"
 
 namespace lockstep::host {
 namespace {
+
+using test::replaced;
 
 const std::string kNodes =
     R"({"index":0,"path":"T/p","kind":"ParallelAbsolute","name":"p","parent":null,"barriers":[0.5,1]},)"
@@ -28,12 +31,6 @@ const std::string kEnd =
     R"({"end":{"result":"success","reason":"completed","ticks":1,"time_s":0,"overruns":0,)"
     R"("skipped":0,"signal":2,"lost":0,"fault":"x","notes":["y"]}})"
     "\n";
-
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 
 std::string error_of(const std::string& text) {
   std::istringstream in(text);

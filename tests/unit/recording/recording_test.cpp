@@ -9,11 +9,13 @@
 #include "recording/use/recording_info.h"
 #include "recording/write/json_lines.h"
 #include "recording/write/recorder.h"
+#include "support/text.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
 namespace {
 
+using test::replaced;
 using test::TemporaryPath;
 using test::WatchedRun;
 
@@ -33,7 +35,7 @@ std::string record(std::string_view tree, std::string_view leaves, std::uint64_t
   return file.text();
 }
 
-constexpr const char* kRecording =
+constexpr const char* kWholeRecording =
     R"({"lockstep_recording":1,"tree":"Test","file":"trees/a.xml","version":"0.1.0",)"
     R"("law":2,"rate_hz":10.0,"clock":"virtual","seed":18446744073709551615,)"
     R"("arguments":{"barriers":"0.5;1"},"nodes":[)"
@@ -54,7 +56,7 @@ constexpr const char* kRecording =
     "\n";
 
 TEST_CASE("a recording, byte by byte") {
-  CHECK(record(kTree, kLeaves) == kRecording);
+  CHECK(record(kTree, kLeaves) == kWholeRecording);
 }
 
 TEST_CASE("a tick in which nothing changes is a line without nodes") {
@@ -139,7 +141,7 @@ std::string csv_of(const std::string& recording, std::string* error = nullptr,
 
 TEST_CASE("a recording as a table") {
   std::string error = "unset", cut = "unset";
-  CHECK(csv_of(kRecording, &error, &cut) ==
+  CHECK(csv_of(kWholeRecording, &error, &cut) ==
         "tick,time_s,node,path,status,progress,ticked,held\n"
         "0,0,0,Test/ParallelAbsolute,running,0,1,0\n"
         "0,0,1,Test/ParallelAbsolute/a,running,0,1,0\n"
@@ -207,7 +209,7 @@ TEST_CASE("of the notes of a recording a thousand are kept") {
   const auto notes_of = [](std::size_t count) {
     std::string list = "\"n\"";
     for (std::size_t i = 1; i < count; ++i) list += ",\"n\"";
-    std::string text = kRecording;
+    std::string text = kWholeRecording;
     text.replace(text.rfind("}}"), 2, ",\"notes\":[" + list + "]}}");
     std::istringstream in(text);
     RecordingReader reader(in, "run.jsonl");
@@ -223,7 +225,7 @@ TEST_CASE("of the notes of a recording a thousand are kept") {
 }
 
 TEST_CASE("lost ticks have no rows, and info tells of them") {
-  std::string text = kRecording;
+  std::string text = kWholeRecording;
   const std::size_t begin = text.find("{\"tick\":1"), end = text.find("{\"tick\":3");
   text.replace(begin, end - begin, "{\"lost\":{\"ticks\":2,\"from\":1}}\n");
   text.replace(text.rfind("}}"), 2, ",\"lost\":2}}");
@@ -246,7 +248,7 @@ TEST_CASE("names with commas and quotes are quoted") {
 }
 
 TEST_CASE("a recording cut anywhere behind its header is read up to the last whole line") {
-  const std::string whole = kRecording;
+  const std::string whole = kWholeRecording;
   const std::size_t header = whole.find('\n') + 1;
   const std::string table = csv_of(whole);
   for (std::size_t size = header; size < whole.size() - 1; ++size) {
@@ -259,18 +261,12 @@ TEST_CASE("a recording cut anywhere behind its header is read up to the last who
 }
 
 TEST_CASE("a cut recording says how it ends") {
-  const std::string whole = kRecording;
+  const std::string whole = kWholeRecording;
   std::string error, cut;
   csv_of(whole.substr(0, whole.find("{\"tick\":2") + 20), &error, &cut);
   CHECK(cut == "line 4 is cut, the run did not end there");
   csv_of(whole.substr(0, whole.find("{\"tick\":2")), &error, &cut);
   CHECK(cut == "it ends after line 3 without a closing line");
-}
-
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 TEST_CASE("what is wrong with a recording is reported with its line") {
@@ -281,37 +277,37 @@ TEST_CASE("what is wrong with a recording is reported with its line") {
       {"{\"lockstep_recording\":1", "run.jsonl:1: the header is cut"},
       {"{\"a\":1}\n", "run.jsonl:1: not a recording: the first line has no 'lockstep_recording'"},
       {"[]\n", "run.jsonl:1: expected a JSON object"},
-      {replaced(kRecording, "recording\":1", "recording\":2"),
+      {replaced(kWholeRecording, "recording\":1", "recording\":2"),
        "run.jsonl:1: recording of version 2, expected 1"},
-      {replaced(kRecording, "\"seed\"", "\"sed\""), "run.jsonl:1: 'seed' is missing"},
-      {replaced(kRecording, "10.0", "\"10\""), "run.jsonl:1: 'rate_hz' is not a number"},
-      {replaced(kRecording, "\"parent\":0", "\"parent\":5"),
+      {replaced(kWholeRecording, "\"seed\"", "\"sed\""), "run.jsonl:1: 'seed' is missing"},
+      {replaced(kWholeRecording, "10.0", "\"10\""), "run.jsonl:1: 'rate_hz' is not a number"},
+      {replaced(kWholeRecording, "\"parent\":0", "\"parent\":5"),
        "run.jsonl:1: parent of node 1 comes after it"},
-      {replaced(kRecording, "\"index\":1", "\"index\":7"), "run.jsonl:1: node 1 is missing"},
-      {replaced(kRecording, "{\"tick\":1", "x\"tick\":1"), "run.jsonl:3: not JSON"},
-      {replaced(kRecording, "\"tick\":1", "\"tick\":0"), "run.jsonl:3: tick 0 comes after tick 0"},
-      {replaced(kRecording, "[2,\"running\"", "[9,\"running\""),
+      {replaced(kWholeRecording, "\"index\":1", "\"index\":7"), "run.jsonl:1: node 1 is missing"},
+      {replaced(kWholeRecording, "{\"tick\":1", "x\"tick\":1"), "run.jsonl:3: not JSON"},
+      {replaced(kWholeRecording, "\"tick\":1", "\"tick\":0"), "run.jsonl:3: tick 0 comes after tick 0"},
+      {replaced(kWholeRecording, "[2,\"running\"", "[9,\"running\""),
        "run.jsonl:2: no node 9, expected 0 to 2"},
-      {replaced(kRecording, "0.5,0,1]", "0.5,0,2]"),
+      {replaced(kWholeRecording, "0.5,0,1]", "0.5,0,2]"),
        "run.jsonl:3: a node's change has a flag that is neither 0 nor 1"},
-      {replaced(kRecording, "0.5,0,1]", "1.5,0,1]"),
+      {replaced(kWholeRecording, "0.5,0,1]", "1.5,0,1]"),
        "run.jsonl:3: a node's change has a progress that is not in [0, 1]"},
-      {replaced(kRecording, "0.5,0,1]", "0.5,0]"),
+      {replaced(kWholeRecording, "0.5,0,1]", "0.5,0]"),
        "run.jsonl:3: a node's change is not [index, status, progress, ticked, held]"},
-      {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":1}}\n{\"tick\":1"),
+      {replaced(kWholeRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":1}}\n{\"tick\":1"),
        "run.jsonl:4: tick 1 comes after tick 2"},
-      {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":0}}\n{\"tick\":1"),
+      {replaced(kWholeRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":2,\"from\":0}}\n{\"tick\":1"),
        "run.jsonl:3: tick 0 comes after tick 0"},
-      {replaced(kRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":0,\"from\":1}}\n{\"tick\":1"),
+      {replaced(kWholeRecording, "{\"tick\":1", "{\"lost\":{\"ticks\":0,\"from\":1}}\n{\"tick\":1"),
        "run.jsonl:3: 0 ticks cannot be lost from tick 1 on"},
-      {replaced(kRecording, "{\"tick\":1",
+      {replaced(kWholeRecording, "{\"tick\":1",
                 "{\"lost\":{\"ticks\":2,\"from\":18446744073709551615}}\n{\"tick\":1"),
        "run.jsonl:3: 2 ticks cannot be lost from tick 18446744073709551615 on"},
-      {replaced(kRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[3,\"x\"]]"),
+      {replaced(kWholeRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[3,\"x\"]]"),
        "run.jsonl:3: no node 3, expected 0 to 2"},
-      {replaced(kRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[1]]"),
+      {replaced(kWholeRecording, "0.5,0,1]]", "0.5,0,1]],\"faults\":[[1]]"),
        "run.jsonl:3: a fault is not [index, message]"},
-      {std::string(kRecording) + "{}\n", "run.jsonl:7: a line after the closing line"},
+      {std::string(kWholeRecording) + "{}\n", "run.jsonl:7: a line after the closing line"},
   };
   for (const auto& [text, expected] : cases) {
     std::istringstream in(text);
@@ -324,7 +320,7 @@ TEST_CASE("what is wrong with a recording is reported with its line") {
 }
 
 TEST_CASE("info measures a recording as the run was measured") {
-  std::istringstream in(kRecording);
+  std::istringstream in(kWholeRecording);
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
   CHECK(info ==
@@ -344,7 +340,7 @@ TEST_CASE("info measures a recording as the run was measured") {
 }
 
 TEST_CASE("info says that a recording is cut") {
-  std::istringstream in(std::string(kRecording).substr(0, std::string(kRecording).find("{\"end")));
+  std::istringstream in(std::string(kWholeRecording).substr(0, std::string(kWholeRecording).find("{\"end")));
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
   CHECK(info.find("  4 ticks, 0.400 s; the recording is cut: it ends after line 5 without a "

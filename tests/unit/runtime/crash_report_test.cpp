@@ -23,8 +23,8 @@ namespace lockstep::host::test {
 namespace {
 
 constexpr int kCrashed = 42;
-const CallSite& leaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
-const std::string kLeaf = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
+const CallSite& arm_leaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
+const std::string kArmError = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
 
 void say(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(99);
@@ -63,7 +63,7 @@ Ended in_tick(const std::function<void()>& body, void (*words)() = last_words) {
     CrashReport::install(kCrashed);
     CrashReport::set_last_words(words);
     CallMark::this_thread().set_tick(12);
-    const MarkedCall call(leaf, PluginFunction::Tick);
+    const MarkedCall call(arm_leaf, PluginFunction::Tick);
     body();
   });
 }
@@ -96,21 +96,21 @@ void check_report(const Ended& ended, const std::string& first_line) {
 TEST_CASE(
     "a crash is reported with leaf, tick and signal, then come the last words and a backtrace") {
   check_report(in_tick([] { write_to(0x10); }),
-               kLeaf + "crashed in tick 12: SIGSEGV, invalid memory reference (address 0x10)");
+               kArmError + "crashed in tick 12: SIGSEGV, invalid memory reference (address 0x10)");
   check_report(in_tick([] { divide_by_zero(); }),
-               kLeaf + "crashed in tick 12: SIGFPE, division of an integer by zero");
+               kArmError + "crashed in tick 12: SIGFPE, division of an integer by zero");
   check_report(in_tick([] { std::abort(); }),
-               kLeaf + "crashed in tick 12: SIGABRT, abort() or a failed assertion");
+               kArmError + "crashed in tick 12: SIGABRT, abort() or a failed assertion");
   check_report(in_tick([] { raise(SIGILL); }),
-               kLeaf + "crashed in tick 12: SIGILL, illegal instruction");
+               kArmError + "crashed in tick 12: SIGILL, illegal instruction");
   check_report(in_tick([] { raise(SIGBUS); }),
-               kLeaf + "crashed in tick 12: SIGBUS, nonexistent memory");
+               kArmError + "crashed in tick 12: SIGBUS, nonexistent memory");
 }
 
 TEST_CASE("a stack overflow is reported on a separate stack") {
   const Ended ended = in_tick([] { overflow(0); });
   CHECK(ended.exit_code == kCrashed);
-  CHECK(has(ended, kLeaf + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
+  CHECK(has(ended, kArmError + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
   CHECK(has(ended, "last words\n"));
   CHECK(has(ended, "lockstep: backtrace:\n"));
 }
@@ -119,17 +119,17 @@ TEST_CASE("a stack overflow in a thread of lockstep is reported, too") {
   const Ended ended = outside([] {
     std::thread([] {
       adopt_thread();
-      const MarkedCall call(leaf, PluginFunction::Create);
+      const MarkedCall call(arm_leaf, PluginFunction::Create);
       overflow(0);
     }).join();
   });
   CHECK(ended.exit_code == kCrashed);
-  CHECK(has(ended, kLeaf + "crashed in its create function: SIGSEGV, the stack has overflowed"));
+  CHECK(has(ended, kArmError + "crashed in its create function: SIGSEGV, the stack has overflowed"));
 }
 
 TEST_CASE("exit inside a call is a crash") {
-  check_report(in_tick([] { std::exit(0); }), kLeaf + "called exit() in tick 12");
-  check_report(in_tick([] { std::quick_exit(0); }), kLeaf + "called exit() in tick 12");
+  check_report(in_tick([] { std::exit(0); }), kArmError + "called exit() in tick 12");
+  check_report(in_tick([] { std::quick_exit(0); }), kArmError + "called exit() in tick 12");
 }
 
 TEST_CASE("exit in a thread of a plugin is a crash until our work is done") {
@@ -140,7 +140,7 @@ TEST_CASE("exit in a thread of a plugin is a crash until our work is done") {
 
 TEST_CASE("our own exit is an exit, and what was given to atexit is done") {
   const Ended ended = outside([] {
-    { const MarkedCall call(leaf, PluginFunction::Tick); }
+    { const MarkedCall call(arm_leaf, PluginFunction::Tick); }
     std::atexit([] { say("done\n"); });
     CrashReport::exit(7);
   });
@@ -235,7 +235,7 @@ std::thread tell_hang() {
 
 TEST_CASE("a hang is reported with the backtrace of the thread that hangs") {
   check_report(in_tick([] { tell_hang().join(); }),
-               kLeaf + "has not returned from tick 12 for 2.0 s");
+               kArmError + "has not returned from tick 12 for 2.0 s");
 }
 
 TEST_CASE("a hang of a thread that takes no signal is reported without a backtrace") {
@@ -246,7 +246,7 @@ TEST_CASE("a hang of a thread that takes no signal is reported without a backtra
     tell_hang().join();
   });
   CHECK(ended.exit_code == kCrashed);
-  CHECK(has(ended, kLeaf + "has not returned from tick 12 for 2.0 s"));
+  CHECK(has(ended, kArmError + "has not returned from tick 12 for 2.0 s"));
   CHECK(has(ended, "last words\n"));
   CHECK_FALSE(has(ended, "backtrace:\n"));
 }
@@ -261,7 +261,7 @@ TEST_CASE("a child that comes back from the call is reported and ends there") {
     const Ended ended = in_tick([&] {
       int status = 0;
       {
-        const MarkedCall call(leaf, PluginFunction::Halt);
+        const MarkedCall call(arm_leaf, PluginFunction::Halt);
         const pid_t child = forked();
         if (child == 0) return;
         waitpid(child, &status, 0);

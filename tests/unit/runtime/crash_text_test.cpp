@@ -9,7 +9,7 @@
 namespace lockstep::host::test {
 namespace {
 
-const CallSite& kLeaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
+const CallSite& kCrashedLeaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
 const CallSite& kPlugin = CallSite::of_plugin("motion");
 
 CallMark::Look in(const CallSite& site, PluginFunction function) {
@@ -35,11 +35,11 @@ TEST_CASE("a crash is reported with the function it was in") {
   const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
   const std::string end = ": SIGSEGV, invalid memory reference (address 0x1f)";
   using F = PluginFunction;
-  CHECK(first_line(segv(in(kLeaf, F::Tick))) == begin + "crashed in tick 12" + end);
-  CHECK(first_line(segv(in(kLeaf, F::Halt))) ==
+  CHECK(first_line(segv(in(kCrashedLeaf, F::Tick))) == begin + "crashed in tick 12" + end);
+  CHECK(first_line(segv(in(kCrashedLeaf, F::Halt))) ==
         begin + "crashed in its halt function (tick 12)" + end);
-  CHECK(first_line(segv(in(kLeaf, F::Create))) == begin + "crashed in its create function" + end);
-  Crash before_ticks = segv(in(kLeaf, F::Start));
+  CHECK(first_line(segv(in(kCrashedLeaf, F::Create))) == begin + "crashed in its create function" + end);
+  Crash before_ticks = segv(in(kCrashedLeaf, F::Start));
   before_ticks.tick = CallMark::kNoTick;
   CHECK(first_line(before_ticks) == begin + "crashed in its start function" + end);
   CHECK(first_line(segv(in(kPlugin, F::Init))) ==
@@ -62,7 +62,7 @@ TEST_CASE("a crash names what it was in, and isolation only where it would help"
   CHECK(said(node).starts_with("lockstep: error: the control node 'Main/retry' (RecoveryNode of "));
   CHECK(said(node).find("--isolate") == std::string::npos);
   CHECK(said(node).find("the author of the plugin needs the backtrace") != std::string::npos);
-  CHECK(said(kLeaf).find("with --isolate, the run survives") != std::string::npos);
+  CHECK(said(kCrashedLeaf).find("with --isolate, the run survives") != std::string::npos);
   const CallSite& leaf =
       CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion", .is_local = true});
   CHECK(said(leaf).find("--isolate") == std::string::npos);
@@ -82,8 +82,8 @@ TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to 
     describe(segv({.site = &site}), text);
     return std::string(text.text());
   };
-  CHECK(said(kLeaf).find("hint: it is a bug in lockstep") != std::string::npos);
-  CHECK(said(kLeaf).find("the last call was to the leaf 'Main/arm'") != std::string::npos);
+  CHECK(said(kCrashedLeaf).find("hint: it is a bug in lockstep") != std::string::npos);
+  CHECK(said(kCrashedLeaf).find("the last call was to the leaf 'Main/arm'") != std::string::npos);
   // A plugin that was only opened is not blamed.
   CHECK(said(kPlugin).find("hint: it is a bug in lockstep") != std::string::npos);
   CHECK(said(kPlugin).find("motion") == std::string::npos);
@@ -91,7 +91,7 @@ TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to 
 }
 
 TEST_CASE("a crash in a study is reported with its run") {
-  Crash crash = segv(in(kLeaf, PluginFunction::Tick));
+  Crash crash = segv(in(kCrashedLeaf, PluginFunction::Tick));
   crash.run = {.cell = 3, .number = 17, .seed = 1234};
   SignalText text;
   describe(crash, text);
@@ -101,7 +101,7 @@ TEST_CASE("a crash in a study is reported with its run") {
 
 TEST_CASE("exit and hang are reported with the function they were in") {
   const std::string begin = "lockstep: error: the leaf 'Main/arm' (Advance of plugin 'motion') ";
-  Crash crash{.kind = CrashKind::Exit, .call = in(kLeaf, PluginFunction::Tick), .tick = 0};
+  Crash crash{.kind = CrashKind::Exit, .call = in(kCrashedLeaf, PluginFunction::Tick), .tick = 0};
   CHECK(first_line(crash) == begin + "called exit() in tick 0");
   crash.call = {};
   crash.is_foreign_thread = true;
@@ -109,17 +109,17 @@ TEST_CASE("exit and hang are reported with the function they were in") {
         "lockstep: error: a thread that a plugin has started called exit() before the work was "
         "done");
   crash = {
-      .kind = CrashKind::Hang, .call = in(kLeaf, PluginFunction::Tick), .tick = 3, .seconds = 1.96};
+      .kind = CrashKind::Hang, .call = in(kCrashedLeaf, PluginFunction::Tick), .tick = 3, .seconds = 1.96};
   CHECK(first_line(crash) == begin + "has not returned from tick 3 for 2.0 s");
-  crash.call = in(kLeaf, PluginFunction::Resume);
+  crash.call = in(kCrashedLeaf, PluginFunction::Resume);
   CHECK(first_line(crash) ==
         begin + "has not returned from its resume function for 2.0 s (tick 3)");
-  crash.call = {.site = &kLeaf};  // it just has
+  crash.call = {.site = &kCrashedLeaf};  // it just has
   CHECK(first_line(crash) == begin + "has not returned from a call for 2.0 s");
 }
 
 TEST_CASE("a signal from another process is not the leaf's") {
-  Crash crash = segv(in(kLeaf, PluginFunction::Tick));
+  Crash crash = segv(in(kCrashedLeaf, PluginFunction::Tick));
   crash.code = SI_USER;
   crash.sender = 4711;
   CHECK(first_line(crash) ==

@@ -1,4 +1,4 @@
-#include "cli/program.h"
+#include "support/program.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 // What would change what a program prints, and is set on one machine and not on another.
 constexpr const char* kUnset[] = {"NO_COLOR", "LC_ALL", "LC_CTYPE", "LANG", "LOCKSTEP_PLUGIN_PATH"};
 
-std::vector<std::string> environment_of(const Call& call) {
+std::vector<std::string> environment_of(const Invocation& call) {
   std::map<std::string, std::string> all;
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string text = *entry;
@@ -77,7 +77,7 @@ double seconds(const timeval& time) {
 
 }  // namespace
 
-Process::Process(const Call& call, Output output) {
+Process::Process(const Invocation& call, Output output) {
   std::vector<std::string> arguments{call.program};
   arguments.insert(arguments.end(), call.arguments.begin(), call.arguments.end());
   auto environment = environment_of(call);
@@ -194,7 +194,7 @@ Outcome Process::end_by(int number) {
   return finish();
 }
 
-Outcome run(const Call& call) {
+Outcome run(const Invocation& call) {
   return Process(call).finish();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/paths.h"
+#include "support/text.h"
 
 namespace lockstep::host::test {
 
@@ -21,14 +22,14 @@ struct Outcome {
   double peak_megabytes = 0;  // resident
 };
 
-struct Call {
+struct Invocation {
   std::vector<std::string> arguments;
   std::map<std::string, std::string> environment = {};  // over ours; NO_COLOR and such are unset
   std::string input = {};
   std::string program = LOCKSTEP_BINARY_DIR "/lockstep";
 };
 
-Outcome run(const Call& call);
+Outcome run(const Invocation& call);
 // lockstep with these arguments.
 Outcome run_lockstep(std::vector<std::string> arguments);
 
@@ -37,7 +38,7 @@ class Process {
  public:
   enum class Output { Pipes, Terminal };  // a terminal is both out and err: all is in `out`
 
-  explicit Process(const Call& call, Output output = Output::Pipes);
+  explicit Process(const Invocation& call, Output output = Output::Pipes);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -111,8 +112,4 @@ std::string read_process_file(pid_t process, const std::string& name);
 // <root>, the plugin motion, and a BehaviorTree 'Main' around `node`.
 std::string tree_text(const std::string& node);
 std::vector<std::string> lines(const std::string& text);
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace lockstep::host::test
