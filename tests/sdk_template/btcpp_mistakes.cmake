@@ -16,5 +16,5 @@ set(said_11 "registerPolymorphicCast<Derived, Base>: Derived does not derive fro
 set(said_12 "no matching function for call to .*BT::PortInfo::PortInfo")
 
 include(${CMAKE_CURRENT_LIST_DIR}/check_mistakes.cmake)
-check_mistakes(12 -I${SOURCES}/plugins/sdk -I${SOURCES}/plugins/sdk/btcpp/include
+check_mistakes(12 -DLOCKSTEP_BTCPP_LIBRARY -I${SOURCES}/plugins/sdk -I${SOURCES}/plugins/sdk/btcpp/include
                -I${SOURCES}/interpreter/embedding)
