@@ -268,10 +268,22 @@ class Features(unittest.TestCase):
                 messages = [it["message"] for it in self.client.diagnostics(self.path)]
                 again = [it["message"] for it in self.client.change(self.path, found)]
                 self.assertEqual([it.replace(old, new) for it in messages], again)
-        self.assertIn("taken", self.renamed(text.replace("{limit}\"/>", "{lim|it}\"/>"), "word"))
-        self.assertIn("cannot be a name", self.renamed(text.replace("{limit}\"/>", "{lim|it}\"/>"), "a b"))
-        self.assertIn("_autoremap", self.renamed(
-            text.replace("inner=\"{limit}\"", "inner=\"{lim|it}\" _autoremap=\"true\""), "most"))
+        limit = text.replace("{limit}\"/>", "{lim|it}\"/>")
+        self.assertIn("has an entry 'word' already", self.renamed(limit, "word"))
+        self.assertIn("cannot be a key", self.renamed(limit, "a b"))
+        self.assertIn("cannot be a name", self.renamed(text.replace("\"table\">", "\"ta|ble\">"), "a b"))
+        self.assertIn("cannot be read", self.renamed(limit + "<", "most"))
+        # A SubTree that passes on all entries binds this one with an attribute from now on.
+        found = self.renamed(limit.replace("inner=\"", "_autoremap=\"true\" inner=\""), "most")
+        self.assertIn("_autoremap=\"true\" inner=\"{most}\"", found)
+
+    def test_rename_in_what_is_beside_the_trees(self):
+        text = HEAD + "<Wait seconds=\"{lim|it}\"/>" + TAIL.replace("</root>", """  <property>{limit} &gt;= 0</property>
+  <scenario name="short" main="Main"><set key="limit" value="1"/><expect>{limit} == 1</expect></scenario>
+</root>""")
+        self.assertNotIn("limit", self.renamed(text, "most"))
+        self.assertIn("main=\"First\"", self.renamed(text.replace("lim|it", "limit").replace(
+            "BehaviorTree ID=\"Main", "BehaviorTree ID=\"Ma|in"), "First"))
 
     def test_formatting(self):
         for text in (HEAD + "<Wait    seconds='1'   />" + TAIL, "\ufeff<root   lockstep=\"1\"><BehaviorTree/></root>"):

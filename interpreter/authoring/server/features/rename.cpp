@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "authoring/edit/renames.h"
 #include "authoring/server/features/names.h"
 #include "authoring/server/features/workspace_edit.h"
-#include "core/identifier.h"
 #include "core/wording.h"
 
 namespace lockstep::host {
@@ -16,32 +16,40 @@ namespace {
   throw JsonError(why);
 }
 
-// What the language takes as such a name, and does not mix up with another one.
-void check_new_name(const Names& names, const NamePlace& place, std::string_view name) {
-  const bool is_plain = !name.empty() && name.find_first_of(" \t\r\n\"'<>&{}$/;,=") == name.npos;
-  const bool is_entry = place.kind == NameKind::Entry;
-  if (!is_plain || (is_entry && !is_identifier(name)))
-    refuse(fmt::format("'{}' cannot be a name here", brief(name)));
-  NamePlace other = place;
-  other.name = name;
-  if (name != place.name && !names.same_as(other).empty())
-    refuse(fmt::format("the name '{}' is taken", brief(name)));
+// The ID of a BehaviorTree.
+std::string id_of(const Names& names, const TolerantElement& tree) {
+  for (const ProjectText& text : names.texts()) {
+    const auto& elements = text.tree->elements;
+    if (!elements.empty() && &tree >= &elements.front() && &tree <= &elements.back())
+      return decoded(text.tree->value_of(tree, "ID")).text;
+  }
+  return {};
 }
 
-// With _autoremap, an entry has its name in two trees.
-void check_scope(const Names& names, const NamePlace& place) {
-  if (place.kind != NameKind::Entry) return;
-  for (const ProjectText& text : names.texts()) {
-    for (const TolerantElement& it : text.tree->elements) {
-      if (!is_sub_tree(it.tag)) continue;
-      const bool is_near = tree_around(*text.tree, it) == place.scope ||
-                           names.tree_named(text.tree->value_of(it, "ID")) == place.scope;
-      for (const TolerantAttribute& attribute : text.tree->attributes_of(it)) {
-        if (is_near && attribute.name.ends_with("_autoremap") && attribute.value != "false")
-          refuse("a SubTree with _autoremap has entries of the same name inside and outside");
-      }
-    }
-  }
+// A group has no name that something outside of it could have too.
+std::map<std::string, Json> rename_group(const Names& names, const NamePlace& place,
+                                         const std::string& new_name) {
+  NamePlace other = place;
+  other.name = new_name;
+  if (new_name.empty() || new_name.find_first_of(" \t\r\n\"'<>&{}$/;,=") != new_name.npos)
+    refuse(fmt::format("'{}' cannot be a name here", brief(new_name)));
+  if (new_name != place.name && !names.same_as(other).empty())
+    refuse(fmt::format("there is a group '{}' already", brief(new_name)));
+  std::map<const ProjectText*, TextEdit> edits;
+  for (const NamePlace* it : names.same_as(place))
+    edits[it->text].replace(it->range.begin, it->range.end, new_name);
+  std::map<std::string, Json> changes;
+  for (const auto& [text, edit] : edits)
+    changes[text->uri] = json_of(edit, Positions(text->tree->text));
+  return changes;
+}
+
+Result<ProjectEdit> renamed(const ProjectTexts& texts, const Names& names, const NamePlace& place,
+                            const std::string& new_name) {
+  const std::string name = decoded(place.name).text;
+  if (place.kind == NameKind::Tree) return rename_tree(texts, name, new_name);
+  if (place.kind == NameKind::Argument) return rename_argument(texts, name, new_name);
+  return rename_entry(texts, id_of(names, *place.scope), name, new_name);
 }
 
 }  // namespace
@@ -57,16 +65,26 @@ Json prepare_rename(const Question& question) {
 Json rename(const Question& question) {
   const Names names(question);
   const NamePlace* const place = names.at(question.byte());
-  const std::string& name = question.params.new_name;
   if (place == nullptr) refuse("nothing here has a name that can be changed");
-  check_new_name(names, *place, name);
-  check_scope(names, *place);
-  std::map<const ProjectText*, TextEdit> edits;
-  for (const NamePlace* it : names.same_as(*place))
-    edits[it->text].replace(it->range.begin, it->range.end, name);
+  const std::string& new_name = question.params.new_name;
+  if (place->kind == NameKind::Group) return workspace_edit(rename_group(names, *place, new_name));
+  const Analysis& analysis = *question.file.analysis;
+  const auto& project = analysis.project;
+  if (!project || project->documents.front()->source()->text() != *question.file.text)
+    refuse("the file cannot be read: a name can be changed when its errors are mended");
+  const ProjectTexts texts(*project, analysis.catalog);
+  const auto edits = renamed(texts, names, *place, new_name);
+  if (!edits) {
+    const Problem& why = edits.error();
+    refuse(why.hint.empty() ? why.message : fmt::format("{}: {}", why.message, why.hint));
+  }
   std::map<std::string, Json> changes;
-  for (const auto& [text, edit] : edits)
-    changes[text->uri] = json_of(edit, Positions(text->tree->text));
+  for (std::uint32_t i = 0; i < texts.size(); ++i) {
+    const Source& source = *texts.document(i).source();
+    if (!(*edits)[i].empty())
+      changes[question.workspace.uri_of(source.path())] =
+          json_of((*edits)[i], Positions(source.text()));
+  }
   return workspace_edit(changes);
 }
 
