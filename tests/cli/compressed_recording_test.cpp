@@ -142,6 +142,23 @@ TEST_CASE("run --record-compress without --record is a mistake") {
   CHECK(contains(outcome.err, "--record-compress requires --record"));
 }
 
+TEST_CASE("an MCAP file is not compressed twice, and is not read") {
+  const TemporaryDirectory directory;
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{directory.path("run.mcap.zst")},
+        {directory.path("run.mcap"), "--record-compress"}}) {
+    auto command = options;
+    command.insert(command.begin(), {"run", kTree, "--clock", "virtual", "--record"});
+    const Outcome outcome = run_lockstep(command);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "--record: an MCAP file is compressed inside"));
+  }
+  const Outcome outcome = run_lockstep({"log", "info", record(directory, "run.mcap")});
+  CHECK(outcome.code == 3);
+  CHECK(
+      contains(outcome.err, "run.mcap:1: it is an MCAP file, which lockstep writes and does not"));
+}
+
 TEST_CASE("log csv --from --to is the part of the table, also where the rest is damaged") {
   const TemporaryDirectory directory;
   const std::string plain = record(directory, "run.jsonl");

@@ -1,8 +1,9 @@
-// What `log export --format mcap` writes, read with the packages of MCAP's authors, is the recording: each status,
+// What `log export --format mcap` and `run --record FILE.mcap` write, read with the packages of MCAP's authors, is the recording: each status,
 // progress, entry and log line, at its time; and the summary is right.
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
+import { once } from "node:events";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, test } from "node:test";
@@ -135,4 +136,42 @@ test("a reader that goes through the file from its begin finds no error", async 
   for (let record; (record = reader.nextRecord()); ) messages += record.type === "Message" ? 1 : 0;
   assert(reader.done());
   assert.equal(BigInt(messages), (await open(file)).statistics.messageCount);
+});
+
+for (const tree of ["fetch_and_carry", "philosophers", "replanning"]) {
+  test(`${tree}: run --record FILE.mcap has the messages of the export`, async () => {
+    const path = join(source, `trees/${tree}.xml`), direct = join(folder, "direct.mcap");
+    const exported = await messagesOf(convert(record(path, ["--max-ticks", "20000"])));
+    spawnSync(lockstep, ["run", path, "--clock", "virtual", "--record", direct, "--max-ticks", "20000"]);
+    assert.deepEqual(await messagesOf(direct), exported);
+  });
+}
+
+// A run on the robot's clock that is ended by a signal as soon as its file has some chunks.
+async function ended(signal) {
+  const file = join(folder, `${signal}.mcap`);
+  const args = ["run", join(source, "trees/fetch_and_carry.xml"), "--rate", "1000", "--record", file];
+  const run = spawn(lockstep, args, { stdio: "ignore" });
+  const end = once(run, "exit");
+  while (!existsSync(file) || statSync(file).size < 20_000) await new Promise(setImmediate);
+  run.kill(signal);
+  await end;
+  return file;
+}
+
+test("a run that is ended by SIGTERM has a complete file, with times since 1970", async () => {
+  const began = BigInt(Date.now()) * 1_000_000n;
+  const topics = await messagesOf(await ended("SIGTERM"));
+  const log = topics.get("/lockstep/log");
+  assert.match(log.at(-1)[1].message, /^run ended: stopped \(signal\)$/);
+  const [first] = topics.get("/lockstep/status")[0];
+  assert(first >= began - 1_000_000_000n && first <= BigInt(Date.now()) * 1_000_000n);
+});
+
+test("of a run that is killed, a reader that goes through the file has all whole chunks", async () => {
+  const reader = new McapStreamReader({ decompressHandlers: await loadDecompressHandlers(), validateCrcs: true });
+  reader.append(readFileSync(await ended("SIGKILL")));
+  let messages = 0;
+  for (let record; (record = reader.nextRecord()); ) messages += record.type === "Message" ? 1 : 0;
+  assert(messages > 100);
 });

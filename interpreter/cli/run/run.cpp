@@ -8,6 +8,7 @@
 #include "cli/load/given_leaves.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
+#include "cli/run/mcap_recording.h"
 #include "cli/run/progress_notes.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
@@ -187,6 +188,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RecorderOptions recorder_options() {
     RecorderOptions recorder{.path = options_.record, .run = description_};
     recorder.compresses = options_.record_compress;
+    if (options_.record.ends_with(".mcap")) recorder.encoder = mcap_recording(options_.is_wall());
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
   }
@@ -340,7 +342,16 @@ void take_what_is_said(const GivenLeaves& leaves, RunCommandOptions& options) {
   if (!is_limited) options.max_ticks = leaves.ticks();
 }
 
+// The chunks of an MCAP file are compressed.
+bool is_compressed_twice(const RunCommandOptions& options) {
+  const bool is_mcap = options.record.ends_with(".mcap");
+  if (!options.record.ends_with(".mcap.zst") && !(is_mcap && options.record_compress)) return false;
+  print_error("--record: an MCAP file is compressed inside", "name it FILE.mcap, and nothing more");
+  return true;
+}
+
 int run(RunCommandOptions options) {
+  if (is_compressed_twice(options)) return kExitUsage;
   // First, while /dev/stdout still is what the user means by it.
   if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
     return kExitUsage;

@@ -209,7 +209,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   define_property_options(app, options);
   app.add_option("--record", options.record,
                  "Write a recording (JSON Lines; see docs/recording.md); FILE.jsonl.zst compresses "
-                 "it")
+                 "it, FILE.mcap is for Foxglove and PlotJuggler")
       ->type_name("FILE.jsonl");
   app.add_flag("--record-compress", options.record_compress,
                "Compress the recording with zstd, whatever its name")

@@ -15,6 +15,12 @@ RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limi
     if (error_.empty()) error_ = name_ + ":1: the file is empty, expected a recording";
     return;
   }
+  if (lines_.text().starts_with("\x89MCAP")) {
+    fail(
+        "it is an MCAP file, which lockstep writes and does not read; `run --record FILE.jsonl` "
+        "records for log and replay, and `log export` makes MCAP of that");
+    return;
+  }
   read_line([this] { header_ = format_->header(lines_.text()); });
   states_.resize(header_.nodes.size());
   if (is_cut_) fail("the header is cut");

@@ -25,6 +25,8 @@ class McapFile {
   std::uint16_t add_channel(std::uint16_t schema, std::string_view topic);
   // `time` in nanoseconds; it must not fall.
   void add(std::uint16_t channel, std::uint64_t time, std::string_view json);
+  // Writes what has been added as a chunk.
+  void end_chunk();
   // Chunk, index and summary. False: the sink stopped it.
   bool finish();
   bool is_stopped() const { return is_stopped_; }
@@ -44,7 +46,6 @@ class McapFile {
   };
 
   void put(std::string_view bytes);
-  void end_chunk();
   std::string summary(std::string& offsets) const;
   std::string statistics() const;
 

@@ -1,9 +1,5 @@
 #include "recording/write/append_file.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <poll.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,8 +7,6 @@
 #include <cerrno>
 #include <ctime>
 #include <new>
-#include <stdexcept>
-#include <system_error>
 
 #include "core/clock.h"
 #include "live/packet_printer.h"
@@ -33,14 +27,6 @@ void enter(AppendFile* file) {
   }
 }
 
-// A pipe or a device that has no room says so, instead of waiting.
-void make_nonblocking(int file) {
-  struct stat status {};
-  if (fstat(file, &status) == 0 && !S_ISREG(status.st_mode)) {
-    ::fcntl(file, F_SETFL, O_APPEND | O_NONBLOCK);
-  }
-}
-
 void nap() {
   const timespec time{.tv_sec = 0, .tv_nsec = 1'000'000};
   nanosleep(&time, nullptr);
@@ -58,32 +44,15 @@ void leave(AppendFile* file) {
 }  // namespace
 
 AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFormat& format,
-                       Compression compression)
-    : ring_(queue),
-      format_(format),
-      path_(path),
-      out_(path),
-      file_(out_.descriptor()),
-      text_(kText) {
-  if (file_ < 0) {
-    error_ = out_.error();
-    failed_.store(true, std::memory_order_release);
-    return;
-  }
-  try {
-    if (compression == Compression::Zstd) frames_.emplace(kText);
-  } catch (const std::runtime_error& missing) {  // there is no such library
-    error_ = fmt::format("cannot write '{}': {}", path, missing.what());
-    failed_.store(true, std::memory_order_release);
-    return;
-  }
-  make_nonblocking(file_);
+                       const FileForm& form)
+    : ring_(queue), format_(format), file_(path, form, patience_), text_(GrowingFile::kText) {
+  take_failure();
+  if (failed()) return;
   thread_ = own_thread([this] {
     try {
       write_until_stopped();
     } catch (const std::bad_alloc&) {  // what waits for the file must not wait for ever
-      error_ = "out of memory";
-      failed_.store(true, std::memory_order_release);
+      fail("out of memory");
       done_.ring();
       throw;
     }
@@ -134,14 +103,18 @@ void AppendFile::flush() {
 void AppendFile::write_until_stopped() {
   while (true) {
     const std::uint32_t seen = work_.rung();
-    const bool last = stopping_.load(std::memory_order_acquire);
-    if (claim()) {
+    const bool stops = stopping_.load(std::memory_order_acquire);
+    const bool last = stops || (in_crash_.load() && file_.has_encoder());
+    if (!has_ended_ && claim()) {
       write_out(Failure::Told);
-      if (last) end_compressed();
+      last ? file_.end() : file_.pass_time();
+      take_failure();
+      has_ended_ = last;
+      if (last && !stops) fail("the process crashed");
       release();
     }
     done_.ring();
-    if (last) return;
+    if (stops) return;
     work_.wait(seen, kLongestDelay);
   }
 }
@@ -157,129 +130,27 @@ void AppendFile::write_out(Failure failure) {
     std::string_view text = printer.print(text_);
     const std::uint64_t again = std::min<std::uint64_t>(known, text.size());
     known -= again;
-    write_text(text.substr(again), failure);
-    if (failed()) return;
+    file_.add(text.substr(again), failure, written_);
+    if (file_.failed()) return take_failure();
     written_ = printer.unfinished_text();
     ring_.take_until(printer.finished());
   }
 }
 
-void AppendFile::write_text(std::string_view text, Failure failure) {
-  if (text.empty()) return;
-  if (frames_) {
-    write_compressed(text, failure);
-  } else {
-    write_plain(text, failure);
-  }
+void AppendFile::take_failure() {
+  if (file_.failed()) fail(file_.error());
 }
 
-void AppendFile::write_plain(std::string_view text, Failure failure) {
-  while (!failed() && !text.empty()) {
-    const std::string_view written = text.substr(0, write_some(text, failure));
-    written_ += written.size();
-    const auto newline = written.rfind('\n');
-    if (newline == std::string_view::npos) {
-      unfinished_ += written.size();
-    } else {
-      unfinished_ = written.size() - newline - 1;
-      take_name(failure);
-    }
-    text.remove_prefix(written.size());
-  }
-}
-
-// The text is in the file when the whole block is.
-void AppendFile::write_compressed(std::string_view text, Failure failure) {
-  if (frames_->was_left()) end_frame(failure);
-  write_whole(frames_->add(text), failure);
+// With the first reason.
+void AppendFile::fail(const std::string& error) {
   if (failed()) return;
-  if (failure == Failure::Told) frames_->make_room();
-  written_ += text.size();
-  if (text.find('\n') != std::string_view::npos) take_name(failure);
-}
-
-// A compressed file is complete then for any reader of zstd.
-void AppendFile::end_frame(Failure failure) {
-  if (frames_ && !failed()) write_whole(frames_->end(), failure);
-}
-
-void AppendFile::end_compressed() {
-  end_frame(Failure::Told);
-  if (frames_ && !failed()) write_whole(frames_->table(), Failure::Told);
-}
-
-void AppendFile::write_whole(std::string_view bytes, Failure failure) {
-  while (!failed() && !bytes.empty()) {
-    const std::size_t count = write_some(bytes, failure);
-    unfinished_ += count;
-    bytes.remove_prefix(count);
-  }
-  if (!failed()) unfinished_ = 0;
-}
-
-// How many bytes: 0 if it was interrupted, or has failed.
-std::size_t AppendFile::write_some(std::string_view bytes, Failure failure) {
-  const ssize_t count = ::write(file_, bytes.data(), bytes.size());
-  if (count >= 0) return static_cast<std::size_t>(count);
-  if (errno == EAGAIN && failure == Failure::Told) {
-    if (!await_room()) give_up("write", failure);
-  } else if (errno != EINTR) {
-    give_up("write", failure);
-  }
-  return 0;
-}
-
-// With the first whole line.
-void AppendFile::take_name(Failure failure) {
-  if (has_line_) return;
-  has_line_ = true;
-  if (!out_.take_name()) give_up("replace", failure);
+  error_ = error;
+  failed_.store(true, std::memory_order_release);
 }
 
 void AppendFile::set_patience(Nanoseconds patience) {
-  patient_since_ = monotonic_now();
-  patience_ = patience;
-}
-
-// False: there is no patience left.
-bool AppendFile::await_room() {
-  constexpr int kLook = 20;  // milliseconds
-  const Nanoseconds since = monotonic_now();
-  pollfd room{file_, POLLOUT, 0};
-  while (poll(&room, 1, kLook) <= 0) {
-    const Nanoseconds patience = patience_;
-    is_out_of_patience_ = monotonic_now() - std::max(since, patient_since_.load()) >= patience;
-    if (is_out_of_patience_) return false;
-  }
-  return true;
-}
-
-void AppendFile::give_up(const char* what, Failure failure) {
-  const int reason = errno;
-  cut_back();
-  errno = reason;
-  if (failure == Failure::Told) return fail(what);
-  failed_.store(true, std::memory_order_release);
-}
-
-// A disk that fills up accepts a part of a line. Counted from the end: somebody may have emptied
-// the file meanwhile.
-void AppendFile::cut_back() {
-  const off_t end = ::lseek(file_, 0, SEEK_END);
-  const auto unfinished = static_cast<off_t>(unfinished_);
-  // If even that fails, readers know what to do with half a line.
-  if (unfinished > 0 && end >= unfinished && ::ftruncate(file_, end - unfinished) == 0) {
-    unfinished_ = 0;
-  }
-}
-
-void AppendFile::fail(const char* what) {
-  const std::string reason =
-      is_out_of_patience_ ? fmt::format("nobody took anything for {:.2g} s at the end of the run",
-                                        to_seconds(patience_.load()))
-                          : std::generic_category().message(errno);
-  error_ = fmt::format("cannot {} '{}': {}", what, path_, reason);
-  failed_.store(true, std::memory_order_release);
+  patience_.since = monotonic_now();
+  patience_.most = patience;
 }
 
 void AppendFile::emergency_flush() {
@@ -294,19 +165,21 @@ void AppendFile::emergency_flush() {
 }
 
 void AppendFile::save(std::chrono::nanoseconds deadline) {
-  if (ring_.pushed() == 0) return out_.remove();
+  if (ring_.pushed() == 0) return file_.remove();
   // Later packets, of a tick thread that still runs, are not waited for: it might never end.
   const std::uint64_t until = ring_.pushed();
-  const auto is_done = [&] { return failed() || ring_.taken() >= until; };
+  const auto is_done = [&] {
+    return failed() || (file_.has_encoder() ? has_ended_.load() : ring_.taken() >= until);
+  };
   // If the crash is in the writing thread, there is nothing to wait for.
   const bool mine = claim_.load() == gettid();
+  in_crash_ = true;
   work_.ring();
   while (!mine && !is_done() && monotonic_now() < deadline) nap();
-  if (is_done() || !(mine || claim())) return;
-  // An unread pipe must not delay the end of the process.
-  ::fcntl(file_, F_SETFL, O_APPEND | O_NONBLOCK);
+  if (is_done() || file_.has_encoder() || !(mine || claim())) return;
+  file_.begin_crash();
   write_out(Failure::Silent);
-  end_frame(Failure::Silent);
+  file_.end_in_crash();
   release();
 }
 

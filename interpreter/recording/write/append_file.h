@@ -8,22 +8,17 @@
 
 #include <atomic>
 #include <chrono>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
-#include "compression/zstd_frames.h"
 #include "core/clock.h"
 #include "live/packet_ring.h"
+#include "recording/write/growing_file.h"
 #include "recording/write/json_lines.h"
 #include "system/bell.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
-
-enum class Compression { None, Zstd };
 
 class AppendFile {
  public:
@@ -32,14 +27,11 @@ class AppendFile {
   // the queue, are collected.
   static constexpr std::chrono::milliseconds kLongestDelay{100};
   static constexpr std::size_t kFull = 64u << 10;  // bytes
-  static constexpr std::size_t kText = 64u << 10;  // bytes that are written at once
   static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
-  // Creates the file; on failure error() has the reason. The file gets its name, and replaces an
-  // existing file, when its first line is written: system/output_file.h.
+  // Creates the file; on failure error() has the reason.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
-                      const LineFormat& format = json_lines(),
-                      Compression compression = Compression::None);
+                      const LineFormat& format = json_lines(), const FileForm& form = {});
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
@@ -59,7 +51,7 @@ class AppendFile {
   // From now on, a pipe or a device that takes nothing for so long is an error. Before, it is
   // waited for without end. (The system lets nobody stop waiting for a disk.)
   void set_patience(Nanoseconds patience);
-  bool ran_out_of_patience() const { return failed() && is_out_of_patience_; }
+  bool ran_out_of_patience() const { return failed() && patience_.is_over; }
 
   bool failed() const { return failed_.load(std::memory_order_acquire); }
   // "" if there is no error, else "cannot write 'x': No space left on device".
@@ -71,50 +63,35 @@ class AppendFile {
   static void emergency_flush();
 
  private:
-  enum class Failure { Told, Silent };
+  using Failure = GrowingFile::Failure;
 
   void write_until_stopped();
   void write_out(Failure failure);
-  void write_text(std::string_view text, Failure failure);
-  void write_plain(std::string_view text, Failure failure);
-  void write_compressed(std::string_view text, Failure failure);
-  void end_frame(Failure failure);
-  void end_compressed();
-  void write_whole(std::string_view bytes, Failure failure);
-  std::size_t write_some(std::string_view bytes, Failure failure);
-  void take_name(Failure failure);
-  bool await_room();
-  void give_up(const char* what, Failure failure);
-  void cut_back();
-  void fail(const char* what);
+  void take_failure();
+  void fail(const std::string& error);
   void save(std::chrono::nanoseconds deadline);
   bool claim();
   void release();
 
   PacketRing ring_;
   const LineFormat& format_;
-  const std::string path_;
-  OutputFile out_;
-  const int file_;
+  Patience patience_;
+  GrowingFile file_;
   std::string error_;  // constant once failed_ is set
   std::atomic<bool> failed_{false};
-  bool is_out_of_patience_ = false;  // the same
-  std::atomic<Nanoseconds> patience_{Nanoseconds::max()}, patient_since_{Nanoseconds(0)};
 
   std::uint64_t called_for_ = 0;  // bytes that had been pushed when the thread was last woken
   Bell work_;                     // for the thread
   Bell done_;                     // of the thread
   std::atomic<bool> stopping_{false};
+  std::atomic<bool> in_crash_{false};  // the file is completed now, where only the thread can
 
   // The thread that takes packets out and writes them; 0: none. It prevents that a byte is written
   // twice.
   std::atomic<pid_t> claim_{0};
-  std::vector<char> text_;  // what it prints to
-  std::optional<ZstdFrames> frames_;
+  std::atomic<bool> has_ended_{false};  // the file is complete
+  std::vector<char> text_;              // what the thread prints to
   std::uint64_t written_ = 0;  // bytes of the text of the packets in the ring, in the file already
-  // Bytes at the end of the file that are not a whole line; of a compressed file, a whole block.
-  std::uint64_t unfinished_ = 0;
-  bool has_line_ = false;  // a whole one is in the file
   std::thread thread_;
 };
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <stdexcept>
 #include <utility>
 
 namespace lockstep::host {
@@ -20,17 +22,25 @@ std::size_t queue_of(const Tree& tree, std::size_t wanted) {
 // A recording of a large tree in which little happens is not much longer because of whole states.
 constexpr std::uint64_t kWholeShare = 16;
 
-Compression compression_of(const RecorderOptions& options) {
+std::unique_ptr<TextEncoder> refuse_mcap() {
+  throw std::runtime_error(
+      "this program writes JSON Lines only; `lockstep log export run.jsonl --format mcap` makes "
+      "MCAP of them");
+}
+
+// A name says what is in a file.
+FileForm form_of(const RecorderOptions& options) {
+  if (options.path.ends_with(".mcap") && !options.encoder) return {.encoder = refuse_mcap};
   const bool compresses = options.compresses || options.path.ends_with(".zst");
-  return compresses ? Compression::Zstd : Compression::None;
+  return {.compression = compresses ? Compression::Zstd : Compression::None,
+          .encoder = options.encoder};
 }
 
 }  // namespace
 
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : options_(std::move(options)),
-      file_(options_.path, queue_of(tree, options_.queue), options_.format,
-            compression_of(options_)),
+      file_(options_.path, queue_of(tree, options_.queue), options_.format, form_of(options_)),
       packets_(tree, options_.run, options_.format),
       next_whole_(options_.whole_each),
       bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}

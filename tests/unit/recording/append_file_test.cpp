@@ -146,7 +146,7 @@ std::string decompressed(const std::string& bytes) {
 TEST_CASE("a compressed file has each line when it is flushed, in far fewer bytes") {
   const TemporaryPath path;
   {
-    AppendFile file(path.path(), kQueue, json_lines(), Compression::Zstd);
+    AppendFile file(path.path(), kQueue, json_lines(), {.compression = Compression::Zstd});
     file.write(packet(lines(0, 10)));
     CHECK(decompressed(path.text()) == lines(0, 10));
     file.write(packet(lines(10, 100'000)));  // longer than the queue, and more than a frame
@@ -160,7 +160,7 @@ TEST_CASE("a compressed file that cannot grow can be read up to a whole line") {
   const TemporaryPath path;
   std::string error;
   {
-    AppendFile file(path.path(), kQueue, json_lines(), Compression::Zstd);
+    AppendFile file(path.path(), kQueue, json_lines(), {.compression = Compression::Zstd});
     file.write(packet(lines(0, 100)));
     const FileSizeLimit limit(path.text().size() + 20);
     file.write(packet(lines(100, 1000)));
@@ -213,7 +213,8 @@ TEST_CASE("what was pushed before a crash is in the file") {
 TEST_CASE("what was pushed before a crash is in a compressed file, and goes on in its frame") {
   const TemporaryPath path;
   const int code = in_child([&]() -> int {
-    AppendFile file(path.path(), AppendFile::kQueue, json_lines(), Compression::Zstd);
+    AppendFile file(path.path(), AppendFile::kQueue, json_lines(),
+                    {.compression = Compression::Zstd});
     file.write(packet(lines(0, 1000)));
     file.push(packet(lines(1000, 2000)));
     crash();
@@ -224,7 +225,8 @@ TEST_CASE("what was pushed before a crash is in a compressed file, and goes on i
 
 TEST_CASE("a crash handler compresses by itself when the thread does not answer") {
   const TemporaryPath path;
-  AppendFile file(path.path(), AppendFile::kQueue, json_lines(), Compression::Zstd);
+  AppendFile file(path.path(), AppendFile::kQueue, json_lines(),
+                  {.compression = Compression::Zstd});
   file.write(packet(lines(0, 10)));
   const int code = in_child([&]() -> int {
     file.push(packet(lines(10, 1000)));

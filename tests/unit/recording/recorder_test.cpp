@@ -1,6 +1,8 @@
 // The recorder when the disk is slow or fails. What it writes when all is well: recording_test.cpp.
 #include "recording/write/recorder.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -177,6 +179,18 @@ TEST_CASE("a message that is longer than the queue loses its tick, not the recor
   CHECK(ticks == 4);
   CHECK(reader.gaps().starts_with("1 tick is missing, the first is 2:"));
   CHECK(reader.end());
+}
+
+TEST_CASE("a recorder that cannot make MCAP refuses its name, and leaves no file") {
+  WatchedRun run("Sequence(a b)", "a=S b=S");
+  const TemporaryPath folder;
+  const std::string path = folder.path() + ".mcap";
+  {
+    Recorder recorder(run.run.tree(), {.path = path, .run = {.tree_file = "a.xml"}});
+    CHECK(recorder.error().starts_with("cannot write '" + path +
+                                       "': this program writes JSON Lines"));
+  }
+  CHECK(::access(path.c_str(), F_OK) != 0);
 }
 
 }  // namespace
