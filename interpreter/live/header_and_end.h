@@ -41,6 +41,7 @@ struct RecordingHeader {
   std::map<std::string, std::string, std::less<>> arguments = {};
   std::vector<RecordedNode> nodes = {};   // by index: pre-order
   std::vector<RecordedKey> entries = {};  // those that the recording shows
+  std::uint64_t first_tick = 0;           // of a recording in parts, in this part
   std::string verify = {};                // what verify has found; "": it is any other run
 };
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/clock.h"
 #include "engine/ticker.h"
@@ -62,6 +63,14 @@ class LineFormat {
   };
   virtual Put put_nodes(std::span<char> room, std::span<const NodeChange> nodes,
                         bool first) const = 0;
+
+  // --- on the writing thread, for a recording in parts
+  // -----------------------------------------------
+
+  // The header of a later part.
+  virtual std::string part_header(std::string_view header, std::uint64_t first_tick) const = 0;
+  // The last line of a part: the run goes on in another one, and had so many ticks before it.
+  virtual std::string part_end(std::uint64_t ticks) const = 0;
 
  protected:
   ~LineFormat() = default;

@@ -42,7 +42,8 @@ struct PacketHead {
   std::int64_t time = 0;    // ns
   std::uint64_t text = 0;   // bytes; push() sets it
   std::uint32_t nodes = 0;  // how many, likewise
-  std::uint32_t is_tick = 0;
+  std::uint16_t is_tick = 0;
+  std::uint16_t begins_part = 0;  // a tick with the whole state, the first in another file
 };
 
 // After the head come the changes of nodes, then text as it is in the file: for a tick what

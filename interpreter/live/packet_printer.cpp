@@ -1,6 +1,7 @@
 #include "live/packet_printer.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lockstep::host {
 
@@ -25,6 +26,8 @@ bool PacketPrinter::begin_packet() {
     at_ = finished_ = pushed;
     return false;
   }
+  waits_for_part_ = head_.begins_part != 0 && !std::exchange(passes_part_, false);
+  if (waits_for_part_) return false;
   in_packet_ = opening_left_ = true;
   nodes_left_ = head_.nodes;
   text_left_ = head_.text;

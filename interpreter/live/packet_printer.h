@@ -20,8 +20,15 @@ class PacketPrinter {
   PacketPrinter(const PacketRing& ring, const LineFormat& format)
       : ring_(ring), format_(format), at_(ring.taken()), finished_(at_) {}
 
-  // The next part of the text that fits into `room`; "" when everything is printed.
+  // The next part of the text that fits into `room`; "" when everything is printed, and before a
+  // packet that begins another file.
   std::string_view print(std::span<char> room);
+  // The head of that packet; null: there is none. It is printed after pass_part().
+  const PacketHead* part() const { return waits_for_part_ ? &head_ : nullptr; }
+  void pass_part() {
+    waits_for_part_ = false;
+    passes_part_ = true;
+  }
 
   // Where in the ring the first packet begins that is not completely printed, and how many bytes of
   // its text are printed.
@@ -44,6 +51,7 @@ class PacketPrinter {
 
   // The rest of the packet that is being printed.
   bool in_packet_ = false;
+  bool waits_for_part_ = false, passes_part_ = false;
   bool opening_left_ = false;
   std::uint64_t nodes_left_ = 0, text_left_ = 0;
   PacketHead head_ = {};

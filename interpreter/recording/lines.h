@@ -130,6 +130,10 @@ constexpr Field kHeaderFields[] = {
      "only if there are any: the blackboard entries in the recording. `--record-entries` chooses "
      "them",
      &RecordingHeader::entries},
+    {"first_tick", "Whole", kMaybe,
+     "only in a part of a recording that is [not the first](#parts): the number of its first tick, "
+     "whose line has the whole state",
+     &RecordingHeader::first_tick},
     {"verify", "Text", kMaybe,
      "of a run that `lockstep verify` has found: the finding, and from which tick on it repeats",
      &RecordingHeader::verify},
@@ -221,6 +225,11 @@ constexpr Field kLostFields[] = {
 };
 constexpr Object kLost{"Lost", kLostFields};
 
+constexpr Field kContinuedFields[] = {
+    {"ticks", "Whole", kAlways, "how many ticks the run had until then"},
+};
+constexpr Object kContinued{"Continued", kContinuedFields};
+
 constexpr Field kEndFields[] = {
     {"result", "Text", kAlways,
      "the result of the root: `success`, `failure`, `skipped`, or `stopped` when it was still "
@@ -260,15 +269,20 @@ constexpr Field kLostLineFields[] = {
     {"lost", "Lost", kAlways, "instead of the lines of ticks for which there was no room"},
 };
 constexpr Object kLostLine{"LostLine", kLostLineFields};
+constexpr Field kContinuedLineFields[] = {
+    {"continued", "Continued", kAlways,
+     "the last line of a [part](#parts): the run goes on in the next one"},
+};
+constexpr Object kContinuedLine{"ContinuedLine", kContinuedLineFields};
 constexpr Field kEndLineFields[] = {
     {"end", "End", kAlways, "how the run ended"},
 };
 constexpr Object kEndLine{"EndLine", kEndLineFields};
 
-// Each line is one of the first four; the others are in them.
-constexpr Object kObjects[] = {kHeader,     kTick,        kLostLine, kEndLine,
-                               kHeaderNode, kHeaderEntry, kLost,     kEnd};
-constexpr std::size_t kKinds = 4;
+// Each line is one of the first five; the others are in them.
+constexpr Object kObjects[] = {kHeader,     kTick,        kLostLine, kContinuedLine, kEndLine,
+                               kHeaderNode, kHeaderEntry, kLost,     kContinued,     kEnd};
+constexpr std::size_t kKinds = 5;
 
 // Visits the members that the table names, in its order. (const Field&, value&)
 template <class Record, class Visit>

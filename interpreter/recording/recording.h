@@ -66,6 +66,11 @@ struct RecordedGap {
   std::uint64_t from = 0;  // the first
 };
 
+// The end of a file, after which the run goes on in another one.
+struct RecordedPartEnd {
+  std::uint64_t ticks = 0;  // of the run until then
+};
+
 // "Sequence", "ParallelAbsolute barriers=0.25;0.5".
 std::string kind_text(const RecordedNode& node);
 // By index: whether the node uses resources of a pool.

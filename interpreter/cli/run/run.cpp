@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
 
 #include "cli/command.h"
 #include "cli/console.h"
@@ -16,6 +18,7 @@
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "recording/part_names.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
 #include "runtime/loop.h"
@@ -188,6 +191,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   RecorderOptions recorder_options() {
     RecorderOptions recorder{.path = options_.record, .run = description_};
     recorder.compresses = options_.record_compress;
+    recorder.rotation = options_.rotation;
     if (options_.record.ends_with(".mcap")) recorder.encoder = mcap_recording(options_.is_wall());
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
@@ -350,12 +354,35 @@ bool is_compressed_twice(const RunCommandOptions& options) {
   return true;
 }
 
+// The files that a recording replaces.
+std::vector<std::string> replaced_files(const RunCommandOptions& options) {
+  std::vector<std::string> files;
+  if (!options.record.empty()) files.push_back(options.record);
+  if (options.rotation.is_wanted()) {
+    for (std::string& it : parts_that_exist(options.record)) files.push_back(std::move(it));
+  }
+  return files;
+}
+
+bool would_replace(const RunCommandOptions& options, std::span<const NamedFile> used) {
+  return std::ranges::any_of(replaced_files(options), [&](const std::string& file) {
+    return would_overwrite("--record", file, used);
+  });
+}
+
+bool can_rotate(const RunCommandOptions& options) {
+  std::error_code none;
+  const bool is_special = std::filesystem::exists(options.record, none) &&
+                          !std::filesystem::is_regular_file(options.record, none);
+  if (!options.rotation.is_wanted() || !is_special) return true;
+  print_error(fmt::format("--record-rotate: '{}' is not a file", printable(options.record)));
+  return false;
+}
+
 int run(RunCommandOptions options) {
   if (is_compressed_twice(options)) return kExitUsage;
   // First, while /dev/stdout still is what the user means by it.
-  if (!options.record.empty() && would_overwrite("--record", options.record, standard_outputs())) {
-    return kExitUsage;
-  }
+  if (would_replace(options, standard_outputs()) || !can_rotate(options)) return kExitUsage;
   keep_stdout_for_results();
   CrashReport::set_last_words(last_words);
   GivenLeaves leaves;  // to which the tree refers
@@ -371,9 +398,7 @@ int run(RunCommandOptions options) {
   StopSignals::install(last_words);
   if (!place_helpers(options)) return kExitUsage;
   const Outlet::Thread messages_thread(messages());
-  if (!options.record.empty() &&
-      would_overwrite("--record", options.record, inputs_of_run(options, *loaded)))
-    return kExitUsage;
+  if (would_replace(options, inputs_of_run(options, *loaded))) return kExitUsage;
   auto sockets = listen_for_watchers(options, loaded->definition);
   if (!sockets) {
     print_error(sockets.error().message, sockets.error().hint);

@@ -7,6 +7,7 @@
 
 #include "cli/checks.h"
 #include "cli/load/given_leaves.h"
+#include "cli/run/rotation.h"
 #include "runtime/deadlines.h"
 #include "runtime/stop_signals.h"
 
@@ -173,6 +174,31 @@ void define_groot_options(CLI::App& app, RunCommandOptions& options) {
                "Let everyone who reaches that address pause the run, by the breakpoints of Groot2");
 }
 
+void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
+  app.add_option_function<std::string>(
+         "--record-rotate",
+         [&options](const std::string& text) {
+           const std::uint64_t keep = options.rotation.keep;
+           options.rotation = *rotation_from(text);
+           options.rotation.keep = keep;
+         },
+         "Begin another file after so much: 500MB, 2GiB, 30min, 8h. FILE.jsonl becomes "
+         "FILE.0001.jsonl, FILE.0002.jsonl, …")
+      ->type_name("SIZE|TIME")
+      ->check([](const std::string& text) {
+        return rotation_from(text)
+                   ? std::string()
+                   : "expected a size from 1kB on (kB, MB, GB, KiB, MiB, GiB) or a time from 0.1s "
+                     "on (s, min, h), as 500MB or 30min";
+      })
+      ->needs("--record");
+  app.add_option("--record-keep", options.rotation.keep,
+                 "With --record-rotate: keep so many files, the last ones (default: all)")
+      ->type_name("N")
+      ->transform(whole_number(1))
+      ->needs("--record-rotate");
+}
+
 }  // namespace
 
 std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
@@ -214,6 +240,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_flag("--record-compress", options.record_compress,
                "Compress the recording with zstd, whatever its name")
       ->needs("--record");
+  define_rotation_options(app, options);
   app.add_option(
          "--record-entries", options.record_entries,
          "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "

@@ -8,6 +8,7 @@
 #include "cli/load/load_options.h"
 #include "cli/properties.h"
 #include "lockstep/leaf.h"
+#include "recording/write/recorder.h"
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
 
@@ -39,6 +40,7 @@ struct RunCommandOptions {
 
   std::string record;
   bool record_compress = false;
+  Rotation rotation = {};
   bool stop_on_record_error = false;
   std::string view = "auto";
   lockstep_log_level log_level = LOCKSTEP_LOG_INFO;

@@ -33,6 +33,11 @@ int no_such_tick(std::uint64_t tick, std::uint64_t first, std::uint64_t last) {
   return kExitUsage;
 }
 
+int before_first(std::uint64_t tick, std::uint64_t first) {
+  print_error(fmt::format("--at {}: this part of the recording begins with tick {}", tick, first));
+  return kExitUsage;
+}
+
 int no_ticks() {
   print_error("the recording has no tick to show");
   return kExitUsage;
@@ -48,9 +53,10 @@ struct Search {
 Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
   Search search;
   reader.skip_to(at.value_or(UINT64_MAX));
-  std::uint64_t expected = 0;
+  std::uint64_t expected = reader.header().first_tick;
+  if (at && *at < expected) return search;
   while (const auto tick = reader.next()) {
-    if (search.ticks++ == 0) expected = tick->whole ? tick->tick : 0;
+    if (search.ticks++ == 0) expected = tick->whole ? tick->tick : expected;
     search.last = tick->tick;
     search.is_read = !at || tick->tick <= *at;
     if (!search.is_read) break;
@@ -62,11 +68,13 @@ Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
 
 int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   const Search found = search(reader, options.at);
+  const std::uint64_t first = reader.header().first_tick;
+  if (options.at && *options.at < first) return before_first(*options.at, first);
   RecordingOutcome outcome = reader.outcome();
   if (!found.is_read) outcome.cut.clear();  // that is not known
   const int code = report_end(outcome);
   if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
-  if (options.at && *options.at > found.last) return no_such_tick(*options.at, 0, found.last);
+  if (options.at && *options.at > found.last) return no_such_tick(*options.at, first, found.last);
   const Moment& moment = found.found;
   if (options.at && moment.tick != *options.at) {
     print_error(fmt::format("tick {} is not in the recording: {} is the last before it",

@@ -269,6 +269,7 @@ RecordedEnd end_from(JsonObject object) {
 RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedState>& states) {
   std::optional<RecordedEnd> end;
   std::optional<RecordedGap> gap;
+  std::optional<RecordedPartEnd> part_end;
   std::optional<std::uint64_t> tick;
   std::optional<double> time;
   bool has_nodes = false, is_whole = false;
@@ -310,26 +311,35 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     read_entries(whole_)(value);
   };
   json_.read(line, [&](JsonObject object) {
-    object.read({{lines::kTick["tick"], [&](JsonValue value) { tick = value.whole(); }, kMayLack},
-                 {lines::kTick["time_s"],
-                  [&](JsonValue value) { into_seconds(time.emplace())(value); }, kMayLack},
-                 {lines::kTick["nodes"], read_nodes, kMayLack},
-                 {lines::kTick["limits"], read_limits, kMayLack},
-                 {lines::kTick["rounds"], read_rounds, kMayLack},
-                 {lines::kTick["succeeded"], read_succeeded, kMayLack},
-                 {lines::kTick["faults"], read_faults, kMayLack},
-                 {lines::kTick["entries"], read_entries(entries_), kMayLack},
-                 {lines::kTick["whole"], read_whole, kMayLack},
-                 {lines::kTick["logs"], into_logs(logs_), kMayLack},
-                 {lines::kLostLine["lost"],
-                  [&](JsonValue value) { gap = gap_from(value.object()); }, kMayLack},
-                 {lines::kEndLine["end"], [&](JsonValue value) { end = end_from(value.object()); },
-                  kMayLack}});
+    object.read(
+        {{lines::kTick["tick"], [&](JsonValue value) { tick = value.whole(); }, kMayLack},
+         {lines::kTick["time_s"], [&](JsonValue value) { into_seconds(time.emplace())(value); },
+          kMayLack},
+         {lines::kTick["nodes"], read_nodes, kMayLack},
+         {lines::kTick["limits"], read_limits, kMayLack},
+         {lines::kTick["rounds"], read_rounds, kMayLack},
+         {lines::kTick["succeeded"], read_succeeded, kMayLack},
+         {lines::kTick["faults"], read_faults, kMayLack},
+         {lines::kTick["entries"], read_entries(entries_), kMayLack},
+         {lines::kTick["whole"], read_whole, kMayLack},
+         {lines::kTick["logs"], into_logs(logs_), kMayLack},
+         {lines::kLostLine["lost"], [&](JsonValue value) { gap = gap_from(value.object()); },
+          kMayLack},
+         {lines::kContinuedLine["continued"],
+          [&](JsonValue value) {
+            value.object().read({{lines::kContinued["ticks"], into(part_end.emplace().ticks)}});
+          },
+          kMayLack},
+         {lines::kEndLine["end"], [&](JsonValue value) { end = end_from(value.object()); },
+          kMayLack}});
   });
   const bool is_tick = tick || time || has_nodes;
-  if (is_tick + gap.has_value() + end.has_value() > 1) throw JsonError("a line of two kinds");
+  if (is_tick + gap.has_value() + part_end.has_value() + end.has_value() > 1) {
+    throw JsonError("a line of two kinds");
+  }
   if (end) return *std::move(end);
   if (gap) return *gap;
+  if (part_end) return *part_end;
   if (!tick) throw JsonError("'tick' is missing");
   if (!time) throw JsonError("'time_s' is missing");
   if (!has_nodes) throw JsonError("'nodes' is missing");
@@ -357,6 +367,12 @@ std::optional<std::uint64_t> RecordingJson::tick_of(std::string_view line) {
 bool RecordingJson::is_end(std::string_view line) {
   constexpr std::string_view kBegin = "{\"end\":";
   static_assert(kBegin.substr(2, 3) == lines::kEndLine["end"]);
+  return line.starts_with(kBegin);
+}
+
+bool RecordingJson::is_part_end(std::string_view line) {
+  constexpr std::string_view kBegin = "{\"continued\":";
+  static_assert(kBegin.substr(2, 9) == lines::kContinuedLine["continued"]);
   return line.starts_with(kBegin);
 }
 

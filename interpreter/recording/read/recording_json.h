@@ -22,10 +22,11 @@ class RecordingJson {
   static std::optional<std::uint64_t> tick_of(std::string_view line);
   static bool may_be_whole(std::string_view line);
   static bool is_end(std::string_view line);
+  static bool is_part_end(std::string_view line);
 
   // Parses any other line. The changes of a tick are stored in `states`; what it points to is valid
   // until the next call.
-  using Line = std::variant<RecordedTick, RecordedGap, RecordedEnd>;
+  using Line = std::variant<RecordedTick, RecordedGap, RecordedPartEnd, RecordedEnd>;
   Line line(std::string& line, std::vector<RecordedState>& states);
 
  private:

@@ -23,6 +23,8 @@ RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limi
   }
   read_line([this] { header_ = format_->header(lines_.text()); });
   states_.resize(header_.nodes.size());
+  next_tick_ = header_.first_tick;
+  begins_here_ = has_skipped_ = header_.first_tick > 0;
   if (is_cut_) fail("the header is cut");
 }
 
@@ -45,6 +47,7 @@ bool RecordingReader::go_to(const Position& position, std::span<const RecordedSt
   last_time_ = position.time;
   // A tick is neither behind the closing line nor behind an error.
   end_.reset();
+  is_part_over_ = false;
   error_.clear();
   is_cut_ = false;
   return true;
@@ -53,10 +56,17 @@ bool RecordingReader::go_to(const Position& position, std::span<const RecordedSt
 // Any line but the header: its tick, if it is of one.
 std::optional<RecordedTick> RecordingReader::read_further() {
   if (end_) throw JsonError("a line after the closing line");
+  if (std::exchange(is_part_over_, false)) {
+    begin_part();
+    return std::nullopt;
+  }
   auto line = format_->line(lines_.text(), states_);
   std::visit([this](auto& it) { take(std::move(it)); }, line);
   auto* tick = std::get_if<RecordedTick>(&line);
-  if (std::exchange(begins_here_, false)) {
+  // Ticks before it may be lost.
+  const bool is_gap = std::holds_alternative<RecordedGap>(line);
+  if (begins_here_ && !is_gap) {
+    begins_here_ = false;
     if (tick == nullptr || !tick->whole) throw JsonError("'whole' is missing");
     tick->entries = *tick->whole;
   }
@@ -76,6 +86,25 @@ void RecordingReader::take(const RecordedGap& gap) {
   lost_ += gap.ticks;
 }
 
+void RecordingReader::take(const RecordedPartEnd& end) {
+  if (end.ticks != next_tick_)
+    throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
+  is_part_over_ = true;
+}
+
+// Files of one run, one behind the other.
+void RecordingReader::begin_part() {
+  const RecordingHeader header = format_->header(lines_.text());
+  if (header.nodes.size() != header_.nodes.size() || header.tree != header_.tree ||
+      header.entries.size() != header_.entries.size()) {
+    throw JsonError("the next part is of another run");
+  }
+  if (header.first_tick != next_tick_) {
+    throw JsonError(fmt::format("the next part begins with tick {}, expected {}", header.first_tick,
+                                next_tick_));
+  }
+}
+
 void RecordingReader::take(RecordedEnd end) {
   if (end.ticks != next_tick_)
     throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
@@ -87,8 +116,8 @@ void RecordingReader::take(RecordedEnd end) {
 // A line has only what has changed: without the one before it, it says nothing.
 void RecordingReader::pass_ticks(std::uint64_t first, std::uint64_t count) {
   if (first != next_tick_) {
-    throw JsonError(next_tick_ == 0
-                        ? fmt::format("the first tick is {}, expected 0", first)
+    throw JsonError(next_tick_ == header_.first_tick
+                        ? fmt::format("the first tick is {}, expected {}", first, next_tick_)
                         : fmt::format("tick {} comes after tick {}", first, next_tick_ - 1));
   }
   next_tick_ += count;
@@ -101,7 +130,7 @@ std::string RecordingReader::gaps() const {
 }
 
 std::string RecordingReader::cut() const {
-  if (end_ || !error_.empty()) return {};
+  if (end_ || is_part_over_ || !error_.empty()) return {};
   const std::uint64_t line = lines_.position().lines;
   if (!lines_.position().knows_lines) {
     return is_cut_ ? "its last line is cut, the run did not end there"

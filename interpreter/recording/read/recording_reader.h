@@ -63,8 +63,11 @@ class RecordingReader {
   // The gaps in the lines read so far: "" when no tick is lost, else "2 ticks are missing, the
   // first is 7: the disk was too slow".
   std::string gaps() const;
-  // After the last tick: "" if the recording is complete, else how it ends.
+  // After the last tick: "" if the recording is complete, else how it ends. A part is complete that
+  // says that the run goes on in another one.
   std::string cut() const;
+  // It is a part, and the run goes on in the next one.
+  bool goes_on() const { return is_part_over_; }
   RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
 
  private:
@@ -82,6 +85,8 @@ class RecordingReader {
   std::optional<RecordedTick> read_further();
   void take(const RecordedTick& tick);
   void take(const RecordedGap& gap);
+  void take(const RecordedPartEnd& end);
+  void begin_part();
   void take(RecordedEnd end);
   void pass_ticks(std::uint64_t first, std::uint64_t count);
   void fail(const std::string& message);
@@ -92,7 +97,8 @@ class RecordingReader {
   std::string error_;
   bool is_cut_ = false;  // within the last line
   bool has_skipped_ = false;
-  bool begins_here_ = false;  // with the next line, which has the whole state
+  bool is_part_over_ = false;  // the next line is a header
+  bool begins_here_ = false;   // with the next line, which has the whole state
   RecordingHeader header_;
   std::optional<RecordedEnd> end_;
   std::vector<RecordedState> states_;

@@ -42,7 +42,7 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
 
 RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOptions& options)
     : reader_(reader), options_(options) {
-  std::uint64_t expected = 0;
+  std::uint64_t expected = reader_.header().first_tick;
   Past past;
   while (const auto tick = reader_.next()) {
     keep(*tick, tick->tick - expected, past);

@@ -48,6 +48,9 @@ void write_tree(const RecordingHeader& header, const RecordedTick* last, std::st
 
 void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::string& out,
                bool color) {
+  if (const std::uint64_t first = reader.header().first_tick; first > 0) {
+    out += fmt::format("  a part that begins with tick {}\n", first);
+  }
   if (const auto& end = reader.end()) {
     out += fmt::format("  {} after {}, {:.3f} s", printable(ending(end->result, end->reason)),
                        counted(end->ticks, "tick"), end->time);
@@ -55,6 +58,11 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
                        counted(end->skipped, "deadline"));
     if (!end->fault.empty()) out += fmt::format("  fault: {}\n", printable(end->fault));
     for (const std::string& note : end->notes) out += fmt::format("  note: {}\n", printable(note));
+    return;
+  }
+  if (reader.goes_on()) {
+    out += fmt::format("  {}, until {:.3f} s; the run goes on in the next part\n",
+                       counted(ticks, "tick"), time);
     return;
   }
   out += fmt::format("  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,

@@ -7,9 +7,11 @@
 #include <cerrno>
 #include <ctime>
 #include <new>
+#include <utility>
 
 #include "core/clock.h"
 #include "live/packet_printer.h"
+#include "recording/part_names.h"
 #include "system/own_thread.h"
 
 namespace lockstep::host {
@@ -44,8 +46,15 @@ void leave(AppendFile* file) {
 }  // namespace
 
 AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFormat& format,
-                       const FileForm& form)
-    : ring_(queue), format_(format), file_(path, form, patience_), text_(GrowingFile::kText) {
+                       FileForm form, FileParts parts)
+    : ring_(queue),
+      format_(format),
+      path_(path),
+      form_(std::move(form)),
+      parts_(parts),
+      file_(std::make_unique<GrowingFile>(parts.are_wanted ? part_name(path, 1) : path, form_,
+                                          patience_)),
+      text_(GrowingFile::kText) {
   take_failure();
   if (failed()) return;
   thread_ = own_thread([this] {
@@ -104,10 +113,10 @@ void AppendFile::write_until_stopped() {
   while (true) {
     const std::uint32_t seen = work_.rung();
     const bool stops = stopping_.load(std::memory_order_acquire);
-    const bool last = stops || (in_crash_.load() && file_.has_encoder());
+    const bool last = stops || (in_crash_.load() && form_.encoder);
     if (!has_ended_ && claim()) {
       write_out(Failure::Told);
-      last ? file_.end() : file_.pass_time();
+      last ? file_->end() : file_->pass_time();
       take_failure();
       has_ended_ = last;
       if (last && !stops) fail("the process crashed");
@@ -128,17 +137,65 @@ void AppendFile::write_out(Failure failure) {
   std::uint64_t known = written_;
   while (!failed() && !ring_.empty()) {
     std::string_view text = printer.print(text_);
+    if (const PacketHead* next = printer.part()) {
+      if (text.empty()) {
+        if (failure == Failure::Told) begin_part(*next);
+        printer.pass_part();
+        continue;
+      }
+    }
     const std::uint64_t again = std::min<std::uint64_t>(known, text.size());
     known -= again;
-    file_.add(text.substr(again), failure, written_);
-    if (file_.failed()) return take_failure();
+    file_->add(text.substr(again), failure, written_);
+    if (file_->failed()) return take_failure();
+    if (parts_.are_wanted && failure == Failure::Told) remove_others();
+    part_size_.store(file_->size(), std::memory_order_relaxed);
     written_ = printer.unfinished_text();
     ring_.take_until(printer.finished());
   }
 }
 
+// The part before it is completed. It has no packet yet: its header is not in the ring.
+void AppendFile::begin_part(const PacketHead& head) {
+  const std::uint64_t number = part() + 1;
+  const std::uint64_t first_tick = head.lost > 0 ? head.lost_from : head.tick;
+  auto next = std::make_unique<GrowingFile>(part_name(path_, number), form_, patience_);
+  if (next->failed()) return fail(next->error());
+  is_between_parts_ = true;
+  add_text(format_.part_end(first_tick));
+  file_->end();
+  take_failure();
+  if (failed()) return;
+  file_ = std::move(next);
+  add_text(format_.part_header(header_, first_tick));
+  take_failure();
+  is_between_parts_ = false;
+  part_size_.store(file_->size(), std::memory_order_relaxed);
+  part_.store(number, std::memory_order_release);
+  if (parts_.keep > 0 && number > parts_.keep) {
+    ::unlink(part_name(path_, number - parts_.keep).c_str());
+  }
+}
+
+// What is not in the ring.
+void AppendFile::add_text(std::string_view text) {
+  std::uint64_t written = 0;
+  for (; !text.empty(); text.remove_prefix(std::min(text.size(), GrowingFile::kText))) {
+    file_->add(text.substr(0, GrowingFile::kText), Failure::Told, written);
+  }
+}
+
+// An earlier recording of this name. Its first part is replaced already.
+void AppendFile::remove_others() {
+  if (std::exchange(has_removed_others_, true)) return;
+  ::unlink(path_.c_str());
+  for (const std::string& it : parts_that_exist(path_)) {
+    if (it != part_name(path_, 1)) ::unlink(it.c_str());
+  }
+}
+
 void AppendFile::take_failure() {
-  if (file_.failed()) fail(file_.error());
+  if (file_->failed()) fail(file_->error());
 }
 
 // With the first reason.
@@ -165,21 +222,23 @@ void AppendFile::emergency_flush() {
 }
 
 void AppendFile::save(std::chrono::nanoseconds deadline) {
-  if (ring_.pushed() == 0) return file_.remove();
+  if (ring_.pushed() == 0) return file_->remove();
   // Later packets, of a tick thread that still runs, are not waited for: it might never end.
   const std::uint64_t until = ring_.pushed();
   const auto is_done = [&] {
-    return failed() || (file_.has_encoder() ? has_ended_.load() : ring_.taken() >= until);
+    return failed() || (form_.encoder ? has_ended_.load() : ring_.taken() >= until);
   };
   // If the crash is in the writing thread, there is nothing to wait for.
   const bool mine = claim_.load() == gettid();
   in_crash_ = true;
   work_.ring();
   while (!mine && !is_done() && monotonic_now() < deadline) nap();
-  if (is_done() || file_.has_encoder() || !(mine || claim())) return;
-  file_.begin_crash();
-  write_out(Failure::Silent);
-  file_.end_in_crash();
+  if (is_done() || form_.encoder || !(mine || claim())) return;
+  if (!is_between_parts_) {
+    file_->begin_crash();
+    write_out(Failure::Silent);
+    file_->end_in_crash();
+  }
   release();
 }
 

@@ -8,7 +8,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -19,6 +21,12 @@
 #include "system/bell.h"
 
 namespace lockstep::host {
+
+// A recording in several files: recording/part_names.h.
+struct FileParts {
+  bool are_wanted = false;
+  std::uint64_t keep = 0;  // so many, the last ones; 0: all
+};
 
 class AppendFile {
  public:
@@ -31,7 +39,10 @@ class AppendFile {
 
   // Creates the file; on failure error() has the reason.
   explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
-                      const LineFormat& format = json_lines(), const FileForm& form = {});
+                      const LineFormat& format = json_lines(), FileForm form = {},
+                      FileParts parts = {});
+  // The header for all parts. Before the first push().
+  void set_header(std::string header) { header_ = std::move(header); }
   // Flushes.
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
@@ -53,6 +64,10 @@ class AppendFile {
   void set_patience(Nanoseconds patience);
   bool ran_out_of_patience() const { return failed() && patience_.is_over; }
 
+  // Of the part that is being written: its number, from 1 on, and how much is on the disk.
+  std::uint64_t part() const { return part_.load(std::memory_order_acquire); }
+  std::uint64_t part_size() const { return part_size_.load(std::memory_order_relaxed); }
+
   bool failed() const { return failed_.load(std::memory_order_acquire); }
   // "" if there is no error, else "cannot write 'x': No space left on device".
   const std::string& error() const;
@@ -67,6 +82,9 @@ class AppendFile {
 
   void write_until_stopped();
   void write_out(Failure failure);
+  void begin_part(const PacketHead& head);
+  void add_text(std::string_view text);
+  void remove_others();
   void take_failure();
   void fail(const std::string& error);
   void save(std::chrono::nanoseconds deadline);
@@ -76,7 +94,14 @@ class AppendFile {
   PacketRing ring_;
   const LineFormat& format_;
   Patience patience_;
-  GrowingFile file_;
+  const std::string path_;
+  const FileForm form_;
+  const FileParts parts_;
+  std::string header_;
+  std::unique_ptr<GrowingFile> file_;
+  std::atomic<std::uint64_t> part_{1}, part_size_{0};
+  bool is_between_parts_ = false;
+  bool has_removed_others_ = false;
   std::string error_;  // constant once failed_ is set
   std::atomic<bool> failed_{false};
 

@@ -52,8 +52,7 @@ class GrowingFile {
   // Completes it. Nothing more may be added.
   void end();
 
-  // For a crash handler; async-signal-safe, as is add() with Failure::Silent.
-  bool has_encoder() const { return encoder_ != nullptr; }  // add() is for its thread only
+  // For a crash handler; async-signal-safe, as is add() with Failure::Silent. Not with an encoder.
   void end_in_crash();
   void begin_crash() const;  // nothing is waited for
   void remove() const { out_.remove(); }

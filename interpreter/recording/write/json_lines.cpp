@@ -280,6 +280,19 @@ class JsonLines final : public LiveFormat {
     return {to, count};
   }
 
+  // Behind the first key.
+  std::string part_header(std::string_view header, std::uint64_t first_tick) const override {
+    static_assert(lines::kHeaderFields[0].key == lines::kHeader["lockstep_recording"]);
+    const auto place = header.find(',') + 1;
+    return fmt::format("{}\"{}\":{},{}", header.substr(0, place), lines::kHeader["first_tick"],
+                       first_tick, header.substr(place));
+  }
+
+  std::string part_end(std::uint64_t ticks) const override {
+    const Json json = {{lines::kContinuedLine["continued"], {{lines::kContinued["ticks"], ticks}}}};
+    return json.text() + '\n';
+  }
+
   std::optional<std::uint64_t> tick_of(std::string_view line) const override {
     return tick_of_json(line);
   }

@@ -40,14 +40,17 @@ FileForm form_of(const RecorderOptions& options) {
 
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : options_(std::move(options)),
-      file_(options_.path, queue_of(tree, options_.queue), options_.format, form_of(options_)),
+      file_(options_.path, queue_of(tree, options_.queue), options_.format, form_of(options_),
+            {.are_wanted = options_.rotation.is_wanted(), .keep = options_.rotation.keep}),
       packets_(tree, options_.run, options_.format),
       next_whole_(options_.whole_each),
       bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}
 
 void Recorder::run_started(Ticker&, const RunStart& start) {
   may_wait_ = !start.real_time;
-  write(packets_.header(start));
+  const std::string header = packets_.header(start);
+  if (options_.rotation.is_wanted()) file_.set_header(header);
+  write(header);
 }
 
 void Recorder::log(std::string_view who, std::string_view level, std::string_view text) {
@@ -62,9 +65,14 @@ void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
 void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
   if (!failed()) {
     plan_whole(report.tick);
+    plan_part(report);
     if (push_tick(ticker, report)) {
       packets_.keep();
       gap_ = 0;
+      if (std::exchange(begins_part_, false)) {
+        ++parts_;
+        part_began_ = report.time;
+      }
     } else if (!failed()) {
       if (gap_ == 0) gap_from_ = report.tick;
       ++gap_;
@@ -82,10 +90,36 @@ void Recorder::plan_whole(std::uint64_t tick) {
   bytes_since_whole_ = 0;
 }
 
+// Likewise.
+void Recorder::plan_part(const TickReport& report) {
+  if (begins_part_ || report.tick == 0 || !wants_part(report.time)) return;
+  begins_part_ = true;
+  packets_.add_whole();
+  next_whole_ = report.tick + options_.whole_each;
+  bytes_since_whole_ = 0;
+}
+
+bool Recorder::wants_part(Nanoseconds time) {
+  const Rotation& limit = options_.rotation;
+  if (limit.time.count() > 0 && time - part_began_ >= limit.time) return true;
+  if (limit.bytes == 0) return false;
+  // Where time stands still, much may wait in the queue, and the same run gives the same files.
+  if (may_wait_) {
+    if (bytes_since_look_ < std::min<std::uint64_t>(AppendFile::kFull, limit.bytes / 4))
+      return false;
+    bytes_since_look_ = 0;
+    file_.flush();
+  }
+  // Before that, the size is that of the file before.
+  return file_.part() == parts_ && file_.part_size() >= limit.bytes;
+}
+
 bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
   Packet packet = packets_.tick(ticker, report);
   add_gap(packet.head);
+  packet.head.begins_part = begins_part_ ? 1 : 0;
   bytes_since_whole_ += packet_size(packet);
+  bytes_since_look_ += packet_size(packet);
   if (file_.push(packet)) return true;
   if (!may_wait_) return false;
   file_.flush();

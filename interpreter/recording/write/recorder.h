@@ -13,6 +13,15 @@
 
 namespace lockstep::host {
 
+// When another file is begun: with the first tick after so much. 0: never for that reason.
+struct Rotation {
+  std::uint64_t bytes = 0;  // on the disk
+  Nanoseconds time{0};      // of the run
+  std::uint64_t keep = 0;   // of the files, the last ones; 0: all
+
+  bool is_wanted() const { return bytes > 0 || time.count() > 0; }
+};
+
 struct RecorderOptions {
   std::string path;  // of the recording
   RunDescription run;
@@ -22,7 +31,8 @@ struct RecorderOptions {
   std::uint64_t whole_each = 4096;         // ticks: so often a line has the whole state
   std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
   const LineFormat& format = json_lines();
-  bool compresses = false;   // with zstd; a path that ends in .zst says so, too
+  bool compresses = false;  // with zstd; a path that ends in .zst says so, too
+  Rotation rotation = {};
   MakeEncoder encoder = {};  // makes another format of it
 };
 
@@ -49,6 +59,8 @@ class Recorder final : public Observer {
  private:
   void add_gap(PacketHead& head) const;
   void plan_whole(std::uint64_t tick);
+  void plan_part(const TickReport& report);
+  bool wants_part(Nanoseconds time);
   bool push_tick(Ticker& ticker, const TickReport& report);
   void write(const std::string& text);
   void tell_error();
@@ -60,6 +72,10 @@ class Recorder final : public Observer {
   std::uint64_t lost_ = 0;
   std::uint64_t gap_ = 0, gap_from_ = 0;  // the last of these, which no line reports yet
   bool error_told_ = false;
+  bool begins_part_ = false;   // with the next line
+  std::uint64_t parts_ = 1;    // whose beginnings were accepted
+  Nanoseconds part_began_{0};  // in the time of the run
+  std::uint64_t bytes_since_look_ = 0;
   // The whole state is written again after so many ticks and bytes of packets.
   std::uint64_t next_whole_, bytes_since_whole_ = 0;
   const std::uint64_t bytes_between_wholes_;

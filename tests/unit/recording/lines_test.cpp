@@ -162,7 +162,7 @@ std::string table(const Object& object) {
 // Between <!-- lines: NAME --> and <!-- /lines -->, each on a line.
 std::string with_tables(std::string text) {
   for (const Object& it : {lines::kHeader, lines::kHeaderNode, lines::kHeaderEntry, lines::kTick,
-                           lines::kLost, lines::kEnd}) {
+                           lines::kLost, lines::kContinued, lines::kEnd}) {
     const std::string begin = fmt::format("<!-- lines: {} -->\n", it.name);
     const auto at = text.find(begin);
     const auto end = text.find("<!-- /lines -->", at);
@@ -176,12 +176,13 @@ std::string with_tables(std::string text) {
 
 // --- a recording that has everything -----------------------------------------------------------
 
-std::string sample_header() {
+std::string sample_header(std::uint64_t first_tick) {
   RecordingHeader header;
   header.tree = header.file = header.version = "T";
   header.clock = "virtual";
   header.arguments["x"] = "1";
   header.verify = "trap";
+  header.first_tick = first_tick;
   header.entries = {{.key = "k", .type = "number", .writers = {2}}};
   const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> RecordedNode& {
     RecordedNode& node = header.nodes.emplace_back();
@@ -243,13 +244,14 @@ std::vector<ordered_json> sample() {
                         .reason = "completed",
                         .fault = "a: threw",
                         .signal = 2,
-                        .ticks = 3,
+                        .ticks = 8,
                         .lost = 1,
                         .notes = {"note"},
                         .logs = {{"T/a", "info", "text"}}};
-  const std::string text = sample_header() + sample_tick(0, false) +
-                           std::string(room, json_lines().put_lost(room, 1, 1)) +
-                           sample_tick(2, true) + json_lines().end(end);
+  const std::string text = sample_header(5) + sample_tick(5, false) +
+                           std::string(room, json_lines().put_lost(room, 1, 6)) +
+                           sample_tick(7, true) + json_lines().part_end(8) +
+                           json_lines().part_header(sample_header(0), 8) + json_lines().end(end);
   std::vector<ordered_json> all;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) all.push_back(ordered_json::parse(line));
@@ -275,8 +277,11 @@ void each_object(std::vector<ordered_json>& all, Visit visit) {
   visit(lines::kLostLine, all[2]);
   visit(lines::kLost, all[2]["lost"]);
   visit(lines::kTick, all[3]);
-  visit(lines::kEndLine, all[4]);
-  visit(lines::kEnd, all[4]["end"]);
+  visit(lines::kContinuedLine, all[4]);
+  visit(lines::kContinued, all[4]["continued"]);
+  visit(lines::kHeader, all[5]);
+  visit(lines::kEndLine, all[6]);
+  visit(lines::kEnd, all[6]["end"]);
 }
 
 TEST_CASE("recording/lines.h: what is made from the table is not stale") {

@@ -44,6 +44,12 @@ class Signs final : public LineFormat {
     }
     return {to, count};
   }
+  std::string part_header(std::string_view header, std::uint64_t first_tick) const override {
+    return fmt::format("from {} on, {}", first_tick, header);
+  }
+  std::string part_end(std::uint64_t ticks) const override {
+    return fmt::format("goes on after {}\n", ticks);
+  }
 };
 
 const Signs kSigns;

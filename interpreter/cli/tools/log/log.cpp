@@ -24,8 +24,7 @@ struct LogOptions {
 };
 
 int csv_to_file(const LogOptions& options, RecordingReader& reader) {
-  const NamedFile recording[] = {named_file(options.file)};
-  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  if (would_overwrite("--out", options.out, files_of(options.file))) return kExitUsage;
   OutputFile out(options.out);
   if (out.descriptor() < 0) {
     print_error(printable(out.error()));

@@ -6,7 +6,9 @@
 #include <istream>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "cli/outputs.h"
 #include "recording/read/recording_reader.h"
 #include "recording/use/tick_range.h"
 
@@ -24,6 +26,8 @@ void add_tick_range(CLI::App& app, TickRange& range);
 // Opens the recording ("-" is stdin) and returns the result of `use`, or the exit code for a file
 // that is not a recording.
 int with_recording(const std::string& path, const std::function<int(RecordingReader&)>& use);
+// The recording and its parts, which must not be overwritten.
+std::vector<NamedFile> files_of(const std::string& path);
 // The two steps of it.
 int with_file(const std::string& path, const std::function<int(std::istream&)>& use);
 int read_recording(std::istream& in, const std::string& path,

@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "cli/console.h"
@@ -20,14 +22,20 @@ struct LogCatOptions {
   bool follows = false;
 };
 
+struct Ending {
+  bool is_there = false;    // of the run
+  bool is_of_part = false;  // the last line says that the run goes on in another part
+};
+
 // Whole lines, as long as there are any. The first part of a line waits in `rest` for its end.
-int print_lines(std::istream& in, std::string& rest, bool& has_ended) {
+int print_lines(std::istream& in, std::string& rest, Ending& ending) {
   std::string line, lines;
   int written = kExitSuccess;
   while (written == kExitSuccess && std::getline(in, line)) {
     rest += line;
     if (in.eof()) break;
-    has_ended = has_ended || RecordingJson::is_end(rest);
+    ending.is_there = ending.is_there || RecordingJson::is_end(rest);
+    ending.is_of_part = RecordingJson::is_part_end(rest);
     (lines += rest) += '\n';
     rest.clear();
     constexpr std::size_t kFull = 1u << 16u;
@@ -51,7 +59,7 @@ int follow(std::istream& in, const LogCatOptions& options) {
   constexpr std::chrono::milliseconds kLook{50};
   if (options.follows) StopSignals::install();
   std::string rest;
-  bool has_ended = false;
+  Ending ending;
   int written = kExitSuccess;
   if (!begin(in, written)) {
     print_error(printable(options.file + ":1: no header of a recording"));
@@ -59,13 +67,17 @@ int follow(std::istream& in, const LogCatOptions& options) {
   }
   if (written != kExitSuccess) return written;
   while (true) {
-    if (const int code = print_lines(in, rest, has_ended); code != kExitSuccess) return code;
-    if (!options.follows || has_ended) break;
+    if (const int code = print_lines(in, rest, ending); code != kExitSuccess) return code;
+    // Of all parts, the next one comes.
+    std::error_code none;
+    const bool is_one = ending.is_of_part && std::filesystem::exists(options.file, none);
+    if (!options.follows || ending.is_there || is_one) break;
     if (StopSignals::received() != 0) return kExitSignal + StopSignals::received();
     std::this_thread::sleep_for(kLook);
     in.clear();
   }
-  if (!has_ended) print_error("the recording is cut: it ends without a closing line");
+  if (!ending.is_there && !ending.is_of_part)
+    print_error("the recording is cut: it ends without a closing line");
   return kExitSuccess;
 }
 

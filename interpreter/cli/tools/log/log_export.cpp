@@ -40,8 +40,7 @@ int export_to(const LogExportOptions& options, RecordingReader& reader) {
 }
 
 int export_recording(const LogExportOptions& options) {
-  const NamedFile recording[] = {named_file(options.file)};
-  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  if (would_overwrite("--out", options.out, files_of(options.file))) return kExitUsage;
   return with_recording(options.file,
                         [&](RecordingReader& reader) { return export_to(options, reader); });
 }

@@ -12,11 +12,17 @@
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
 #include "compression/decompressed.h"
+#include "recording/part_names.h"
+#include "recording/read/recording_parts.h"
 
 namespace lockstep::host {
 
 void add_recording_file(CLI::App& app, std::string& file) {
-  app.add_option("file", file, "The recording; - is stdin")->type_name("FILE.jsonl")->required();
+  app.add_option("file", file,
+                 "The recording; - is stdin; of one with --record-rotate: a part, or the name for "
+                 "all")
+      ->type_name("FILE.jsonl")
+      ->required();
 }
 
 int with_file(const std::string& path, const std::function<int(std::istream&)>& use) {
@@ -27,9 +33,20 @@ int with_file(const std::string& path, const std::function<int(std::istream&)>& 
   }
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
+  if (!std::filesystem::exists(path, error) && !parts_that_exist(path).empty()) {
+    RecordingParts parts(path);
+    std::istream text(&parts);
+    return use(text);
+  }
   errno = 0;
   DecompressedFile file(path);
   return file.is_open() ? use(file.text()) : cannot_use("read", path, errno);
+}
+
+std::vector<NamedFile> files_of(const std::string& path) {
+  std::vector<NamedFile> files{named_file(path)};
+  for (const std::string& it : parts_that_exist(path)) files.push_back(named_file(it));
+  return files;
 }
 
 int read_recording(std::istream& in, const std::string& path,
@@ -60,11 +77,16 @@ int report_end(const RecordingReader& reader, TickRange range) {
   RecordingOutcome outcome = reader.outcome();
   if (!range.is_open()) outcome.cut.clear();
   const int code = report_end(outcome);
-  const std::uint64_t ticks = reader.position().next_tick;
-  if (code != kExitSuccess || range.from < ticks || range.from == 0) return code;
+  const std::uint64_t ticks = reader.position().next_tick, first = reader.header().first_tick;
+  if (code != kExitSuccess) return code;
+  if (range.to < first) {
+    return usage_error(
+        fmt::format("--to {}: this part of the recording begins with tick {}", range.to, first));
+  }
+  if (range.from < ticks || range.from == 0) return code;
   return usage_error(
       fmt::format("--from {}: the recording has {}", range.from,
-                  ticks == 0 ? "no ticks" : fmt::format("ticks 0 to {}", ticks - 1)));
+                  ticks == first ? "no ticks" : fmt::format("ticks {} to {}", first, ticks - 1)));
 }
 
 void add_tick_range(CLI::App& app, TickRange& range) {

@@ -55,8 +55,7 @@ int read_to_end(std::istream& in, const std::string& path) {
 }
 
 int page(const LogPageOptions& options) {
-  const NamedFile recording[] = {named_file(options.file)};
-  if (would_overwrite("--out", options.out, recording)) return kExitUsage;
+  if (would_overwrite("--out", options.out, files_of(options.file))) return kExitUsage;
   return with_file(options.file, [&](std::istream& in) {
     OutputFile out(options.out);
     if (out.descriptor() < 0) return usage_error(printable(out.error()));

@@ -26,6 +26,7 @@ export interface Header {
   arguments: Record<string, string>;
   nodes: HeaderNode[];
   entries?: HeaderEntry[];
+  first_tick?: number;
   verify?: string;
 }
 
@@ -47,6 +48,10 @@ export interface TickLine {
 
 export interface LostLine {
   lost: Lost;
+}
+
+export interface ContinuedLine {
+  continued: Continued;
 }
 
 export interface EndLine {
@@ -77,6 +82,10 @@ export interface Lost {
   from: number;
 }
 
+export interface Continued {
+  ticks: number;
+}
+
 export interface End {
   result: string;
   reason: string;
@@ -91,4 +100,4 @@ export interface End {
   logs?: LogLine[];
 }
 
-export type Line = Header | TickLine | LostLine | EndLine;
+export type Line = Header | TickLine | LostLine | ContinuedLine | EndLine;

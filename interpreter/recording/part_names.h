@@ -1,0 +1,17 @@
+// The names of the files of one recording that is written in parts: run.0001.jsonl, run.0002.jsonl,
+// … for run.jsonl.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lockstep::host {
+
+// From 1 on.
+std::string part_name(const std::string& recording, std::uint64_t number);
+
+// Those that are there, in their order.
+std::vector<std::string> parts_that_exist(const std::string& recording);
+
+}  // namespace lockstep::host

@@ -1,0 +1,181 @@
+// Recordings in parts, from outside: each opens alone, and all of them are the recording.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "cli/program.h"
+#include "support/paths.h"
+
+namespace lockstep::host::test {
+namespace {
+
+constexpr const char* kTree = LOCKSTEP_SOURCE_DIR "/trees/fetch_and_carry.xml";
+
+std::string record(const TemporaryDirectory& directory, const std::string& name,
+                   std::vector<std::string> more = {}) {
+  const std::string file = directory.path(name);
+  more.insert(more.begin(), {"run", kTree, "--clock", "virtual", "--record", file});
+  const Outcome outcome = run_lockstep(more);
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return file;
+}
+
+std::vector<std::string> files_in(const TemporaryDirectory& directory) {
+  std::vector<std::string> names;
+  for (const auto& it : std::filesystem::directory_iterator(directory.path(""))) {
+    names.push_back(it.path().filename());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string output_of(std::vector<std::string> command, const std::string& file) {
+  command.push_back(file);
+  const Outcome outcome = run_lockstep(command);
+  CHECK(outcome.err == "");
+  CHECK(outcome.code == 0);
+  return outcome.out;
+}
+
+const std::vector<std::vector<std::string>> kCommands{
+    {"log", "info"},
+    {"log", "csv"},
+    {"log", "events"},
+    {"log", "measure"},
+    {"log", "csv", "--from", "1000", "--to", "1010"},
+    {"log", "csv", "--from", "3182"},
+    {"replay", "--print", "--at", "1500"}};
+
+}  // namespace
+
+TEST_CASE("the parts of a recording are the recording, by its name and one behind the other") {
+  const TemporaryDirectory directory, parts;
+  const std::string one = record(directory, "one.jsonl");
+  for (const auto& [name, rule] : {std::pair{"run.jsonl", "150kB"},
+                                   {"timed.jsonl", "4s"},
+                                   {"run.jsonl.zst", "7s"},
+                                   {"small.jsonl.zst", "20KiB"},
+                                   {"bare", "0.1min"}}) {
+    INFO(name << " " << rule);
+    const std::string set = record(parts, name, {"--record-rotate", rule});
+    for (const auto& command : kCommands) CHECK(output_of(command, set) == output_of(command, one));
+    CHECK(run_lockstep({"log", "diff", one, set}).code == 0);
+  }
+  CHECK(shell("cat run.00*.jsonl | lockstep log diff " + one +
+                  " - && "
+                  "cat run.00*.zst | lockstep log diff " +
+                  one + " -",
+              parts)
+            .code == 0);
+}
+
+TEST_CASE("each part of a recording is one that opens alone") {
+  const TemporaryDirectory directory, parts;
+  const auto rows = lines(output_of({"log", "csv"}, record(directory, "one.jsonl")));
+  record(parts, "run.jsonl.zst", {"--record-rotate", "10s"});
+  const auto files = files_in(parts);
+  REQUIRE(files == std::vector<std::string>{"run.0001.jsonl.zst", "run.0002.jsonl.zst",
+                                            "run.0003.jsonl.zst", "run.0004.jsonl.zst"});
+  std::vector<std::string> all{rows[0]};
+  for (const std::string& file : files) {
+    const std::string path = parts.path(file);
+    const auto some = lines(output_of({"log", "csv"}, path));
+    all.insert(all.end(), some.begin() + 1, some.end());
+    CHECK(output_of({"log", "info"}, path) != "");
+    CHECK(output_of({"log", "cat"}, path) != "");
+  }
+  CHECK(all == rows);
+  const std::string third = parts.path(files[2]);
+  CHECK(contains(output_of({"log", "info"}, third), "a part that begins with tick 2000\n"));
+  CHECK(contains(output_of({"log", "info"}, third), "until 30.000 s; the run goes on in the next"));
+  // Of what a part does not have.
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"replay", "--print", "--at", "5", third},
+        {"log", "csv", "--to", "5", third}}) {
+    const Outcome outcome = run_lockstep(command);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "5: this part of the recording begins with tick 2000"));
+  }
+  const Outcome behind = run_lockstep({"log", "csv", "--from", "3000", third});
+  CHECK(behind.code == 2);
+  CHECK(contains(behind.err, "--from 3000: the recording has ticks 2000 to 2999"));
+}
+
+TEST_CASE("--record-keep keeps the last parts, and they are read from where they begin") {
+  const TemporaryDirectory directory, parts;
+  const std::string set =
+      record(parts, "run.jsonl", {"--record-rotate", "5s", "--record-keep", "2"});
+  CHECK(files_in(parts) == std::vector<std::string>{"run.0006.jsonl", "run.0007.jsonl"});
+  const std::string one = record(directory, "one.jsonl");
+  CHECK(output_of({"log", "csv"}, set) == output_of({"log", "csv", "--from", "2500"}, one));
+}
+
+TEST_CASE("a recording replaces all of an earlier one with its name, and nothing else") {
+  const TemporaryDirectory parts;
+  record(parts, "run.jsonl");
+  record(parts, "run.jsonl", {"--record-rotate", "5s"});
+  CHECK(files_in(parts).size() == 7);
+  const std::vector<std::string> others{"run.0001.jsonl.zst", "run.01.jsonl", "run.x001.jsonl",
+                                        "runs.0009.jsonl"};
+  for (const std::string& it : others) std::ignore = parts.file(it, "mine");
+  record(parts, "run.jsonl", {"--record-rotate", "20s"});
+  CHECK(files_in(parts) == std::vector<std::string>{"run.0001.jsonl", "run.0001.jsonl.zst",
+                                                    "run.0002.jsonl", "run.01.jsonl",
+                                                    "run.x001.jsonl", "runs.0009.jsonl"});
+  // As does one of a single part.
+  record(parts, "run.jsonl", {"--record-rotate", "1h"});
+  CHECK(files_in(parts).size() == others.size() + 1);
+}
+
+TEST_CASE("on the virtual clock, a run has the same parts each time") {
+  const TemporaryDirectory parts;
+  for (const std::string name : {"a.jsonl", "b.jsonl"}) {
+    record(parts, name, {"--record-rotate", "100kB"});
+  }
+  const auto files = files_in(parts);
+  REQUIRE(files.size() > 10);
+  for (std::size_t i = 0; i < files.size() / 2; ++i) {
+    CHECK(read_file(parts.path(files[i])) == read_file(parts.path(files[files.size() / 2 + i])));
+    CHECK(read_file(parts.path(files[i])).size() < 200'000);
+  }
+}
+
+TEST_CASE("a part that is missing or cut is reported, with its place") {
+  const TemporaryDirectory parts;
+  const std::string set = record(parts, "run.jsonl", {"--record-rotate", "10s"});
+  const std::string last = read_file(parts.path("run.0004.jsonl"));
+  std::ignore = parts.file("run.0004.jsonl", last.substr(0, last.size() - 200));
+  const Outcome cut = run_lockstep({"log", "csv", set});
+  CHECK(cut.code == 0);
+  CHECK(contains(cut.err, "the recording is cut: line 3"));
+  std::filesystem::remove(parts.path("run.0002.jsonl"));
+  const Outcome outcome = run_lockstep({"log", "csv", set});
+  CHECK(outcome.code == 3);
+  CHECK(
+      contains(outcome.err, "run.jsonl:1003: the next part begins with tick 2000, expected 1000"));
+  std::ignore = parts.file("run.0002.jsonl.zst", "");
+  std::ignore = parts.file("run.0002.jsonl", "{\"lockstep_recording\":1}\n");
+  CHECK(run_lockstep({"log", "csv", set}).code == 3);
+}
+
+TEST_CASE("run --record-rotate: MCAP, and what is refused") {
+  const TemporaryDirectory parts;
+  record(parts, "run.mcap", {"--record-rotate", "10s"});
+  CHECK(files_in(parts).size() == 4);
+  for (const std::string rule :
+       {"", "5", "5x", "s", "-5s", "0s", "10B", "1e5s", "nanMB", "1e99GB"}) {
+    const Outcome outcome =
+        run_lockstep({"run", kTree, "--record", parts.path("x"), "--record-rotate", rule});
+    INFO(rule);
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "--record-rotate"));
+  }
+  CHECK(run_lockstep({"run", kTree, "--record", "x", "--record-keep", "3"}).code == 2);
+  const Outcome device =
+      run_lockstep({"run", kTree, "--record", "/dev/null", "--record-rotate", "5s"});
+  CHECK(device.code == 2);
+  CHECK(contains(device.err, "'/dev/null' is not a file"));
+}
+
+}  // namespace lockstep::host::test
