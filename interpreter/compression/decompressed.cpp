@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kPart = 64u << 10, kBlock = 128u << 10;  // bytes
 constexpr std::string_view kMagic{"\x28\xB5\x2F\xFD", 4};
 constexpr int kMostWindow = 25;  // as a power of two, in bytes: the memory of a reader
+// A text that is longer than kAlways may be so many times as long as the file, far more than
+// recordings are: a small file must not cost much memory or time.
+constexpr std::uint64_t kMostTimes = 256, kAlways = 16u << 20;
 
 }  // namespace
 
@@ -84,6 +87,13 @@ bool Decompressed::fill_compressed() {
                                          file_end_ - (count_ - in.pos), zstd().error_name(left)));
     }
     at_ = in.pos;
+    const std::uint64_t used = file_end_ - (count_ - at_);
+    if (text_end_ + out.pos > kAlways + kMostTimes * used) {
+      throw CannotDecompress(
+          fmt::format("before byte {}, it has more than {} times as much text as bytes, which no "
+                      "recording has",
+                      used, kMostTimes));
+    }
     zstd_->in_frame = left != 0;
     if (out.pos == 0) continue;
     setg(text_.data(), text_.data(), text_.data() + out.pos);

@@ -13,7 +13,7 @@
 
 namespace lockstep::host {
 
-// Thrown by a read: the bytes cannot be decompressed.
+// Thrown by a read: the bytes cannot be decompressed, or would give far too much text.
 class CannotDecompress : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

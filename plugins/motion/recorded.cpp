@@ -3,10 +3,11 @@
 #include <simdjson.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+
+#include "compression/decompressed.h"
 
 namespace motion {
 namespace {
@@ -16,27 +17,29 @@ namespace dom = simdjson::dom;
 // A line of 64 MiB has more than a million nodes. Unused memory costs nothing.
 constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 
-// The lines of a file as JSON. The last one may be cut, as a kill leaves it.
+// The lines of a file, which may be compressed, as JSON. The last one may be cut, as a kill leaves
+// it.
 class JsonLines {
  public:
-  explicit JsonLines(const std::string& name) : name_(name), file_(name, std::ios::binary) {
+  explicit JsonLines(const std::string& name) : name_(name), file_(name) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(name, ignored) || !file_) fail("cannot be read");
+    if (!std::filesystem::is_regular_file(name, ignored) || !file_.is_open()) {
+      fail("cannot be read");
+    }
+    file_.text().exceptions(std::ios_base::badbit);  // what a read throws is passed on
   }
 
   // Nothing at the end.
   std::optional<dom::element> next() {
-    constexpr int kZstd = 0x28;  // a line of JSON begins with '{'
-    if (line_ == 0 && file_.peek() == kZstd) fail("compressed; zstd -d makes a plain file of it");
-    file_.getline(text_.get(), kLongestLine);
-    const auto length = static_cast<std::size_t>(file_.gcount());
+    std::istream& text = file_.text();
+    const std::size_t length = read_line(text);
     if (length == 0) return std::nullopt;
     ++line_;
-    if (file_.fail()) fail("a line that is too long");
+    if (text.fail() && !text.eof()) fail("a line that is too long");
     dom::element element;
-    if (parser_.parse(text_.get(), length - !file_.eof(), false).get(element) == simdjson::SUCCESS)
+    if (parser_.parse(text_.get(), length - !text.eof(), false).get(element) == simdjson::SUCCESS)
       return element;
-    if (!file_.eof()) fail("not JSON");
+    if (!text.eof()) fail("not JSON");
     return std::nullopt;
   }
 
@@ -46,8 +49,18 @@ class JsonLines {
   }
 
  private:
+  std::size_t read_line(std::istream& text) {
+    try {
+      text.getline(text_.get(), kLongestLine);
+    } catch (const lockstep::host::CannotDecompress& damage) {
+      ++line_;
+      fail(damage.what());
+    }
+    return static_cast<std::size_t>(text.gcount());
+  }
+
   std::string name_;
-  std::ifstream file_;
+  lockstep::host::DecompressedFile file_;
   std::size_t line_ = 0;
   std::unique_ptr<char[]> text_{new char[kLongestLine + simdjson::SIMDJSON_PADDING]};
   dom::parser parser_;
@@ -80,6 +93,7 @@ class Player {
   bool take(const dom::element& line) {
     dom::element ignored;
     if (line["end"].get(ignored) == simdjson::SUCCESS) return false;
+    if (line["continued"].get(ignored) == simdjson::SUCCESS) return false;
     if (line["lost"].get(ignored) == simdjson::SUCCESS) return true;
     double tick = 0, time = 0;
     dom::array nodes;

@@ -87,6 +87,18 @@ TEST_CASE("a compressed recording that is damaged is refused, with line and byte
   CHECK(contains(outcome.err, "its compressed bytes are damaged before byte "));
 }
 
+TEST_CASE("a small file that would give a huge text is refused, and costs little") {
+  const std::string bomb = LOCKSTEP_SOURCE_DIR "/tests/fuzz/corpus/fuzz_compressed/bomb.zst";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"log", "info", bomb}, {"log", "cat", bomb}}) {
+    const Outcome outcome = run_lockstep(command);
+    CHECK(outcome.code == 3);
+    CHECK(contains(outcome.err, "bomb.zst:"));
+    CHECK(contains(outcome.err, "it has more than 256 times as much text as bytes"));
+    CHECK(outcome.peak_megabytes < 80);
+  }
+}
+
 TEST_CASE("log cat prints the text, and --follow ends with the run") {
   const TemporaryDirectory directory;
   const std::string plain = record(directory, "run.jsonl");

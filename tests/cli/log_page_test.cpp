@@ -55,6 +55,36 @@ TEST_CASE("log page writes one file that holds the page and the bytes of the rec
   }
 }
 
+TEST_CASE("log page --from --to writes the header and the ticks of the range") {
+  const TemporaryDirectory directory;
+  const std::string recording = record_ticks(directory, "9000"), text = read_file(recording);
+  const std::string page = directory.path("run.html");
+  const auto page_of = [&](std::vector<std::string> range) {
+    range.insert(range.begin(), {"log", "page", recording, "--out", page});
+    const Outcome outcome = run_lockstep(range);
+    CHECK(outcome.out + outcome.err == "");
+    CHECK(outcome.code == 0);
+    return lines(recording_in(page));
+  };
+  const auto all = lines(text);
+  const auto part = [&](std::size_t from, std::size_t to) {
+    std::vector<std::string> some{all[0]};
+    some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                all.begin() + static_cast<std::ptrdiff_t>(to) + 2);
+    return some;
+  };
+  // Tick 4096 is the first with the whole state.
+  CHECK(page_of({"--from", "5000", "--to", "5010"}) == part(4096, 5010));
+  CHECK(page_of({"--to", "10"}) == part(0, 10));
+  CHECK(page_of({"--from", "4100"}) == part(4096, 9000));  // with the closing line
+  const Outcome behind = run_lockstep({"log", "page", recording, "--out", page, "--from", "9000"});
+  CHECK(behind.code == 2);
+  CHECK(contains(behind.err, "--from 9000: the recording has ticks 0 to 8999"));
+  const Outcome pipe = run({.arguments = {"log", "page", "-", "--out", page, "--to", "10"}});
+  CHECK(pipe.code == 2);
+  CHECK(contains(pipe.err, "--from and --to need a recording in a file"));
+}
+
 TEST_CASE("log page takes a recording from stdin, and what a cut one has") {
   const TemporaryDirectory directory;
   const std::string text = read_file(record_ticks(directory, "9"));

@@ -33,23 +33,25 @@ Outcome record(const TemporaryDirectory& directory, const std::string& nodes,
 
 TEST_CASE("Recorded has the progress of the recorded node in every tick") {
   const TemporaryDirectory directory;
-  REQUIRE(record(directory,
-                 "<ParallelAbsolute barriers=\"0.5;1\"><Advance name=\"a\" step=\"0.1\"/>"
-                 "<Sequence name=\"b\" memory=\"true\"><Advance step=\"0.2\" noise=\"0.1\"/>"
-                 "<Advance step=\"0.3\"/></Sequence></ParallelAbsolute>",
-                 "real.jsonl")
-              .code == 0);
   const std::string node = "Main/ParallelAbsolute/b";
-  for (const std::string clock : {"ticks", "time"}) {
-    INFO(clock);
-    const Outcome outcome = record(
-        directory,
-        "<Parallel><Wait seconds=\"0.01\"/><Recorded name=\"r\" clock=\"" + clock + "\" file=\"" +
-            directory.path("real.jsonl") + "\" node=\"" + node + "\"/></Parallel>",
-        clock + ".jsonl");
+  for (const auto& [clock, name] : {std::pair<std::string, std::string>{"ticks", "real.jsonl"},
+                                    {"time", "real.jsonl"},
+                                    {"ticks", "real.jsonl.zst"}}) {
+    INFO(clock << " " << name);
+    REQUIRE(record(directory,
+                   "<ParallelAbsolute barriers=\"0.5;1\"><Advance name=\"a\" step=\"0.1\"/>"
+                   "<Sequence name=\"b\" memory=\"true\"><Advance step=\"0.2\" noise=\"0.1\"/>"
+                   "<Advance step=\"0.3\"/></Sequence></ParallelAbsolute>",
+                   name)
+                .code == 0);
+    const Outcome outcome =
+        record(directory,
+               "<Parallel><Wait seconds=\"0.01\"/><Recorded name=\"r\" clock=\"" + clock +
+                   "\" file=\"" + directory.path(name) + "\" node=\"" + node + "\"/></Parallel>",
+               clock + ".jsonl");
     CHECK(outcome.err.empty());
     CHECK(outcome.code == 0);
-    const auto real = played(directory.path("real.jsonl"), node);
+    const auto real = played(directory.path(name), node);
     REQUIRE(real.size() > 5);
     CHECK(played(directory.path(clock + ".jsonl"), "Main/Parallel/r") == real);
   }

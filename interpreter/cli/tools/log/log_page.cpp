@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <memory>
@@ -20,6 +21,7 @@ namespace {
 struct LogPageOptions {
   std::string file;
   std::string out;
+  TickRange range;
 };
 
 // Reads another stream, and gives all that it reads to someone else too.
@@ -54,16 +56,65 @@ int read_to_end(std::istream& in, const std::string& path) {
   });
 }
 
+// Bytes of a text.
+struct Piece {
+  std::uint64_t from = 0, to = 0;
+};
+
+bool write_piece(std::istream& in, Piece piece,
+                 const std::function<bool(std::string_view)>& write) {
+  std::array<char, 1u << 16u> part;
+  in.clear();
+  in.seekg(static_cast<std::streamoff>(piece.from));
+  for (std::uint64_t left = piece.to - piece.from; left > 0;) {
+    const auto count = in.rdbuf()->sgetn(
+        part.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(left, part.size())));
+    if (count <= 0 || !write({part.data(), static_cast<std::size_t>(count)})) return false;
+    left -= static_cast<std::uint64_t>(count);
+  }
+  return true;
+}
+
+// Its header, and the lines from the last whole state before the range on.
+int make_page_of(std::istream& in, const std::string& path, TickRange range,
+                 const std::function<bool(std::string_view part)>& write) {
+  return read_recording(in, path, [&](RecordingReader& reader) {
+    const Piece header{0, reader.position().lines.bytes};
+    if (range.from > 0) reader.skip_to(range.from);
+    Piece ticks{reader.position().lines.bytes, reader.position().lines.bytes};
+    bool is_read = true;
+    while (is_read) {
+      const auto tick = reader.next();
+      is_read = tick && tick->tick <= range.to;
+      if (is_read || !tick) ticks.to = reader.position().lines.bytes;
+    }
+    const int code = report_end(reader, range);
+    if (code != kExitSuccess) return code;
+    RecordingPage page(write);
+    const auto add = [&page](std::string_view bytes) {
+      page.add(bytes);
+      return true;
+    };
+    if (write_piece(in, header, add) && write_piece(in, ticks, add)) page.finish();
+    return code;
+  });
+}
+
 int page(const LogPageOptions& options) {
+  if (options.file == "-" && !options.range.is_all()) {
+    return usage_error("--from and --to need a recording in a file");
+  }
   if (would_overwrite("--out", options.out, files_of(options.file))) return kExitUsage;
   return with_file(options.file, [&](std::istream& in) {
     OutputFile out(options.out);
     if (out.descriptor() < 0) return usage_error(printable(out.error()));
     int reason = 0;
-    const int code = make_page(in, options.file, [&](std::string_view part) {
+    const auto write = [&](std::string_view part) {
       if (!write_all(out.descriptor(), part)) reason = errno;
       return reason == 0;
-    });
+    };
+    const int code = options.range.is_all() ? make_page(in, options.file, write)
+                                            : make_page_of(in, options.file, options.range, write);
     if (reason == 0 && code == kExitSuccess && !out.take_name()) reason = errno;
     return reason == 0 ? code : cannot_use("write", options.out, reason);
   });
@@ -96,6 +147,7 @@ LogSubcommand define_log_page(CLI::App& log) {
   app->add_option("--out", options->out, "The page, to be opened in any browser")
       ->type_name("FILE.html")
       ->required();
+  add_tick_range(*app, options->range);
   return {app, [options] { return page(*options); }};
 }
 
