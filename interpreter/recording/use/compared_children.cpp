@@ -1,6 +1,23 @@
 #include "recording/use/compared_children.h"
 
+#include "measure/measure_spec.h"
+#include "measure/synchronized_measure.h"
+
 namespace lockstep::host {
+namespace {
+
+// Members of a barrier may have the same name, in different parts of the tree.
+std::vector<std::string> names_in(const RecordingHeader& header, const ComparedChildren& compared) {
+  const bool is_group = !header.nodes[compared.node].members.empty();
+  std::vector<std::string> names;
+  for (const NodeIndex child : compared.children) {
+    const std::string& path = header.nodes[child].path;
+    names.push_back(is_group ? path : last_segment(path));
+  }
+  return is_group ? names_of(names) : names;
+}
+
+}  // namespace
 
 std::vector<ComparedChildren> compared_children(const RecordingHeader& header) {
   std::vector<ComparedChildren> all;
@@ -16,6 +33,7 @@ std::vector<ComparedChildren> compared_children(const RecordingHeader& header) {
     places[node] = all.size();
     all.push_back({.node = node, .children = it.members});
   }
+  for (ComparedChildren& it : all) it.names = names_in(header, it);
   return all;
 }
 

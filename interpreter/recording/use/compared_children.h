@@ -2,6 +2,7 @@
 // children, or the members of a barrier beside the tree.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "recording/recording.h"
@@ -11,6 +12,7 @@ namespace lockstep::host {
 struct ComparedChildren {
   NodeIndex node = 0;
   std::vector<NodeIndex> children;
+  std::vector<std::string> names = {};  // of them: no two are the same
 };
 
 std::vector<ComparedChildren> compared_children(const RecordingHeader& header);

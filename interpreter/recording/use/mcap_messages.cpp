@@ -116,8 +116,9 @@ void McapMessages::add_statuses(const RecordedTick& tick, std::uint64_t time) {
 void McapMessages::add_progress(const Compared& compared, const RecordedTick& tick,
                                 std::uint64_t time) {
   Json progress = Json::object(), held = Json::object();
-  for (const NodeIndex child : compared.of.children) {
-    const std::string& name = header_.nodes[child].name;
+  for (std::size_t i = 0; i < compared.of.children.size(); ++i) {
+    const NodeIndex child = compared.of.children[i];
+    const std::string& name = compared.of.names[i];
     progress[name] = tick.nodes[child].progress;
     held[name] = tick.nodes[child].held;
   }

@@ -128,7 +128,7 @@ class Trace {
     text_ += ",\"args\":{";
     for (std::size_t i = 0; i < progress.size(); ++i) {
       if (i > 0) text_ += ',';
-      append_json(text_, header_.nodes[counter.of.children[i]].name);
+      append_json(text_, counter.of.names[i]);
       text_ += fmt::format(":{}", progress[i]);
     }
     text_ += "}}";
