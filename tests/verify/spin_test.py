@@ -3,7 +3,8 @@
 
 The meaning of Sequence, Fallback, Parallel and ParallelAbsolute is written here a second time, as a
 model in Promela. Each state between two ticks is printed while SPIN searches; their number, and the
-results that can come, must be those of verify. Without spin and gcc the test is skipped.
+results that can come, must be those of verify. So must be whether each fair run ends, which SPIN finds as a property
+of linear time. Without spin and gcc the test is skipped.
 
     spin_test.py LOCKSTEP
 """
@@ -118,14 +119,18 @@ class Node:
     def tick(self):
         i = self.number
         if not self.children:
-            if self.kind == "w":
-                return self.tick_walker()
-            goes_on = "".join(f":: lv[{i}]<={it} -> lv[{i}]={it} " for it in sorted(self.levels))
-            fails = "" if self.kind == "s" else f":: st[{i}]=3; lv[{i}]=0 "
-            return (f"if :: st[{i}]!=1 -> lv[{i}]=0 :: else fi; "
-                    f"if :: st[{i}]=2; lv[{i}]=0 {fails}:: st[{i}]=1; if {goes_on}fi fi")
+            return f"ticked[{i}]=1; {self.tick_leaf()}"
         text = self.tick_ordered() if self.kind in ("Sequence", "Fallback") else self.tick_parallel()
         return f"{text} st[{i}]=r[{i}]; r[{i}]=0; if :: st[{i}]!=1 -> {self.reset()}:: else fi"
+
+    def tick_leaf(self):
+        i = self.number
+        if self.kind == "w":
+            return self.tick_walker()
+        goes_on = "".join(f":: lv[{i}]<={it} -> lv[{i}]={it} " for it in sorted(self.levels))
+        fails = "" if self.kind == "s" else f":: st[{i}]=3; lv[{i}]=0 "
+        return (f"if :: st[{i}]!=1 -> lv[{i}]=0 :: else fi; "
+                f"if :: st[{i}]=2; lv[{i}]=0 {fails}:: st[{i}]=1; if {goes_on}fi fi")
 
     def tick_walker(self):
         i, levels = self.number, sorted(self.levels)
@@ -176,15 +181,36 @@ class Node:
         return text + f"if :: {succeeded} -> r[{i}]=2 :: {failed} -> r[{i}]=3 :: else -> r[{i}]=1 fi;"
 
 
-def promela(root, count):
+def fairness(leaves):
+    """A run is fair if each leaf is at last not ticked any more, or ends again and again, by a result or a halt. From
+    some tick on those that are not ticked any more are guessed; the others end in turn, which is accepted."""
+    began = " ".join(f"if :: quiet[{i}]=1 :: skip fi;" for i in leaves)
+    quiet = " && ".join(f"!(quiet[{i}] && ticked[{i}])" for i in leaves)
+    turns = " ".join(f":: turn=={place} && (quiet[{i}] || ended[{i}]) -> turn={place + 1}"
+                     for place, i in enumerate(leaves))
+    count = len(leaves)
+    return f"""
+    if :: phase==0 -> skip :: phase==0 -> phase=1; {began} :: phase==1 && ({quiet}) -> if {turns} :: else fi fi;
+    if :: turn=={count} -> turn=0; accept_all: skip :: else fi"""
+
+
+def promela(nodes, liveness):
+    root, count = nodes[0], len(nodes)
     shown = ",".join(f"st[{i}],lv[{i}]" for i in range(count))
     clear = "".join(f"p[{i}]=0; " for i in range(count))
     words = " ".join(["%d"] * 2 * count)
+    leaves = [it.number for it in nodes if not it.children]
+    before, after, fair = "", "".join(f"ticked[{i}]=0; " for i in leaves), ""
+    if liveness:  # more states
+        before = "".join(f"ticked[{i}]=0; ended[{i}]=(st[{i}]==1); " for i in leaves)
+        after = "".join(f"ended[{i}]=((ended[{i}] || ticked[{i}]) && st[{i}]!=1); " for i in leaves)
+        fair = ";" + fairness(leaves)
     return f"""byte st[{count}], lv[{count}], r[{count}], p[{count}], limit[{count}]; bit held[{count}];
-byte least;
+bit ticked[{count}], ended[{count}], quiet[{count}], phase;
+byte least, turn;
 active proctype tree() {{
   do
-  :: st[0]<=1 -> atomic {{ printf("state {words}\\n",{shown}); {root.tick()}; {clear} }}
+  :: st[0]<=1 -> atomic {{ printf("state {words}\\n",{shown}); {before}{root.tick()}; {clear}{after} }}{fair}
   :: st[0]==2 -> printf("result success\\n"); break
   :: st[0]==3 -> printf("result failure\\n"); break
   od
@@ -199,19 +225,27 @@ def run(command, directory):
     return done.stdout
 
 
+def search(nodes, directory, liveness, *options):
+    with open(os.path.join(directory, "tree.pml"), "w") as file:
+        file.write(promela(nodes, liveness))
+    run(["spin", "-a", "tree.pml"], directory)
+    run(["gcc", "-w", "-o", "pan", "pan.c", *options], directory)
+    said = run(["./pan", "-m1000000", *(["-a", "-E"] if liveness else [])], directory)
+    if "search depth too small" in said:
+        sys.exit(said)
+    return said
+
+
 def by_spin(tree, directory):
     nodes = []
-    root = Node(tree, nodes)
-    root.cut([])
-    with open(os.path.join(directory, "tree.pml"), "w") as file:
-        file.write(promela(root, len(nodes)))
-    run(["spin", "-a", "tree.pml"], directory)
-    run(["gcc", "-w", "-DPRINTF", "-DSAFETY", "-o", "pan", "pan.c"], directory)
-    said = run(["./pan", "-m1000000"], directory)
-    if "errors: 0" not in said or "search depth too small" in said:
+    Node(tree, nodes).cut([])
+    said = search(nodes, directory, False, "-DPRINTF", "-DSAFETY")
+    if "errors: 0" not in said:
         sys.exit(said)
     states = set(re.findall(r"^\s*(state .*)$", said, re.M))
-    return len(states), sorted(set(re.findall(r"^\s*result (\w+)$", said, re.M)))
+    results = sorted(set(re.findall(r"^\s*result (\w+)$", said, re.M)))
+    # What blocks is an unfair run.
+    return len(states), results, "acceptance cycle" not in search(nodes, directory, True)
 
 
 def by_verify(tree, directory, lockstep):
@@ -230,7 +264,8 @@ def by_verify(tree, directory, lockstep):
     if done.returncode not in (0, 1):
         sys.exit(done.stderr)
     found = json.loads(done.stdout)
-    return found["states"], sorted(it.lower() for it in found["results"])
+    ends = found["facts"]["always ends"] == "yes"
+    return found["states"], sorted(it.lower() for it in found["results"]), ends
 
 
 def main():
