@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -14,7 +14,8 @@ constexpr const char* kCompressedRecordingTree = LOCKSTEP_SOURCE_DIR "/trees/fet
 std::string record(const TemporaryDirectory& directory, const std::string& name,
                    std::vector<std::string> more = {}) {
   const std::string file = directory.path(name);
-  more.insert(more.begin(), {"run", kCompressedRecordingTree, "--clock", "virtual", "--record", file});
+  more.insert(more.begin(),
+              {"run", kCompressedRecordingTree, "--clock", "virtual", "--record", file});
   REQUIRE(run_lockstep(more).code == 0);
   return file;
 }
@@ -160,7 +161,8 @@ TEST_CASE("an MCAP file is not compressed twice, and is not read") {
        {std::vector<std::string>{directory.path("run.mcap.zst")},
         {directory.path("run.mcap"), "--record-compress"}}) {
     auto command = options;
-    command.insert(command.begin(), {"run", kTree, "--clock", "virtual", "--record"});
+    command.insert(command.begin(),
+                   {"run", kCompressedRecordingTree, "--clock", "virtual", "--record"});
     const Outcome outcome = run_lockstep(command);
     CHECK(outcome.code == 2);
     CHECK(contains(outcome.err, "--record: an MCAP file is compressed inside"));
