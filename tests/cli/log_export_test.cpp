@@ -96,6 +96,88 @@ TEST_CASE("log export --format trace: in the traces of the example trees slices 
   }
 }
 
+namespace {
+
+// What FileLogger2 of BehaviorTree.CPP writes: a name, a version, the document, the begin, and 9
+// bytes for each change: when, which node, its status.
+struct GrootLog {
+  std::string document;
+  std::uint64_t begin = 0;  // µs since 1970
+  std::string changes;      // a line for each time: "30000 5:S 4:F"
+};
+
+std::uint64_t number_in(const std::string& bytes, std::size_t at, std::size_t count) {
+  std::uint64_t number = 0;
+  for (std::size_t i = count; i > 0; --i) {
+    number = number << 8 | static_cast<unsigned char>(bytes.at(at + i - 1));
+  }
+  return number;
+}
+
+GrootLog read_groot_log(const std::string& bytes) {
+  constexpr std::size_t kName = 18, kBegin = kName + 1 + 4;
+  REQUIRE(bytes.starts_with("BTCPP4-FileLogger2\x01"));
+  const std::size_t size = number_in(bytes, kName + 1, 4);
+  GrootLog log{bytes.substr(kBegin, size), number_in(bytes, kBegin + size, 8), ""};
+  std::uint64_t last = UINT64_MAX;
+  for (std::size_t at = kBegin + size + 8; at < bytes.size(); at += 9) {
+    const std::uint64_t time = number_in(bytes, at, 6);
+    if (time != last) log.changes += (at > kBegin + size + 8 ? "\n" : "") + std::to_string(time);
+    last = time;
+    log.changes += " " + std::to_string(number_in(bytes, at + 6, 2)) + ":" +
+                   "IRSFK"[number_in(bytes, at + 8, 1)];
+  }
+  return log;
+}
+
+}  // namespace
+
+// The changes are those that version 4.10 of the library logs of the same tree, in its order, but
+// for the changes to IDLE: a recording keeps the result of a node until that begins again.
+TEST_CASE("log export --format btlog: what Groot2 replays") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("tree.xml", R"(<root BTCPP_format="4" main_tree_to_execute="Main">
+<BehaviorTree ID="Main"><Sequence name="all">
+ <Fallback name="try"><AlwaysFailure/><Inverter><Sleep msec="30"/></Inverter><Sleep msec="20"/></Fallback>
+ <Parallel success_count="2"><Sleep msec="20"/><Sleep msec="50"/></Parallel>
+ <SubTree ID="Sub" name="sub"/>
+ <ForceSuccess><AlwaysFailure name="no"/></ForceSuccess>
+</Sequence></BehaviorTree>
+<BehaviorTree ID="Sub"><Sequence name="inner"><AlwaysSuccess/><Sleep msec="30"/></Sequence></BehaviorTree>
+</root>)");
+  const std::string file = directory.path("run.jsonl.zst"), out = directory.path("run.btlog");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", file}).code == 0);
+  const auto export_it = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"log", "export", file, "--format", "btlog", "--out", out});
+    return run_lockstep(more);
+  };
+  const Outcome outcome = export_it({"--start-time", "1700000000.5"});
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.code == 0);
+  const GrootLog log = read_groot_log(read_file(out));
+  CHECK(log.begin == 1'700'000'000'500'000);
+  CHECK(contains(log.document, "<Sequence name=\"inner\" _uid=\"11\">"));
+  CHECK(log.changes ==
+        "0 1:R 2:R 3:F 4:R 5:R\n"
+        "30000 5:S 4:F 6:R\n"
+        "50000 6:S 2:S 7:R 8:R 9:R\n"
+        "70000 8:S\n"
+        "100000 9:S 7:S 10:R 11:R 12:S 13:R\n"
+        "130000 13:S 11:S 10:S 14:R 15:F 14:S 1:S");
+  // The tree file may be another one by now, a part of it, or gone.
+  std::string part = read_file(tree);
+  part.erase(part.find(" <ForceSuccess>"),
+             std::string(" <ForceSuccess><AlwaysFailure name=\"no\"/></ForceSuccess>\n").size());
+  for (const std::string& text : {tree_text("<Wait seconds=\"1\"/>"), part}) {
+    const Outcome wrong = export_it({"--tree-file", directory.file("other.xml", text)});
+    CHECK(wrong.code == 2);
+    CHECK(contains(wrong.err, "other.xml' is not the tree of the recording"));
+  }
+  CHECK(export_it({"--tree-file", directory.path("none.xml")}).code == 3);
+  CHECK(export_it({"--from", "3"}).code == 2);
+}
+
 TEST_CASE("log export: a file that is read is not overwritten, and a format must be known") {
   CHECK(run_lockstep({"log", "export", "x.jsonl", "--format", "trace", "--out", "x.jsonl"}).code ==
         2);

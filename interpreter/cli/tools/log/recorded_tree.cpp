@@ -7,7 +7,8 @@
 namespace lockstep::host {
 
 RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& file,
-                           const PluginOptions& plugins)
+                           const PluginOptions& plugins,
+                           const std::function<void(const Definition&)>& look)
     : file_(file.empty() ? header.file : file), code_(kExitSuccess) {
   LoadCommandOptions load;
   load.plugins = plugins;
@@ -22,6 +23,7 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
     code_ = exit_code_of(loaded.error());
     return;
   }
+  if (look) look(loaded->definition);
   played_.take_over(loaded->definition);
   runnable_ = make_runnable(std::move(*loaded));
 }

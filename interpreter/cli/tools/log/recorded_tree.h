@@ -2,6 +2,7 @@
 // of a plugin is asked.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "leaves/play/played_leaves.h"
@@ -13,9 +14,9 @@ namespace lockstep::host {
 class RecordedTree {
  public:
   // `file`: the tree file; "": as the recording names it. The exit code is that of a failure, which
-  // is reported.
-  RecordedTree(const RecordingHeader& header, const std::string& file,
-               const PluginOptions& plugins);
+  // is reported. `look` sees what the tree is made of.
+  RecordedTree(const RecordingHeader& header, const std::string& file, const PluginOptions& plugins,
+               const std::function<void(const Definition&)>& look = {});
 
   int code() const { return code_; }
   const std::string& file() const { return file_; }
