@@ -3,11 +3,12 @@
 #include <simdjson.h>
 
 #include <filesystem>
+#include <istream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 
-#include "compression/decompressed.h"
+#include "unpacked.hpp"
 
 namespace motion {
 namespace {
@@ -21,25 +22,24 @@ constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 // it.
 class JsonLines {
  public:
-  explicit JsonLines(const std::string& name) : name_(name), file_(name) {
+  explicit JsonLines(const std::string& name) : name_(name), file_(name), in_(&file_) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(name, ignored) || !file_.is_open()) {
       fail("cannot be read");
     }
-    file_.text().exceptions(std::ios_base::badbit);  // what a read throws is passed on
+    in_.exceptions(std::ios_base::badbit);  // what a read throws is passed on
   }
 
   // Nothing at the end.
   std::optional<dom::element> next() {
-    std::istream& text = file_.text();
-    const std::size_t length = read_line(text);
+    const std::size_t length = read_line();
     if (length == 0) return std::nullopt;
     ++line_;
-    if (text.fail() && !text.eof()) fail("a line that is too long");
+    if (in_.fail() && !in_.eof()) fail("a line that is too long");
     dom::element element;
-    if (parser_.parse(text_.get(), length - !text.eof(), false).get(element) == simdjson::SUCCESS)
+    if (parser_.parse(text_.get(), length - !in_.eof(), false).get(element) == simdjson::SUCCESS)
       return element;
-    if (!text.eof()) fail("not JSON");
+    if (!in_.eof()) fail("not JSON");
     return std::nullopt;
   }
 
@@ -49,18 +49,19 @@ class JsonLines {
   }
 
  private:
-  std::size_t read_line(std::istream& text) {
+  std::size_t read_line() {
     try {
-      text.getline(text_.get(), kLongestLine);
-    } catch (const lockstep::host::CannotDecompress& damage) {
+      in_.getline(text_.get(), kLongestLine);
+    } catch (const std::runtime_error& damage) {
       ++line_;
       fail(damage.what());
     }
-    return static_cast<std::size_t>(text.gcount());
+    return static_cast<std::size_t>(in_.gcount());
   }
 
   std::string name_;
-  lockstep::host::DecompressedFile file_;
+  Unpacked file_;
+  std::istream in_;
   std::size_t line_ = 0;
   std::unique_ptr<char[]> text_{new char[kLongestLine + simdjson::SIMDJSON_PADDING]};
   dom::parser parser_;

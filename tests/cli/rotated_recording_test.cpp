@@ -102,7 +102,7 @@ TEST_CASE("each part of a recording is one that opens alone") {
   CHECK(contains(behind.err, "--from 3000: the recording has ticks 2000 to 2999"));
 }
 
-TEST_CASE("--record-keep keeps the last parts, and they are read from where they begin") {
+TEST_CASE("run --record-keep keeps the last parts, and they are read from where they begin") {
   const TemporaryDirectory directory, parts;
   const std::string set =
       record(parts, "run.jsonl", {"--record-rotate", "5s", "--record-keep", "2"});
