@@ -94,6 +94,8 @@ struct Mock {
   double seconds = 1;
 };
 
+class ElementTypes;
+
 struct NodeType {
   std::string_view id;  // the XML tag
   NodeCategory category;
@@ -118,6 +120,9 @@ struct NodeType {
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
   const Mock* mock = nullptr;           // not null: a stand-in
+  // An element may have more parameters, whose names these patterns match: "goal.*;result.*".
+  std::string_view more_parameters = {};
+  const ElementTypes* element_types = nullptr;  // which, and their types; null: it is known here
   // A leaf of a plugin has both; they are null for built-ins.
   const lockstep_plugin* origin = nullptr;
   const lockstep_leaf_type* leaf = nullptr;

@@ -61,6 +61,7 @@ std::string nodes_as_json(NodeTypes types) {
                    {"has_progress", type->has_progress},
                    {"real_time", type->real_time},
                    {"behavior", std::move(behavior)},
+                   {"more_parameters", type->more_parameters},
                    {"parameters", std::move(parameters)}});
   }
   return all.printable(2) + "\n";

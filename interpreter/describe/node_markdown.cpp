@@ -30,6 +30,9 @@ std::string table_rows(const NodeType& type) {
     text += fmt::format("| `{}` | {} | {} |\n", it.name, table_text(facts_text(it)),
                         table_text(it.doc));
   }
+  if (!type.more_parameters.empty()) {
+    text += fmt::format("| `{}` | | {} |\n", type.more_parameters, kMoreParameters);
+  }
   if (type.category != NodeCategory::SubTree) return text;
   for (const CommonAttribute& it : subtree_attributes()) {
     text += fmt::format("| `{}` | | {} |\n", it.name, table_text(it.doc));

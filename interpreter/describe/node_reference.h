@@ -36,6 +36,9 @@ std::string children_text(const NodeType& type);
 std::string facts_text(const Parameter& parameter);
 // result="success" ticks="2..40": what its plugin says that it does; "" for nothing.
 std::string behavior_text(const NodeType& type);
+// About the names in NodeType::more_parameters.
+inline constexpr std::string_view kMoreParameters =
+    "More parameters: which ones is found out by what the element gives to the constant ones.";
 // A line that shows how the node is written in a tree.
 std::string usage_text(const NodeType& type);
 // The attributes that are not parameters of one node, one sentence each.

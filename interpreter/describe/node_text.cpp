@@ -46,6 +46,9 @@ std::vector<Row> rows(const NodeType& type) {
   for (const Parameter& parameter : type.parameters) {
     rows.push_back({parameter.name, facts_text(parameter), parameter.doc});
   }
+  if (!type.more_parameters.empty()) {
+    rows.push_back({type.more_parameters, "", kMoreParameters});
+  }
   if (type.category != NodeCategory::SubTree) return rows;
   for (const CommonAttribute& it : subtree_attributes()) rows.push_back({it.name, "", it.doc});
   return rows;

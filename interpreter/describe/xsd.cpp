@@ -300,6 +300,7 @@ std::string node(const NodeType& type) {
   }
   std::string text = element(type.id, type.doc, children(type.arity), type.parameters);
   for (const Parameter& parameter : type.parameters) text += attribute(parameter);
+  if (!type.more_parameters.empty()) text += kAnyAttribute;
   return text + std::string(kElementEnd);
 }
 

@@ -12,6 +12,8 @@
 
 namespace lockstep::host {
 
+class LeafDescriber;
+
 // A call that goes wrong leaves an error at the caller of the leaf, as one of a leaf does.
 class RemoteLeaf : public ProcessLeaf {
  public:
@@ -55,6 +57,8 @@ class RemotePlugin {
   virtual std::string initialize() { return {}; }
   // Those of the plugin itself, where it was asked for them.
   virtual PluginWords script_words() const { return {}; }
+  // Of the elements of its leaf types; null: it describes none.
+  virtual LeafDescriber* describer() { return nullptr; }
   // Null after a failure, which is the caller's error.
   virtual std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) = 0;
 };

@@ -115,7 +115,7 @@ MEMBER_AT(lockstep_host, set_string_list, 208);
 MEMBER_AT(lockstep_host, get_object, 216);
 MEMBER_AT(lockstep_host, set_object, 224);
 
-SIZE_IS(lockstep_leaf_type, 152);
+SIZE_IS(lockstep_leaf_type, 176);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
 MEMBER_AT(lockstep_leaf_type, kind, 4);
 MEMBER_AT(lockstep_leaf_type, id, 8);
@@ -137,6 +137,19 @@ MEMBER_AT(lockstep_leaf_type, max_children, 124);
 MEMBER_AT(lockstep_leaf_type, start_unreset, 128);
 MEMBER_AT(lockstep_leaf_type, behavior_count, 136);
 MEMBER_AT(lockstep_leaf_type, behavior, 144);
+MEMBER_AT(lockstep_leaf_type, more_ports, 152);
+MEMBER_AT(lockstep_leaf_type, describe, 160);
+MEMBER_AT(lockstep_leaf_type, data, 168);
+
+SIZE_IS(lockstep_fixed, 16);
+MEMBER_AT(lockstep_fixed, port, 0);
+MEMBER_AT(lockstep_fixed, text, 8);
+
+SIZE_IS(lockstep_refusal, 32);
+MEMBER_AT(lockstep_refusal, struct_size, 0);
+MEMBER_AT(lockstep_refusal, port, 8);
+MEMBER_AT(lockstep_refusal, message, 16);
+MEMBER_AT(lockstep_refusal, hint, 24);
 SIZE_IS(lockstep_behavior, 16);
 MEMBER_AT(lockstep_behavior, word, 0);
 MEMBER_AT(lockstep_behavior, value, 8);
@@ -161,7 +174,7 @@ MEMBER_AT(lockstep_children, status, 40);
 MEMBER_AT(lockstep_children, progress, 48);
 MEMBER_AT(lockstep_children, tick_unreset, 56);
 
-SIZE_IS(lockstep_place, 112);
+SIZE_IS(lockstep_place, 120);
 MEMBER_AT(lockstep_place, struct_size, 0);
 MEMBER_AT(lockstep_place, name, 8);
 MEMBER_AT(lockstep_place, path, 16);
@@ -176,6 +189,7 @@ MEMBER_AT(lockstep_place, open, 80);
 MEMBER_AT(lockstep_place, unset, 88);
 MEMBER_AT(lockstep_place, ask_for_tick, 96);
 MEMBER_AT(lockstep_place, wake, 104);
+MEMBER_AT(lockstep_place, data, 112);
 
 SIZE_IS(lockstep_words, 24);
 MEMBER_AT(lockstep_words, struct_size, 0);

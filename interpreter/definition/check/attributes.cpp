@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/element_types.h"
 #include "core/identifier.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"
@@ -85,6 +86,7 @@ class AttributeChecker {
       const std::string_view name = attribute.name;
       const bool names_type = element_.is_explicit && name == "ID";
       if (is_common_attribute(name) || names_type || parameter(name) || is_hook(name)) continue;
+      if (matches_any(node_.type->more_parameters, name)) continue;
       if (report_.counted_only(Severity::Error)) continue;
       report_.at(attribute.place,
                  fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(name)),

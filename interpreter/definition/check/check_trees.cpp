@@ -9,6 +9,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/check/attributes.h"
+#include "definition/check/element_type.h"
 #include "definition/check/foreign_hints.h"
 #include "definition/check/node_check.h"
 
@@ -270,9 +271,11 @@ class TreeChecker {
       node.type = nullptr;
     }
     for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;
+    const NodeElement element_of_node{node.place, attributes(index), is_explicit};
+    if (node.type != nullptr) node.type = type_of_element(element_of_node, *node.type, report_);
     if (node.type != nullptr) {
       check_arity({elements_, index}, node, report_);
-      check_content({node.place, attributes(index), is_explicit}, self, node);
+      check_content(element_of_node, self, node);
     }
     path_size += node.name.size() + 1;
     tree_.paths_size += path_size;

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "blackboard/conversion.h"
+#include "core/element_types.h"
 #include "core/identifier.h"
 #include "core/parameter_value.h"
 #include "core/suggest.h"
@@ -67,6 +68,8 @@ class PortChecker {
       if (attribute.name == "name" || attribute.name == "ID") continue;
       if (!is_port_name(attribute.name)) {
         check_mark(attribute, report_);
+      } else if (matches_any(node_.type->more_parameters, attribute.name)) {
+        continue;
       } else if (!has(attribute.name) && !report_.counted_only(Severity::Error)) {
         report_.at(
             attribute.place,

@@ -9,6 +9,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/check/document_order.h"
+#include "definition/check/element_type.h"
 #include "definition/check/node_check.h"
 #include "dialect/btcpp/attributes.h"
 #include "dialect/btcpp/rules.h"
@@ -177,7 +178,8 @@ class TreeReader {
         since_4 = attributes_since_4(element.attributes, *node.type, report_);
         element.attributes = since_4;
       }
-      read_content(element, self, node);
+      node.type = type_of_element(element, *node.type, report_);
+      if (node.type != nullptr) read_content(element, self, node);
     }
     if (depth == kMaxLevels) {
       report_.at(node.place, fmt::format("elements are nested deeper than {} levels", kMaxLevels));

@@ -6,6 +6,7 @@
 
 #include "core/plugin_exception.h"
 #include "engine/call_mark.h"
+#include "plugin/contract/described_types.h"
 #include "plugin/contract/descriptor_leaf.h"
 #include "plugin/contract/descriptor_port.h"
 
@@ -103,11 +104,13 @@ bool can_run(const lockstep_leaf_type& leaf) {
   return (leaf.flags & LOCKSTEP_AT_ONCE) == 0;
 }
 
-NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf) {
+}  // namespace
+
+NodeType node_type_of(const HostedPlugin& plugin, const Descriptors::Leaf& leaf) {
   const bool is_action = leaf.type.kind == LOCKSTEP_ACTION;
   return NodeType{.id = leaf.type.id,
                   .category = category_of(leaf.type.kind),
-                  .doc = leaf.type.doc == nullptr ? "" : leaf.type.doc,
+                  .doc = text_or_empty(leaf.type.doc),
                   .arity = arity_of(leaf.type),
                   .parameters = leaf.parameters,
                   .can_run = can_run(leaf.type),
@@ -115,17 +118,17 @@ NodeType node_type(const lockstep_plugin& plugin, const Descriptors::Leaf& leaf)
                   .has_progress = !is_action || leaf.type.progress != nullptr,
                   .opens_entries = (leaf.type.flags & LOCKSTEP_OPENS) != 0,
                   .plugin = plugin.name,
+                  .more_parameters = text_or_empty(leaf.type.more_ports),
+                  .element_types = leaf.element_types.get(),
                   .origin = &plugin,
                   .leaf = &leaf.type};
 }
 
-}  // namespace
-
 std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
                                         Descriptors& descriptors) {
   if (auto refusal = check_handshake(entry, exported_size)) return refusal;
-  lockstep_plugin& plugin = descriptors.plugin;  // what else there is in it stays
-  plugin = covered_copy(&entry, entry.struct_size);
+  HostedPlugin& plugin = descriptors.plugin;  // what else there is in it stays
+  static_cast<lockstep_plugin&>(plugin) = covered_copy(&entry, entry.struct_size);
   if (auto refusal = describe(plugin)) return refusal;
   if (auto refusal = check_plugin(plugin)) return refusal;
   for (std::uint32_t index = 0; index < plugin.leaf_type_count; ++index) {
@@ -141,7 +144,8 @@ std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_
                                  index, leaf->type.id),
                      "give each leaf its own id"};
     }
-    leaf->node_type = node_type(plugin, *leaf);
+    if (leaf->type.describe != nullptr) leaf->element_types = described_types(plugin, *leaf);
+    leaf->node_type = node_type_of(plugin, *leaf);
     descriptors.leaves.push_back(std::move(leaf));
   }
   return std::nullopt;

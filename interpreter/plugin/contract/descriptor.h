@@ -10,17 +10,20 @@
 #include <optional>
 #include <vector>
 
+#include "core/element_types.h"
 #include "core/node_type.h"
 #include "core/problem.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep::host {
 
+class LeafDescriber;
 class RemotePlugin;
 
 struct HostedPlugin : lockstep_plugin {
-  RemotePlugin* remote = nullptr;  // null: its functions are the plugin's own
-  bool is_local = false;           // it cannot be isolated
+  RemotePlugin* remote = nullptr;      // null: its functions are the plugin's own
+  LeafDescriber* describer = nullptr;  // null: leaf types describe elements themselves
+  bool is_local = false;               // it cannot be isolated
 };
 
 struct Descriptors {
@@ -31,6 +34,7 @@ struct Descriptors {
     std::vector<Parameter> parameters;                  // its ports, in order
     std::deque<std::vector<std::string_view>> choices;  // of its parameters
     NodeType node_type{};
+    std::unique_ptr<const ElementTypes> element_types = {};  // null: all elements are alike
   };
   std::vector<std::unique_ptr<Leaf>> leaves;
 };
@@ -40,8 +44,15 @@ struct Descriptors {
 std::optional<Problem> read_descriptors(const lockstep_plugin& entry, std::size_t exported_size,
                                         Descriptors& descriptors);
 
+// The rest of it is known.
+NodeType node_type_of(const HostedPlugin& plugin, const Descriptors::Leaf& leaf);
+
 // Letters, digits, '_' and '-'.
 bool is_plugin_name(std::string_view name);
+
+inline std::string_view text_or_empty(const char* text) {
+  return text == nullptr ? "" : text;
+}
 
 // As much of a struct as its owner wrote; the rest is zero.
 template <class Struct>

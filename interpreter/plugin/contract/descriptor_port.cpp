@@ -32,16 +32,14 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-std::string_view text_or_empty(const char* text) {
-  return text == nullptr ? "" : text;
-}
-
 std::optional<Problem> check_name(const lockstep_port& port, std::span<const Parameter> others) {
   if (port.name == nullptr) return Problem{"has no name", "set lockstep_port::name"};
   const std::string_view name = port.name;
-  if (!is_attribute_name(name)) {
+  std::string without_dots(name);
+  std::ranges::replace(without_dots, '.', '-');
+  if (!is_attribute_name(without_dots)) {
     return Problem{fmt::format("is named '{}'", name),
-                   "a port's name is a letter, then letters, digits, '_' and '-'"};
+                   "a port's name is a letter, then letters, digits, '_', '-' and '.'"};
   }
   if (name == "name" || name == "ID") {
     return Problem{fmt::format("is named '{}', an attribute that every node has", name),
@@ -52,6 +50,15 @@ std::optional<Problem> check_name(const lockstep_port& port, std::span<const Par
                    "give each port of a leaf its own name"};
   }
   return std::nullopt;
+}
+
+std::optional<Problem> check_fixed(const lockstep_port& port) {
+  if ((port.flags & LOCKSTEP_FIXED) == 0) return std::nullopt;
+  const bool has_entry = port.direction != LOCKSTEP_INPUT || port.type == LOCKSTEP_OBJECT ||
+                         (port.flags & LOCKSTEP_DEFAULT_ENTRY) != 0;
+  if (!has_entry) return std::nullopt;
+  return Problem{fmt::format("('{}') is fixed, but is no input with a constant", port.name),
+                 "LOCKSTEP_FIXED is for inputs that are no objects and have no default entry"};
 }
 
 bool has_default_entry(const lockstep_port& port) {
@@ -153,6 +160,7 @@ std::optional<Problem> check(const lockstep_port& port, std::span<const Paramete
     return Problem{fmt::format("('{}') is an output of type LOCKSTEP_NUMBER", port.name),
                    "an output is an int or a double, so that others know what they read"};
   }
+  if (auto refusal = check_fixed(port)) return refusal;
   return check_range(port, *type);
 }
 
@@ -207,6 +215,7 @@ std::optional<Problem> read_port(const lockstep_port* from, std::string_view plu
                    .unit = text_or_empty(copy.unit),
                    .choices = choices,
                    .object = object,
+                   .constant = (copy.flags & LOCKSTEP_FIXED) != 0,
                    .is_generic = copy.type == LOCKSTEP_ANY};
   if (has_range(copy)) port.range = {.min = copy.min, .max = copy.max};
   if (has_default_entry(copy)) return read_default_entry(copy, port);

@@ -179,6 +179,10 @@ void ask_for_tick(const lockstep_caller* caller) {
   if (may_ask) caller->run->node_context->ask_for_another_tick(caller->node);
 }
 
+const void* data(const lockstep_caller* caller) {
+  return caller->type == nullptr ? nullptr : caller->type->leaf->data;
+}
+
 void wake(const lockstep_caller* caller) {
   WakeUp* const wake_up = caller->time->wake_up;
   if (wake_up != nullptr) wake_up->wake();
@@ -200,7 +204,8 @@ const lockstep_place& place_table() {
                                          .open = open,
                                          .unset = unset,
                                          .ask_for_tick = ask_for_tick,
-                                         .wake = wake};
+                                         .wake = wake,
+                                         .data = data};
   return kTable;
 }
 

@@ -45,7 +45,52 @@ void keep_functions(lockstep_leaf_type& leaf, std::uint8_t present) {
   if ((present & 32) == 0) leaf.start_unreset = nullptr;
 }
 
+// Stands for a function of the other process, which LeafDescriber asks for.
+const lockstep_leaf_type* describe_elsewhere(const lockstep_fixed* /*fixed*/,
+                                             std::uint32_t /*count*/, lockstep_refusal* /*why*/) {
+  return nullptr;
+}
+
 }  // namespace
+
+void write_fixed(std::span<const FixedText> fixed, MessageWriter& message) {
+  message.put(static_cast<std::uint32_t>(fixed.size()));
+  for (const auto& [parameter, text] : fixed) {
+    message.put_text(parameter);
+    message.put_text(text);
+  }
+}
+
+std::vector<FixedText> read_fixed(MessageReader& message) {
+  std::vector<FixedText> fixed;
+  const auto count = message.get<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && message.good(); ++i) {
+    const std::string_view parameter = message.text();
+    fixed.push_back({parameter, message.text()});
+  }
+  return fixed;
+}
+
+void write_leaf(const lockstep_leaf_type& leaf, std::span<const Parameter> parameters,
+                MessageWriter& message) {
+  message.put(leaf.kind);
+  message.put(leaf.flags);
+  message.put(leaf.min_children);
+  message.put(leaf.max_children);
+  message.put(optional_functions(leaf));
+  message.put_text_or_null(leaf.id);
+  message.put_text_or_null(leaf.doc);
+  message.put(leaf.port_count);
+  for (std::uint32_t port = 0; port < leaf.port_count; ++port) {
+    write_port(*leaf.ports[port], parameters[port].object, message);
+  }
+  message.put(leaf.behavior_count);
+  for (std::uint32_t i = 0; i < leaf.behavior_count; ++i) {
+    message.put_text(leaf.behavior[i].word);
+    message.put_text(leaf.behavior[i].value);
+  }
+  message.put_text_or_null(leaf.more_ports);
+}
 
 void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
   const lockstep_plugin& plugin = descriptors.plugin;
@@ -53,24 +98,7 @@ void write_descriptors(const Descriptors& descriptors, MessageWriter& message) {
     message.put_text_or_null(text);
   }
   message.put(plugin.leaf_type_count);
-  for (const auto& leaf : descriptors.leaves) {
-    message.put(leaf->type.kind);
-    message.put(leaf->type.flags);
-    message.put(leaf->type.min_children);
-    message.put(leaf->type.max_children);
-    message.put(optional_functions(leaf->type));
-    message.put_text_or_null(leaf->type.id);
-    message.put_text_or_null(leaf->type.doc);
-    message.put(leaf->type.port_count);
-    for (std::uint32_t port = 0; port < leaf->type.port_count; ++port) {
-      write_port(*leaf->type.ports[port], leaf->parameters[port].object, message);
-    }
-    message.put(leaf->type.behavior_count);
-    for (std::uint32_t i = 0; i < leaf->type.behavior_count; ++i) {
-      message.put_text(leaf->type.behavior[i].word);
-      message.put_text(leaf->type.behavior[i].value);
-    }
-  }
+  for (const auto& leaf : descriptors.leaves) write_leaf(leaf->type, leaf->parameters, message);
   const PluginWords words = words_of(plugin);
   message.put(static_cast<std::uint32_t>(words.size()));
   for (const auto& [word, number] : words) {
@@ -127,6 +155,8 @@ bool ReadDescriptors::read_leaf(MessageReader& message) {
     const std::string word(message.text());
     tables_.add_behavior(word, message.text());
   }
+  leaf.more_ports = text(message);
+  if (leaf.more_ports != nullptr) leaf.describe = describe_elsewhere;
   return message.good();
 }
 
@@ -137,6 +167,12 @@ bool ReadDescriptors::read_words(MessageReader& message) {
     words_.emplace(std::move(word), message.get<double>());
   }
   return message.good();
+}
+
+const lockstep_leaf_type* ReadDescriptors::read_one(MessageReader& message,
+                                                    RemoteObjectType::FromText from_text) {
+  from_text_ = std::move(from_text);
+  return read_leaf(message) ? tables_.plugin.leaf_types[0] : nullptr;
 }
 
 bool ReadDescriptors::read(MessageReader& message, RemoteObjectType::FromText from_text) {

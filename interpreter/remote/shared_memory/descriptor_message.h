@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/object_type.h"
@@ -16,6 +17,13 @@
 
 namespace lockstep::host {
 
+// What an element gives to parameters that are constants. The texts that are read are the
+// message's.
+void write_fixed(std::span<const FixedText> fixed, MessageWriter& message);
+std::vector<FixedText> read_fixed(MessageReader& message);
+
+void write_leaf(const lockstep_leaf_type& leaf, std::span<const Parameter> parameters,
+                MessageWriter& message);
 void write_descriptors(const Descriptors& descriptors, MessageWriter& message);
 
 // A type of objects of an isolated plugin: here they are bytes, and texts are read there.
@@ -41,6 +49,8 @@ class ReadDescriptors {
   // Returns false if the message is invalid. `from_text` is what types of objects have that have
   // texts.
   bool read(MessageReader& message, RemoteObjectType::FromText from_text);
+  // One leaf type alone; null if the message is invalid.
+  const lockstep_leaf_type* read_one(MessageReader& message, RemoteObjectType::FromText from_text);
   const lockstep_plugin& plugin() const { return tables_.plugin; }
   const PluginWords& words() const { return words_; }
 

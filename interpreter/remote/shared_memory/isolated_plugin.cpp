@@ -132,6 +132,49 @@ Result<Object> IsolatedPlugin::from_text(const PackedType& type, std::string_vie
   return std::move(*object);
 }
 
+// As from_text does.
+tl::expected<const lockstep_leaf_type*, ElementRefusal> IsolatedPlugin::describe(
+    std::string_view id, std::span<const FixedText> fixed) {
+  const auto refused = [](std::string message, std::string hint = {}) {
+    return tl::unexpected(ElementRefusal{{}, {std::move(message), std::move(hint)}});
+  };
+  auto session = take_idle();
+  const bool is_new = session == nullptr;
+  if (is_new) {
+    session = std::make_unique<Session>();
+    if (auto failure = start(*session)) return refused(failure->message, failure->hint);
+  }
+  MessageWriter& request = session->begin_request(PluginFunction::Describe);
+  request.put_text(id);
+  write_fixed(fixed, request);
+  tl::expected<const lockstep_leaf_type*, ElementRefusal> described =
+      refused(fmt::format("'{}' cannot be described: the process of its plugin has ended", id));
+  if (session->request_fits() && session->call({})) {
+    MessageReader answer = session->answer();
+    described = read_described(answer);
+    if (!answer.good()) session->reject_answer();
+  }
+  is_new ? session->end() : release(std::move(session));
+  return described;
+}
+
+tl::expected<const lockstep_leaf_type*, ElementRefusal> IsolatedPlugin::read_described(
+    MessageReader& answer) {
+  if (answer.has_text()) {
+    ElementRefusal refusal{.why = {std::string(answer.text()), std::string(answer.text())}};
+    refusal.parameter = answer.text();
+    return tl::unexpected(std::move(refusal));
+  }
+  const auto read_text = [this](const PackedType& type, std::string_view text) {
+    return from_text(type, text);
+  };
+  const Lock lock(mutex_);
+  const lockstep_leaf_type* const type = described_.emplace_back().read_one(answer, read_text);
+  if (type != nullptr) return type;
+  return tl::unexpected(
+      ElementRefusal{.why = {"the process of its plugin sent an invalid answer"}});
+}
+
 Result<std::unique_ptr<Session>> IsolatedPlugin::acquire() {
   if (auto idle = take_idle()) return idle;
   auto session = std::make_unique<Session>();

@@ -1,12 +1,14 @@
 // A plugin in separate processes, one for each concurrent run.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/problem.h"
+#include "plugin/contract/described_types.h"
 #include "remote/isolation_options.h"
 #include "remote/remote_plugin.h"
 #include "remote/shared_memory/descriptor_message.h"
@@ -15,7 +17,7 @@
 
 namespace lockstep::host {
 
-class IsolatedPlugin final : public RemotePlugin {
+class IsolatedPlugin final : public RemotePlugin, public LeafDescriber {
  public:
   // Starts the first process, which opens the file, checks it and describes the plugin.
   [[nodiscard]] static Result<std::unique_ptr<IsolatedPlugin>> open(
@@ -29,6 +31,9 @@ class IsolatedPlugin final : public RemotePlugin {
   // In the first process.
   std::string initialize() override;
   PluginWords script_words() const override { return descriptors_.words(); }
+  LeafDescriber* describer() override { return this; }
+  tl::expected<const lockstep_leaf_type*, ElementRefusal> describe(
+      std::string_view id, std::span<const FixedText> fixed) override;
   std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
 
   // The place of a leaf type among those of the plugin, by its id, which is the very pointer that
@@ -46,6 +51,7 @@ class IsolatedPlugin final : public RemotePlugin {
   Result<std::unique_ptr<Session>> acquire();
   std::unique_ptr<Session> take_idle();
   Result<Object> from_text(const PackedType& type, std::string_view text);
+  tl::expected<const lockstep_leaf_type*, ElementRefusal> read_described(MessageReader& answer);
 
   std::string path_;
   IsolationOptions options_;
@@ -53,6 +59,8 @@ class IsolatedPlugin final : public RemotePlugin {
   std::vector<std::byte> description_;  // what descriptors_ was made of
 
   Mutex mutex_;
+  // Types of elements; none moves when another one is added.
+  std::deque<ReadDescriptors> described_ LOCKSTEP_GUARDED_BY(mutex_);
   // Initialized, but for the first of all.
   std::vector<std::unique_ptr<Session>> idle_ LOCKSTEP_GUARDED_BY(mutex_);
 };

@@ -96,6 +96,7 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
   }
 
   bool create();
+  void put_fixed(MessageWriter& request) const;
   void start() override { call(PluginFunction::Start); }
   void start_unreset() override { call(PluginFunction::StartUnreset); }
   lockstep_status tick() override {
@@ -128,12 +129,25 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
   std::vector<std::uint32_t> ports_;  // which entry each is bound to, and its default
 };
 
+// What decides the type of its element.
+void IsolatedRun::Leaf::put_fixed(MessageWriter& request) const {
+  std::vector<std::string> texts;
+  std::vector<FixedText> fixed;
+  texts.reserve(caller_.ports.size());
+  for (const BoundPort* const port : caller_.ports) {
+    if (!port->parameter->constant || port->read == nullptr) continue;
+    fixed.push_back({port->parameter->name, texts.emplace_back(to_text(*port->read))});
+  }
+  write_fixed(fixed, request);
+}
+
 bool IsolatedRun::Leaf::create() {
   MessageWriter& request = run_.begin_call(PluginFunction::Create, number_, caller_);
   request.put(caller_.random);
   request.put(run_.plugin_.index_of(*caller_.slot->type).value());
   request.put_text(caller_.who);
   request.put_text(texts_of(caller_).name);
+  put_fixed(request);
   request.put(static_cast<std::uint32_t>(caller_.ports.size()));
   for (std::size_t index = 0; index < caller_.ports.size(); ++index) {
     const BoundPort& port = *caller_.ports[index];

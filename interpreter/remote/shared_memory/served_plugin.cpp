@@ -6,6 +6,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
@@ -92,6 +93,9 @@ class Server {
       case PluginFunction::FromText:
         if (!answer_from_text(request)) answer_.clear();
         break;
+      case PluginFunction::Describe:
+        if (!answer_describe(request)) answer_.clear();
+        break;
       case PluginFunction::Deinit:
         answer_deinit();
         break;
@@ -127,6 +131,25 @@ class Server {
         [](const Object& object) { return pack(object, WithText::Yes); });
     answer_.put_value(packed ? Value(*packed) : Value());
     answer_.put_text(packed ? std::string() : packed.error().message);
+    return true;
+  }
+
+  // False: there is no such type whose elements are described.
+  bool answer_describe(MessageReader& request) {
+    const std::string_view id = request.text();
+    const std::vector<FixedText> fixed = read_fixed(request);
+    const auto found = std::ranges::find(descriptors_.leaves, id,
+                                         [](const auto& leaf) { return leaf->node_type.id; });
+    if (!request.good() || found == descriptors_.leaves.end()) return false;
+    if ((*found)->element_types == nullptr) return false;
+    const auto described = (*found)->element_types->type_of(fixed);
+    answer_.put_text_or_null(described ? nullptr : described.error().why.message.c_str());
+    if (described) {
+      write_leaf(*(*described)->leaf, (*described)->parameters, answer_);
+    } else {
+      answer_.put_text(described.error().why.hint);
+      answer_.put_text(described.error().parameter);
+    }
     return true;
   }
 

@@ -93,21 +93,34 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
   return request.good();
 }
 
+namespace {
+
+// Null: the plugin has no type for such an element.
+const NodeType* type_of(const Descriptors::Leaf& leaf, std::span<const FixedText> fixed) {
+  if (leaf.element_types == nullptr) return &leaf.node_type;
+  return leaf.element_types->type_of(fixed).value_or(nullptr);
+}
+
+}  // namespace
+
 ServedRun::Object* ServedRun::create_leaf(std::uint32_t number, MessageReader& request) {
   const auto random = request.get<std::uint64_t>();
   const auto type = request.get<std::uint32_t>();
   const std::string_view who = request.text();
   std::string name(request.text());
+  const std::vector<FixedText> fixed = read_fixed(request);
   if (type >= descriptors_.leaves.size() || number == 0 || !sites_) return nullptr;
-  const lockstep_leaf_type& declared = descriptors_.leaves[type]->type;
+  const NodeType* const node_type = type_of(*descriptors_.leaves[type], fixed);
+  if (node_type == nullptr) return nullptr;
+  const lockstep_leaf_type& declared = *node_type->leaf;
   const CallSite& site = sites_->add(
       who, CallSite::origin_of({.id = declared.id, .plugin = descriptors_.plugin.name}));
   auto leaf = make_object(number, site.path, std::bit_cast<RandomStream>(random));
   leaf->caller->texts.set({.name = std::move(name)});
   leaf->type = &declared;
-  leaf->caller->type = &descriptors_.leaves[type]->node_type;
+  leaf->caller->type = node_type;
   leaf->site = leaf->slot.site = &site;
-  if (!read_ports(request, *leaf, descriptors_.leaves[type]->parameters)) return nullptr;
+  if (!read_ports(request, *leaf, node_type->parameters)) return nullptr;
   return (objects_[number] = std::move(leaf)).get();
 }
 

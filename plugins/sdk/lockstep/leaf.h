@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_ABI_MAJOR 1u
-#define LOCKSTEP_ABI_MINOR 3u
+#define LOCKSTEP_ABI_MINOR 4u
 
 #if defined(_WIN32)
 #define LOCKSTEP_EXPORT __declspec(dllexport)
@@ -155,7 +155,10 @@ enum {
   LOCKSTEP_OPTIONAL = 1,
   /* default_value is "{key}", the entry that the port is bound to where the tree leaves it out;
    * "{=}" is the entry of the port's name. An output may have such a default, too. */
-  LOCKSTEP_DEFAULT_ENTRY = 2
+  LOCKSTEP_DEFAULT_ENTRY = 2,
+  /* Since 1.4: the tree gives it a constant, never an entry. lockstep_leaf_type::describe sees it.
+   */
+  LOCKSTEP_FIXED = 4
 };
 
 /* A port: an XML attribute of the leaf, constant or bound to a blackboard entry. */
@@ -164,8 +167,8 @@ typedef struct lockstep_port {
   lockstep_type type;
   lockstep_direction direction;
   const char* name; /* the XML attribute: a letter, then letters, digits, '_' (since 1.1 also
-                       '-' and UTF-8); each port of a leaf has its own; 'name' and 'ID' are
-                       taken */
+                       '-' and UTF-8, since 1.4 also '.'); each port of a leaf has its own; 'name'
+                       and 'ID' are taken */
   const char* default_value; /* a constant, as written in XML; NULL: an input or inout must be given
                                 in the tree, an output (which has no default) may be left out */
   const char* unit;          /* "s", "m/s"; NULL or "" for none */
@@ -371,6 +374,10 @@ typedef struct lockstep_place {
    * LOCKSTEP_WAKES. Nothing happens on the virtual clock, where a period takes no time, and in a
    * separate process. It never waits. */
   void (*wake)(const lockstep_caller* caller);
+
+  /* Since 1.4. [any] lockstep_leaf_type::data of the node's type: of the one that describe returned
+   * for its element. */
+  const void* (*data)(const lockstep_caller* caller);
 } lockstep_place;
 
 #define LOCKSTEP_PLACE "lockstep.place"
@@ -466,6 +473,21 @@ typedef struct lockstep_behavior {
   const char* value;
 } lockstep_behavior;
 
+/* Since 1.4: what an element gives to a port with LOCKSTEP_FIXED, or the port's default. */
+typedef struct lockstep_fixed {
+  const char* port;
+  const char* text;
+} lockstep_fixed;
+
+/* Since 1.4: why an element has no type. The texts are valid until the thread calls describe again;
+ * the host has set all to NULL, and struct_size. */
+typedef struct lockstep_refusal {
+  uint32_t struct_size;
+  const char* port;    /* whose text is to blame; NULL: the element as a whole */
+  const char* message; /* lower case, names in single quotes, no full stop */
+  const char* hint;    /* what to do; NULL for none */
+} lockstep_refusal;
+
 /* A type of leaf. Functions marked (optional) may be NULL.
  *
  * An activation: start, then tick once per tick of the tree until it returns success, failure or
@@ -517,6 +539,18 @@ typedef struct lockstep_leaf_type {
   /* Since 1.3. */
   uint32_t behavior_count; /* at most 4096; 0: the type says nothing about what it does */
   const lockstep_behavior* behavior;
+
+  /* Since 1.4: ports by pattern. An element may have more ports than those above: which ones is
+   * found out when a tree is loaded, by what it gives to the ports with LOCKSTEP_FIXED. */
+  const char*
+      more_ports; /* the names that they may have, "goal.*;result.*"; NULL: there are none */
+  /* [any] (optional; with more_ports) The type of an element with these constants, `count` of them:
+   * of the same id and kind, with all its ports, the fixed ones among them, and without describe.
+   * The same constants give the same type, which is valid until the end of the process. NULL: there
+   * is none, and why. `lockstep check` and editors call it too, before init. */
+  const struct lockstep_leaf_type* (*describe)(const lockstep_fixed* fixed, uint32_t count,
+                                               lockstep_refusal* why);
+  const void* data; /* what the plugin likes: lockstep_place::data */
 } lockstep_leaf_type;
 
 /* Since 1.2: where a leaf keeps its progress, for one that has it as a number: a const double *,

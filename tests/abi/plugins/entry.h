@@ -80,6 +80,15 @@
 #ifndef LEAF_BEHAVIOR
 #define LEAF_BEHAVIOR NULL
 #endif
+#ifndef LEAF_MORE_PORTS
+#define LEAF_MORE_PORTS NULL
+#endif
+#ifndef LEAF_DESCRIBE
+#define LEAF_DESCRIBE NULL
+#endif
+#ifndef LEAF_DATA
+#define LEAF_DATA NULL
+#endif
 #ifndef PORT_COUNT
 #define PORT_COUNT 1
 #endif
@@ -135,14 +144,30 @@ static const lockstep_port the_port = {PORT_SIZE,
                                        PORT_FLAGS};
 MAYBE_UNUSED static const lockstep_port* const the_ports[] = {&the_port, &the_port};
 
-static const lockstep_leaf_type the_leaf_type = {
-    LEAF_SIZE,   LEAF_KIND,           LEAF_ID,
-    LEAF_DOC,    PORT_COUNT,          PORT_LIST,
-    LEAF_CREATE, LEAF_DESTROY,        LEAF_START,
-    LEAF_TICK,   LEAF_HALT,           NULL,
-    NULL,        LEAF_PROGRESS,       LEAF_GET_EXTENSION,
-    LEAF_FLAGS,  LEAF_MIN_CHILDREN,   LEAF_MAX_CHILDREN,
-    NULL,        LEAF_BEHAVIOR_COUNT, LEAF_BEHAVIOR};
+static const lockstep_leaf_type the_leaf_type = {LEAF_SIZE,
+                                                 LEAF_KIND,
+                                                 LEAF_ID,
+                                                 LEAF_DOC,
+                                                 PORT_COUNT,
+                                                 PORT_LIST,
+                                                 LEAF_CREATE,
+                                                 LEAF_DESTROY,
+                                                 LEAF_START,
+                                                 LEAF_TICK,
+                                                 LEAF_HALT,
+                                                 NULL,
+                                                 NULL,
+                                                 LEAF_PROGRESS,
+                                                 LEAF_GET_EXTENSION,
+                                                 LEAF_FLAGS,
+                                                 LEAF_MIN_CHILDREN,
+                                                 LEAF_MAX_CHILDREN,
+                                                 NULL,
+                                                 LEAF_BEHAVIOR_COUNT,
+                                                 LEAF_BEHAVIOR,
+                                                 LEAF_MORE_PORTS,
+                                                 LEAF_DESCRIBE,
+                                                 LEAF_DATA};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};
 

@@ -44,6 +44,9 @@ static const newer_leaf_type leaf_type = {{sizeof(newer_leaf_type),
                                            0,
                                            NULL,
                                            0,
+                                           NULL,
+                                           NULL,
+                                           NULL,
                                            NULL},
                                           more};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type.base};

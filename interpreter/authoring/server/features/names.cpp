@@ -1,7 +1,9 @@
 #include "authoring/server/features/names.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "core/element_types.h"
 #include "core/language.h"
 #include "document/references.h"
 #include "expression/token.h"
@@ -183,12 +185,31 @@ const TolerantElement* Names::tree_named(std::string_view id) const {
   return nullptr;
 }
 
+namespace {
+
+// The type of this element, where elements of `type` differ and this one says enough.
+const NodeType* described(const TolerantTree& tree, const TolerantElement& element,
+                          const NodeType& type) {
+  if (type.element_types == nullptr) return &type;
+  const auto given = [&](std::string_view name) -> std::optional<std::string_view> {
+    const std::string_view text = tree.value_of(element, name);
+    if (text.empty()) return std::nullopt;
+    return text;
+  };
+  const auto fixed = fixed_texts(type, given);
+  if (!fixed) return &type;
+  return type.element_types->type_of(*fixed).value_or(&type);
+}
+
+}  // namespace
+
 const NodeType* type_of(const TolerantTree& tree, const TolerantElement& element,
                         const Catalog& catalog) {
-  if (const NodeType* type = catalog.find(element.tag)) return type;
+  if (const NodeType* type = catalog.find(element.tag)) return described(tree, element, *type);
   constexpr std::string_view kExplicit[] = {"Action", "Condition", "Control", "Decorator"};
   if (std::ranges::count(kExplicit, element.tag) == 0) return nullptr;
-  return catalog.find(tree.value_of(element, "ID"));
+  const NodeType* const type = catalog.find(tree.value_of(element, "ID"));
+  return type == nullptr ? nullptr : described(tree, element, *type);
 }
 
 const Parameter* parameter_of(const NodeType* type, std::string_view attribute) {

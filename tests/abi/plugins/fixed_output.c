@@ -1,0 +1,4 @@
+#define PORT_DIRECTION LOCKSTEP_OUTPUT
+#define PORT_DEFAULT NULL
+#define PORT_FLAGS LOCKSTEP_FIXED
+#include "entry.h"

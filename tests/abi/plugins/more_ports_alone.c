@@ -1,0 +1,2 @@
+#define LEAF_MORE_PORTS "goal.*"
+#include "entry.h"
