@@ -14,9 +14,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kVariable = "LOCKSTEP_PLUGIN_PATH";
+// The prefixes of ROS 2 and of its workspaces. A package installs plugins in a folder below.
+constexpr const char* kRosVariable = "AMENT_PREFIX_PATH";
+constexpr const char* kFolderOfPackage = "lib/lockstep/plugins";
 
 bool is_privileged() {
   return getauxval(AT_SECURE) != 0;
+}
+
+// The directories of a variable of the environment; none when privileged.
+std::vector<std::string> listed_in(const char* variable) {
+  std::vector<std::string> directories;
+  const char* const path = secure_getenv(variable);
+  std::istringstream list(path == nullptr ? "" : path);
+  for (std::string directory; std::getline(list, directory, ':');) {
+    if (!directory.empty()) directories.push_back(directory);
+  }
+  return directories;
 }
 
 bool check_absolute(const std::string& path, std::string_view option, Diagnostics& diagnostics) {
@@ -51,12 +65,11 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
   if (is_privileged()) {
     std::erase_if(directories, [](const auto& it) { return !fs::path(it).is_absolute(); });
   }
-  // Null when privileged.
-  if (const char* path = secure_getenv(kVariable)) {
-    std::istringstream list(path);
-    for (std::string directory; std::getline(list, directory, ':');) {
-      if (!directory.empty()) directories.push_back(directory);
-    }
+  for (std::string& directory : listed_in(kVariable)) directories.push_back(std::move(directory));
+  for (const std::string& prefix : listed_in(kRosVariable)) {
+    std::error_code error;
+    const fs::path folder = fs::path(prefix) / kFolderOfPackage;
+    if (fs::is_directory(folder, error)) directories.push_back(folder.string());
   }
   if (const auto beside = program_directory(options); !beside.empty()) {
     directories.push_back((beside / "plugins").string());  // in a build directory

@@ -13,7 +13,8 @@ namespace lockstep::host {
 // The directory that the options name, else that of this program; "" when the system does not tell.
 std::filesystem::path program_directory(const PluginOptions& options);
 
-// --plugin-path, then LOCKSTEP_PLUGIN_PATH, then where plugins are installed beside this program.
+// --plugin-path, then LOCKSTEP_PLUGIN_PATH, then lib/lockstep/plugins of each prefix in
+// AMENT_PREFIX_PATH that has it, then where plugins are installed beside this program.
 // Relative ones are left out when the program is privileged.
 std::vector<std::string> plugin_directories(const PluginOptions& options);
 
