@@ -1,0 +1,331 @@
+#include "action_client.hpp"
+
+#include <rcl/error_handling.h>
+#include <rcl_action/wait.h>
+
+#include <cstring>
+#include <random>
+
+namespace ros2 {
+namespace {
+
+using namespace std::chrono_literals;
+
+// After a server is seen first, its other channels may not be there yet.
+constexpr auto kSettling = 50ms;
+constexpr auto kBetweenLooks = 200ms;
+constexpr auto kCancelLimit = 1s;
+
+constexpr std::size_t kIdSize = 16;
+
+void make_id(void* id) {
+  static std::random_device device;
+  auto* const bytes = static_cast<unsigned char*>(id);
+  for (std::size_t i = 0; i < kIdSize; i += sizeof(unsigned)) {
+    const unsigned bits = device();
+    std::memcpy(bytes + i, &bits, sizeof bits);
+  }
+}
+
+Clock::duration seconds(double value) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+}
+
+}  // namespace
+
+ActionClient::ActionClient(const ActionType& type, std::string action)
+    : type_(type),
+      action_(std::move(action)),
+      client_(rcl_action_get_zero_initialized_client()),
+      goal_response_(*type.goal_response),
+      result_request_(*type.get_result),
+      result_(std::make_unique<Message>(*type.result_response)),
+      next_result_(std::make_unique<Message>(*type.result_response)),
+      feedback_([&] {
+        return std::unique_ptr<Feedback>(new Feedback{Message(*type.feedback_message)});
+      }) {}
+
+ActionClient::~ActionClient() {
+  rcl_node_t& node = Middleware::get().node();
+  if (is_made_ && rcl_action_client_fini(&client_, &node) != RCL_RET_OK) rcl_reset_error();
+}
+
+Outcome ActionClient::outcome(std::uint64_t activation) const {
+  const std::uint64_t ended = ended_.load(std::memory_order_acquire);
+  return ended >> 8 == activation ? static_cast<Outcome>(ended & 0xff) : Outcome::Open;
+}
+
+void ActionClient::open() {
+  const rcl_action_client_options_t options = rcl_action_client_get_default_options();
+  const auto code = rcl_action_client_init(&client_, &Middleware::get().node(), type_.support,
+                                           action_.c_str(), &options);
+  is_made_ = code == RCL_RET_OK;
+  if (!is_made_) why_not_made_ = last_ros_error();
+}
+
+void ActionClient::send(Goal goal) {
+  if (state_ == State::Idle) return begin(std::move(goal));
+  cancel(goal_.activation);
+  if (state_ == State::Idle) return begin(std::move(goal));
+  next_ = std::move(goal);
+}
+
+void ActionClient::begin(Goal goal) {
+  goal_ = std::move(goal);
+  sent_ = 0;
+  send_again();
+}
+
+void ActionClient::send_again() {
+  state_ = State::WaitsForServer;
+  wish_ = Wish::None;
+  is_canceling_ = is_resumed_ = false;
+  deadline_ = Clock::now() + seconds(goal_.server_timeout);
+  if (!is_made_) return fail("there is no client of '" + action_ + "': " + why_not_made_);
+  poll_for_server(Clock::now());
+}
+
+void ActionClient::end(Outcome outcome) {
+  state_ = State::Idle;
+  ended_.store(goal_.activation << 8 | static_cast<std::uint64_t>(outcome),
+               std::memory_order_release);
+  goal_.request.reset();
+  if (!next_) return;
+  Goal next = std::move(*next_);
+  next_.reset();
+  begin(std::move(next));
+}
+
+// A goal that was never begun.
+void ActionClient::drop(std::uint64_t activation) {
+  if (!next_ || next_->activation != activation) return;
+  // Whoever waits for it waits for the one before.
+  goal_.activation = activation;
+  next_.reset();
+}
+
+void ActionClient::cancel(std::uint64_t activation) {
+  if (!is_open(activation)) return drop(activation);
+  wish_ = Wish::Cancel;
+  switch (state_) {
+    case State::WaitsForServer:
+    case State::IsHeld:
+      return end(Outcome::Canceled);
+    case State::IsAccepted:
+      return ask_to_cancel();
+    default:  // once it is accepted
+      cancel_until_ = Clock::now() + kCancelLimit;
+  }
+}
+
+void ActionClient::hold(std::uint64_t activation) {
+  if (!is_open(activation)) return;
+  wish_ = Wish::Hold;
+  is_resumed_ = false;
+  if (state_ == State::WaitsForServer) state_ = State::IsHeld;
+  if (state_ == State::IsAccepted) ask_to_cancel();
+}
+
+void ActionClient::resume(std::uint64_t activation) {
+  if (!is_open(activation) || wish_ != Wish::Hold) return;
+  if (state_ == State::IsHeld) return send_again();
+  is_resumed_ = true;
+  if (!is_canceling_) wish_ = Wish::None;  // it was not accepted yet
+}
+
+bool ActionClient::has_server() {
+  bool is_there = false;
+  if (rcl_action_server_is_available(&Middleware::get().node(), &client_, &is_there) !=
+      RCL_RET_OK) {
+    rcl_reset_error();
+  }
+  if (!is_there) server_since_.reset();
+  if (is_there && !server_since_) server_since_ = Clock::now();
+  return is_there;
+}
+
+bool ActionClient::poll(Clock::time_point now) {
+  if (!is_made_) return false;
+  switch (state_) {
+    case State::WaitsForServer:
+      poll_for_server(now);
+      break;
+    case State::IsSent:
+    case State::IsAccepted:
+      poll_goal(now);
+      break;
+    default:
+      if (!server_since_) has_server();
+  }
+  return state_ != State::Idle && state_ != State::IsHeld;
+}
+
+void ActionClient::poll_for_server(Clock::time_point now) {
+  if (has_server()) {
+    if (now - *server_since_ >= kSettling) send_goal();
+  } else if (now >= deadline_) {
+    end(Outcome::NoServer);
+  }
+}
+
+void ActionClient::poll_goal(Clock::time_point now) {
+  if (wish_ == Wish::Cancel && now >= cancel_until_) {
+    lines_.add("the server of '" + action_ + "' has not ended the goal within 1 s of the cancel");
+    return end(Outcome::Canceled);
+  }
+  if (now < next_look_) return;
+  next_look_ = now + kBetweenLooks;
+  if (!has_server()) end(Outcome::ServerLost);
+}
+
+void ActionClient::send_goal() {
+  make_id(goal_.request->get());
+  next_look_ = Clock::now() + kBetweenLooks;
+  ++sent_;
+  state_ = State::IsSent;
+  if (rcl_action_send_goal_request(&client_, goal_.request->get(), &goal_call_) != RCL_RET_OK) {
+    fail("the goal could not be sent: " + last_ros_error());
+  }
+}
+
+void ActionClient::ask_for_result() {
+  std::memcpy(result_request_.get(), goal_.request->get(), kIdSize);
+  if (rcl_action_send_result_request(&client_, result_request_.get(), &result_call_) !=
+      RCL_RET_OK) {
+    fail("the result could not be asked for: " + last_ros_error());
+  }
+}
+
+void ActionClient::ask_to_cancel() {
+  cancel_until_ = Clock::now() + kCancelLimit;
+  if (is_canceling_) return;
+  is_canceling_ = true;
+  rcl_action_cancel_request_t request = rcl_action_get_zero_initialized_cancel_request();
+  std::memcpy(&request.goal_info.goal_id, goal_.request->get(), kIdSize);
+  if (rcl_action_send_cancel_request(&client_, &request, &cancel_call_) != RCL_RET_OK) {
+    fail("the goal could not be canceled: " + last_ros_error());
+  }
+}
+
+void ActionClient::fail(const std::string& what) {
+  lines_.add(what);
+  end(Outcome::Failed);
+}
+
+void ActionClient::add_sizes(Sizes& sizes) const {
+  Sizes own;
+  if (!is_made_ || rcl_action_client_wait_set_get_num_entities(
+                       &client_, &own.subscriptions, &own.guards, &own.timers, &own.clients,
+                       &own.services) != RCL_RET_OK) {
+    return;
+  }
+  sizes.subscriptions += own.subscriptions;
+  sizes.guards += own.guards;
+  sizes.timers += own.timers;
+  sizes.clients += own.clients;
+  sizes.services += own.services;
+}
+
+void ActionClient::add_to(rcl_wait_set_t& set) {
+  if (!is_made_) return;
+  if (rcl_action_wait_set_add_action_client(&set, &client_, nullptr, nullptr) != RCL_RET_OK) {
+    rcl_reset_error();
+  }
+}
+
+void ActionClient::take(const rcl_wait_set_t& set) {
+  bool feedback = false, status = false, goal = false, canceled = false, result = false;
+  if (!is_made_ ||
+      rcl_action_client_wait_set_get_entities_ready(&set, &client_, &feedback, &status, &goal,
+                                                    &canceled, &result) != RCL_RET_OK) {
+    rcl_reset_error();
+    return;
+  }
+  if (goal) take_goal_response();
+  if (feedback) take_feedback();
+  if (canceled) take_cancel_response();
+  if (result) take_result();
+  if (status) take_status();
+}
+
+void ActionClient::take_goal_response() {
+  rmw_request_id_t id{};
+  if (rcl_action_take_goal_response(&client_, &id, goal_response_.get()) != RCL_RET_OK) {
+    rcl_reset_error();
+    return;
+  }
+  if (state_ != State::IsSent || id.sequence_number != goal_call_) return;
+  if (!*goal_response_.at<bool>(type_.accepted)) {
+    return end(wish_ == Wish::Cancel ? Outcome::Canceled : Outcome::Rejected);
+  }
+  state_ = State::IsAccepted;
+  ask_for_result();
+  if (state_ == State::IsAccepted && wish_ != Wish::None) ask_to_cancel();
+}
+
+bool ActionClient::is_own(const Message& message) const {
+  return goal_.request != nullptr && std::memcmp(message.get(), goal_.request->get(), kIdSize) == 0;
+}
+
+void ActionClient::take_feedback() {
+  while (true) {
+    Feedback& next = feedback_.back();
+    next.message.reset();
+    if (rcl_action_take_feedback(&client_, next.message.get()) != RCL_RET_OK) break;
+    if (!is_own(next.message) || state_ == State::Idle) continue;
+    next.activation = goal_.activation;
+    next.sent = sent_;
+    feedback_.publish();
+  }
+  rcl_reset_error();
+}
+
+void ActionClient::take_result() {
+  rmw_request_id_t id{};
+  next_result_->reset();
+  if (rcl_action_take_result_response(&client_, &id, next_result_->get()) != RCL_RET_OK) {
+    rcl_reset_error();
+    return;
+  }
+  if (state_ != State::IsAccepted || id.sequence_number != result_call_) return;
+  // action_msgs/msg/GoalStatus: 4 succeeded, 5 canceled, 6 aborted.
+  const int status = *next_result_->at<std::int8_t>(type_.status);
+  if (status == 5 && wish_ == Wish::Hold) {
+    if (is_resumed_) return send_again();
+    state_ = State::IsHeld;
+    return;
+  }
+  std::swap(result_, next_result_);
+  end(status == 4 ? Outcome::Succeeded : status == 5 ? Outcome::Canceled : Outcome::Aborted);
+}
+
+void ActionClient::take_cancel_response() {
+  rmw_request_id_t id{};
+  action_msgs__srv__CancelGoal_Response response{};
+  action_msgs__srv__CancelGoal_Response__init(&response);
+  const auto code = rcl_action_take_cancel_response(&client_, &id, &response);
+  const int answer = response.return_code;
+  const bool is_taken = response.goals_canceling.size > 0;
+  action_msgs__srv__CancelGoal_Response__fini(&response);
+  if (code != RCL_RET_OK) {
+    rcl_reset_error();
+    return;
+  }
+  if (!is_canceling_ || id.sequence_number != cancel_call_ || state_ != State::IsAccepted) return;
+  // action_msgs/srv/CancelGoal: 3, it has ended already. Its result follows.
+  if (is_taken || answer == 3) return;
+  is_canceling_ = false;
+  lines_.add("the server of '" + action_ + "' refuses to cancel the goal: the robot goes on");
+  if (wish_ == Wish::Cancel) return end(Outcome::Canceled);
+  wish_ = Wish::None;
+}
+
+// Nothing of it is needed, but it would wake the thread again.
+void ActionClient::take_status() {
+  action_msgs__msg__GoalStatusArray status{};
+  action_msgs__msg__GoalStatusArray__init(&status);
+  if (rcl_action_take_status(&client_, &status) != RCL_RET_OK) rcl_reset_error();
+  action_msgs__msg__GoalStatusArray__fini(&status);
+}
+
+}  // namespace ros2

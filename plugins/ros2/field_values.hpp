@@ -1,0 +1,30 @@
+// Fields of a message as values of ports, and as numbers.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <optional>
+#include <string>
+
+#include "fields.hpp"
+
+namespace ros2 {
+
+// One port of a leaf, and the field of a message that it has the value of.
+struct PortOf {
+  const lockstep_host* host;
+  const lockstep_caller* caller;
+  std::uint32_t port;
+};
+
+// Sets the field if the port has a value. Returns "" or what is wrong.
+std::string read_port(const PortOf& from, const Field& field, void* message);
+// Sets the entry that the port is bound to, if any.
+void write_port(const PortOf& to, const Field& field, const void* message);
+
+// Nothing: it is no number. A bool is 0 or 1.
+std::optional<double> number_in(const Field& field, const void* message);
+// Of a list or string.
+std::optional<double> size_in(const Field& field, const void* message);
+
+}  // namespace ros2

@@ -1,0 +1,105 @@
+#include "fields.hpp"
+
+#include <rosidl_typesupport_introspection_c/field_types.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+namespace ros2 {
+namespace {
+
+using Kind = Field::Kind;
+
+struct Scalar {
+  Kind kind, list;
+  double min = 0, max = 0;
+};
+
+template <class T>
+Scalar whole() {
+  // A port is an int of 64 bits, so what is larger than that is not reached.
+  const double most = sizeof(T) == 8 ? HUGE_VAL : double(std::numeric_limits<T>::max());
+  const double least = sizeof(T) == 8 && std::numeric_limits<T>::is_signed
+                           ? -HUGE_VAL
+                           : double(std::numeric_limits<T>::min());
+  return {Kind::Int, Kind::IntList, least, most};
+}
+
+// Nothing: no port can carry it.
+std::optional<Scalar> scalar_of(std::uint8_t type) {
+  switch (type) {
+    case rosidl_typesupport_introspection_c__ROS_TYPE_FLOAT:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_DOUBLE:
+      return Scalar{Kind::Double, Kind::DoubleList};
+    case rosidl_typesupport_introspection_c__ROS_TYPE_BOOLEAN:
+      return Scalar{Kind::Bool, Kind::BoolList};
+    case rosidl_typesupport_introspection_c__ROS_TYPE_STRING:
+      return Scalar{Kind::String, Kind::StringList};
+    case rosidl_typesupport_introspection_c__ROS_TYPE_CHAR:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_OCTET:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT8:
+      return whole<std::uint8_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT8:
+      return whole<std::int8_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT16:
+      return whole<std::uint16_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT16:
+      return whole<std::int16_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT32:
+      return whole<std::uint32_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT32:
+      return whole<std::int32_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT64:
+      return whole<std::uint64_t>();
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT64:
+      return whole<std::int64_t>();
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_time(const Members& members) {
+  return std::strcmp(members.message_namespace_, "builtin_interfaces__msg") == 0 &&
+         std::strcmp(members.message_name_, "Time") == 0;
+}
+
+void add_fields(const Members& members, const std::string& prefix, std::size_t offset,
+                std::vector<Field>& fields) {
+  for (std::uint32_t i = 0; i < members.member_count_; ++i) {
+    const Member& member = members.members_[i];
+    if (std::strcmp(member.name_, "structure_needs_at_least_one_member") == 0) continue;
+    const std::string path = prefix + member.name_;
+    const std::size_t at = offset + member.offset_;
+    if (const auto scalar = scalar_of(member.type_id_)) {
+      fields.push_back({path, member.is_array_ ? scalar->list : scalar->kind, at, &member,
+                        scalar->min, scalar->max});
+    } else if (member.type_id_ != rosidl_typesupport_introspection_c__ROS_TYPE_MESSAGE) {
+      continue;
+    } else if (member.is_array_) {
+      fields.push_back({path, Kind::Messages, at, &member});
+    } else {
+      if (is_time(members_of(member))) fields.push_back({path, Kind::Time, at, nullptr});
+      add_fields(members_of(member), path + ".", at, fields);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Field> fields_of(const Members& members, std::size_t offset) {
+  std::vector<Field> fields;
+  add_fields(members, "", offset, fields);
+  return fields;
+}
+
+const Field* find_field(const std::vector<Field>& fields, const std::string& path) {
+  for (const Field& field : fields) {
+    if (field.path == path) return &field;
+  }
+  return nullptr;
+}
+
+}  // namespace ros2

@@ -1,0 +1,90 @@
+// What all leaves of this plugin share: the host, their element, ports, lines for the log.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <string>
+#include <vector>
+
+#include "middleware.hpp"
+#include "ports.hpp"
+
+namespace ros2 {
+
+using FieldPorts = std::vector<PortList::FieldPort>;
+
+class LeafBase {
+ public:
+  LeafBase(const lockstep_host& host, const lockstep_caller* caller)
+      : host_(host), caller_(caller) {}
+  LeafBase(const LeafBase&) = delete;
+  LeafBase& operator=(const LeafBase&) = delete;
+
+  void start() {}
+  void halt() {}
+  void pause() {}
+  void resume() {}
+  double progress() { return 0; }
+  void fail(const char* message) { host_.set_error(caller_, message); }
+
+ protected:
+  ~LeafBase() = default;
+
+  template <class Element>
+  const Element& element() const {
+    const auto* const place =
+        static_cast<const lockstep_place*>(host_.get_extension(LOCKSTEP_PLACE));
+    return *static_cast<const Element*>(place->data(caller_));
+  }
+  double now() const { return host_.now(caller_); }
+  double number(std::uint32_t port) const {
+    double value = 0;
+    host_.get_double(caller_, port, &value);
+    return value;
+  }
+  // Those that the tree gives something to.
+  FieldPorts given(const FieldPorts& all) const {
+    FieldPorts given;
+    for (const auto& it : all) {
+      if (is_given(host_, caller_, it.port)) given.push_back(it);
+    }
+    return given;
+  }
+  // False after an error.
+  bool read(const FieldPorts& ports, Message& message) {
+    for (const auto& [port, field] : ports) {
+      const std::string wrong = read_port({&host_, caller_, port}, *field, message.get());
+      if (wrong.empty()) continue;
+      fail(wrong.c_str());
+      return false;
+    }
+    return true;
+  }
+  void write(const FieldPorts& ports, const Message& message) {
+    for (const auto& [port, field] : ports) {
+      write_port({&host_, caller_, port}, *field, message.get());
+    }
+  }
+  void set_text(std::uint32_t port, const std::string& text) {
+    host_.set_string(caller_, port, text.data(), text.size());
+  }
+  // Lines of the leaf's own client, and of ROS itself.
+  template <class Client>
+  void log_lines(Client& client) {
+    std::string line;
+    while (client.lines().next(line) || Middleware::get().next_log_line(line)) {
+      host_.log(caller_, LOCKSTEP_LOG_WARNING, line.c_str());
+    }
+  }
+
+  const lockstep_host& host_;
+  const lockstep_caller* caller_;
+};
+
+// The outcome of a leaf that has failed: it fails, or ends the run.
+constexpr lockstep_port kOnFailurePort =
+    input("on_failure", LOCKSTEP_STRING, "failure",
+          "What the leaf does when it does not succeed: it fails, or ends the run with a fault.",
+          LOCKSTEP_FIXED, "failure;fault");
+
+}  // namespace ros2

@@ -1,0 +1,69 @@
+// The functions of the contract for a leaf class: T(host, caller), start, tick, halt, pause,
+// resume, progress. An exception becomes an error of the leaf.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <exception>
+
+namespace ros2 {
+
+template <class T>
+struct LeafFunctions {
+  static void* create(const lockstep_host* host, const lockstep_caller* caller, void* run) {
+    try {
+      return new T(*host, caller, run);
+    } catch (const std::exception& error) {
+      host->set_error(caller, error.what());
+      return nullptr;
+    }
+  }
+  static void destroy(void* leaf) { delete static_cast<T*>(leaf); }
+  static void start(void* leaf) {
+    call(leaf, 0, [](T& it) { return it.start(), 0; });
+  }
+  static lockstep_status tick(void* leaf) {
+    return call(leaf, lockstep_status{LOCKSTEP_FAILURE}, [](T& it) { return it.tick(); });
+  }
+  static void halt(void* leaf) {
+    call(leaf, 0, [](T& it) { return it.halt(), 0; });
+  }
+  static void pause(void* leaf) {
+    call(leaf, 0, [](T& it) { return it.pause(), 0; });
+  }
+  static void resume(void* leaf) {
+    call(leaf, 0, [](T& it) { return it.resume(), 0; });
+  }
+  static double progress(void* leaf) {
+    return call(leaf, 0.0, [](T& it) { return it.progress(); });
+  }
+
+  static lockstep_leaf_type type(const char* id, const char* doc) {
+    lockstep_leaf_type type{};
+    type.struct_size = sizeof type;
+    type.kind = LOCKSTEP_ACTION;
+    type.id = id;
+    type.doc = doc;
+    type.create = create;
+    type.destroy = destroy;
+    type.start = start;
+    type.tick = tick;
+    type.halt = halt;
+    type.flags = LOCKSTEP_REAL_TIME;
+    return type;
+  }
+
+ private:
+  template <class R, class Function>
+  static R call(void* leaf, R otherwise, Function function) noexcept {
+    T& it = *static_cast<T*>(leaf);
+    try {
+      return function(it);
+    } catch (const std::exception& error) {
+      it.fail(error.what());
+      return otherwise;
+    }
+  }
+};
+
+}  // namespace ros2

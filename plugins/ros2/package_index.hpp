@@ -1,0 +1,26 @@
+// What interfaces the packages on AMENT_PREFIX_PATH have, and their type supports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "result.hpp"
+
+namespace ros2 {
+
+// "nav2_msgs/action/NavigateToPose": the parts of a type's name.
+struct TypeName {
+  std::string package, kind, name;
+  std::string text() const { return package + "/" + kind + "/" + name; }
+};
+
+// `kind` is "action", "srv" or "msg".
+Result<TypeName> parse_type_name(const std::string& text, const std::string& kind);
+
+// What the type's get_…_type_support_handle returns. The library stays loaded.
+Result<const void*> type_support(const TypeName& type);
+
+// "; did you mean 'x'?", or what there is.
+std::string suggestion(const std::string& wrong, const std::vector<std::string>& known);
+
+}  // namespace ros2

@@ -1,0 +1,297 @@
+#include "ros_action.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "action_client.hpp"
+#include "elements.hpp"
+#include "hold.hpp"
+#include "leaf_base.hpp"
+#include "leaf_functions.hpp"
+#include "progress.hpp"
+#include "run_end.hpp"
+
+namespace ros2 {
+namespace {
+
+enum Own : std::uint32_t {
+  kType,
+  kAction,
+  kProgress,
+  kHold,
+  kHoldType,
+  kOnFailure,
+  kServerTimeout,
+  kError
+};
+
+constexpr std::uint64_t kFixedOptional = LOCKSTEP_FIXED | LOCKSTEP_OPTIONAL;
+
+constexpr lockstep_port kOwnPorts[] = {
+    input("type", LOCKSTEP_STRING, nullptr, "The type: nav2_msgs/action/NavigateToPose.",
+          LOCKSTEP_FIXED),
+    input("action", LOCKSTEP_STRING, nullptr, "The action's name: /navigate_to_pose.",
+          LOCKSTEP_FIXED),
+    input("progress", LOCKSTEP_STRING, nullptr,
+          "The progress from 0 to 1, of goal.FIELD, feedback.FIELD, elapsed, first(…), size(…).",
+          kFixedOptional),
+    input("hold", LOCKSTEP_STRING, nullptr,
+          "While the leaf is held: cancel (the goal is canceled and sent again), service:NAME, "
+          "topic:NAME (the robot gets true, then false) or nothing (the robot goes on).",
+          kFixedOptional),
+    input("hold_type", LOCKSTEP_STRING, nullptr,
+          "The type of that service or topic; std_srvs/srv/SetBool, std_msgs/msg/Bool if left out.",
+          kFixedOptional),
+    kOnFailurePort,
+    {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "server_timeout", "5", "s",
+     "How long to wait for a server that is not there.", nullptr, 0, HUGE_VAL, nullptr, 0},
+    {sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "error", nullptr, nullptr,
+     "Why it failed: rejected, aborted, canceled, no server, server lost.", nullptr, 0, 0, nullptr,
+     0},
+};
+
+// One element's: what its constants say, and the ports that follow from that.
+struct ActionElement {
+  explicit ActionElement(const ActionType& of) : type(of), ports(kOwnPorts) {}
+
+  const ActionType& type;
+  std::string action;
+  Progress progress;
+  bool needs_feedback = false;
+  Hold hold;
+  bool faults = false;
+  PortList ports;
+  std::vector<PortList::FieldPort> goal, feedback, result;
+  lockstep_leaf_type leaf{};
+};
+
+const char* words_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::Aborted:
+      return "aborted";
+    case Outcome::Canceled:
+      return "canceled";
+    case Outcome::Rejected:
+      return "rejected";
+    case Outcome::NoServer:
+      return "no server";
+    case Outcome::ServerLost:
+      return "server lost";
+    default:
+      return "not sent";
+  }
+}
+
+class RosAction : public LeafBase {
+ public:
+  RosAction(const lockstep_host& host, const lockstep_caller* caller, void* run)
+      : LeafBase(host, caller),
+        element_(element<ActionElement>()),
+        run_end_(*static_cast<RunEnd*>(run)),
+        client_(std::make_shared<ActionClient>(element_.type, element_.action)),
+        signal_(make_hold_signal(element_.hold)),
+        feedback_ports_(given(element_.feedback)),
+        result_ports_(given(element_.result)) {
+    Middleware::get().post([client = client_, signal = signal_] {
+      client->open();
+      Middleware::get().add(client);
+      if (signal == nullptr) return;
+      signal->open();
+      if (Waitable* const waitable = signal->waitable()) {
+        Middleware::get().add(std::shared_ptr<Waitable>(signal, waitable));
+      }
+    });
+  }
+
+  // A goal that was canceled is waited for, as long as the run's end may take.
+  ~RosAction() {
+    run_end_.wait([&] { return !client_->is_busy(activation_); });
+    log_lines(*client_);
+    Middleware::get().post([client = std::move(client_), signal = std::move(signal_)] {
+      Middleware::get().remove(client.get());
+      if (signal != nullptr) Middleware::get().remove(signal->waitable());
+    });
+  }
+  RosAction(const RosAction&) = delete;
+  RosAction& operator=(const RosAction&) = delete;
+
+  void start() {
+    goal_ = std::make_shared<Message>(*element_.type.send_goal);
+    if (!read(element_.goal, *goal_)) return;
+    ++activation_;
+    progress_ = held_progress_ = 0;
+    began_ = now();
+    memory_ = element_.progress.memory();
+    sent_ = 0;
+    const ActionClient::Goal goal{activation_, goal_, number(kServerTimeout)};
+    Middleware::get().post([client = client_, goal] { client->send(goal); });
+  }
+
+  lockstep_status tick() {
+    log_lines(*client_);
+    // The result first: all feedback came before it.
+    const Outcome outcome = client_->outcome(activation_);
+    take_feedback();
+    if (outcome == Outcome::Open) return LOCKSTEP_RUNNING;
+    const bool has_result = outcome == Outcome::Succeeded || outcome == Outcome::Aborted ||
+                            outcome == Outcome::Canceled;
+    if (has_result) write(result_ports_, client_->result());
+    if (outcome == Outcome::Succeeded) return LOCKSTEP_SUCCESS;
+    const std::string why = words_of(outcome);
+    set_text(kError, why);
+    if (element_.faults) fail(("the action '" + element_.action + "': " + why).c_str());
+    return LOCKSTEP_FAILURE;
+  }
+
+  void halt() {
+    Middleware::get().post([client = client_, it = activation_] { client->cancel(it); });
+  }
+
+  void pause() {
+    held_since_ = now();
+    held_progress_ = progress_;
+    Middleware::get().post([client = client_, signal = signal_, it = activation_] {
+      signal == nullptr ? client->hold(it) : tell(*client, *signal, true);
+    });
+  }
+
+  void resume() {
+    began_ += now() - held_since_;
+    Middleware::get().post([client = client_, signal = signal_, it = activation_] {
+      signal == nullptr ? client->resume(it) : tell(*client, *signal, false);
+    });
+  }
+
+  double progress() {
+    take_feedback();
+    if (element_.needs_feedback) return progress_;
+    measure(nullptr);
+    return progress_;
+  }
+
+ private:
+  static void tell(ActionClient& client, HoldSignal& signal, bool held) {
+    const std::string wrong = signal.tell(held);
+    if (!wrong.empty()) client.lines().add(wrong);
+  }
+
+  void take_feedback() {
+    if (!client_->feedback().update()) return;
+    ActionClient::Feedback& feedback = client_->feedback().front();
+    if (feedback.activation != activation_) return;
+    write(feedback_ports_, feedback.message);
+    if (element_.needs_feedback) measure(feedback.message.get());
+    if (sent_ != 0 && feedback.sent != sent_) compare_with_held();
+    sent_ = feedback.sent;
+  }
+
+  void measure(const void* feedback) {
+    const Progress::Inputs inputs{&element_.type.goal, goal_->get(), &element_.type.feedback,
+                                  feedback, now() - began_};
+    progress_ = element_.progress.value(inputs, memory_).value_or(progress_);
+  }
+
+  // The first feedback after the goal was sent again.
+  void compare_with_held() {
+    constexpr double kFall = 0.05;
+    if (progress_ >= held_progress_ - kFall || has_warned_) return;
+    has_warned_ = true;
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "its progress fell from %.2f to %.2f after the goal was sent again: the server "
+                  "begins where it began first, and hold=\"cancel\" is not for it",
+                  held_progress_, progress_);
+    host_.log(caller_, LOCKSTEP_LOG_WARNING, text);
+  }
+
+  const ActionElement& element_;
+  RunEnd& run_end_;
+  std::shared_ptr<ActionClient> client_;
+  std::shared_ptr<HoldSignal> signal_;
+  const FieldPorts feedback_ports_, result_ports_;  // that the tree binds
+
+  std::shared_ptr<Message> goal_;
+  std::uint64_t activation_ = 0;
+  unsigned sent_ = 0;
+  double progress_ = 0, held_progress_ = 0, began_ = 0, held_since_ = 0;
+  Progress::Memory memory_;
+  bool has_warned_ = false;
+};
+
+constexpr const char* kDoc =
+    "Sends a goal to an action server of ROS 2, of any type, and is done when the goal is. The "
+    "attributes goal.FIELD are the goal; result.FIELD and feedback.FIELD are put into entries.";
+
+lockstep_leaf_type base_type() {
+  lockstep_leaf_type type = LeafFunctions<RosAction>::type("RosAction", kDoc);
+  static const PortList ports(kOwnPorts);
+  ports.give_to(type);
+  return type;
+}
+
+void describe_ports(ActionElement& element) {
+  element.goal = element.ports.add("goal.", element.type.goal, LOCKSTEP_INPUT);
+  element.feedback = element.ports.add("feedback.", element.type.feedback, LOCKSTEP_OUTPUT);
+  element.result = element.ports.add("result.", element.type.result, LOCKSTEP_OUTPUT);
+  element.leaf = base_type();
+  element.ports.give_to(element.leaf);
+  using Functions = LeafFunctions<RosAction>;
+  if (!element.progress.is_empty()) element.leaf.progress = Functions::progress;
+  const auto way = element.hold.way;
+  if (way != Hold::Way::Undecided && way != Hold::Way::Nothing) {
+    element.leaf.pause = Functions::pause;
+    element.leaf.resume = Functions::resume;
+  }
+}
+
+std::unique_ptr<ActionElement> make_element(const FixedTexts& texts, Refusal& refusal) {
+  auto type = action_type(texts[kOwnPorts[kType]]);
+  if (!type) {
+    refusal = {&kOwnPorts[kType], type.problem()};
+    return nullptr;
+  }
+  auto element = std::make_unique<ActionElement>(**type);
+  element->action = texts[kOwnPorts[kAction]];
+  element->faults = texts[kOwnPorts[kOnFailure]] == "fault";
+  if (const std::string text = texts[kOwnPorts[kProgress]]; !text.empty()) {
+    auto progress = read_progress(text, element->type.goal, element->type.feedback);
+    if (!progress) {
+      refusal = {&kOwnPorts[kProgress], progress.problem()};
+      return nullptr;
+    }
+    element->progress = std::move(*progress);
+    element->needs_feedback = element->progress.uses_feedback();
+  }
+  auto hold = read_hold(texts[kOwnPorts[kHold]], texts[kOwnPorts[kHoldType]]);
+  if (!hold) {
+    refusal = {&kOwnPorts[kHold], hold.problem()};
+    return nullptr;
+  }
+  element->hold = *hold;
+  describe_ports(*element);
+  return element;
+}
+
+const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t count,
+                                   lockstep_refusal* why) {
+  return described<ActionElement>(fixed, count, why, make_element);
+}
+
+}  // namespace
+
+const lockstep_leaf_type& ros_action() {
+  static const lockstep_leaf_type type = [] {
+    lockstep_leaf_type base = base_type();
+    base.more_ports = "goal.*;feedback.*;result.*";
+    base.describe = describe;
+    // An element may have them.
+    base.progress = LeafFunctions<RosAction>::progress;
+    base.pause = LeafFunctions<RosAction>::pause;
+    base.resume = LeafFunctions<RosAction>::resume;
+    return base;
+  }();
+  return type;
+}
+
+}  // namespace ros2

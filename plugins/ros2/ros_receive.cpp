@@ -1,0 +1,124 @@
+#include <cmath>
+#include <limits>
+
+#include "leaf_functions.hpp"
+#include "ros_topics.hpp"
+#include "topic_element.hpp"
+#include "topics.hpp"
+
+namespace ros2 {
+namespace {
+
+enum Own : std::uint32_t { kTake = kQos + 1, kMaxAge, kTimeout };
+
+constexpr lockstep_port kPorts[] = {
+    kTypePort,
+    kTopicPort,
+    kQosPort,
+    input("take", LOCKSTEP_STRING, "newest",
+          "newest: the last message, if there is one already; next: one that comes after the leaf "
+          "has begun.",
+          LOCKSTEP_FIXED, "newest;next"),
+    {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "max_age", nullptr, "s",
+     "How long ago the message may have come; any time when left out.", nullptr, 0, HUGE_VAL,
+     nullptr, LOCKSTEP_OPTIONAL},
+    {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "timeout", nullptr, "s",
+     "After this time without a message the leaf fails; when left out, it waits.", nullptr, 0,
+     HUGE_VAL, nullptr, LOCKSTEP_OPTIONAL},
+};
+
+struct ReceiveElement : TopicElement {
+  using TopicElement::TopicElement;
+  bool takes_next = false;
+};
+
+class RosReceive : public LeafBase {
+ public:
+  RosReceive(const lockstep_host& host, const lockstep_caller* caller, void* /*run*/)
+      : LeafBase(host, caller),
+        element_(element<ReceiveElement>()),
+        subscription_(std::make_shared<Subscription>(element_.type, element_.topic, element_.qos)),
+        fields_(given(element_.fields)) {
+    Middleware::get().post([subscription = subscription_] {
+      subscription->open();
+      Middleware::get().add(subscription);
+    });
+  }
+  ~RosReceive() {
+    log_lines(*subscription_);
+    Middleware::get().post([subscription = std::move(subscription_)] {
+      Middleware::get().remove(subscription.get());
+    });
+  }
+
+  void start() {
+    began_ = Clock::now();
+    timeout_ = limit(kTimeout);
+    max_age_ = limit(kMaxAge);
+  }
+
+  lockstep_status tick() {
+    log_lines(*subscription_);
+    has_some_ |= subscription_->received().update();
+    const auto now = Clock::now();
+    if (has_some_ && fits(subscription_->received().front(), now)) {
+      write(fields_, subscription_->received().front().message);
+      return LOCKSTEP_SUCCESS;
+    }
+    return seconds(now - began_) >= timeout_ ? LOCKSTEP_FAILURE : LOCKSTEP_RUNNING;
+  }
+
+ private:
+  static double seconds(Clock::duration time) {
+    return std::chrono::duration<double>(time).count();
+  }
+
+  double limit(std::uint32_t port) const {
+    double value = std::numeric_limits<double>::infinity();
+    host_.get_double(caller_, port, &value);
+    return value;
+  }
+
+  bool fits(const Subscription::Received& received, Clock::time_point now) const {
+    if (element_.takes_next && received.at < began_) return false;
+    return seconds(now - received.at) <= max_age_;
+  }
+
+  const ReceiveElement& element_;
+  std::shared_ptr<Subscription> subscription_;
+  const FieldPorts fields_;
+  bool has_some_ = false;
+  Clock::time_point began_{};
+  double timeout_ = 0, max_age_ = 0;
+};
+
+const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t count,
+                                   lockstep_refusal* why) {
+  return described<ReceiveElement>(fixed, count, why,
+                                   [](const FixedTexts& texts, Refusal& refusal) {
+                                     auto element = make_topic_element<ReceiveElement>(
+                                         texts, refusal, kPorts, LOCKSTEP_OUTPUT, ros_receive());
+                                     if (element != nullptr)
+                                       element->takes_next = texts[kPorts[kTake]] == "next";
+                                     return element;
+                                   });
+}
+
+}  // namespace
+
+const lockstep_leaf_type& ros_receive() {
+  static const PortList ports(kPorts);
+  static const lockstep_leaf_type type = [] {
+    lockstep_leaf_type base = LeafFunctions<RosReceive>::type(
+        "RosReceive",
+        "Waits for a message on a topic of ROS 2, of any type, and succeeds when it has one. The "
+        "attributes message.FIELD are put into entries.");
+    base.more_ports = "message.*";
+    base.describe = describe;
+    ports.give_to(base);
+    return base;
+  }();
+  return type;
+}
+
+}  // namespace ros2

@@ -1,0 +1,141 @@
+#include "ros_service.hpp"
+
+#include <cmath>
+#include <memory>
+
+#include "elements.hpp"
+#include "leaf_base.hpp"
+#include "leaf_functions.hpp"
+#include "service_client.hpp"
+
+namespace ros2 {
+namespace {
+
+enum Own : std::uint32_t { kType, kService, kOnFailure, kTimeout, kError };
+
+constexpr lockstep_port kOwnPorts[] = {
+    input("type", LOCKSTEP_STRING, nullptr, "The type: std_srvs/srv/Trigger.", LOCKSTEP_FIXED),
+    input("service", LOCKSTEP_STRING, nullptr, "The service's name: /clear_map.", LOCKSTEP_FIXED),
+    kOnFailurePort,
+    {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "timeout", "5", "s",
+     "How long to wait for the service and its answer.", nullptr, 0, HUGE_VAL, nullptr, 0},
+    {sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "error", nullptr, nullptr,
+     "Why it failed: no service, no answer.", nullptr, 0, 0, nullptr, 0},
+};
+
+struct ServiceElement {
+  explicit ServiceElement(const ServiceType& of) : type(of), ports(kOwnPorts) {}
+
+  const ServiceType& type;
+  std::string service;
+  bool faults = false;
+  PortList ports;
+  FieldPorts request, response;
+  lockstep_leaf_type leaf{};
+};
+
+const char* words_of(ServiceClient::Outcome outcome) {
+  switch (outcome) {
+    case ServiceClient::Outcome::NoService:
+      return "no service";
+    case ServiceClient::Outcome::NoAnswer:
+      return "no answer";
+    default:
+      return "not sent";
+  }
+}
+
+class RosService : public LeafBase {
+ public:
+  RosService(const lockstep_host& host, const lockstep_caller* caller, void* /*run*/)
+      : LeafBase(host, caller),
+        element_(element<ServiceElement>()),
+        client_(std::make_shared<ServiceClient>(element_.type, element_.service)),
+        response_ports_(given(element_.response)) {
+    Middleware::get().post([client = client_] {
+      client->open();
+      Middleware::get().add(client);
+    });
+  }
+  ~RosService() {
+    Middleware::get().post(
+        [client = std::move(client_)] { Middleware::get().remove(client.get()); });
+  }
+
+  void start() {
+    auto request = std::make_shared<Message>(*element_.type.request_message);
+    if (!read(element_.request, *request)) return;
+    const ServiceClient::Call call{++activation_, std::move(request), number(kTimeout)};
+    Middleware::get().post([client = client_, call] { client->send(call); });
+  }
+
+  lockstep_status tick() {
+    log_lines(*client_);
+    const auto outcome = client_->outcome(activation_);
+    if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
+    if (outcome == ServiceClient::Outcome::Answered) {
+      write(response_ports_, client_->response());
+      return LOCKSTEP_SUCCESS;
+    }
+    const std::string why = words_of(outcome);
+    set_text(kError, why);
+    if (element_.faults) fail(("the service '" + element_.service + "': " + why).c_str());
+    return LOCKSTEP_FAILURE;
+  }
+
+  void halt() {
+    Middleware::get().post([client = client_, it = activation_] { client->forget(it); });
+  }
+
+ private:
+  const ServiceElement& element_;
+  std::shared_ptr<ServiceClient> client_;
+  const FieldPorts response_ports_;
+  std::uint64_t activation_ = 0;
+};
+
+constexpr const char* kDoc =
+    "Calls a service of ROS 2, of any type, and succeeds when it has answered, whatever the answer "
+    "says. The attributes request.FIELD are the request; response.FIELD are put into entries.";
+
+lockstep_leaf_type base_type() {
+  lockstep_leaf_type type = LeafFunctions<RosService>::type("RosService", kDoc);
+  static const PortList ports(kOwnPorts);
+  ports.give_to(type);
+  return type;
+}
+
+std::unique_ptr<ServiceElement> make_element(const FixedTexts& texts, Refusal& refusal) {
+  auto type = service_type(texts[kOwnPorts[kType]]);
+  if (!type) {
+    refusal = {&kOwnPorts[kType], type.problem()};
+    return nullptr;
+  }
+  auto element = std::make_unique<ServiceElement>(**type);
+  element->service = texts[kOwnPorts[kService]];
+  element->faults = texts[kOwnPorts[kOnFailure]] == "fault";
+  element->request = element->ports.add("request.", element->type.request, LOCKSTEP_INPUT);
+  element->response = element->ports.add("response.", element->type.response, LOCKSTEP_OUTPUT);
+  element->leaf = base_type();
+  element->ports.give_to(element->leaf);
+  return element;
+}
+
+const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t count,
+                                   lockstep_refusal* why) {
+  return described<ServiceElement>(fixed, count, why, make_element);
+}
+
+}  // namespace
+
+const lockstep_leaf_type& ros_service() {
+  static const lockstep_leaf_type type = [] {
+    lockstep_leaf_type base = base_type();
+    base.more_ports = "request.*;response.*";
+    base.describe = describe;
+    return base;
+  }();
+  return type;
+}
+
+}  // namespace ros2

@@ -1,0 +1,172 @@
+"""RosAction against servers that do all that servers do."""
+
+import signal
+import time
+
+from world import World, count
+
+
+class Action(World):
+    def test_success_brings_the_result(self):
+        self.server("--action", "/count")
+        run = self.run_tree(count("c", "/count", 5, 'result.sequence="{all}"'))
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("1;2;3;4;5", self.recording.read_text())
+
+    def test_progress_is_that_of_the_expression(self):
+        self.server("--action", "/count", "--step", 50)
+        run = self.run_tree(count("c", "/count", 5))
+        self.assertEqual(run.returncode, 0, run.err)
+        seen = sorted(set(self.progress("c").values()))
+        self.assertEqual(seen[:5], [0, 0.2, 0.4, 0.6, 0.8])
+
+    def failure(self, server, words, *options):
+        self.server("--action", "/count", *server)
+        run = self.run_tree(f"""<Sequence memory="true">
+          <Inverter>{count("c", "/count", 5, 'error="{why}" ' + " ".join(options))}</Inverter>
+          <Check code="why == '{words}'"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_rejected(self):
+        self.failure(["--reject"], "rejected")
+
+    def test_aborted(self):
+        self.failure(["--abort", 2], "aborted")
+
+    def test_a_server_that_is_killed_is_noticed(self):
+        self.failure(["--die", 2], "server lost")
+
+    def test_a_server_that_ends_is_noticed_soon(self):
+        server = self.server("--action", "/count", "--step", 100)
+        run = self.start(count("c", "/count", 100, 'on_failure="fault"'))
+        server.wait_for("goal 100")
+        time.sleep(0.2)
+        server.stop()
+        began = time.monotonic()
+        _, err = run.communicate(timeout=20)
+        self.assertLess(time.monotonic() - began, 3)
+        self.assertIn("the action '/count': server lost", err)
+
+    def test_absent(self):
+        began = time.monotonic()
+        run = self.run_tree(count("c", "/nobody", 5, 'server_timeout="0.5" on_failure="fault"'))
+        self.assertLess(time.monotonic() - began, 5)
+        self.assertIn("the action '/nobody': no server", run.err)
+
+    def test_late(self):
+        run = self.start(count("c", "/count"))
+        time.sleep(0.5)
+        self.server("--action", "/count")
+        _, err = run.communicate(timeout=20)
+        self.assertEqual(run.returncode, 0, err)
+
+    def test_halt_cancels(self):
+        server = self.server("--action", "/count")
+        run = self.run_tree(f'<Timeout seconds="0.5">{count("c", "/count", 1000)}</Timeout>')
+        server.wait_for("cancel")
+        server.wait_for(next(line for line in server.lines if line.startswith("cancel")))
+        self.assertTrue(any(line.startswith("canceled") for line in server.lines), server.lines)
+        self.assertNotEqual(run.returncode, 0)
+
+    def test_refused_cancel_is_said(self):
+        self.server("--action", "/count", "--refuse")
+        run = self.run_tree(f'<Timeout seconds="0.5">{count("c", "/count", 1000)}</Timeout>')
+        self.assertIn("refuses to cancel the goal", run.err)
+
+    def test_an_interrupt_cancels(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            server = self.server("--action", "/count")
+            run = self.start(count("c", "/count", 1000))
+            server.wait_for("goal 1000")
+            time.sleep(0.2)
+            run.send_signal(number)
+            run.communicate(timeout=20)
+            server.wait_for("cancel")
+            server.stop()
+
+    def test_begun_again_after_a_halt(self):
+        server = self.server("--action", "/count")
+        run = self.run_tree(f"""<Sequence memory="true">
+          <Inverter><Timeout seconds="0.3">{count("a", "/count", 1000)}</Timeout></Inverter>
+          {count("b", "/count", 3)}</Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("succeeded 3", server.lines)
+
+    def test_many_goals_in_a_row(self):
+        self.server("--action", "/count", "--step", 2)
+        run = self.run_tree(f'<Repeat times="100">{count("c", "/count", 1)}</Repeat>', seconds=60)
+        self.assertEqual(run.returncode, 0, run.err)
+
+
+class Held(World):
+    """Two servers, one three times as slow, over a barrier at the half."""
+
+    def pair(self, hold, *slow):
+        self.fast = self.server("--action", "/fast", "--step", 20, *slow)
+        self.slow = self.server("--action", "/slow", "--step", 60)
+        nodes = (count("fast", "/fast", 20, hold) + count("slow", "/slow", 20, hold))
+        run = self.run_tree(f'<ParallelAbsolute barriers="0.5">{nodes}</ParallelAbsolute>')
+        self.assertEqual(run.returncode, 0, run.err)
+        fast, slow = self.progress("fast"), self.progress("slow")
+        self.spread = max(abs(fast[tick] - slow[tick]) for tick in fast.keys() & slow.keys())
+        return run
+
+    def test_nothing_lets_the_robot_go_on(self):
+        self.pair('hold="nothing"')
+        self.assertGreater(self.spread, 0.55)
+
+    def test_cancel_and_send_again_to_a_robot_that_has_a_position(self):
+        self.pair('hold="cancel"', "--keep")
+        self.assertLess(self.spread, 0.45)
+        self.assertGreaterEqual(self.fast.lines.count("goal 20"), 2)
+
+    def test_a_topic_tells_the_robot(self):
+        self.pair('hold="topic:/still"', "--hold-topic", "/still")
+        self.assertLess(self.spread, 0.45)
+        self.assertIn("hold", self.fast.lines)
+        self.assertIn("go on", self.fast.lines)
+        self.assertEqual(self.fast.lines.count("goal 20"), 1)
+
+    def test_a_service_tells_the_robot(self):
+        self.pair('hold="service:/still" hold_type="example_interfaces/srv/SetBool"',
+                  "--hold-service", "/still")
+        self.assertLess(self.spread, 0.45)
+        self.assertIn("hold", self.fast.lines)
+        self.assertIn("go on", self.fast.lines)
+
+
+class Check(World):
+    def errors(self, attributes):
+        run = self.check(f"<RosAction {attributes}/>")
+        self.assertNotEqual(run.returncode, 0)
+        return run.stdout + run.stderr
+
+    FIBONACCI = 'type="example_interfaces/action/Fibonacci" action="/count"'
+
+    def test_a_field_that_is_not_there(self):
+        self.assertRegex(self.errors(self.FIBONACCI + ' goal.ordr="3"'),
+                         r"(?s)2:\d+.*no parameter 'goal.ordr'.*did you mean 'goal.order'\?")
+
+    def test_a_value_that_does_not_fit(self):
+        self.assertIn("2147483647", self.errors(self.FIBONACCI + ' goal.order="4000000000"'))
+
+    def test_types_that_are_not_there(self):
+        for name, what in (("example_interfaces/action/Fibo", "has no action 'Fibo'"),
+                           ("no_such/action/X", "there is no package 'no_such'"),
+                           ("Fibonacci", "is not the name of a type of actions")):
+            self.assertIn(what, self.errors(f'type="{name}" action="/count"'))
+
+    def test_progress_that_cannot_be_read(self):
+        for text, what in (("feedback.sequenze", "did you mean 'feedback.sequence'?"),
+                           ("feedback.sequence", "is no number"),
+                           ("1 +", "ends too early"), ("nonsense", "knows no 'nonsense'")):
+            self.assertIn(what, self.errors(f'{self.FIBONACCI} progress="{text}"'))
+
+    def test_a_way_to_hold_that_is_none(self):
+        self.assertIn("is no way to hold", self.errors(self.FIBONACCI + ' hold="softly"'))
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main()

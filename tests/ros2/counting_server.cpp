@@ -1,0 +1,157 @@
+// An action server of example_interfaces/action/Fibonacci for the tests: it counts to `order`, one
+// step each `--step` ms, and tells of each step. What it does besides is said by options:
+//   --keep       a goal goes on where the one before it stopped, as a robot that has a position
+//   --reject     takes no goal          --abort N   aborts at the step N
+//   --refuse     refuses to cancel      --die N     kills itself at N
+//   --hold-service NAME, --hold-topic NAME: stands while it is true
+// It prints one line for each thing that happens to it.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "example_interfaces/action/fibonacci.hpp"
+#include "example_interfaces/srv/set_bool.hpp"
+#include "rclcpp/rclcpp.hpp"
+#include "rclcpp_action/rclcpp_action.hpp"
+#include "std_msgs/msg/bool.hpp"
+
+namespace {
+
+using Fibonacci = example_interfaces::action::Fibonacci;
+using GoalHandle = rclcpp_action::ServerGoalHandle<Fibonacci>;
+using SetBool = example_interfaces::srv::SetBool;
+
+struct Options {
+  std::string action = "/count", hold_service, hold_topic;
+  int step = 20, abort_at = -1, die_at = -1;
+  bool keeps = false, rejects = false, refuses = false;
+};
+
+Options read_options(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto text = [&] { return i + 1 < argc ? std::string(argv[++i]) : std::string(); };
+    const auto number = [&] { return std::atoi(text().c_str()); };
+    if (word == "--action") options.action = text();
+    if (word == "--hold-service") options.hold_service = text();
+    if (word == "--hold-topic") options.hold_topic = text();
+    if (word == "--step") options.step = number();
+    if (word == "--abort") options.abort_at = number();
+    if (word == "--die") options.die_at = number();
+    if (word == "--keep") options.keeps = true;
+    if (word == "--reject") options.rejects = true;
+    if (word == "--refuse") options.refuses = true;
+  }
+  return options;
+}
+
+void say(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+class CountingServer : public rclcpp::Node {
+ public:
+  explicit CountingServer(Options options)
+      : Node("counting_server_" + std::to_string(getpid())), options_(std::move(options)) {
+    server_ = rclcpp_action::create_server<Fibonacci>(
+        this, options_.action,
+        [this](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
+          say("goal " + std::to_string(goal->order));
+          return options_.rejects ? rclcpp_action::GoalResponse::REJECT
+                                  : rclcpp_action::GoalResponse::ACCEPT_AND_EXECUTE;
+        },
+        [this](std::shared_ptr<GoalHandle>) {
+          say("cancel");
+          return options_.refuses ? rclcpp_action::CancelResponse::REJECT
+                                  : rclcpp_action::CancelResponse::ACCEPT;
+        },
+        [this](std::shared_ptr<GoalHandle> goal) { accept(std::move(goal)); });
+    timer_ = create_wall_timer(std::chrono::milliseconds(options_.step), [this] { step(); });
+    if (!options_.hold_service.empty()) {
+      service_ = create_service<SetBool>(options_.hold_service,
+                                         [this](std::shared_ptr<SetBool::Request> request,
+                                                std::shared_ptr<SetBool::Response> response) {
+                                           hold(request->data);
+                                           response->success = true;
+                                         });
+    }
+    if (!options_.hold_topic.empty()) {
+      subscription_ = create_subscription<std_msgs::msg::Bool>(
+          options_.hold_topic, 10,
+          [this](std_msgs::msg::Bool::ConstSharedPtr message) { hold(message->data); });
+    }
+    say("ready");
+  }
+  // The handle of a goal that is open throws in its destructor when ROS has shut down.
+  ~CountingServer() override { new std::shared_ptr<GoalHandle>(std::move(goal_)); }
+
+ private:
+  void hold(bool held) {
+    held_ = held;
+    say(held ? "hold" : "go on");
+  }
+
+  void accept(std::shared_ptr<GoalHandle> goal) {
+    goal_ = std::move(goal);
+    if (!options_.keeps) count_ = 0;
+  }
+
+  std::vector<int> counted() const {
+    std::vector<int> all;
+    for (int i = 1; i <= count_; ++i) all.push_back(i);
+    return all;
+  }
+
+  void end(const char* word) {
+    say(std::string(word) + " " + std::to_string(count_));
+    goal_.reset();
+  }
+
+  void step() {
+    if (goal_ == nullptr) return;
+    auto result = std::make_shared<Fibonacci::Result>();
+    result->sequence = counted();
+    if (goal_->is_canceling()) {
+      goal_->canceled(result);
+      return end("canceled");
+    }
+    if (held_) return;
+    ++count_;
+    result->sequence = counted();
+    auto feedback = std::make_shared<Fibonacci::Feedback>();
+    feedback->sequence = counted();
+    goal_->publish_feedback(feedback);
+    if (count_ == options_.die_at) std::raise(SIGKILL);
+    if (count_ == options_.abort_at) {
+      goal_->abort(result);
+      return end("aborted");
+    }
+    if (count_ >= goal_->get_goal()->order) {
+      goal_->succeed(result);
+      end("succeeded");
+      count_ = 0;
+    }
+  }
+
+  const Options options_;
+  rclcpp_action::Server<Fibonacci>::SharedPtr server_;
+  rclcpp::Service<SetBool>::SharedPtr service_;
+  rclcpp::Subscription<std_msgs::msg::Bool>::SharedPtr subscription_;
+  rclcpp::TimerBase::SharedPtr timer_;
+  std::shared_ptr<GoalHandle> goal_;
+  int count_ = 0;
+  bool held_ = false;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  rclcpp::init(argc, argv);
+  rclcpp::spin(std::make_shared<CountingServer>(read_options(argc, argv)));
+  rclcpp::shutdown();
+}

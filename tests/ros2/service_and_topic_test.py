@@ -1,0 +1,74 @@
+"""RosService, RosPublish and RosReceive."""
+
+from world import World
+
+SET_BOOL = 'type="example_interfaces/srv/SetBool"'
+BOOL = 'type="std_msgs/msg/Bool"'
+
+
+class Service(World):
+    def test_an_answer(self):
+        server = self.server("--action", "/c", "--hold-service", "/still")
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosService {SET_BOOL} service="/still" request.data="true" response.success="{{ok}}"/>
+          <Check code="ok"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("hold", server.lines)
+
+    def test_no_service(self):
+        run = self.run_tree(f"""<Sequence memory="true"><Inverter>
+          <RosService {SET_BOOL} service="/nobody" timeout="0.3" error="{{why}}"/></Inverter>
+          <Check code="why == 'no service'"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_a_field_that_is_not_there(self):
+        run = self.check(f'<RosService {SET_BOOL} service="/s" request.dato="true"/>')
+        self.assertIn("did you mean 'request.data'?", run.stderr)
+
+
+class Topic(World):
+    def test_what_is_published_is_received(self):
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {BOOL} topic="/t" qos="latched" message.data="true"/>
+          <RosReceive {BOOL} topic="/t" qos="latched" timeout="5" message.data="{{got}}"/>
+          <Check code="got"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_published_to_others(self):
+        server = self.server("--action", "/c", "--hold-topic", "/still")
+        run = self.run_tree(f"""<Sequence memory="true"><Wait seconds="0.5"/>
+          <RosPublish {BOOL} topic="/still" message.data="true"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        server.wait_for("hold")
+
+    def test_nothing_comes(self):
+        run = self.run_tree(f'<RosReceive {BOOL} topic="/silent" timeout="0.3"/>')
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("failure", run.out + run.err)
+
+    def test_the_next_one_is_not_an_old_one(self):
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {BOOL} topic="/t" qos="latched" message.data="true"/>
+          <RosReceive {BOOL} topic="/t" qos="latched" timeout="5"/>
+          <RosReceive name="n" {BOOL} topic="/t" qos="latched" take="next" timeout="0.3"/>
+          </Sequence>""")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("n: failure", run.out + run.err)
+
+    def test_every_kind_of_field_goes_there_and_comes_back(self):
+        kind = 'type="std_msgs/msg/Float64MultiArray"'
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {kind} topic="/list" qos="latched" message.data="0.5;-1.5"
+                      message.layout.data_offset="7"/>
+          <RosReceive {kind} topic="/list" qos="latched" timeout="5" message.data="{{list}}"
+                      message.layout.data_offset="{{offset}}"/>
+          <Check code="offset == 7"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("0.5;-1.5", self.recording.read_text())
+        run = self.run_tree("""<Sequence memory="true">
+          <RosPublish type="std_msgs/msg/Header" topic="/head" qos="latched" message.stamp="now"
+                      message.frame_id="map"/>
+          <RosReceive type="std_msgs/msg/Header" topic="/head" qos="latched" timeout="5"
+                      message.frame_id="{frame}" message.stamp.sec="{sec}"/>
+          <Check code="frame == 'map' &amp;&amp; sec &gt; 1000000000"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
