@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -14,9 +12,9 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/command_program.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/help_text.h"
 #include "cli/run/groot.h"
 #include "cli/usage.h"
 #include "engine/call_mark.h"
@@ -25,32 +23,30 @@
 #include "system/descriptors.h"
 #include "system/own_thread.h"
 #include "terminal/raw_terminal.h"
-#include "terminal/terminal.h"
 #include "web/server_socket.h"
 
 namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
-    kVerifyCommand, kTestCommand, kNewCommand, kFmtCommand, kLspCommand;
+    kVerifyCommand, kTestCommand, kNewCommand, kFmtCommand, kLspCommand, kCompletionCommand,
+    kManualCommand, kDoctorCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kNewCommand,    &kRunCommand,     &kCheckCommand,   &kVerifyCommand,
-      &kTestCommand,   &kShowCommand,    &kNodesCommand,   &kSchemaCommand,
-      &kFmtCommand,    &kConvertCommand, &kPluginCommand,  &kLogCommand,
-      &kReplayCommand, &kStudyCommand,   &kMonitorCommand, &kLspCommand};
+      &kNewCommand,    &kRunCommand,    &kCheckCommand,      &kVerifyCommand, &kTestCommand,
+      &kShowCommand,   &kNodesCommand,  &kSchemaCommand,     &kFmtCommand,    &kConvertCommand,
+      &kPluginCommand, &kLogCommand,    &kReplayCommand,     &kStudyCommand,  &kMonitorCommand,
+      &kLspCommand,    &kDoctorCommand, &kCompletionCommand, &kManualCommand};
   return kAll;
 }
 
 namespace {
 
-constexpr const char* kHelp = "help";
-
 // `lockstep help log info` is `lockstep log info --help`.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-  if (words.empty() || words.front() != kHelp) return words;
+  if (words.empty() || words.front() != "help") return words;
   words.erase(words.begin());
   words.emplace_back("--help");
   return words;
@@ -90,52 +86,6 @@ int refuse(const UsageError& error) {
 void parse(CLI::App& app, std::vector<std::string> words) {
   std::ranges::reverse(words);  // as CLI11 takes them
   app.parse(std::move(words));
-}
-
-// The commands as CLI11 knows them. Their options take longer to define than many a command takes,
-// so those of commands that are not named can be left out, but a hint may be about any of them.
-class Program {
- public:
-  enum class Options { OfNamedCommands, OfAllCommands };
-
-  Program(const std::vector<std::string>& words, Options options);
-
-  CLI::App& app() { return app_; }
-  // Runs the command that was parsed.
-  int run() const;
-
- private:
-  CLI::App app_{"lockstep: behavior trees that move several things at once and keep them in step",
-                "lockstep"};
-  std::vector<std::pair<const CLI::App*, std::function<int()>>> actions_;
-};
-
-Program::Program(const std::vector<std::string>& words, Options options) {
-  app_.formatter(help_formatter(terminal_size(STDOUT_FILENO).width));
-  app_.require_subcommand(1);
-  app_.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
-  app_.footer(
-      "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage or a file "
-      "that cannot be used, 3 invalid tree, 4 plugin refused, 5 leaf fault, 6 a plugin crashed or "
-      "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
-      "has those that it uses.\n\n"
-      "Example: lockstep run trees/door_pulling.xml\n\n"
-      "`lockstep help COMMAND` shows the options of a command and examples.");
-  for (const Command* command : commands()) {
-    CLI::App* subcommand = app_.add_subcommand(command->name, command->summary);
-    const bool is_named = std::ranges::find(words, command->name) != words.end();
-    if (options == Options::OfNamedCommands && !is_named) continue;
-    subcommand->footer(command->examples);
-    actions_.emplace_back(subcommand, command->define(*subcommand));
-  }
-  app_.add_subcommand(kHelp, "Show the help of a command: lockstep help log info");
-}
-
-int Program::run() const {
-  for (const auto& [command, action] : actions_) {
-    if (command->parsed()) return action();
-  }
-  return kExitUsage;
 }
 
 // Nothing after a mistake, if the options of some commands are left out.

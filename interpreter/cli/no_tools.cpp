@@ -9,6 +9,7 @@ extern const Command kShowCommand = absent("show"), kNodesCommand = absent("node
                      kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
                      kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
                      kNewCommand = absent("new"), kFmtCommand = absent("fmt"),
-                     kLspCommand = absent("lsp");
+                     kLspCommand = absent("lsp"), kCompletionCommand = absent("completion"),
+                     kManualCommand = absent("manual");
 
 }  // namespace lockstep::host

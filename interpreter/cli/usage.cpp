@@ -7,92 +7,15 @@
 #include <cctype>
 #include <filesystem>
 
+#include "cli/command_walk.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 
 namespace lockstep::host {
 namespace {
 
-// How far a command line can be followed.
-struct Walk {
-  const CLI::App* command;             // the innermost that it names
-  std::string unknown_option;          // the first
-  const CLI::App* unknown_at;          // the command that it was given to
-  std::string empty_option;            // the first that lacks its value
-  std::vector<std::string> arguments;  // of that command, that are neither options nor their values
-};
-
-std::vector<const CLI::App*> subcommands(const CLI::App& command) {
-  return command.get_subcommands([](const CLI::App*) { return true; });
-}
-
-const CLI::App* find_subcommand(const CLI::App& command, const std::string& name) {
-  const auto all = subcommands(command);
-  const auto found = std::ranges::find(all, name, [](const auto* it) { return it->get_name(); });
-  return found == all.end() ? nullptr : *found;
-}
-
-bool takes_value(const CLI::Option& option) {
-  return option.get_items_expected_max() > 0;
-}
-
-// Not get_option_no_throw(): without memory it ends the program.
-const CLI::Option* find_option(const CLI::App& command, const std::string& name) {
-  const auto all = command.get_options();
-  const auto found =
-      std::ranges::find_if(all, [&](const auto* it) { return it->check_name(name); });
-  return found == all.end() ? nullptr : *found;
-}
-
-// `--name`, `--name=value`, `-n` or `-nvalue`. Returns how many of the next words are its values.
-std::size_t follow_option(Walk& walk, const std::string& word) {
-  const std::string name = word.substr(0, word.find('='));
-  const CLI::Option* option = find_option(*walk.command, name);
-  const bool is_short = !word.starts_with("--");
-  const bool has_value = name.size() < word.size() || (option == nullptr && is_short);
-  if (option == nullptr && is_short) option = find_option(*walk.command, word.substr(0, 2));
-  if (option == nullptr && walk.unknown_option.empty()) {
-    walk.unknown_option = name;
-    walk.unknown_at = walk.command;
-  }
-  const bool needs_value = option != nullptr && takes_value(*option);
-  if (needs_value && word.ends_with('=') && walk.empty_option.empty()) walk.empty_option = name;
-  return needs_value && !has_value ? static_cast<std::size_t>(option->get_items_expected_min()) : 0;
-}
-
-Walk follow(const CLI::App& program, std::span<const std::string> words) {
-  Walk walk{&program, {}, &program, {}, {}};
-  bool options_end = false;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (!options_end && word.size() > 1 && word[0] == '-') {
-      options_end = word == "--";
-      if (options_end) continue;
-      i += follow_option(walk, word);
-      if (i >= words.size()) walk.empty_option = word;
-    } else if (const CLI::App* command = find_subcommand(*walk.command, word)) {
-      walk.command = command;
-    } else {
-      walk.arguments.push_back(word);
-    }
-  }
-  return walk;
-}
-
-// "lockstep log info"
-std::string path_of(const CLI::App& command) {
-  const CLI::App* parent = command.get_parent();
-  return parent == nullptr ? command.get_name() : path_of(*parent) + " " + command.get_name();
-}
-
-// "log info" of "lockstep log info"
-std::string name_of(const CLI::App& command) {
-  const std::string path = path_of(command);
-  return path.substr(std::min(path.find(' ') + 1, path.size()));
-}
-
 std::string with_help(const CLI::App& command, std::string hint) {
-  const std::string help = fmt::format("see `{} --help`", path_of(command));
+  const std::string help = fmt::format("see `{} --help`", command_line_of(command));
   return hint.empty() ? help : fmt::format("{} {}", hint, help);
 }
 
@@ -142,18 +65,18 @@ std::string owners_hint(const CLI::App& program, const std::string& option) {
   if (owners.empty()) return {};
   std::string names;
   for (std::size_t i = 0; i < std::min(owners.size(), kMostNamed); ++i) {
-    names += fmt::format("{}`{}`", i == 0 ? "" : ", ", path_of(*owners[i]));
+    names += fmt::format("{}`{}`", i == 0 ? "" : ", ", command_line_of(*owners[i]));
   }
   if (owners.size() > kMostNamed) names += fmt::format(" and {} more", owners.size() - kMostNamed);
   return fmt::format("{} {} that option;", names, owners.size() == 1 ? "has" : "have");
 }
 
-UsageError unknown_option(const CLI::App& program, const Walk& walk) {
+UsageError unknown_option(const CLI::App& program, const CommandWalk& walk) {
   const CLI::App& command = *walk.command;
   const std::string& option = walk.unknown_option;
   std::string hint;
   if (walk.unknown_at != &command && find_option(command, option) != nullptr) {
-    hint = fmt::format("it stands behind the command: `{} {}`;", path_of(command), option);
+    hint = fmt::format("it stands behind the command: `{} {}`;", command_line_of(command), option);
   }
   if (hint.empty() && option.starts_with("--")) {
     const std::string better = option_with_value(command, option.substr(2));
@@ -171,15 +94,15 @@ std::string suggest_command(const CLI::App& command, std::string_view word) {
   return hint;
 }
 
-UsageError unknown_command(const Walk& walk) {
+UsageError unknown_command(const CommandWalk& walk) {
   const bool is_program = walk.command->get_parent() == nullptr;
-  const std::string prefix = is_program ? "" : name_of(*walk.command) + " ";
+  const std::string prefix = is_program ? "" : command_name_of(*walk.command) + " ";
   return {fmt::format("unknown command '{}{}'", prefix, brief(walk.arguments.front())),
           with_help(*walk.command, suggest_command(*walk.command, walk.arguments.front()))};
 }
 
 // A command that takes a file or a subcommand got a subcommand that is mistyped.
-bool is_mistyped_command(const Walk& walk) {
+bool is_mistyped_command(const CommandWalk& walk) {
   const auto names = names_of(subcommands(*walk.command));
   return !walk.arguments.empty() && !names.empty() &&
          !suggest_one_of(walk.arguments.front(), names, "").empty() &&
@@ -215,7 +138,7 @@ std::string reason(const CLI::ParseError& error) {
 
 std::optional<UsageError> find_unknown_command(const CLI::App& program,
                                                std::span<const std::string> words) {
-  const Walk walk = follow(program, words);
+  const CommandWalk walk = follow(program, words);
   if (walk.arguments.empty() || walk.command->get_require_subcommand_min() == 0)
     return std::nullopt;
   return unknown_command(walk);
@@ -223,11 +146,11 @@ std::optional<UsageError> find_unknown_command(const CLI::App& program,
 
 UsageError explain(const CLI::App& program, std::span<const std::string> words,
                    const CLI::ParseError& error) {
-  const Walk walk = follow(program, words);
+  const CommandWalk walk = follow(program, words);
   const CLI::App& command = *walk.command;
   if (!walk.unknown_option.empty()) return unknown_option(program, walk);
   if (command.get_require_subcommand_min() > 0) {
-    return {fmt::format("`{}` needs a command", path_of(command)),
+    return {fmt::format("`{}` needs a command", command_line_of(command)),
             with_help(command, suggest_command(command, ""))};
   }
   if (!walk.empty_option.empty()) {

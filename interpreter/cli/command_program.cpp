@@ -1,0 +1,54 @@
+#include "cli/command_program.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "cli/about.h"
+#include "cli/command.h"
+#include "cli/exit_code.h"
+#include "cli/help_text.h"
+#include "terminal/terminal.h"
+
+namespace lockstep::host {
+
+Program::Program(const std::vector<std::string>& words, Options options)
+    : app_(std::make_unique<CLI::App>(
+          "lockstep: behavior trees that move several things at once and keep them in step",
+          "lockstep")) {
+  app_->formatter(help_formatter(terminal_size(STDOUT_FILENO).width));
+  app_->require_subcommand(1);
+  CLI::Option* const verbose = app_->add_flag(
+      "--verbose", is_verbose_, "With --version: also the parts, the paths and the other versions");
+  CLI::Option* const version = app_->set_version_flag(
+      "--version", [this] { return is_verbose_ ? about_text() : "lockstep " LOCKSTEP_VERSION; },
+      "Print the version and exit");
+  verbose->needs(version);
+  app_->footer(
+      "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage or a file "
+      "that cannot be used, 3 invalid tree, 4 plugin refused, 5 leaf fault, 6 a plugin crashed or "
+      "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
+      "has those that it uses.\n\n"
+      "Example: lockstep run trees/door_pulling.xml\n\n"
+      "`lockstep help COMMAND` shows the options of a command and examples.");
+  for (const Command* command : commands()) {
+    CLI::App* subcommand = app_->add_subcommand(command->name, command->summary);
+    const bool is_named = std::ranges::find(words, command->name) != words.end();
+    if (options == Options::OfNamedCommands && !is_named) continue;
+    subcommand->footer(command->examples);
+    actions_.emplace_back(subcommand, command->define(*subcommand));
+  }
+  app_->add_subcommand("help", "Show the help of a command: lockstep help log info");
+}
+
+Program::~Program() = default;
+
+int Program::run() const {
+  for (const auto& [command, action] : actions_) {
+    if (command->parsed()) return action();
+  }
+  return kExitUsage;
+}
+
+}  // namespace lockstep::host

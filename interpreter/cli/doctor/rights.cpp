@@ -1,0 +1,25 @@
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "cli/doctor/symptoms.h"
+#include "runtime/realtime.h"
+
+namespace lockstep::host {
+
+// A thread tries it, as a run would: limits and capabilities do not say what a container forbids.
+void look_at_rights(const Patient& patient, Symptoms& symptoms) {
+  using Grade = Symptom::Grade;
+  const RealtimeOptions wanted{.realtime = true};
+  std::vector<Problem> problems;
+  std::thread([&] { problems = apply_realtime(wanted); }).join();
+  munlockall();
+  const Grade grade = patient.realtime ? Grade::Trouble : Grade::Note;
+  for (const Problem& problem : problems)
+    symptoms.push_back({"--realtime", grade, problem.message, problem.hint});
+  if (problems.empty())
+    symptoms.push_back({"--realtime", Grade::Good, "a real-time priority and locked memory"});
+}
+
+}  // namespace lockstep::host

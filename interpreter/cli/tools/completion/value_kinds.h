@@ -1,0 +1,16 @@
+// What the value of an option could be: by the name of its type in --help.
+#pragma once
+
+#include <string>
+
+#include "cli/command_walk.h"
+#include "cli/tools/completion/candidates.h"
+
+namespace lockstep::host {
+
+// Of an option of the command that the line names.
+Candidates values_of(const CLI::Option& option, const CommandWalk& walk);
+
+std::string first_sentence(const std::string& text);
+
+}  // namespace lockstep::host

@@ -1,0 +1,52 @@
+"""lockstep doctor and --version --verbose: doctor_test.py LOCKSTEP."""
+import json
+import os
+import re
+import subprocess
+import sys
+
+LOCKSTEP = sys.argv[1]
+
+
+def run(*words, **environment):
+    return subprocess.run([LOCKSTEP, *words], capture_output=True, text=True, env={"PATH": "/usr/bin:/bin", **environment})
+
+
+def findings(*words, **environment):
+    done = run("doctor", "--json", *words, **environment)
+    found = json.loads(done.stdout)["findings"]
+    assert all(it["grade"] in ("ok", "note", "trouble") for it in found)
+    assert all(it["remedy"] for it in found if it["grade"] == "trouble"), found
+    assert done.returncode == (1 if any(it["grade"] == "trouble" for it in found) else 0), done
+    return found
+
+
+# At one tick in 20 s, nothing of a machine that is busy is late.
+quiet = findings("--rate", "0.05")
+subjects = [it["subject"] for it in quiet]
+for subject in ("governor", "clock source", "timers", "kernel", "load", "lateness", "--realtime", "plugin path", "isolation",
+                "gnuplot", "python3"):
+    assert subject in subjects, subject
+missing = findings("--rate", "0.05", LOCKSTEP_PLUGIN_PATH="/nowhere/plugins")
+assert {"subject": "plugin path", "grade": "trouble", "found": "/nowhere/plugins: there is no such directory",
+        "remedy": "mend --plugin-path or LOCKSTEP_PLUGIN_PATH"} in missing, missing
+alone = findings("--rate", "0.05", PATH="/nowhere")
+assert [it["grade"] for it in alone if it["subject"] == "gnuplot"] == ["note"]
+assert [it["remedy"] for it in alone if it["subject"] == "gnuplot"] == ["sudo apt-get install gnuplot-nox"]
+# Without rights, --realtime is trouble for those who want it only.
+limited = ["prlimit", "--rtprio=0", "--memlock=0", "setpriv", "--reuid=65534", "--clear-groups", "--bounding-set=-all",
+           "--inh-caps=-all", LOCKSTEP, "doctor", "--json", "--rate", "0.05"]
+if os.geteuid() == 0:
+    for more, grade in ([], "note"), (["--realtime"], "trouble"):
+        done = subprocess.run(limited + more, capture_output=True, text=True, cwd="/")
+        grades = [it["grade"] for it in json.loads(done.stdout)["findings"] if it["subject"] == "--realtime"]
+        assert grades == [grade, grade], done
+text = run("doctor", "--rate", "0.05").stdout
+assert all(re.match(r"(ok|note|trouble) +\S|  +-> ", line) for line in text.splitlines()), text
+assert run("doctor", "--rate", "0").returncode == 2
+
+about = run("--version", "--verbose")
+assert about.returncode == 0 and about.stdout.startswith(run("--version").stdout.strip() + "\nparts "), about
+for row in ("plugin contract   1.", "law  ", "recordings  ", "compiler  ", "program  ", "lockstep-leafhost ", "plugins  "):
+    assert "\n" + row in about.stdout, row
+assert run("--verbose").returncode == 2
