@@ -76,6 +76,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;
   advise(definition, report);
+  advise_holds(definition, report);
   advise_resources(definition, report);
   warn_of_circle(definition, report);
   warn_of_keepers(definition, report);

@@ -162,6 +162,14 @@ class Check(World):
                            ("1 +", "ends too early"), ("nonsense", "knows no 'nonsense'")):
             self.assertIn(what, self.errors(f'{self.FIBONACCI} progress="{text}"'))
 
+    def test_a_robot_that_may_be_held_and_goes_on(self):
+        pair = f"<RosAction name='a' {self.FIBONACCI}/><RosAction name='b' {self.FIBONACCI} "
+        for hold, what in (("", "'b' may be held by 'ParallelAbsolute', and does not say"),
+                           ("hold='nothing'", "holds 'b', the robot goes on")):
+            run = self.check(f"<ParallelAbsolute barriers='0.5'>{pair}{hold}/></ParallelAbsolute>")
+            self.assertEqual(run.returncode, 0)
+            self.assertIn(what, run.stdout + run.stderr)
+
     def test_a_way_to_hold_that_is_none(self):
         self.assertIn("is no way to hold", self.errors(self.FIBONACCI + ' hold="softly"'))
 

@@ -8,4 +8,7 @@ namespace lockstep::host {
 
 void advise(const Definition& definition, const Reporter& report);
 
+// Asks what robots do while their leaves are held, and names those that go on.
+void advise_holds(const Definition& definition, const Reporter& report);
+
 }  // namespace lockstep::host
