@@ -8,13 +8,14 @@
 namespace motion {
 namespace {
 
+constexpr char kLibrary[] = "libzstd.so.1";
 constexpr std::size_t kPart = std::size_t{64} << 10;
 constexpr std::string_view kMagic{"\x28\xB5\x2F\xFD", 4};
 constexpr int kMostWindow = 25;  // as a power of two, in bytes
 
 // Loaded with the first compressed file: most runs need none.
 struct Zstd {
-  void* library = dlopen(LOCKSTEP_ZSTD, RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
   decltype(&ZSTD_createDCtx) create = function("ZSTD_createDCtx");
   decltype(&ZSTD_freeDCtx) free = function("ZSTD_freeDCtx");
   decltype(&ZSTD_DCtx_setParameter) set = function("ZSTD_DCtx_setParameter");
@@ -33,7 +34,8 @@ struct Zstd {
   Address function(const char* name) const {
     void* const address = library == nullptr ? nullptr : dlsym(library, name);
     if (address == nullptr) {
-      throw std::runtime_error("it is compressed, and " LOCKSTEP_ZSTD " cannot be loaded");
+      throw std::runtime_error(std::string("it is compressed, and without ") + kLibrary +
+                               " it cannot be read");
     }
     return {address};
   }

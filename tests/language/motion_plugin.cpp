@@ -7,6 +7,7 @@
 #include "../../plugins/motion/motion.cpp"
 #include "../../plugins/motion/profile.cpp"
 #include "../../plugins/motion/recorded.cpp"
+#include "../../plugins/motion/unpacked.cpp"
 
 namespace lockstep::host::test {
 

@@ -10,6 +10,7 @@
 #include "../../../plugins/motion/motion.cpp"
 #include "../../../plugins/motion/profile.cpp"
 #include "../../../plugins/motion/recorded.cpp"
+#include "../../../plugins/motion/unpacked.cpp"
 
 namespace {
 
