@@ -57,6 +57,24 @@ TEST_CASE("Recorded has the progress of the recorded node in every tick") {
   }
 }
 
+TEST_CASE("Recorded plays a long recording to its end, plain or compressed") {
+  const TemporaryDirectory directory;
+  const std::string node = "Main/Parallel/a";
+  for (const std::string name : {"long.jsonl", "long.jsonl.zst"}) {
+    REQUIRE(record(directory,
+                   "<Parallel><Advance name=\"a\" step=\"0.0002\" noise=\"0.0001\"/>"
+                   "<Advance name=\"b\" step=\"0.0002\" noise=\"0.0001\"/></Parallel>",
+                   name)
+                .code == 0);
+    const std::string file = directory.path(name);
+    CHECK(read_file(file).size() > (64u << 10));
+    REQUIRE(record(directory, "<Recorded name=\"r\" file=\"" + file + "\" node=\"" + node + "\"/>",
+                   "again.jsonl")
+                .code == 0);
+    CHECK(played(directory.path("again.jsonl"), "Main/r") == played(file, node));
+  }
+}
+
 TEST_CASE("a recording that cannot be played ends the run before it begins, with the reason") {
   const TemporaryDirectory directory;
   const Outcome outcome =

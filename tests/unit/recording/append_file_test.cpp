@@ -7,9 +7,12 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "compression/decompressed.h"
+#include "recording/part_names.h"
 #include "unit/recording/blocked_disk.h"
 
 namespace lockstep::host {
@@ -269,6 +272,30 @@ TEST_CASE("a crash handler does not interfere with a thread that is stuck in a w
   file.flush();
   CHECK(file.error() == "");
   CHECK_FALSE(file.failed());
+}
+
+TEST_CASE("a part of which the first ticks are lost begins with these") {
+  const TemporaryPath path;
+  const std::string header = "{\"lockstep_recording\":1,\"x\":0}\n";
+  const std::string first = part_name(path.path(), 1), second = part_name(path.path(), 2);
+  {
+    AppendFile file(path.path(), kQueue, json_lines(), {}, {.are_wanted = true});
+    file.set_header(header);
+    file.write(packet(header));
+    Packet tick = packet("]}\n");
+    tick.head = {.lost = 2, .lost_from = 7, .tick = 9};
+    tick.head.is_tick = tick.head.begins_part = 1;
+    file.write(tick);
+  }
+  const auto text_of = [](const std::string& name) {
+    std::ifstream in(name);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  CHECK(text_of(first) == header + "{\"continued\":{\"ticks\":7}}\n");
+  CHECK(text_of(second) ==
+        "{\"lockstep_recording\":1,\"first_tick\":7,\"x\":0}\n"
+        "{\"lost\":{\"ticks\":2,\"from\":7}}\n"
+        "{\"tick\":9,\"time_s\":0.0,\"nodes\":[]}\n");
 }
 
 }  // namespace
