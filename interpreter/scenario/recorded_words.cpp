@@ -7,8 +7,8 @@
 #include <cstring>
 #include <map>
 
-#include "compression/decompressed.h"
 #include "engine/writers.h"
+#include "recording/read/recording_parts.h"
 #include "recording/read/recording_reader.h"
 
 namespace lockstep::host {
@@ -119,7 +119,7 @@ class WordMaker {
 
 RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
   RecordedWords words;
-  DecompressedFile file(path);
+  NamedRecording file(path);
   if (!file.is_open()) {
     words.error = fmt::format("'{}' cannot be read: {}", path, std::strerror(errno));
     return words;
@@ -127,6 +127,11 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
   RecordingReader reader(file.text(), path);
   if (reader.error().empty()) {
     const RecordingHeader& header = reader.header();
+    if (header.first_tick > 0) {
+      words.error = fmt::format("'{}' begins with tick {}: a scenario needs the begin of the run",
+                                path, header.first_tick);
+      return words;
+    }
     words.tree_file = header.file;
     words.arguments = header.arguments;
     words.rate = header.rate_hz > 0 ? std::optional(header.rate_hz) : std::nullopt;

@@ -141,6 +141,16 @@ TEST_CASE("on the virtual clock, a run has the same parts each time") {
   }
 }
 
+TEST_CASE("log scenario takes all parts, and refuses one that is not the first") {
+  const TemporaryDirectory directory, parts;
+  const std::string one = record(directory, "run.jsonl");
+  const std::string set = record(parts, "run.jsonl", {"--record-rotate", "10s"});
+  CHECK(output_of({"log", "scenario"}, set) == output_of({"log", "scenario"}, one));
+  const Outcome outcome = run_lockstep({"log", "scenario", parts.path("run.0002.jsonl")});
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "begins with tick 1000: a scenario needs the begin of the run"));
+}
+
 TEST_CASE("a part that is missing or cut is reported, with its place") {
   const TemporaryDirectory parts;
   const std::string set = record(parts, "run.jsonl", {"--record-rotate", "10s"});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -115,6 +116,17 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
   setg(nullptr, nullptr, nullptr);
   end_ = place;
   return position;
+}
+
+NamedRecording::NamedRecording(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::exists(path, none) && !parts_that_exist(path).empty()) {
+    parts_ = std::make_unique<RecordingParts>(path);
+    all_.rdbuf(parts_.get());
+  } else {
+    errno = 0;
+    file_ = std::make_unique<DecompressedFile>(path);
+  }
 }
 
 }  // namespace lockstep::host

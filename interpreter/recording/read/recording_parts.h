@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <istream>
 #include <memory>
 #include <streambuf>
 #include <string>
@@ -37,6 +38,20 @@ class RecordingParts final : public std::streambuf {
   std::uint64_t begin_ = 0;  // of its text, in all
   std::vector<char> text_;
   std::uint64_t end_ = 0;  // behind what has been read, in all
+};
+
+// A recording by its name: a file, or its parts where there is no such file. Not open: errno says
+// why.
+class NamedRecording {
+ public:
+  explicit NamedRecording(const std::string& path);
+  bool is_open() const { return parts_ != nullptr || file_->is_open(); }
+  std::istream& text() { return parts_ != nullptr ? all_ : file_->text(); }
+
+ private:
+  std::unique_ptr<RecordingParts> parts_;
+  std::istream all_{nullptr};
+  std::unique_ptr<DecompressedFile> file_;
 };
 
 }  // namespace lockstep::host

@@ -33,13 +33,7 @@ int with_file(const std::string& path, const std::function<int(std::istream&)>& 
   }
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return cannot_use("read", path, EISDIR);
-  if (!std::filesystem::exists(path, error) && !parts_that_exist(path).empty()) {
-    RecordingParts parts(path);
-    std::istream text(&parts);
-    return use(text);
-  }
-  errno = 0;
-  DecompressedFile file(path);
+  NamedRecording file(path);
   return file.is_open() ? use(file.text()) : cannot_use("read", path, errno);
 }
 
