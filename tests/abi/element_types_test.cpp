@@ -96,6 +96,28 @@ TEST_CASE("without what decides its ports, an element lacks only that") {
   }
 }
 
+TEST_CASE("the elements of trees for BehaviorTree.CPP have them, too") {
+  const auto errors = [](const std::string& leaf) {
+    LoadOptions options;
+    options.plugins.directories = {LOCKSTEP_ABI_PLUGINS};
+    options.plugins.plugins = {"shapes"};
+    Diagnostics diagnostics;
+    const bool is_loaded = load_text("tree.xml",
+                                     "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\">" + leaf +
+                                         "</BehaviorTree></root>",
+                                     options, diagnostics)
+                               .has_value();
+    Strings all = texts(diagnostics);
+    if (is_loaded) all.emplace_back("loaded");
+    return all;
+  };
+  CHECK(errors(R"(<Shape kind="round" size.radius="2" out.area="{a}"/>)") == Strings{"loaded"});
+  CHECK(errors(R"(<Shape kind="square" size.side="2" size.sidd="3"/>)") ==
+        Strings{"'Shape' has no port 'size.sidd' | did you mean 'size.side'?"});
+  CHECK(errors(R"(<Shape kind="oval"/>)") ==
+        Strings{"there is no such shape | use round or square"});
+}
+
 TEST_CASE("elements with the same constants have one type") {
   const Shapes shapes(R"(<Shape kind="round" size.radius="1"/><Shape kind="round" size.radius="2"/>
                          <Shape kind="square" size.side="1"/>)",

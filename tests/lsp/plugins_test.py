@@ -108,6 +108,29 @@ class Plugins(unittest.TestCase):
         self.assertEqual(1, len(self.children(client)))
         self.assertEqual(0, client.stop())
 
+    def test_ports_that_an_element_decides(self):
+        here = Path(__file__).resolve().parents[1]
+        subprocess.run(["cc", "-shared", "-fPIC", "-I", here.parent / "plugins/sdk", "-o",
+                        self.plugins / "shapes.so", here / "abi/plugins/shapes.c"], check=True)
+        client = self.session()
+        def tree(leaf):
+            return TREE.replace("NAME", "shapes").replace('<Advance step="0.5"/>', leaf)
+        def at(leaf, method):
+            text = tree(leaf)
+            line = next(i for i, it in enumerate(text.split("\n")) if "|" in it)
+            column = text.split("\n")[line].index("|")
+            client.change(self.path, text.replace("|", ""))
+            return client.at(method, self.path, line, column)
+        wrong = client.open(self.path, tree('<Shape kind="round" size.side="1"/>'))
+        self.assertIn("'Shape' has no parameter 'size.side'", self.messages(wrong))
+        offered = [it["label"] for it in
+                   at('<Shape kind="square" |/>', "textDocument/completion")["items"]]
+        self.assertIn("size.side", offered)
+        self.assertNotIn("size.radius", offered)
+        hover = at('<Shape kind="round" size.ra|dius="1"/>', "textDocument/hover")
+        self.assertIn("how large it is", hover["contents"]["value"])
+        self.assertEqual(0, client.stop())
+
     def test_a_workspace_without_trust(self):
         shutil.copy(PLUGINS / "motion.so", self.plugins)
         client = self.session(trusted=False)

@@ -84,6 +84,29 @@ class Action(World):
             server.wait_for("cancel")
             server.stop()
 
+    def test_an_interrupt_twice_ends_at_once(self):
+        server = self.server("--action", "/count", "--refuse")
+        run = self.start(count("c", "/count", 1000))
+        server.wait_for("goal 1000")
+        run.send_signal(signal.SIGTERM)
+        run.send_signal(signal.SIGTERM)
+        began = time.monotonic()
+        run.communicate(timeout=20)
+        self.assertLess(time.monotonic() - began, 3)
+
+    def test_two_leaves_at_one_action(self):
+        server = self.server("--action", "/count", "--step", 10)
+        pair = count("a", "/count", 10) + count("b", "/count", 20)
+        run = self.run_tree(f'<Parallel success_count="2">{pair}</Parallel>')
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("succeeded 10", server.lines)
+        self.assertIn("succeeded 20", server.lines)
+
+    def test_canceled_by_somebody_else(self):
+        self.server("--action", "/count", "--quit", 2)
+        run = self.run_tree(count("c", "/count", 100, 'on_failure="fault"'))
+        self.assertIn("the action '/count': canceled", run.err)
+
     def test_begun_again_after_a_halt(self):
         server = self.server("--action", "/count")
         run = self.run_tree(f"""<Sequence memory="true">
@@ -119,6 +142,25 @@ class Held(World):
         self.pair('hold="cancel"', "--keep")
         self.assertLess(self.spread, 0.45)
         self.assertGreaterEqual(self.fast.lines.count("goal 20"), 2)
+
+    def test_a_server_that_begins_again_is_named(self):
+        self.server("--action", "/fast", "--step", 20)
+        self.server("--action", "/slow", "--step", 60)
+        pair = count("fast", "/fast", 20, 'hold="cancel"') + count("slow", "/slow", 20,
+                                                                   'hold="cancel"')
+        # The two would hold each other in turn for ever.
+        run = self.run_tree(f'<ParallelAbsolute barriers="0.5">{pair}</ParallelAbsolute>',
+                            "--timeout", 4)
+        self.assertIn("after the goal was sent again: the server begins where it began first",
+                      run.err + run.out)
+
+    def test_a_service_that_is_not_there_is_named(self):
+        run = self.pair('hold="service:/nobody" hold_type="example_interfaces/srv/SetBool"')
+        self.assertIn("there is no service '/nobody': the robot goes on", run.err + run.out)
+
+    def test_a_server_that_refuses_to_cancel_is_named(self):
+        run = self.pair('hold="cancel"', "--refuse")
+        self.assertIn("refuses to cancel the goal: the robot goes on", run.err + run.out)
 
     def test_a_topic_tells_the_robot(self):
         self.pair('hold="topic:/still"', "--hold-topic", "/still")

@@ -2,15 +2,19 @@
 // step each `--step` ms, and tells of each step. What it does besides is said by options:
 //   --keep       a goal goes on where the one before it stopped, as a robot that has a position
 //   --reject     takes no goal          --abort N   aborts at the step N
-//   --refuse     refuses to cancel      --die N     kills itself at N
+//   --refuse     refuses to cancel      --die N     kills itself at the step N
+//   --quit N     lets somebody else cancel the goal at the step N
 //   --hold-service NAME, --hold-topic NAME: stands while it is true
 // It prints one line for each thing that happens to it.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "example_interfaces/action/fibonacci.hpp"
 #include "example_interfaces/srv/set_bool.hpp"
@@ -26,7 +30,7 @@ using SetBool = example_interfaces::srv::SetBool;
 
 struct Options {
   std::string action = "/count", hold_service, hold_topic;
-  int step = 20, abort_at = -1, die_at = -1;
+  int step = 20, abort_at = -1, die_at = -1, quit_at = -1;
   bool keeps = false, rejects = false, refuses = false;
 };
 
@@ -42,6 +46,7 @@ Options read_options(int argc, char** argv) {
     if (word == "--step") options.step = number();
     if (word == "--abort") options.abort_at = number();
     if (word == "--die") options.die_at = number();
+    if (word == "--quit") options.quit_at = number();
     if (word == "--keep") options.keeps = true;
     if (word == "--reject") options.rejects = true;
     if (word == "--refuse") options.refuses = true;
@@ -71,6 +76,7 @@ class CountingServer : public rclcpp::Node {
                                   : rclcpp_action::CancelResponse::ACCEPT;
         },
         [this](std::shared_ptr<GoalHandle> goal) { accept(std::move(goal)); });
+    client_ = rclcpp_action::create_client<Fibonacci>(this, options_.action);
     timer_ = create_wall_timer(std::chrono::milliseconds(options_.step), [this] { step(); });
     if (!options_.hold_service.empty()) {
       service_ = create_service<SetBool>(options_.hold_service,
@@ -88,7 +94,7 @@ class CountingServer : public rclcpp::Node {
     say("ready");
   }
   // The handle of a goal that is open throws in its destructor when ROS has shut down.
-  ~CountingServer() override { new std::shared_ptr<GoalHandle>(std::move(goal_)); }
+  ~CountingServer() override { new std::vector<Goal>(std::move(goals_)); }
 
  private:
   void hold(bool held) {
@@ -96,46 +102,55 @@ class CountingServer : public rclcpp::Node {
     say(held ? "hold" : "go on");
   }
 
-  void accept(std::shared_ptr<GoalHandle> goal) {
-    goal_ = std::move(goal);
-    if (!options_.keeps) count_ = 0;
-  }
+  struct Goal {
+    std::shared_ptr<GoalHandle> handle;
+    int count = 0;
+  };
 
-  std::vector<int> counted() const {
-    std::vector<int> all;
-    for (int i = 1; i <= count_; ++i) all.push_back(i);
-    return all;
-  }
-
-  void end(const char* word) {
-    say(std::string(word) + " " + std::to_string(count_));
-    goal_.reset();
+  void accept(std::shared_ptr<GoalHandle> handle) {
+    goals_.push_back({std::move(handle), options_.keeps ? kept_ : 0});
   }
 
   void step() {
-    if (goal_ == nullptr) return;
+    const auto has_ended = [this](Goal& goal) { return step(goal); };
+    goals_.erase(std::remove_if(goals_.begin(), goals_.end(), has_ended), goals_.end());
+  }
+
+  static std::vector<int> counted(const Goal& goal) {
+    std::vector<int> all(static_cast<std::size_t>(goal.count));
+    std::iota(all.begin(), all.end(), 1);
+    return all;
+  }
+
+  bool end(const Goal& goal, const char* word, int kept) {
+    say(std::string(word) + " " + std::to_string(goal.count));
+    kept_ = kept;
+    return true;
+  }
+
+  // Returns whether it has ended.
+  bool step(Goal& goal) {
     auto result = std::make_shared<Fibonacci::Result>();
-    result->sequence = counted();
-    if (goal_->is_canceling()) {
-      goal_->canceled(result);
-      return end("canceled");
+    result->sequence = counted(goal);
+    if (goal.handle->is_canceling()) {
+      goal.handle->canceled(result);
+      return end(goal, "canceled", goal.count);
     }
-    if (held_) return;
-    ++count_;
-    result->sequence = counted();
+    if (held_) return false;
+    ++goal.count;
+    result->sequence = counted(goal);
     auto feedback = std::make_shared<Fibonacci::Feedback>();
-    feedback->sequence = counted();
-    goal_->publish_feedback(feedback);
-    if (count_ == options_.die_at) std::raise(SIGKILL);
-    if (count_ == options_.abort_at) {
-      goal_->abort(result);
-      return end("aborted");
+    feedback->sequence = result->sequence;
+    goal.handle->publish_feedback(feedback);
+    if (goal.count == options_.die_at) std::raise(SIGKILL);
+    if (goal.count == options_.quit_at) client_->async_cancel_all_goals();
+    if (goal.count == options_.abort_at) {
+      goal.handle->abort(result);
+      return end(goal, "aborted", 0);
     }
-    if (count_ >= goal_->get_goal()->order) {
-      goal_->succeed(result);
-      end("succeeded");
-      count_ = 0;
-    }
+    if (goal.count < goal.handle->get_goal()->order) return false;
+    goal.handle->succeed(result);
+    return end(goal, "succeeded", 0);
   }
 
   const Options options_;
@@ -143,8 +158,9 @@ class CountingServer : public rclcpp::Node {
   rclcpp::Service<SetBool>::SharedPtr service_;
   rclcpp::Subscription<std_msgs::msg::Bool>::SharedPtr subscription_;
   rclcpp::TimerBase::SharedPtr timer_;
-  std::shared_ptr<GoalHandle> goal_;
-  int count_ = 0;
+  rclcpp_action::Client<Fibonacci>::SharedPtr client_;  // cancels all goals, as anybody may
+  std::vector<Goal> goals_;
+  int kept_ = 0;
   bool held_ = false;
 };
 

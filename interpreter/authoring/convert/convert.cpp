@@ -363,7 +363,8 @@ class Converter {
                     "there it is a script of the node");
     }
     if (name == "_autoremap" || name == "_description") return keep(token, attribute);
-    if (!is_port_name(name)) return leave_out(token, attribute);
+    const bool is_dotted = name.find('.') != name.npos;  // of a leaf of ours: goal.order
+    if (!is_port_name(name) && !is_dotted) return leave_out(token, attribute);
     if (name == "name") return convert_name(token, attribute);
     const std::string_view key = btcpp::key_of(value, name);
     if (key.empty()) return keep(token, attribute);

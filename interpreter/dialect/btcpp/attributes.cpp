@@ -66,7 +66,7 @@ class PortChecker {
   void find_unknown() const {
     for (const Attribute& attribute : element_.attributes) {
       if (attribute.name == "name" || attribute.name == "ID") continue;
-      if (!is_port_name(attribute.name)) {
+      if (!names_port(attribute.name)) {
         check_mark(attribute, report_);
       } else if (matches_any(node_.type->more_parameters, attribute.name)) {
         continue;
@@ -82,6 +82,13 @@ class PortChecker {
   bool has(std::string_view name) const {
     return std::ranges::find(node_.type->parameters, name, &Parameter::name) !=
            node_.type->parameters.end();
+  }
+
+  // Only a leaf of ours has ports with a '.', and then some of those that its element may have.
+  bool names_port(std::string_view name) const {
+    const auto has_dot = [](std::string_view text) { return text.find('.') != text.npos; };
+    return is_port_name(name) || (has_dot(name) && std::ranges::any_of(node_.type->parameters,
+                                                                       has_dot, &Parameter::name));
   }
 
   std::vector<std::string_view> names() const {
@@ -139,7 +146,7 @@ class PortChecker {
   // An unknown attribute means this port: one error is enough.
   bool is_misspelled(const Parameter& missing) const {
     return std::ranges::any_of(element_.attributes, [&](const Attribute& attribute) {
-      return is_port_name(attribute.name) && attribute.name != "name" && !has(attribute.name) &&
+      return names_port(attribute.name) && attribute.name != "name" && !has(attribute.name) &&
              nearest(attribute.name, names()) == missing.name;
     });
   }
