@@ -21,11 +21,11 @@ struct Scalar {
 template <class T>
 Scalar whole() {
   // A port is an int of 64 bits, so what is larger than that is not reached.
-  const double most = sizeof(T) == 8 ? HUGE_VAL : double(std::numeric_limits<T>::max());
-  const double least = sizeof(T) == 8 && std::numeric_limits<T>::is_signed
-                           ? -HUGE_VAL
-                           : double(std::numeric_limits<T>::min());
-  return {Kind::Int, Kind::IntList, least, most};
+  if (sizeof(T) < 8) {
+    return {Kind::Int, Kind::IntList, double(std::numeric_limits<T>::min()),
+            double(std::numeric_limits<T>::max())};
+  }
+  return {Kind::Int, Kind::IntList, 0, std::numeric_limits<T>::is_signed ? 0 : HUGE_VAL};
 }
 
 // Nothing: no port can carry it.

@@ -13,6 +13,13 @@ namespace ros2 {
 
 using FieldPorts = std::vector<PortList::FieldPort>;
 
+// Of the type that the leaf's element has.
+template <class Element>
+const Element& element_of(const lockstep_host& host, const lockstep_caller* caller) {
+  const auto* const place = static_cast<const lockstep_place*>(host.get_extension(LOCKSTEP_PLACE));
+  return *static_cast<const Element*>(place->data(caller));
+}
+
 class LeafBase {
  public:
   LeafBase(const lockstep_host& host, const lockstep_caller* caller)
@@ -30,12 +37,6 @@ class LeafBase {
  protected:
   ~LeafBase() = default;
 
-  template <class Element>
-  const Element& element() const {
-    const auto* const place =
-        static_cast<const lockstep_place*>(host_.get_extension(LOCKSTEP_PLACE));
-    return *static_cast<const Element*>(place->data(caller_));
-  }
   double now() const { return host_.now(caller_); }
   double number(std::uint32_t port) const {
     double value = 0;

@@ -87,7 +87,7 @@ class RosAction : public LeafBase {
  public:
   RosAction(const lockstep_host& host, const lockstep_caller* caller, void* run)
       : LeafBase(host, caller),
-        element_(element<ActionElement>()),
+        element_(element_of<ActionElement>(host, caller)),
         run_end_(*static_cast<RunEnd*>(run)),
         client_(std::make_shared<ActionClient>(element_.type, element_.action)),
         signal_(make_hold_signal(element_.hold)),

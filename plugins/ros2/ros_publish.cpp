@@ -16,7 +16,7 @@ class RosPublish : public LeafBase {
  public:
   RosPublish(const lockstep_host& host, const lockstep_caller* caller, void* /*run*/)
       : LeafBase(host, caller),
-        element_(element<PublishElement>()),
+        element_(element_of<PublishElement>(host, caller)),
         publisher_(std::make_shared<Publisher>(element_.type, element_.topic, element_.qos)) {
     Middleware::get().post([publisher = publisher_] { publisher->open(); });
   }

@@ -36,7 +36,7 @@ class RosReceive : public LeafBase {
  public:
   RosReceive(const lockstep_host& host, const lockstep_caller* caller, void* /*run*/)
       : LeafBase(host, caller),
-        element_(element<ReceiveElement>()),
+        element_(element_of<ReceiveElement>(host, caller)),
         subscription_(std::make_shared<Subscription>(element_.type, element_.topic, element_.qos)),
         fields_(given(element_.fields)) {
     Middleware::get().post([subscription = subscription_] {

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <memory>
 
+#include "calling_leaf.hpp"
 #include "elements.hpp"
-#include "leaf_base.hpp"
 #include "leaf_functions.hpp"
-#include "service_client.hpp"
 
 namespace ros2 {
 namespace {
@@ -34,47 +33,21 @@ struct ServiceElement {
   lockstep_leaf_type leaf{};
 };
 
-const char* words_of(ServiceClient::Outcome outcome) {
-  switch (outcome) {
-    case ServiceClient::Outcome::NoService:
-      return "no service";
-    case ServiceClient::Outcome::NoAnswer:
-      return "no answer";
-    default:
-      return "not sent";
-  }
-}
-
-class RosService : public LeafBase {
+class RosService : public CallingLeaf {
  public:
   RosService(const lockstep_host& host, const lockstep_caller* caller, void* /*run*/)
-      : LeafBase(host, caller),
-        element_(element<ServiceElement>()),
-        client_(std::make_shared<ServiceClient>(element_.type, element_.service)),
-        response_ports_(given(element_.response)) {
-    Middleware::get().post([client = client_] {
-      client->open();
-      Middleware::get().add(client);
-    });
-  }
-  ~RosService() {
-    Middleware::get().post(
-        [client = std::move(client_)] { Middleware::get().remove(client.get()); });
-  }
+      : RosService(host, caller, element_of<ServiceElement>(host, caller)) {}
 
   void start() {
-    auto request = std::make_shared<Message>(*element_.type.request_message);
-    if (!read(element_.request, *request)) return;
-    const ServiceClient::Call call{++activation_, std::move(request), number(kTimeout)};
-    Middleware::get().post([client = client_, call] { client->send(call); });
+    auto request = make_request();
+    if (read(element_.request, *request)) call(std::move(request), number(kTimeout));
   }
 
   lockstep_status tick() {
-    log_lines(*client_);
-    const auto outcome = client_->outcome(activation_);
+    const auto outcome = this->outcome();
     if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
     if (outcome == ServiceClient::Outcome::Answered) {
-      write(response_ports_, client_->response());
+      write(response_ports_, response());
       return LOCKSTEP_SUCCESS;
     }
     const std::string why = words_of(outcome);
@@ -83,15 +56,15 @@ class RosService : public LeafBase {
     return LOCKSTEP_FAILURE;
   }
 
-  void halt() {
-    Middleware::get().post([client = client_, it = activation_] { client->forget(it); });
-  }
-
  private:
+  RosService(const lockstep_host& host, const lockstep_caller* caller,
+             const ServiceElement& element)
+      : CallingLeaf(host, caller, element.type, element.service),
+        element_(element),
+        response_ports_(given(element.response)) {}
+
   const ServiceElement& element_;
-  std::shared_ptr<ServiceClient> client_;
   const FieldPorts response_ports_;
-  std::uint64_t activation_ = 0;
 };
 
 constexpr const char* kDoc =

@@ -99,4 +99,15 @@ void ServiceClient::take(const rcl_wait_set_t& /*set*/) {
   rcl_reset_error();
 }
 
+const char* words_of(ServiceClient::Outcome outcome) {
+  switch (outcome) {
+    case ServiceClient::Outcome::NoService:
+      return "no service";
+    case ServiceClient::Outcome::NoAnswer:
+      return "no answer";
+    default:
+      return "not sent";
+  }
+}
+
 }  // namespace ros2

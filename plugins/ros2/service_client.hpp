@@ -56,4 +56,7 @@ class ServiceClient final : public Waitable {
   Lines lines_;
 };
 
+// "no service", "no answer".
+const char* words_of(ServiceClient::Outcome outcome);
+
 }  // namespace ros2

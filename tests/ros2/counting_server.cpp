@@ -29,6 +29,7 @@ using GoalHandle = rclcpp_action::ServerGoalHandle<Fibonacci>;
 using SetBool = example_interfaces::srv::SetBool;
 
 struct Options {
+  std::string node = "counting_server_" + std::to_string(getpid());
   std::string action = "/count", hold_service, hold_topic;
   int step = 20, abort_at = -1, die_at = -1, quit_at = -1;
   bool keeps = false, rejects = false, refuses = false;
@@ -41,6 +42,7 @@ Options read_options(int argc, char** argv) {
     const auto text = [&] { return i + 1 < argc ? std::string(argv[++i]) : std::string(); };
     const auto number = [&] { return std::atoi(text().c_str()); };
     if (word == "--action") options.action = text();
+    if (word == "--node") options.node = text();
     if (word == "--hold-service") options.hold_service = text();
     if (word == "--hold-topic") options.hold_topic = text();
     if (word == "--step") options.step = number();
@@ -61,8 +63,7 @@ void say(const std::string& line) {
 
 class CountingServer : public rclcpp::Node {
  public:
-  explicit CountingServer(Options options)
-      : Node("counting_server_" + std::to_string(getpid())), options_(std::move(options)) {
+  explicit CountingServer(Options options) : Node(options.node), options_(std::move(options)) {
     server_ = rclcpp_action::create_server<Fibonacci>(
         this, options_.action,
         [this](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
@@ -91,6 +92,8 @@ class CountingServer : public rclcpp::Node {
           options_.hold_topic, 10,
           [this](std_msgs::msg::Bool::ConstSharedPtr message) { hold(message->data); });
     }
+    declare_parameter("speed", 0.5);
+    declare_parameter("label", "slow");
     say("ready");
   }
   // The handle of a goal that is open throws in its destructor when ROS has shut down.

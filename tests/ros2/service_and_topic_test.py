@@ -72,3 +72,27 @@ class Topic(World):
                       message.frame_id="{frame}" message.stamp.sec="{sec}"/>
           <Check code="frame == 'map' &amp;&amp; sec &gt; 1000000000"/></Sequence>""")
         self.assertEqual(run.returncode, 0, run.err)
+
+
+class Parameter(World):
+    def test_read_and_set(self):
+        self.server("--node", "robot")
+        run = self.run_tree("""<Sequence memory="true">
+          <RosParameter node="/robot" parameter="speed" value="{before}"/>
+          <RosParameter node="/robot" parameter="speed" do="set" value="0.25"/>
+          <RosParameter node="/robot" parameter="speed" value="{after}"/>
+          <RosParameter node="/robot" parameter="label" as="string" value="{label}"/>
+          <Check code="before == 0.5 &amp;&amp; after == 0.25 &amp;&amp; label == 'slow'"/>
+          </Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_what_does_not_work(self):
+        self.server("--node", "robot")
+        for attributes, words in (('node="/robot" parameter="label" value="{v}"', "not a double"),
+                                  ('node="/robot" parameter="none" value="{v}"', "not set"),
+                                  ('node="/nobody" parameter="p" timeout="0.3" value="{v}"',
+                                   "no node")):
+            run = self.run_tree(f"""<Sequence memory="true">
+              <Inverter><RosParameter {attributes} error="{{why}}"/></Inverter>
+              <Check code="why == '{words}'"/></Sequence>""")
+            self.assertEqual(run.returncode, 0, (words, run.err))
