@@ -5,15 +5,17 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-prefix=${ROS2_PREFIX:-$(ls -d /opt/ros/*/ 2>/dev/null | tail -1)}
+installed=(/opt/ros/*/)
+prefix=${ROS2_PREFIX:-${installed[-1]}}
 prefix=${prefix%/}
 if [ -z "$prefix" ] || [ ! -d "$prefix/share/rcl_action" ]; then
-  echo "no ROS 2: ROS2_PREFIX is not set, and /opt/ros has none; the tests of plugins/ros2 are skipped"
+  echo "no ROS 2 in ROS2_PREFIX or /opt/ros: the tests of plugins/ros2 are skipped"
   exit 77
 fi
 [ "${1:-}" != --found ] || exit 0
 export AMENT_PREFIX_PATH=$prefix CMAKE_PREFIX_PATH=$prefix LD_LIBRARY_PATH=$prefix/lib
-PYTHONPATH=$(ls -d "$prefix"/lib/python3*/site-packages "$prefix"/local/lib/python3*/dist-packages 2>/dev/null | paste -sd:)
+# Where CMake's files of ROS find their own modules.
+PYTHONPATH=$(printf '%s:' "$prefix"/lib/python3*/site-packages "$prefix"/local/lib/python3*/dist-packages)
 export PYTHONPATH
 
 if [ "${1:-}" = --build ]; then
