@@ -13,7 +13,7 @@
 
 namespace lockstep::host {
 
-// What an element gives to a parameter that is a constant, or the default.
+// The text that an element gives to a constant parameter, or the default.
 struct FixedText {
   std::string_view parameter, text;
 };
@@ -31,8 +31,8 @@ class ElementTypes {
       std::span<const FixedText> fixed) const = 0;
 };
 
-// What decides the type of an element, whose texts `given` returns (an optional text) by the name
-// of the parameter. Nothing: one is missing, or is no constant.
+// The texts that decide the type of an element. `given` returns what the element gives to a
+// parameter, as an optional. Nothing: one is missing, or is no constant.
 template <class Given>
 std::optional<std::vector<FixedText>> fixed_texts(const NodeType& type, Given given) {
   std::vector<FixedText> fixed;

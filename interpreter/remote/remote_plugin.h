@@ -57,7 +57,7 @@ class RemotePlugin {
   virtual std::string initialize() { return {}; }
   // Those of the plugin itself, where it was asked for them.
   virtual PluginWords script_words() const { return {}; }
-  // Of the elements of its leaf types; null: it describes none.
+  // Describes the elements of its leaf types; null: there are none.
   virtual LeafDescriber* describer() { return nullptr; }
   // Null after a failure, which is the caller's error.
   virtual std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) = 0;

@@ -45,7 +45,7 @@ class ActionClient final : public Waitable {
   // Whether a goal up to this one may still be at work.
   bool is_busy(std::uint64_t activation) const { return ended_.load() >> 8 < activation; }
   TripleBuffer<Feedback>& feedback() { return feedback_; }
-  // Of the activation that has succeeded or failed last.
+  // The result of the activation that has ended last.
   const Message& result() const { return *result_; }
   Lines& lines() { return lines_; }
 

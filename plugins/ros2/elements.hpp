@@ -14,7 +14,7 @@
 
 namespace ros2 {
 
-// What an element gives to its fixed ports.
+// The texts that an element gives to its fixed ports.
 class FixedTexts {
  public:
   FixedTexts(const lockstep_fixed* fixed, std::uint32_t count) : fixed_(fixed), count_(count) {}

@@ -24,7 +24,7 @@ void write_port(const PortOf& to, const Field& field, const void* message);
 
 // Nothing: it is no number. A bool is 0 or 1.
 std::optional<double> number_in(const Field& field, const void* message);
-// Of a list or string.
+// The number of items of a list, or bytes of a string.
 std::optional<double> size_in(const Field& field, const void* message);
 
 }  // namespace ros2

@@ -28,7 +28,7 @@ struct Field {
   double min = 0, max = 0;  // of numbers; both 0: any
 };
 
-// What a leaf cannot carry is left out: wide strings and long doubles.
+// Wide strings and long doubles are left out: no port can carry them.
 std::vector<Field> fields_of(const Members& members, std::size_t offset = 0);
 
 // Null: there is none.

@@ -1,4 +1,4 @@
-// What happens to a robot while a synchronized node withholds ticks from its leaf.
+// The ways in which a robot is held while a synchronized node withholds ticks from its leaf.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What all leaves of this plugin share: the host, their element, ports, lines for the log.
+// All leaves of this plugin share this: the host, their element, ports, lines for the log.
 #pragma once
 
 #include <lockstep/leaf.h>
@@ -13,7 +13,7 @@ namespace ros2 {
 
 using FieldPorts = std::vector<PortList::FieldPort>;
 
-// Of the type that the leaf's element has.
+// The data of the type that the leaf's element has.
 template <class Element>
 const Element& element_of(const lockstep_host& host, const lockstep_caller* caller) {
   const auto* const place = static_cast<const lockstep_place*>(host.get_extension(LOCKSTEP_PLACE));

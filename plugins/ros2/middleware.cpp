@@ -178,7 +178,7 @@ void Middleware::wait(std::chrono::milliseconds most) {
     rcl_reset_error();
     return;
   }
-  // What is taken may make or remove others.
+  // An answer may make or remove others.
   const auto all = waitables_;
   for (const auto& it : all) it->take(set_);
 }

@@ -18,7 +18,7 @@ namespace ros2 {
 
 using Clock = std::chrono::steady_clock;
 
-// What the thread waits for. All functions are called by it.
+// The thread waits for these. It calls all functions.
 class Waitable {
  public:
   virtual ~Waitable() = default;
@@ -28,7 +28,7 @@ class Waitable {
   virtual void add_sizes(Sizes& sizes) const = 0;
   virtual void add_to(rcl_wait_set_t& set) = 0;
   virtual void take(const rcl_wait_set_t& set) = 0;
-  // What time alone changes. Returns whether it is to be called again within 20 ms.
+  // Does what time alone asks for. Returns whether it is to be called again within 20 ms.
   virtual bool poll(Clock::time_point now) = 0;
 };
 

@@ -1,4 +1,4 @@
-// What interfaces the packages on AMENT_PREFIX_PATH have, and their type supports.
+// The interfaces of the packages on AMENT_PREFIX_PATH, and their type supports.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct TypeName {
 // `kind` is "action", "srv" or "msg".
 Result<TypeName> parse_type_name(const std::string& text, const std::string& kind);
 
-// What the type's get_…_type_support_handle returns. The library stays loaded.
+// The result of the type's get_…_type_support_handle. The library stays loaded.
 Result<const void*> type_support(const TypeName& type);
 
 // "; did you mean 'x'?", or what there is.

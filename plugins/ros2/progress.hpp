@@ -35,7 +35,7 @@ class Progress {
     bool is_of_goal = false;  // of a Field or a Size
   };
 
-  // What an activation remembers.
+  // An activation remembers this.
   using Memory = std::vector<std::optional<double>>;
   struct Inputs {
     const std::vector<Field>* goal_fields;

@@ -1,4 +1,4 @@
-// What the leaves of a run share: how long its end may wait for goals that were canceled.
+// The leaves of a run share how long its end may wait for goals that were canceled.
 #pragma once
 
 #include <chrono>

@@ -13,11 +13,11 @@ class TripleBuffer {
   template <class Make>
   explicit TripleBuffer(Make make) : all_{make(), make(), make()} {}
 
-  // Of the writer: the next value, which publish() hands over.
+  // For the writer: the next value, which publish() hands over.
   T& back() { return *all_[back_]; }
   void publish() { back_ = middle_.exchange(back_ | kNew) & ~kNew; }
 
-  // Of the reader: whether front() is another one than before.
+  // For the reader: whether front() is another one than before.
   bool update() {
     if ((middle_.load(std::memory_order_relaxed) & kNew) == 0) return false;
     front_ = middle_.exchange(front_) & ~kNew;

@@ -44,7 +44,7 @@ struct MessageType {
 };
 Result<const MessageType*> message_type(const std::string& name);
 
-// Of a service or message, whose first bool says whether a robot holds still.
+// A type of services or messages whose first bool says whether a robot holds still.
 struct FlagType {
   const void* support;
   const Members *message, *response;  // of a message, no response

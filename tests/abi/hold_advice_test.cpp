@@ -1,4 +1,4 @@
-// What `check` says about leaves whose robots may go on while they are held.
+// `check` speaks of leaves whose robots may go on while they are held.
 #include <catch2/catch.hpp>
 
 #include "abi/support/isolated_leaves.h"

@@ -30,7 +30,7 @@ elif [ ! -e build/ros2/plugin/ros2.so ] || [ ! -e build/ros2/tests/counting_serv
   echo "the tests of plugins/ros2 are not built: ./dev test-ros2 builds and runs them"
   exit 77
 fi
-# What is on the same network must neither see nor disturb them. Cyclone DDS finds its peers here
+# Others on the same network must neither see nor disturb them. Cyclone DDS finds its peers here
 # without multicast, and there are more of them than it expects.
 export ROS_DOMAIN_ID=${ROS_DOMAIN_ID:-77}
 loopback='<NetworkInterface name="lo" multicast="false"/>'

@@ -30,7 +30,7 @@ class HoldAdviser {
            });
   }
 
-  // What may hold it; nothing: no node does.
+  // The node that may hold it; nothing: none does.
   std::optional<std::uint32_t> holder_of(const DefinitionNode& leaf) const {
     for (auto node = static_cast<std::uint32_t>(&leaf - definition_.nodes.data()); node > 0;) {
       const auto declared = std::ranges::find_if(definition_.groups, [&](const auto& group) {

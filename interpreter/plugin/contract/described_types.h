@@ -17,7 +17,7 @@ class LeafDescriber {
       std::string_view id, std::span<const FixedText> fixed) = 0;
 };
 
-// Of a leaf type of `plugin`, both of which outlive it.
+// The types of the elements of `leaf`. It and `plugin` outlive the result.
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,
                                                     const Descriptors::Leaf& leaf);
 

@@ -17,8 +17,7 @@
 
 namespace lockstep::host {
 
-// What an element gives to parameters that are constants. The texts that are read are the
-// message's.
+// The texts that an element gives to constant parameters. Those that are read are the message's.
 void write_fixed(std::span<const FixedText> fixed, MessageWriter& message);
 std::vector<FixedText> read_fixed(MessageReader& message);
 

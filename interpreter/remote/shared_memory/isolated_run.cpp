@@ -129,7 +129,7 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
   std::vector<std::uint32_t> ports_;  // which entry each is bound to, and its default
 };
 
-// What decides the type of its element.
+// Writes the texts that decide the type of its element.
 void IsolatedRun::Leaf::put_fixed(MessageWriter& request) const {
   std::vector<std::string> texts;
   std::vector<FixedText> fixed;
