@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Makes the Debian packages of a build with LOCKSTEP_PACKAGES: build.sh BUILD. The same sources, compiler and
+# SOURCE_DATE_EPOCH give the same bytes. control has the packages; a comment here says which files each has.
+set -euo pipefail
+build=$(realpath "$1")
+here=$(realpath "$(dirname "$0")")
+work=$build/debian
+out=$build/packages
+: "${SOURCE_DATE_EPOCH:?the time of the release, in seconds}"
+export SOURCE_DATE_EPOCH
+
+upstream=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
+version=$upstream-1
+soname=${upstream%.*}
+architecture=$(sed -n 's/^LOCKSTEP_ARCHITECTURE:STRING=//p' "$build/CMakeCache.txt")
+architecture=${architecture:-$(dpkg --print-architecture)}
+library=liblockstep-runtime$soname
+# Package and the components that CMake installs in it.
+packages=("lockstep lockstep" "lockstep-dev sdk runtime_dev" "$library runtime" "python3-lockstep python" "lockstep-doc doc")
+
+rm -rf "$work" "$out"
+mkdir -p "$work/debian" "$out"
+sed "s/@SONAME@/$soname/; s/@VERSION@/$version/; s/@UPSTREAM@/$upstream/" "$here/control" >"$work/debian/control"
+cat >"$work/debian/changelog" <<TEXT
+lockstep ($version) unstable; urgency=medium
+
+  * Release $upstream; lockstep-doc has its CHANGELOG.md.
+
+ -- $(sed -n 's/^Maintainer: //p' "$here/control")  $(LC_ALL=C date -u -R -d "@$SOURCE_DATE_EPOCH")
+TEXT
+
+strip_files() {
+  find "$1" -type f -print0 | while IFS= read -r -d '' file; do
+    case $(file -b "$file") in
+      ELF*) "${STRIP:-strip}" --strip-unneeded --remove-section=.comment --remove-section=.note "$file" ;;
+      *"ar archive"*) "${STRIP:-strip}" --strip-debug --remove-section=.comment --enable-deterministic-archives "$file" ;;
+    esac
+  done
+}
+
+# What all packages have: copyright, changelog, and why lintian may be wrong.
+add_documents() {
+  local root=$1 package=$2 directory=$1/usr/share/doc/$2
+  mkdir -p "$directory" "$root/DEBIAN"
+  cp "$here/copyright" "$directory/copyright"
+  gzip -9nc "$work/debian/changelog" >"$directory/changelog.Debian.gz"
+  mkdir -p "$root/usr/share/lintian/overrides"
+  {
+    echo "# These packages are not uploaded to Debian."
+    echo "$package: initial-upload-closes-no-bugs"
+  } >"$root/usr/share/lintian/overrides/$package"
+}
+
+add_scripts() {
+  local root=$1 package=$2
+  if [ "$package" = "$library" ]; then
+    echo "liblockstep-runtime $soname $library (= $version)" >"$root/DEBIAN/shlibs"
+    echo "activate-noawait ldconfig" >"$root/DEBIAN/triggers"
+  fi
+  if [ "$package" = python3-lockstep ]; then
+    install -m 755 "$here/python/postinst" "$here/python/prerm" "$root/DEBIAN/"
+  fi
+}
+
+# Sorted files, the time of the release, owned by root.
+finish() {
+  local root=$1 package=$2
+  cd "$work"
+  if [ "$package" = lockstep ] || [ "$package" = "$library" ]; then
+    find "$root" -type f -print0 | xargs -0 file -N | sed -n 's/: *ELF.*//p' | sort | sed 's/^/-e/' |
+      xargs dpkg-shlibdeps --ignore-missing-info -Tsubstvars
+  else
+    : >substvars
+  fi
+  dpkg-gencontrol -p"$package" -P"$root" -Tsubstvars -fdebian/files \
+    -DArchitecture="$(awk -v p="$package" '$1 == "Package:" { here = $2 == p } here && $1 == "Architecture:" { print $2 }' \
+      debian/control | sed "s/any/$architecture/")" 2>/dev/null
+  (cd "$root" && find usr -type f -print0 | LC_ALL=C sort -z | xargs -0 md5sum >DEBIAN/md5sums)
+  chmod -R u=rwX,go=rX "$root"
+  find "$root" -newermt "@$SOURCE_DATE_EPOCH" -print0 | xargs -0r touch --no-dereference --date="@$SOURCE_DATE_EPOCH"
+  dpkg-deb --root-owner-group -Zxz --build "$root" "$out" >/dev/null
+}
+
+for entry in "${packages[@]}"; do
+  read -r package components <<<"$entry"
+  root=$work/$package
+  mkdir -p "$root"
+  for component in $components; do
+    DESTDIR=$root cmake --install "$build" --component "$component" >/dev/null
+  done
+  strip_files "$root"
+  add_documents "$root" "$package"
+  add_scripts "$root" "$package"
+  (finish "$root" "$package")
+done
+ls "$out"/*.deb
