@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the Debian packages of a build with LOCKSTEP_PACKAGES: build.sh BUILD. The same sources, compiler and
-# SOURCE_DATE_EPOCH give the same bytes. control has the packages; a comment here says which files each has.
+# SOURCE_DATE_EPOCH give the same bytes. control describes the packages.
 set -euo pipefail
 build=$(realpath "$1")
 here=$(realpath "$(dirname "$0")")
@@ -12,8 +12,7 @@ export SOURCE_DATE_EPOCH
 upstream=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 version=$upstream-1
 soname=${upstream%.*}
-architecture=$(sed -n 's/^LOCKSTEP_ARCHITECTURE:STRING=//p' "$build/CMakeCache.txt")
-architecture=${architecture:-$(dpkg --print-architecture)}
+architecture=$(dpkg --print-architecture)
 library=liblockstep-runtime$soname
 # Package and the components that CMake installs in it.
 packages=("lockstep lockstep" "lockstep-dev sdk runtime_dev" "$library runtime" "python3-lockstep python" "lockstep-doc doc")
@@ -38,7 +37,7 @@ strip_files() {
   done
 }
 
-# What all packages have: copyright, changelog, and why lintian may be wrong.
+# What all packages have: copyright, changelog, and what lintian would say without reason.
 add_documents() {
   local root=$1 package=$2 directory=$1/usr/share/doc/$2
   mkdir -p "$directory" "$root/DEBIAN"
