@@ -32,6 +32,8 @@ TEST_CASE("a program without tools says what it leaves out, and how to get it") 
                                             {"fmt", kDoor},
                                             {"convert", kDoor, "--to", "btcpp"},
                                             {"lsp"},
+                                            {"completion", "bash"},
+                                            {"manual", "pages"},
                                             {"plugin", "check"},
                                             {"log", "info", "x"},
                                             {"replay", "--speed", "2"},
