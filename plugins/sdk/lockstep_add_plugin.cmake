@@ -2,6 +2,7 @@
 # but lockstep_plugin_entry. Used by the plugins of this repository and, installed, by all others.
 # A project that chooses no build type would run its leaves unoptimized: then the plugin, and nothing
 # else of the project, is as in Release.
+# In a project that has found lockstep, it is installed in lib/lockstep/plugins, where colcon's prefixes have plugins.
 # With BTCPP among the sources, these are written for BehaviorTree.CPP: docs/btcpp.md.
 function(lockstep_add_plugin name)
   set(sources ${ARGN})
@@ -29,4 +30,7 @@ function(lockstep_add_plugin name)
   set_target_properties(${name} PROPERTIES
     PREFIX "" SUFFIX .so LINK_DEPENDS ${exports}
     C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  if(lockstep_FOUND)
+    install(TARGETS ${name} LIBRARY DESTINATION lib/lockstep/plugins)
+  endif()
 endfunction()
