@@ -3,7 +3,7 @@
 set -euo pipefail
 command -v mkdocs >/dev/null || exit 77 # a test is skipped then
 lockstep=$(realpath "$1")
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../../.."
 pages=build/site-pages
 rm -rf "$pages" build/site
 mkdir -p "$pages/trees" "$pages/schema" "$pages/plugins/sdk/lockstep"
@@ -12,7 +12,7 @@ cp trees/*.xml "$pages/trees/"
 cp schema/*.json schema/*.xsd "$pages/schema/"
 cp plugins/sdk/lockstep/leaf.h "$pages/plugins/sdk/lockstep/"
 sed -i 's,](\.\./,](,g' "$pages"/*.md
-cp packaging/site/mkdocs.yml build/mkdocs.yml
+cp interpreter/packaging/site/mkdocs.yml build/mkdocs.yml
 printf 'docs_dir: site-pages\nsite_dir: site\n' >>build/mkdocs.yml
 
 # The front page has a recording, as `log page` makes it.

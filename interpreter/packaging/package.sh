@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # ./dev package: builds with Debian's flags, makes the packages and the archive of the sources.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 if [ -z "${SOURCE_DATE_EPOCH:-}" ]; then
   # Of the last commit; in an archive without git, of the change log.
   SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || stat -c %Y CHANGELOG.md)
@@ -15,7 +15,7 @@ CFLAGS+=" $(dpkg-buildflags --get CPPFLAGS)"
 CXXFLAGS+=" $(dpkg-buildflags --get CPPFLAGS)"
 cmake --preset package >/dev/null
 cmake --build build/package -j "$(nproc)"
-packaging/build.sh build/package
+interpreter/packaging/build.sh build/package
 
 out=build/package/packages
 name=lockstep-$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' build/package/CMakeCache.txt)
@@ -27,4 +27,4 @@ else
 fi
 (cd "$out" && sha256sum ./*.deb ./*.tar.gz | sed 's, \./, ,' >SHA256SUMS)
 lintian --allow-root --fail-on error,warning "$out"/*.deb
-[ "${1:-}" != --try ] || packaging/try.sh "$out"
+[ "${1:-}" != --try ] || interpreter/packaging/try.sh "$out"

@@ -1,5 +1,5 @@
 # What is installed and in which Debian package: see docs/packages.md. `./dev package` makes them.
-# With LOCKSTEP_PACKAGES, files go where Debian wants them, and packaging/build.sh makes the packages.
+# With LOCKSTEP_PACKAGES, files go where Debian wants them, and interpreter/packaging/build.sh makes the packages.
 if(LOCKSTEP_TOOLS)
   set(generated ${CMAKE_BINARY_DIR}/generated)
   # The program writes them: in a build for another machine, its emulator runs it.
@@ -22,7 +22,7 @@ if(LOCKSTEP_TOOLS)
 endif()
 
 foreach(part lockstep lockstep-runtime)
-  configure_file(packaging/${part}.pc.in ${CMAKE_BINARY_DIR}/${part}.pc @ONLY)
+  configure_file(interpreter/packaging/${part}.pc.in ${CMAKE_BINARY_DIR}/${part}.pc @ONLY)
 endforeach()
 install(FILES ${CMAKE_BINARY_DIR}/lockstep.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT sdk)
 install(FILES ${CMAKE_BINARY_DIR}/lockstep-runtime.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT runtime_dev)
@@ -41,4 +41,4 @@ file(WRITE ${CMAKE_BINARY_DIR}/METADATA
 file(WRITE ${CMAKE_BINARY_DIR}/entry_points.txt "[pytest11]\nlockstep = lockstep.pytest_plugin\n")
 install(FILES ${CMAKE_BINARY_DIR}/METADATA ${CMAKE_BINARY_DIR}/entry_points.txt DESTINATION ${information} COMPONENT python)
 
-install(FILES packaging/lockstep@.service DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lockstep/examples)
+install(FILES interpreter/packaging/lockstep@.service DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lockstep/examples)
