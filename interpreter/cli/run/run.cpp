@@ -14,6 +14,7 @@
 #include "cli/run/progress_notes.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
+#include "cli/run/service_notice.h"
 #include "cli/run/view.h"
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
@@ -106,6 +107,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     if (!options.record.empty()) {
       recorder_.emplace(tree_, recorder_options());
     }
+    if (options.notifies) service_.emplace();
     if (options.stall > 0 || options.stall_fail > 0) watch_standstills();
     if (!properties.empty()) watch_properties(std::move(properties));
   }
@@ -262,6 +264,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     watchers_.add_to(observers_);
     if (view_.observer() != nullptr) observers_.push_back(view_.observer());
     observers_.push_back(&watch_);
+    if (service_) observers_.push_back(&*service_);
     return observers_;
   }
 
@@ -306,6 +309,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<Standstills> standstills_;
   std::optional<PropertyObserver> properties_;
   std::optional<StallFail> stall_fail_;
+  std::optional<ServiceNotice> service_;
   LineBudget standstill_budget_{ConsolePlain::kBurstOfFaults};
   std::vector<Observer*> observers_;
 };
@@ -399,6 +403,10 @@ int run(RunCommandOptions options) {
   if (!place_helpers(options)) return kExitUsage;
   const Outlet::Thread messages_thread(messages());
   if (would_replace(options, inputs_of_run(options, *loaded))) return kExitUsage;
+  if (const auto refusal = options.notifies ? ServiceNotice::refusal() : std::nullopt) {
+    print_error("--notify: " + refusal->message, refusal->hint);
+    return kExitUsage;
+  }
   auto sockets = listen_for_watchers(options, loaded->definition);
   if (!sockets) {
     print_error(sockets.error().message, sockets.error().hint);

@@ -264,6 +264,9 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
                                  "level and what is more urgent");
   define_monitor_options(app, options);
   define_groot_options(app, options);
+  app.add_flag("--notify", options.notifies,
+               "Tell systemd that the run has begun, that it goes on (WatchdogSec=), and that it "
+               "ends: for a service with Type=notify");
   app.add_flag("--json", options.json, "Print the summary as JSON");
   add_load_options(app, options.load);
   options.load.plugins.run_programs = true;

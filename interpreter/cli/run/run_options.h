@@ -46,6 +46,7 @@ struct RunCommandOptions {
   lockstep_log_level log_level = LOCKSTEP_LOG_INFO;
   std::string record_entries = "all";
   bool json = false;
+  bool notifies = false;  // the service manager
 
   std::optional<std::string> monitor;         // where it is reached; none: there is no monitor
   std::optional<std::string> monitor_socket;  // where one can be asked for; none: nowhere

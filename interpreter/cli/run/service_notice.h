@@ -1,0 +1,48 @@
+// Tells the service manager that started this process how the run is: begun, alive, ending.
+// systemd's sd_notify(3) is the protocol.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <optional>
+#include <thread>
+
+#include "core/problem.h"
+#include "runtime/observer.h"
+#include "system/mutex.h"
+
+namespace lockstep::host {
+
+class ServiceNotice final : public Observer {
+ public:
+  // Why nobody can be told; nothing: it can be done, or nobody wants to know.
+  static std::optional<Problem> refusal();
+
+  // Its thread is one of lockstep's helpers, so it is made before the thread that ticks is given a
+  // priority.
+  ServiceNotice();
+  ~ServiceNotice() override;
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void standing(Ticker& ticker) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+ private:
+  void watch(Nanoseconds interval);
+  bool is_alive(Nanoseconds interval);
+  void stop();
+
+  std::atomic<std::int64_t> period_{0};  // ns; 0: the run has not begun
+  std::atomic<std::uint64_t> ticks_{0};
+  std::atomic<bool> stands_{false};  // paused: no tick is to come
+  // Of the thread that tells.
+  std::uint64_t seen_ = 0;
+  Nanoseconds unchanged_{0};
+  Mutex mutex_;
+  std::condition_variable stopped_;
+  bool stop_ LOCKSTEP_GUARDED_BY(mutex_) = false;
+  std::thread thread_;
+};
+
+}  // namespace lockstep::host
