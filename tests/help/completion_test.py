@@ -5,13 +5,15 @@ import select
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 SHELL, LOCKSTEP, SOURCE = sys.argv[1:4]
 if shutil.which(SHELL) is None:
     sys.exit(77)
+HOME = tempfile.TemporaryDirectory()  # shells write there
 TREES = os.path.join(SOURCE, "trees")
-ENVIRONMENT = {"PATH": os.path.dirname(LOCKSTEP) + ":/usr/bin:/bin", "HOME": "/nonexistent", "TERM": "dumb",
+ENVIRONMENT = {"PATH": os.path.dirname(LOCKSTEP) + ":/usr/bin:/bin", "HOME": HOME.name, "TERM": "dumb",
                "LC_ALL": "C.UTF-8", "PS1": "ready> "}
 # Line, words that are offered, words that are not. A shell may offer more.
 LAWS = [
