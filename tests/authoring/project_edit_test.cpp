@@ -10,9 +10,9 @@
 #include "authoring/edit/entry_uses.h"
 #include "authoring/edit/renames.h"
 #include "authoring/edit/subtree_edits.h"
-#include "support/program.h"
 #include "loading/load.h"
 #include "property/random_source.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {

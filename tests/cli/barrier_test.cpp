@@ -1,8 +1,8 @@
 // Barriers across branches from outside: what a run says of them, its recording says too.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

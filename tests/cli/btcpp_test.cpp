@@ -1,8 +1,8 @@
 // Trees for BehaviorTree.CPP on the command line: without their plugins, and with models.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

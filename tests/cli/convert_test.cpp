@@ -1,8 +1,8 @@
 // lockstep convert: the same tree in the other language.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

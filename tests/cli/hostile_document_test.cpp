@@ -134,15 +134,18 @@ TEST_CASE("a document that is deep or wide is refused or checked in time and mem
       {"a million siblings, all empty", many(kHead + sequence, kMany, "<Sequence/>\n", end), 3,
        "$:2:32: error:"},
       {"100,000 trees",
-       many(kHead + kHostileDocumentTree, 100'000, "<BehaviorTree ID=\"T{}\"><AlwaysSuccess/></BehaviorTree>\n",
-            "</root>"),
+       many(kHead + kHostileDocumentTree, 100'000,
+            "<BehaviorTree ID=\"T{}\"><AlwaysSuccess/></BehaviorTree>\n", "</root>"),
        0, ""},
-      {"100,000 plugins", many(kHead, 100'000, "<plugin name=\"p{}\"/>\n", kHostileDocumentTree + "</root>"), 4,
+      {"100,000 plugins",
+       many(kHead, 100'000, "<plugin name=\"p{}\"/>\n", kHostileDocumentTree + "</root>"), 4,
        "$:258:1: error: more than 256 plugins"},
-      {"100,000 arguments", many(kHead, 100'000, "<arg name=\"a{}\"/>\n", kHostileDocumentTree + "</root>"), 3,
+      {"100,000 arguments",
+       many(kHead, 100'000, "<arg name=\"a{}\"/>\n", kHostileDocumentTree + "</root>"), 3,
        "$:2:1: error: argument 'a0' has no default"},
-      {"100,000 includes", many(kHead, 100'000, "<include path=\"f{}.xml\"/>\n", kHostileDocumentTree + "</root>"),
-       3, "$:2:16: error: cannot read '"},
+      {"100,000 includes",
+       many(kHead, 100'000, "<include path=\"f{}.xml\"/>\n", kHostileDocumentTree + "</root>"), 3,
+       "$:2:16: error: cannot read '"},
       {"100,000 attributes",
        many(kHead + "<BehaviorTree ID=\"A\"><AlwaysSuccess", 100'000, " a{}=\"\"",
             "/></BehaviorTree></root>"),
@@ -206,12 +209,13 @@ TEST_CASE("bytes that are no text, and entities, are refused where they stand") 
       {"an entity of one's own", text(laughs + in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
        "$:1:16: error: definitions in a DOCTYPE are not supported"},
       {"an external entity",
-       text("<!DOCTYPE r [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n" + kHead + kHostileDocumentTree +
-            "</root>"),
+       text("<!DOCTYPE r [<!ENTITY x SYSTEM \"file:///etc/passwd\">]>\n" + kHead +
+            kHostileDocumentTree + "</root>"),
        3, "$:1:13: error: definitions in a DOCTYPE are not supported"},
       {"an entity that is not declared", text(in_tree("<AlwaysSuccess name=\"&c;\"/>")), 3,
        "$:2:43: error: '&' does not begin a known reference"},
-      {"a NUL", text(kHead + "<!--\0-->"s + kHostileDocumentTree + "</root>"), 3, "$:2:5: error: NUL byte"},
+      {"a NUL", text(kHead + "<!--\0-->"s + kHostileDocumentTree + "</root>"), 3,
+       "$:2:5: error: NUL byte"},
       {"only NULs", text(std::string(1000, '\0')), 3, "$:1:1: error: NUL byte"},
       {"a NUL as a reference", text(in_tree("<AlwaysSuccess name=\"&#0;\"/>")), 3,
        "$:2:43: error:"},
@@ -267,7 +271,8 @@ TEST_CASE("includes neither hang nor multiply") {
   // A file and the one that it includes have so many bytes together.
   const auto two_files = [](std::size_t bytes) {
     return [=](const TemporaryDirectory& directory, std::ostream& out) {
-      const std::string main = kHead + "<include path=\"part.xml\"/>\n" + kHostileDocumentTree + "</root>";
+      const std::string main =
+          kHead + "<include path=\"part.xml\"/>\n" + kHostileDocumentTree + "</root>";
       const std::string begin = "<root lockstep=\"1\"><!--", end = "--></root>";
       std::ofstream part(directory.path("part.xml"), std::ios::binary);
       std::size_t left = bytes - main.size() - begin.size() - end.size();
@@ -303,8 +308,8 @@ TEST_CASE("a plugin is a name, never a path") {
        {"../../x", "/tmp/x", "x.so", ".", "", "a b", "&#x9B;2J", "x&#10;y"}) {
     const TemporaryDirectory directory;
     directory.file("x.so", "");
-    const std::string path =
-        directory.file("tree.xml", kHead + "<plugin name=\"" + name + "\"/>\n" + kHostileDocumentTree + "</root>");
+    const std::string path = directory.file(
+        "tree.xml", kHead + "<plugin name=\"" + name + "\"/>\n" + kHostileDocumentTree + "</root>");
     const Outcome outcome = run_lockstep({"check", path, "--plugin-path", directory.path("a/b")});
     INFO(outcome.err);
     CHECK(outcome.code == 4);

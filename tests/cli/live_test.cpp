@@ -1,8 +1,8 @@
 // The live view on a terminal: what it shows, its keys, and the terminal as it was in the end.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 
@@ -32,7 +32,7 @@ struct Live {
                 Process::Output::Terminal) {}
 
   static Invocation call(const std::string& file, std::vector<std::string> more,
-                   std::map<std::string, std::string> environment) {
+                         std::map<std::string, std::string> environment) {
     environment.insert({"NO_COLOR", "1"});
     std::vector<std::string> arguments{"run", file};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;

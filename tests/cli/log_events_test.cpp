@@ -1,8 +1,8 @@
 // `lockstep log events`: what happened in a run, a line each.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <map>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 
@@ -171,7 +171,8 @@ TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
   CHECK(svg.out == directory.path("x.svg") + "\n");
   CHECK(is_svg(directory.path("x.svg")));
   CHECK(contains(read_file(directory.path("x.svg")), ">arm</text>"));
-  CHECK(plot_log({"plot", recording, "--out", directory.path("x.png"), "--width", "360"}).code == 0);
+  CHECK(plot_log({"plot", recording, "--out", directory.path("x.png"), "--width", "360"}).code ==
+        0);
   CHECK(read_file(directory.path("x.png")).starts_with("\x89PNG\r\n\x1a\n"));
   CHECK(contains(read_file(directory.path("x.gp")), "size 720,"));
   // The last line leads to what the last tick reached: a period after it.
@@ -185,10 +186,12 @@ TEST_CASE("log plot draws a file for each synchronized node, or for the one that
   const Outcome both = plot_log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(both.code == 0);
   CHECK(both.out == directory.path("x-pull.svg") + "\n" + directory.path("x-point.svg") + "\n");
-  const Outcome one = plot_log({"plot", recording, "--out", directory.path("y.svg"), "--node", "point"});
+  const Outcome one =
+      plot_log({"plot", recording, "--out", directory.path("y.svg"), "--node", "point"});
   CHECK(one.code == 0);
   CHECK(one.out == directory.path("y.svg") + "\n");
-  const Outcome none = plot_log({"plot", recording, "--out", directory.path("z.svg"), "--node", "arm"});
+  const Outcome none =
+      plot_log({"plot", recording, "--out", directory.path("z.svg"), "--node", "arm"});
   CHECK(none.code == 2);
   CHECK(contains(none.err, "no node 'arm', there are: 'Main/Sequence/pull', '"));
 }
@@ -333,7 +336,8 @@ TEST_CASE(
   std::vector<std::string> limits;
   for (const std::string& line : lines(read_file(file))) {
     const auto values = parse_json(line);
-    if (values.contains("limits")) limits.push_back(values["tick"].dump() + values["limits"].dump());
+    if (values.contains("limits"))
+      limits.push_back(values["tick"].dump() + values["limits"].dump());
   }
   CHECK(limits == std::vector<std::string>{"0[[2,0.5]]", "100[[2,0.4]]", "200[[2,0.55]]",
                                            "275[[2,0.7]]", "350[[2,0.85]]", "425[[2,null]]"});

@@ -1,4 +1,4 @@
-// What a service manager is told of a run: sd_notify(3).
+// The messages of a run to a service manager: sd_notify(3).
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>

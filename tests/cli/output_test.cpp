@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -1,8 +1,8 @@
 // `lockstep plugin check` of shared objects.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

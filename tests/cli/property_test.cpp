@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "core/random.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;

@@ -1,8 +1,8 @@
 // What the README shows is what happens: its action is compiled, its tree is run with it.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -1,8 +1,8 @@
 // Leaves that work in real time, on a clock where no tick waits for them: a warning names them.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

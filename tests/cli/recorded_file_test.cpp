@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 

@@ -26,7 +26,7 @@ const std::string kReplayTree = tree_text(
     "</ParallelAbsolute>");
 
 std::string record_tree(const TemporaryDirectory& directory, const std::string& tree = kReplayTree,
-                   const std::string& ticks = "100") {
+                        const std::string& ticks = "100") {
   const std::string file = directory.path("run.jsonl");
   const Outcome outcome =
       call({"run", directory.file("tree.xml", tree), "--clock", "virtual", "--rate", "10",

@@ -1,8 +1,8 @@
 // Resources from outside: every room knows who owns what, and who waits for whom.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;

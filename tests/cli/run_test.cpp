@@ -2,9 +2,9 @@
 #include <map>
 #include <regex>
 
-#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

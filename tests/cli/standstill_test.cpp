@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 using nlohmann::json;

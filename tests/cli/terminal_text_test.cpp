@@ -2,11 +2,11 @@
 // not as text, in the live view, in a replay, in JSON, nor in a message of what is wrong with them.
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "core/diagnostics.h"
 #include "core/wording.h"
 #include "support/json.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -136,7 +136,7 @@ TEST_CASE("texts of a tree reach the terminal visible, whatever is done with it"
   // On a terminal: the live view, and what it prints above.
   for (const std::string locale : {"C", "C.UTF-8"}) {
     const Invocation call{.arguments = {"run", good, "--view", "live", "--max-ticks", "3"},
-                    .environment = {{"LC_ALL", locale}}};
+                          .environment = {{"LC_ALL", locale}}};
     check_clean(Process(call, Process::Output::Terminal).finish(), "live view", true);
   }
 }

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <regex>
 #include <set>
 
-#include "support/program.h"
 #include "document/document.h"
 #include "document/language_of.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "support/program.h"
 #include "support/json.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 

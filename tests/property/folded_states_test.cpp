@@ -91,7 +91,7 @@ class Answers {
   std::size_t used_ = 0, most_ = 0;
 };
 
-// All that is seen in the next `ticks`, as a text.
+// What can be seen in the next `ticks`, as a text.
 std::string future(const Moment& moment, int ticks) {
   std::string all = "(";
   if (ticks == 0) return ")";

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 namespace {

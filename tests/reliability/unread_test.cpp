@@ -16,8 +16,8 @@ using nlohmann::json;
 // lockstep with these arguments, its stderr in the dead end. Its 99 is its stdout.
 Invocation unread(const DeadEnd& end, const std::vector<std::string>& arguments) {
   Invocation call{.arguments = {"-c", "exec \"$@\" 99>&1 2>&" + end.number(), "bash",
-                          LOCKSTEP_BINARY_DIR "/lockstep"},
-            .program = "/bin/bash"};
+                                LOCKSTEP_BINARY_DIR "/lockstep"},
+                  .program = "/bin/bash"};
   call.arguments.insert(call.arguments.end(), arguments.begin(), arguments.end());
   return call;
 }
@@ -69,8 +69,9 @@ TEST_CASE("unread: a second signal ends the program") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file(
       "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Probe/></BehaviorTree></root>");
-  Invocation call = unread(stuck, {"run", tree, "--plugin", LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so",
-                             "--hang-limit", "0", "--view", "live"});
+  Invocation call =
+      unread(stuck, {"run", tree, "--plugin", LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so",
+                     "--hang-limit", "0", "--view", "live"});
   call.environment["STUCK_FILE"] = "99";  // its lines go to our stdout, not to the dead end
   Process process(call);
   REQUIRE(process.wait_for("stuck\n"));

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

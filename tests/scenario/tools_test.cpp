@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <regex>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

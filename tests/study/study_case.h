@@ -1,8 +1,8 @@
 // Studies made by the program, in a directory of their own.
 #pragma once
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace lockstep::host::test {
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <set>
 
-#include "support/program.h"
 #include "support/json.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <sstream>
 
-#include "support/program.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 using namespace lockstep::host::test;
 

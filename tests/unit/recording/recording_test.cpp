@@ -285,7 +285,8 @@ TEST_CASE("what is wrong with a recording is reported with its line") {
        "run.jsonl:1: parent of node 1 comes after it"},
       {replaced(kWholeRecording, "\"index\":1", "\"index\":7"), "run.jsonl:1: node 1 is missing"},
       {replaced(kWholeRecording, "{\"tick\":1", "x\"tick\":1"), "run.jsonl:3: not JSON"},
-      {replaced(kWholeRecording, "\"tick\":1", "\"tick\":0"), "run.jsonl:3: tick 0 comes after tick 0"},
+      {replaced(kWholeRecording, "\"tick\":1", "\"tick\":0"),
+       "run.jsonl:3: tick 0 comes after tick 0"},
       {replaced(kWholeRecording, "[2,\"running\"", "[9,\"running\""),
        "run.jsonl:2: no node 9, expected 0 to 2"},
       {replaced(kWholeRecording, "0.5,0,1]", "0.5,0,2]"),
@@ -340,7 +341,8 @@ TEST_CASE("info measures a recording as the run was measured") {
 }
 
 TEST_CASE("info says that a recording is cut") {
-  std::istringstream in(std::string(kWholeRecording).substr(0, std::string(kWholeRecording).find("{\"end")));
+  std::istringstream in(
+      std::string(kWholeRecording).substr(0, std::string(kWholeRecording).find("{\"end")));
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
   CHECK(info.find("  4 ticks, 0.400 s; the recording is cut: it ends after line 5 without a "

@@ -110,7 +110,8 @@ TEST_CASE(
 TEST_CASE("a stack overflow is reported on a separate stack") {
   const Ended ended = in_tick([] { overflow(0); });
   CHECK(ended.exit_code == kCrashed);
-  CHECK(has(ended, kArmError + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
+  CHECK(
+      has(ended, kArmError + "crashed in tick 12: SIGSEGV, the stack has overflowed (address 0x"));
   CHECK(has(ended, "last words\n"));
   CHECK(has(ended, "lockstep: backtrace:\n"));
 }
@@ -124,7 +125,8 @@ TEST_CASE("a stack overflow in a thread of lockstep is reported, too") {
     }).join();
   });
   CHECK(ended.exit_code == kCrashed);
-  CHECK(has(ended, kArmError + "crashed in its create function: SIGSEGV, the stack has overflowed"));
+  CHECK(
+      has(ended, kArmError + "crashed in its create function: SIGSEGV, the stack has overflowed"));
 }
 
 TEST_CASE("exit inside a call is a crash") {

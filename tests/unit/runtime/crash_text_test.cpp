@@ -9,7 +9,8 @@
 namespace lockstep::host::test {
 namespace {
 
-const CallSite& kCrashedLeaf = CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
+const CallSite& kCrashedLeaf =
+    CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
 const CallSite& kPlugin = CallSite::of_plugin("motion");
 
 CallMark::Look in(const CallSite& site, PluginFunction function) {
@@ -38,7 +39,8 @@ TEST_CASE("a crash is reported with the function it was in") {
   CHECK(first_line(segv(in(kCrashedLeaf, F::Tick))) == begin + "crashed in tick 12" + end);
   CHECK(first_line(segv(in(kCrashedLeaf, F::Halt))) ==
         begin + "crashed in its halt function (tick 12)" + end);
-  CHECK(first_line(segv(in(kCrashedLeaf, F::Create))) == begin + "crashed in its create function" + end);
+  CHECK(first_line(segv(in(kCrashedLeaf, F::Create))) ==
+        begin + "crashed in its create function" + end);
   Crash before_ticks = segv(in(kCrashedLeaf, F::Start));
   before_ticks.tick = CallMark::kNoTick;
   CHECK(first_line(before_ticks) == begin + "crashed in its start function" + end);
@@ -108,8 +110,10 @@ TEST_CASE("exit and hang are reported with the function they were in") {
   CHECK(first_line(crash) ==
         "lockstep: error: a thread that a plugin has started called exit() before the work was "
         "done");
-  crash = {
-      .kind = CrashKind::Hang, .call = in(kCrashedLeaf, PluginFunction::Tick), .tick = 3, .seconds = 1.96};
+  crash = {.kind = CrashKind::Hang,
+           .call = in(kCrashedLeaf, PluginFunction::Tick),
+           .tick = 3,
+           .seconds = 1.96};
   CHECK(first_line(crash) == begin + "has not returned from tick 3 for 2.0 s");
   crash.call = in(kCrashedLeaf, PluginFunction::Resume);
   CHECK(first_line(crash) ==
