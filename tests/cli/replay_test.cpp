@@ -175,6 +175,29 @@ TEST_CASE("without a terminal that can draw a replay prints one tick") {
   CHECK(!contains(outcome.out, "\x1b"));
 }
 
+TEST_CASE("a replay of a part has the ticks from --from to --to") {
+  const TemporaryDirectory directory;
+  const std::string file = record_tree(directory, kReplayTree);
+  Process process({.arguments = {"replay", file, "--from", "1", "--to", "2", "--speed", "0.001"},
+                   .environment = {{"NO_COLOR", "1"}}},
+                  Process::Output::Terminal);
+  const auto expect = keys_of(process);
+  REQUIRE(process.wait_for("plays  tick 1 of 2"));
+  expect(" ", "waits for arm at barrier 0.5");
+  expect("n", "tick 2 of 2");
+  expect("\x1b[H", "tick 1 of 2");
+  expect("g0\r", "no tick 0: the recording has 1 to 2");
+  process.type("q");
+  CHECK(process.finish().code == 0);
+  const Outcome behind =
+      Process({.arguments = {"replay", file, "--from", "77"}}, Process::Output::Terminal).finish();
+  CHECK(behind.code == 2);
+  CHECK(contains(behind.out, "--from 77"));
+  const Outcome printed = call({"replay", file, "--from", "1"});
+  CHECK(printed.code == 2);
+  CHECK(contains(printed.err, "--at prints one tick"));
+}
+
 TEST_CASE("a replay is drawn anew when the window gets another size, also while it is paused") {
   const TemporaryDirectory directory;
   const std::string file = record_tree(directory, kReplayTree);

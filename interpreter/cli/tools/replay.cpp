@@ -22,6 +22,7 @@ namespace {
 struct ReplayOptions {
   std::string file;
   std::optional<std::uint64_t> at;
+  TickRange range;  // what is played
   double speed = 1;
   bool print = false;
   std::optional<std::string> monitor;  // where a page is served; none: there is none
@@ -96,11 +97,12 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
 int play(const ReplayOptions& options, RecordingReader& reader) {
   const RecordingHeader& header = reader.header();
   write_results("reading ...");  // what is large takes seconds
-  RecordingTimeline timeline(reader);
+  RecordingTimeline timeline(reader, {.range = options.range});
   write_results("\r\x1b[K");
   const RecordingOutcome& outcome = timeline.outcome();
   if (timeline.size() == 0) {
-    const int code = report_end(outcome);
+    const int code =
+        options.range.is_all() ? report_end(outcome) : report_end(reader, options.range);
     return code == kExitSuccess ? no_ticks() : code;
   }
   if (options.at) {
@@ -130,7 +132,8 @@ int serve(const ReplayOptions& options) {
   return with_file(options.file, [&](std::istream& in) {
     std::string page;
     const auto keep = [&page](std::string_view part) { return !page.append(part).empty(); };
-    if (const int code = make_page(in, options.file, keep); code != kExitSuccess) return code;
+    if (const int code = make_page(in, options.file, options.range, keep); code != kExitSuccess)
+      return code;
     PageServer server(std::move(page), std::move(*socket));
     StopSignals::install();
     MonitorLink link(options.file);
@@ -145,7 +148,11 @@ int replay(const ReplayOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) {
     const bool interactive = !options.print && options.file != "-" && is_terminal(STDIN_FILENO) &&
                              is_terminal(results_file()) && can_draw();
-    return interactive ? play(options, reader) : print_tick(options, reader);
+    if (interactive) return play(options, reader);
+    if (!options.range.is_all()) {
+      return usage_error("--from and --to are for a terminal or --monitor: --at prints one tick");
+    }
+    return print_tick(options, reader);
   });
 }
 
@@ -155,6 +162,7 @@ std::function<int()> define_replay(CLI::App& app) {
   app.add_option("--at", options->at, "Begin at this tick; without a terminal: print it")
       ->type_name("TICK")
       ->transform(whole_number());
+  add_tick_range(app, options->range);
   app.add_option("--speed", options->speed, "1: as recorded; 0.1: ten times as slow")
       ->type_name("X")
       ->check(number_between(ReplayPlayer::kSlowest, ReplayPlayer::kFastest))
@@ -196,6 +204,7 @@ extern const Command kReplayCommand{
     "  lockstep replay run.jsonl\n"
     "  lockstep replay run.jsonl --at 400 --speed 0.1\n"
     "  lockstep replay run.jsonl --at 400 --print\n"
+    "  lockstep replay shift.jsonl.zst --from 1800000 --to 1860000\n"
     "  lockstep replay run.jsonl --monitor",
     define_replay};
 

@@ -42,17 +42,23 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
 
 RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOptions& options)
     : reader_(reader), options_(options) {
-  std::uint64_t expected = reader_.header().first_tick;
+  const auto [from, to] = options_.range;
+  if (from > 0) reader_.skip_to(from);
+  std::uint64_t expected = std::max(from, reader_.header().first_tick);
   Past past;
-  while (const auto tick = reader_.next()) {
-    keep(*tick, tick->tick - expected, past);
+  auto tick = reader_.next();
+  for (; tick && tick->tick <= to; tick = reader_.next()) {
+    if (tick->tick >= from) {
+      keep(*tick, tick->tick - expected, past);
+      ++size_;
+      last_tick_ = tick->tick;
+      last_time_ = tick->time;
+      expected = tick->tick + 1;
+    }
     past.add(*tick);
-    ++size_;
-    last_tick_ = tick->tick;
-    last_time_ = tick->time;
-    expected = tick->tick + 1;
   }
   outcome_ = reader_.outcome();
+  if (tick) outcome_.cut.clear();  // that is not known
   if (size_ > 0) go_to_begin();
 }
 

@@ -13,6 +13,7 @@
 
 #include "measure/entry_changes.h"
 #include "recording/read/recording_reader.h"
+#include "recording/tick_range.h"
 
 namespace lockstep::host {
 
@@ -47,12 +48,13 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment);
 struct TimelineOptions {
   std::uint64_t distance = 64 << 10;  // bytes of the file from one keyframe to the next, at first
   std::uint64_t most_memory = 32 << 20;  // bytes of all keyframes
+  TickRange range = {};                  // the ticks that it has
 };
 
 class RecordingTimeline {
  public:
-  // Reads the recording to its end, or up to damage, and goes to its first tick. Its file must be
-  // seekable. From now on only the timeline may use the reader.
+  // Reads the recording, or its range, to its end or up to damage, and goes to its first tick. Its
+  // file must be seekable. From now on only the timeline may use the reader.
   explicit RecordingTimeline(RecordingReader& reader, const TimelineOptions& options = {});
 
   const RecordingOutcome& outcome() const { return outcome_; }

@@ -4,7 +4,7 @@
 
 #include "recording/read/recording_reader.h"
 #include "recording/use/export_sink.h"
-#include "recording/use/tick_range.h"
+#include "recording/tick_range.h"
 
 namespace lockstep::host {
 

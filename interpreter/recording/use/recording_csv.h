@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "recording/read/recording_reader.h"
-#include "recording/use/tick_range.h"
+#include "recording/tick_range.h"
 
 namespace lockstep::host {
 

@@ -10,7 +10,7 @@
 
 #include "cli/outputs.h"
 #include "recording/read/recording_reader.h"
-#include "recording/use/tick_range.h"
+#include "recording/tick_range.h"
 
 namespace CLI {
 class App;
@@ -32,9 +32,10 @@ std::vector<NamedFile> files_of(const std::string& path);
 int with_file(const std::string& path, const std::function<int(std::istream&)>& use);
 int read_recording(std::istream& in, const std::string& path,
                    const std::function<int(RecordingReader&)>& use);
-// Reads the recording, and meanwhile gives `write` the parts of the web page that shows it. There
-// is no whole page if the recording is damaged, or if `write` returns false. Returns the exit code.
-int make_page(std::istream& in, const std::string& path,
+// Reads the recording, or a range of it, and meanwhile gives `write` the parts of the web page that
+// shows it. There is no whole page if the recording is damaged, or if `write` returns false.
+// Returns the exit code.
+int make_page(std::istream& in, const std::string& path, TickRange range,
               const std::function<bool(std::string_view part)>& write);
 // Reports an error in the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);

@@ -100,6 +100,23 @@ int make_page_of(std::istream& in, const std::string& path, TickRange range,
   });
 }
 
+// The bytes themselves go into the page.
+int make_whole_page(std::istream& in, const std::string& path,
+                    const std::function<bool(std::string_view part)>& write) {
+  bool writes = true;
+  RecordingPage page([&](std::string_view part) { writes = writes && write(part); });
+  ReadingProgress progress(path);
+  CopiedInput input(*in.rdbuf(), [&](std::string_view bytes) {
+    page.add(bytes);
+    progress.add(bytes.size());
+    return writes;
+  });
+  std::istream recording(&input);
+  const int code = read_to_end(recording, path);
+  if (writes && code == kExitSuccess) page.finish();
+  return code;
+}
+
 int page(const LogPageOptions& options) {
   if (options.file == "-" && !options.range.is_all()) {
     return usage_error("--from and --to need a recording in a file");
@@ -113,8 +130,7 @@ int page(const LogPageOptions& options) {
       if (!write_all(out.descriptor(), part)) reason = errno;
       return reason == 0;
     };
-    const int code = options.range.is_all() ? make_page(in, options.file, write)
-                                            : make_page_of(in, options.file, options.range, write);
+    const int code = make_page(in, options.file, options.range, write);
     if (reason == 0 && code == kExitSuccess && !out.take_name()) reason = errno;
     return reason == 0 ? code : cannot_use("write", options.out, reason);
   });
@@ -122,21 +138,9 @@ int page(const LogPageOptions& options) {
 
 }  // namespace
 
-// The bytes themselves go into the page.
-int make_page(std::istream& in, const std::string& path,
+int make_page(std::istream& in, const std::string& path, TickRange range,
               const std::function<bool(std::string_view part)>& write) {
-  bool writes = true;
-  RecordingPage page([&](std::string_view part) { writes = writes && write(part); });
-  ReadingProgress progress(path);
-  CopiedInput input(*in.rdbuf(), [&](std::string_view bytes) {
-    page.add(bytes);
-    progress.add(bytes.size());
-    return writes;
-  });
-  std::istream recording(&input);
-  const int code = read_to_end(recording, path);
-  if (writes && code == kExitSuccess) page.finish();
-  return code;
+  return range.is_all() ? make_whole_page(in, path, write) : make_page_of(in, path, range, write);
 }
 
 LogSubcommand define_log_page(CLI::App& log) {
