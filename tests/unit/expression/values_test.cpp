@@ -27,12 +27,12 @@ ScriptBoard board_of_values() {
   return board;
 }
 
-struct Row {
+struct ValueRow {
   std::string script, result;  // the value, or the error
 };
 
-void check(std::span<const Row> rows) {
-  for (const Row& row : rows) {
+void check_values(std::span<const ValueRow> rows) {
+  for (const ValueRow& row : rows) {
     INFO(row.script);
     ScriptBoard board = board_of_values();
     const ScriptRun run = board.run(row.script);
@@ -43,7 +43,7 @@ void check(std::span<const Row> rows) {
 }  // namespace
 
 TEST_CASE("literals and entries keep their kind, operators give reals") {
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"1", "1"},
       {"-1", "-1.0"},
       {"1+1", "2.0"},
@@ -61,11 +61,11 @@ TEST_CASE("literals and entries keep their kind, operators give reals") {
       {"@missing", "there is no entry '@missing'; '@missing := …' makes it"},
       {"0 ? missing : 3", "3"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE("arithmetic takes two numbers, + also two texts") {
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"whole+half", "2.5"},
       {"7/2", "3.5"},
       {"1/0", "inf"},
@@ -83,11 +83,11 @@ TEST_CASE("arithmetic takes two numbers, + also two texts") {
       {"9007199254740992+0", "'+' takes two numbers or two texts, not 9007199254740992 and 0"},
       {"large*1", "'*' takes two numbers, not 9007199254740992 and 1"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE(".. joins texts, or a text and a number") {
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"'a'..'b'", "'ab'"},
       {"'n'..1.5", "'n1.500000'"},
       {"'n'..1", "'n1'"},
@@ -108,11 +108,11 @@ TEST_CASE(".. joins texts, or a text and a number") {
        "'..' takes two texts, or a text and a number, not the text 'a' and the list of double of "
        "an entry"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE("bits are those of whole numbers") {
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"6&3", "2.0"},
       {"6|3", "7.0"},
       {"6^3", "5.0"},
@@ -130,12 +130,12 @@ TEST_CASE("bits are those of whole numbers") {
       {"~'1'", "'~' takes a number of at most 63 bits, not the text '1'"},
       {"~(1/0)", "'~' takes a number of at most 63 bits, not inf"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE("conditions are 0, 1 or reals that are not negative, and both sides are asked") {
   const std::string two = "two conditions: 0, 1 or a number that is not negative and not whole";
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"1&&1", "1.0"},
       {"1&&0", "0.0"},
       {"0||0.5", "1.0"},
@@ -157,12 +157,12 @@ TEST_CASE("conditions are 0, 1 or reals that are not negative, and both sides ar
       {"!empty", "'!' takes a number, not an entry without value"},
       {"-'a'", "'-' takes a number, not the text 'a'"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE("comparisons are of texts by bytes, of numbers almost, of a number and its text") {
   const std::string operands = "two numbers or two texts, or a number and the text of one";
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"'a'<'b'", "1.0"},
       {"'B'<'a'", "1.0"},
       {"'a'=='a '", "0.0"},
@@ -208,11 +208,11 @@ TEST_CASE("comparisons are of texts by bytes, of numbers almost, of a number and
       {"'a'..'a'<'a'..'b'<'a'..'c'", "1.0"},
       {"'a'..'a'<'a'..'c'<'a'..'b'", "0.0"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE("?: asks a number, or a text that begins with one") {
-  const Row rows[] = {
+  const ValueRow rows[] = {
       {"2?'y':'n'", "'y'"},
       {"-1?'y':'n'", "'y'"},
       {"0.0?'y':'n'", "'n'"},
@@ -224,7 +224,7 @@ TEST_CASE("?: asks a number, or a text that begins with one") {
       {"empty?1:2", "'?' takes a number, not an entry without value"},
       {"1?whole:missing", "2"},
   };
-  check(rows);
+  check_values(rows);
 }
 
 TEST_CASE("a condition of a node is a number that means yes or no") {

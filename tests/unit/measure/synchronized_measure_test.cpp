@@ -42,7 +42,7 @@ struct WorkedTrace {
   std::uint64_t held[3];  // ticks in which the child is '-'
 };
 
-constexpr WorkedTrace kTraces[] = {
+constexpr WorkedTrace kWorkedTraces[] = {
     {"A1", "ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.3", 10, 2.10, {0, 3}},
     {"A2t", "ParallelAbsolute[barriers=.5;1 at_barrier=tick](a b)", "a+.1 b+.25", 10, 2.50, {0, 2}},
     {"A2w", "ParallelAbsolute[barriers=.5;1](a b)", "a+.1 b+.25", 10, 1.50, {0, 3}},
@@ -55,7 +55,7 @@ constexpr WorkedTrace kTraces[] = {
 };
 
 TEST_CASE("the worked traces, measured") {
-  for (const WorkedTrace& trace : kTraces) {
+  for (const WorkedTrace& trace : kWorkedTraces) {
     INFO(trace.name);
     const Measured measured(trace.tree, trace.leaves);
     CHECK(measured.ticks == trace.ticks);

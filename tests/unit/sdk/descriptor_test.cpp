@@ -18,7 +18,7 @@ struct AllPorts : lockstep::Ports {
   Output<std::vector<double>> list{this, "list", "a list", "s"};
 };
 
-struct MorePorts : AllPorts {
+struct MoreThanAllPorts : AllPorts {
   Input<double> extra{this, "extra", "1e-3", "one more"};
 };
 
@@ -45,7 +45,7 @@ class Heir : public Full {
   Status tick() override { return Status::Failure; }
 };
 
-class Extended : public lockstep::Action<MorePorts> {
+class Extended : public lockstep::Action<MoreThanAllPorts> {
  public:
   Status tick() override { return Status::Success; }
 };

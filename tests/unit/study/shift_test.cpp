@@ -21,7 +21,7 @@ Values shifted(Values values, double by) {
   return values;
 }
 
-Values sample(RandomStream& random, std::size_t count, double by) {
+Values shifted_sample(RandomStream& random, std::size_t count, double by) {
   Values values(count);
   for (double& value : values) value = by - std::log1p(-random.next_double());
   return values;
@@ -110,10 +110,10 @@ TEST_CASE("shifts: without equal values, 0 is in the interval exactly if p is at
   int rejected = 0;
   for (int repeat = 0; repeat < 400; ++repeat) {
     const std::size_t m = 3 + static_cast<std::size_t>(repeat % 17);
-    const Values first = sample(random, m, 0), second = sample(random, 12, 0.5);
+    const Values first = shifted_sample(random, m, 0), second = shifted_sample(random, 12, 0.5);
     const double p = mann_whitney(first, second).p;
     CHECK(contains(shift_between(first, second).interval, 0) == (p >= 0.05));
-    Values differences = sample(random, m, -0.3);
+    Values differences = shifted_sample(random, m, -0.3);
     const double paired = signed_rank(differences).p;
     CHECK(contains(shift_of(differences).interval, 0) == (paired >= 0.05));
     rejected += (p < 0.05 ? 1 : 0) + (paired < 0.05 ? 1 : 0);
@@ -157,7 +157,7 @@ TEST_CASE("shifts: many zeros are no reason to leave 0 out") {
 
 TEST_CASE("shifts: turned samples have turned shifts") {
   RandomStream random(1963, 2);
-  const Values first = sample(random, 20, 0), second = sample(random, 31, 0.2);
+  const Values first = shifted_sample(random, 20, 0), second = shifted_sample(random, 31, 0.2);
   const Shift shift = shift_between(first, second), turned = shift_between(second, first);
   CHECK(turned.estimate == -shift.estimate);
   CHECK(turned.interval->low == -shift.interval->high);
