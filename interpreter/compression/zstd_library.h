@@ -21,6 +21,9 @@ struct ZstdLibrary : LateLibrary {
   decltype(&ZSTD_CCtx_setParameter) set_parameter = function("ZSTD_CCtx_setParameter");
   decltype(&ZSTD_compress) compress_whole = function("ZSTD_compress");
   decltype(&ZSTD_compressStream2) compress = function("ZSTD_compressStream2");
+  decltype(&ZSTD_findFrameCompressedSize) frame_size = function("ZSTD_findFrameCompressedSize");
+  decltype(&ZSTD_getFrameContentSize) text_size = function("ZSTD_getFrameContentSize");
+  decltype(&ZSTD_decompress) decompress_whole = function("ZSTD_decompress");
 
   decltype(&ZSTD_createDCtx) create_reader = function("ZSTD_createDCtx");
   decltype(&ZSTD_freeDCtx) free_reader = function("ZSTD_freeDCtx");

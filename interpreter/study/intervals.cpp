@@ -9,8 +9,12 @@ constexpr double kTail = (1 - kConfidence) / 2;
 
 }  // namespace
 
+std::optional<std::uint64_t> values_below_median_interval(std::uint64_t count) {
+  return fair_coin_quantile(count, kTail);
+}
+
 std::optional<Interval> median_interval(std::span<const double> sorted) {
-  const auto below = fair_coin_quantile(sorted.size(), kTail);
+  const auto below = values_below_median_interval(sorted.size());
   if (!below) return std::nullopt;
   return Interval{sorted[*below], sorted[sorted.size() - 1 - *below]};
 }

@@ -17,6 +17,8 @@ constexpr double kConfidence = 0.95;
 // is below the median as often as a coin shows heads, so how many are is binomial. With at least 95
 // %; five values and fewer have none.
 std::optional<Interval> median_interval(std::span<const double> sorted);
+// How many of so many values are below that interval, and how many above it.
+std::optional<std::uint64_t> values_below_median_interval(std::uint64_t count);
 
 // The interval of the probability of what `count` of `all` runs were: Clopper and Pearson (1934).
 // With at least 95 % too, for every probability and number of runs. `all` is at least 1.

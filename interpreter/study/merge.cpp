@@ -9,24 +9,35 @@
 #include "study/folder.h"
 #include "study/plan_json.h"
 #include "study/row_reader.h"
+#include "study/totals_reader.h"
 
 namespace lockstep::host {
 namespace {
+
+std::string not_finished(const std::string& part, const std::string& count) {
+  return fmt::format("'{}' is not finished: it has {}; continue it with --resume", part, count);
+}
 
 class Merger {
  public:
   Result<void> add(const std::string& directory);
   Result<void> check_complete() const;
-  Result<void> copy_rows(StudyFolder& out, int (*stop_signal)());
+  Result<void> copy(StudyFolder& out, int (*stop_signal)()) {
+    return whole_.rows == StudyRows::None ? add_totals(out, stop_signal)
+                                          : copy_rows(out, stop_signal);
+  }
   const StudyPlan& whole() const { return whole_; }
 
  private:
   struct Part {
     std::string directory;
     StudyPlan plan;
-    std::unique_ptr<RowReader> reader;
+    std::unique_ptr<RowReader> rows;  // one of these
+    std::unique_ptr<TotalsReader> totals;
   };
   Result<void> next_row(Part& part, std::string& lines);
+  Result<void> copy_rows(StudyFolder& out, int (*stop_signal)());
+  Result<void> add_totals(StudyFolder& out, int (*stop_signal)());
 
   StudyPlan whole_;
   std::uint64_t of_ = 0;  // so many parts there are to be
@@ -58,7 +69,11 @@ Result<void> Merger::add(const std::string& directory) {
   }
   part.directory = directory;
   part.plan = std::move(*plan);
-  part.reader = std::make_unique<RowReader>(folder.file("runs.csv"), part.plan);
+  const std::string file = folder.file(result_file_name(part.plan.rows));
+  if (part.plan.rows == StudyRows::None)
+    part.totals = std::make_unique<TotalsReader>(file, part.plan);
+  else
+    part.rows = std::make_unique<RowReader>(file, part.plan);
   return {};
 }
 
@@ -75,12 +90,11 @@ Result<void> Merger::check_complete() const {
 }
 
 Result<void> Merger::next_row(Part& part, std::string& lines) {
-  const std::string_view line = part.reader->next();
+  const std::string_view line = part.rows->next();
   lines += line;
   if (!line.empty()) return {};
-  if (!part.reader->error().empty()) return problem(part.reader->error());
-  return problem(fmt::format("'{}' is not finished: it has {}; continue it with --resume",
-                             part.directory, part.reader->count_text()));
+  if (!part.rows->error().empty()) return problem(part.rows->error());
+  return problem(not_finished(part.directory, part.rows->count_text()));
 }
 
 Result<void> Merger::copy_rows(StudyFolder& out, int (*stop_signal)()) {
@@ -90,11 +104,26 @@ Result<void> Merger::copy_rows(StudyFolder& out, int (*stop_signal)()) {
   while (const auto row = rows.next()) {
     Part& part = parts_.at(row->run % of_ + 1);
     if (auto read = next_row(part, lines); !read) return read;
-    rows.add(part.reader->row());
+    rows.add(part.rows->row());
     if (lines.size() < kFull && rows.next()) continue;
-    if (auto written = out.append(lines); !written) return written;
+    if (auto written = out.append(lines, {}); !written) return written;
     if (stop_signal() != 0) return problem("interrupted");
     lines.clear();
+  }
+  return out.save();
+}
+
+Result<void> Merger::add_totals(StudyFolder& out, int (*stop_signal)()) {
+  for (std::uint64_t cell = 0; cell < cell_count(whole_); ++cell) {
+    CellTotals all(whole_);
+    for (auto& [number, part] : parts_) {
+      const auto totals = part.totals->next();
+      if (!part.totals->error().empty()) return problem(part.totals->error());
+      if (!totals) return problem(not_finished(part.directory, part.totals->count_text()));
+      all.add(*totals);
+    }
+    if (auto written = out.append(all); !written) return written;
+    if (stop_signal() != 0) return problem("interrupted");
   }
   return {};
 }
@@ -114,8 +143,8 @@ Result<MergedStudy> merge_studies(std::span<const std::string> parts, const std:
   });
   if (!begun) return tl::unexpected(begun.error());
   auto rows =
-      merger.copy_rows(folder, stop_signal).and_then([&] { return folder.finish(merger.whole()); });
-  if (!rows) folder.discard();
+      merger.copy(folder, stop_signal).and_then([&] { return folder.finish(merger.whole()); });
+  if (!rows) folder.discard(merger.whole());
   return rows.map([&](auto& all) { return MergedStudy{merger.whole(), std::move(all)}; });
 }
 

@@ -8,10 +8,6 @@
 namespace lockstep::host {
 namespace {
 
-std::uint64_t runs_of_part(const StudyPlan& plan) {
-  return (plan.runs + plan.shard.of - plan.shard.part) / plan.shard.of;
-}
-
 template <class Number>
 Number value_of(const StudyPlan& plan, GridAxis::Kind kind, std::uint64_t cell, Number otherwise) {
   const auto values = cell_values(plan, cell);
@@ -67,6 +63,10 @@ std::uint64_t cell_seed(const StudyPlan& plan, std::uint64_t cell) {
 
 double cell_rate(const StudyPlan& plan, std::uint64_t cell) {
   return value_of(plan, GridAxis::Kind::Rate, cell, plan.rate);
+}
+
+std::uint64_t runs_of_part(const StudyPlan& plan) {
+  return (plan.runs + plan.shard.of - plan.shard.part) / plan.shard.of;
 }
 
 std::uint64_t row_count(const StudyPlan& plan) {

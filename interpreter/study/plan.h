@@ -3,10 +3,12 @@
 // neither the tree nor its plugins can merge parts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,6 +52,10 @@ struct Precision {
   friend bool operator==(const Precision&, const Precision&) = default;
 };
 
+// What is kept of each run: a row of runs.csv, the same compressed, or only totals of its cell.
+enum class StudyRows : std::uint8_t { Csv, Zst, None };
+constexpr std::array<std::string_view, 3> kStudyRows{"csv", "zst", "none"};
+
 struct StudyPlan {
   std::string version;  // of lockstep
   std::string tree_file;
@@ -68,6 +74,7 @@ struct StudyPlan {
   std::vector<std::string> measures;
   std::vector<StudyColumn> columns;
   StudyShard shard;
+  StudyRows rows = StudyRows::Csv;
 };
 
 // The number of cells; the first axis varies slowest. Without an axis there is one cell.
@@ -87,6 +94,8 @@ struct StudyRow {
   std::uint64_t cell = 0, run = 0;
 };
 
+// How many runs of each cell a part makes.
+std::uint64_t runs_of_part(const StudyPlan& plan);
 // A part's rows, in their order: cell after cell, and its runs in each. Of a study with a
 // precision, those that there may be (row_sequence.h).
 std::uint64_t row_count(const StudyPlan& plan);

@@ -157,6 +157,8 @@ std::string check_plan(const StudyPlan& plan) {
   if (part < 1 || part > of || of > plan.runs)
     return fmt::format("{} runs have no part {} of {}", plan.runs, part, of);
   if (plan.precision && of != 1) return "a study with 'until_ci' has no parts";
+  if (plan.precision && plan.rows == StudyRows::None)
+    return "a study with 'until_ci' has rows, since all of a cell decide when it ends";
   if (!(plan.rate >= kLeastRate && plan.rate <= kMostRate))
     return fmt::format("'rate' is {}, expected {} to {}", plan.rate, kLeastRate, kMostRate);
   if (plan.max_ticks == 0) return "'max_ticks' is 0, expected 1 or more";

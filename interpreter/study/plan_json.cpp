@@ -17,6 +17,7 @@ namespace {
 constexpr int kFormat = 2;
 constexpr char kGap[] = "gap";
 constexpr char kUntilCi[] = "until_ci";
+constexpr char kRows[] = "rows";
 constexpr char kNotOurs[] = "it is not as lockstep wrote it";
 constexpr std::array<const char*, 3> kKinds{"argument", "seed", "rate"};
 
@@ -68,6 +69,7 @@ Json json_of(const StudyPlan& plan) {
             {"files", pairs(plan.files, "path", "text")}};
   if (plan.paired) json["paired"] = true;
   if (plan.precision) json[kUntilCi] = to_text(*plan.precision);
+  if (plan.rows != StudyRows::Csv) json[kRows] = kStudyRows[static_cast<std::size_t>(plan.rows)];
   if (plan.shard != StudyShard{}) {
     json["shard"] = {{"part", plan.shard.part}, {"of", plan.shard.of}};
   }
@@ -143,6 +145,11 @@ void read(JsonObject json, StudyPlan& plan) {
   const auto read_precision = [&](JsonValue value) {
     plan.precision = precision_from(value.text());
   };
+  const auto read_rows = [&](JsonValue value) {
+    const auto found = std::ranges::find(kStudyRows, value.text());
+    if (found == kStudyRows.end()) throw JsonError("'rows' is not known");
+    plan.rows = static_cast<StudyRows>(found - kStudyRows.begin());
+  };
   json.read({{"lockstep_study", check_format},
              {"version", into(plan.version)},
              {"tree", into(plan.tree_file)},
@@ -160,6 +167,7 @@ void read(JsonObject json, StudyPlan& plan) {
              {"files", into_pairs(plan.files, "path", "text")},
              {"paired", read_paired, kMayLack},
              {kUntilCi, read_precision, kMayLack},
+             {kRows, read_rows, kMayLack},
              {"shard", read_shard, kMayLack}});
 }
 
@@ -194,6 +202,7 @@ std::string first_difference(const StudyPlan& one, const StudyPlan& other, bool 
   }
   if (one.paired != other.paired) return "paired";
   if (one.precision != other.precision) return kUntilCi;
+  if (one.rows != other.rows) return kRows;
   return with_shard && one.shard != other.shard ? "shard" : "";
 }
 

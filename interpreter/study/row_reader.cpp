@@ -17,8 +17,10 @@ RowReader::RowReader(const std::string& path, const StudyPlan& plan)
     : plan_(plan),
       rules_(plan),
       path_(path),
+      text_(file_.rdbuf()),
       row_{.values = std::vector<double>(plan.columns.size())},
       rows_(plan) {
+  if (plan.rows == StudyRows::Zst) text_.rdbuf(&decompressed_.emplace(*file_.rdbuf()));
   std::error_code unknown;
   const auto kind = std::filesystem::status(path, unknown).type();
   if (kind == std::filesystem::file_type::not_found) return;  // no rows yet
@@ -44,10 +46,11 @@ std::string RowReader::count_text() const {
 // Only a line that has its end. A longer one is read no further.
 bool RowReader::read_line(std::size_t longest) {
   line_.resize(longest + 1);
-  file_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
-  if (file_.eof() || file_.gcount() == 0) return false;
-  line_.resize(static_cast<std::size_t>(file_.gcount()) - (file_.fail() ? 0 : 1));
-  if (!file_.fail()) line_ += '\n';
+  text_.getline(line_.data(), static_cast<std::streamsize>(line_.size()));
+  if (text_.bad()) error_ = fmt::format("'{}' cannot be decompressed", path_);
+  if (text_.eof() || text_.gcount() == 0 || text_.bad()) return false;
+  line_.resize(static_cast<std::size_t>(text_.gcount()) - (text_.fail() ? 0 : 1));
+  if (!text_.fail()) line_ += '\n';
   return true;
 }
 

@@ -1,11 +1,13 @@
-// Reads a runs.csv and compares it with its plan, line by line: to resume a study, to merge parts,
-// and for the summary.
+// Reads a runs.csv, or runs.csv.zst if its plan says so, and compares it with its plan, line by
+// line: to resume a study, to merge parts, and for the summary.
 #pragma once
 
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "compression/decompressed.h"
 #include "study/row_rules.h"
 #include "study/row_sequence.h"
 #include "study/row_text.h"
@@ -41,6 +43,8 @@ class RowReader {
   RowRules rules_;
   std::string path_;
   std::ifstream file_;
+  std::optional<Decompressed> decompressed_;
+  std::istream text_;
   std::string line_;
   std::uint64_t cell_ = ~std::uint64_t{0};
   std::string cell_text_;

@@ -19,6 +19,11 @@ class RowSequence {
   std::optional<StudyRow> next() const;
   // The row that came next.
   void add(const RowResult& row);
+  // The next rows, so many, are there. Not with a precision, which would have to know them.
+  void skip(std::uint64_t rows) {
+    count_ += rows;
+    first_ += rows;
+  }
 
   // The rows from `first` to before `last` are needed, whatever their values.
   std::uint64_t first() const { return first_; }

@@ -9,11 +9,14 @@
 #include "study/cell_values.h"
 #include "study/column_names.h"
 #include "study/row_reader.h"
+#include "study/totals_reader.h"
 
 namespace lockstep::host {
 namespace {
 
-void append_rows(const StudyPlan& plan, std::uint64_t cell, const CellValues& values,
+// `values` is a CellValues or a CellTotals.
+template <class Values>
+void append_rows(const StudyPlan& plan, std::uint64_t cell, const Values& values,
                  std::vector<SummaryRow>& rows) {
   for (std::size_t column = 0; column < plan.columns.size(); ++column) {
     const StudyColumn& it = plan.columns[column];
@@ -25,6 +28,32 @@ void append_rows(const StudyPlan& plan, std::uint64_t cell, const CellValues& va
       rows.back().gap = summary.median;
     }
   }
+}
+
+Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const StudyPlan& plan) {
+  RowReader reader(path, plan);
+  CellValues values(plan);
+  std::vector<SummaryRow> rows;
+  std::uint64_t cell = 0;
+  while (!reader.next().empty()) {
+    if (reader.cell() != cell) {
+      append_rows(plan, cell, values, rows);
+      values.clear();
+    }
+    cell = reader.cell();
+    values.add(reader.row());
+  }
+  append_rows(plan, cell, values, rows);
+  if (auto error = reader.incomplete(); !error.empty()) return problem(std::move(error));
+  return rows;
+}
+
+Result<std::vector<SummaryRow>> summarize_totals(const std::string& path, const StudyPlan& plan) {
+  TotalsReader reader(path, plan);
+  std::vector<SummaryRow> rows;
+  while (const auto totals = reader.next()) append_rows(plan, reader.cells() - 1, *totals, rows);
+  if (auto error = reader.incomplete(); !error.empty()) return problem(std::move(error));
+  return rows;
 }
 
 std::string optional_field(const std::optional<double>& value) {
@@ -47,22 +76,8 @@ std::array<std::optional<double>, kIntervalColumns.size()> SummaryRow::intervals
   return ends;
 }
 
-Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const StudyPlan& plan) {
-  RowReader reader(path, plan);
-  CellValues values(plan);
-  std::vector<SummaryRow> rows;
-  std::uint64_t cell = 0;
-  while (!reader.next().empty()) {
-    if (reader.cell() != cell) {
-      append_rows(plan, cell, values, rows);
-      values.clear();
-    }
-    cell = reader.cell();
-    values.add(reader.row());
-  }
-  append_rows(plan, cell, values, rows);
-  if (auto error = reader.incomplete(); !error.empty()) return problem(std::move(error));
-  return rows;
+Result<std::vector<SummaryRow>> summarize_study(const std::string& path, const StudyPlan& plan) {
+  return plan.rows == StudyRows::None ? summarize_totals(path, plan) : summarize_runs(path, plan);
 }
 
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows) {

@@ -33,8 +33,8 @@ struct SummaryRow {
   static constexpr double kFarGap = 0.1;
 };
 
-// From a complete runs.csv. A column that a cell does not have gives no row.
-Result<std::vector<SummaryRow>> summarize_runs(const std::string& path, const StudyPlan& plan);
+// From a complete file of results. A column that a cell does not have gives no row.
+Result<std::vector<SummaryRow>> summarize_study(const std::string& path, const StudyPlan& plan);
 
 // "<grid>,node,measure,…" (column_names.h), and a line for each row. What there is not is empty.
 std::string summary_csv(const StudyPlan& plan, const std::vector<SummaryRow>& rows);

@@ -115,6 +115,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
                     std::uint64_t& cell) {
   const std::uint64_t first = work_.first_row + number * per_chunk_;
   const std::uint64_t last = std::min(work_.last_row, first + per_chunk_);
+  const bool has_rows = work_.plan.rows != StudyRows::None;
   std::string cell_text;
   chunk.made.resize(per_chunk_);
   for (std::uint64_t index = first; index < last; ++index) {
@@ -124,7 +125,8 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
       run.emplace(at, work_.measures, work_.plan.max_ticks, work_.stop_signal);
       cell = row.cell;
     }
-    if (index == first || row.run < work_.plan.shard.of) cell_text = row_cell(work_.plan, cell);
+    if (has_rows && (index == first || row.run < work_.plan.shard.of))
+      cell_text = row_cell(work_.plan, cell);
     const std::uint64_t seed = run_seed(at.seed, seeding_cell(work_.plan, row.cell), row.run);
     CallMark::this_thread().set_run({row.cell, row.run, seed});
     const RunEnd end = run->run(seed);
@@ -142,6 +144,7 @@ void Workshop::make(std::uint64_t number, Chunk& chunk, std::optional<StudyRun>&
     made.values.assign(work_.plan.columns.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < at.columns.size(); ++i)
       made.values[at.columns[i]] = run->values()[i];
+    if (!has_rows) continue;
     append_row_beginning(cell_text, row.run, seed, chunk.lines);
     append_row_end(made, chunk.lines);
   }

@@ -53,7 +53,7 @@ TEST_CASE("studies: the summary's quartiles are the medians of the halves") {
   const StudyPlan plan = plan_of(5);
   const auto file =
       directory.file("runs.csv", runs_csv(plan, {10, 1, 4, 5, 2, std::nan(""), 8, 2, 1, 3}));
-  const auto rows = summarize_runs(file, plan).value();
+  const auto rows = summarize_study(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS
         "\n"
@@ -68,7 +68,7 @@ TEST_CASE("studies: of six runs and more the median has an interval") {
   const StudyPlan plan = plan_of(6);
   const auto file =
       directory.file("runs.csv", runs_csv(plan, {10, 1, 4, 5, 2, 7, 8, 2, 1, std::nan(""), 3, 9}));
-  const auto rows = summarize_runs(file, plan).value();
+  const auto rows = summarize_study(file, plan).value();
   REQUIRE(rows.size() == 2);
   CHECK(rows[0].intervals()[0] == 1);
   CHECK(rows[0].intervals()[1] == 10);
@@ -98,7 +98,7 @@ TEST_CASE("studies: what no run reached has no numbers, and every run is counted
   add(3, StudyResult::Failure, {none, none, 3});
   for (std::uint64_t row = 4; row < 8; ++row) add(row, StudyResult::Failure, {none, 0.6, none});
   const auto file = directory.file("runs.csv", row_header(plan) + lines);
-  const auto rows = summarize_runs(file, plan).value();
+  const auto rows = summarize_study(file, plan).value();
   CHECK(summary_csv(plan, rows) ==
         "grid_n,node,measure,min,q1,median,q3,max,mean,n,runs,success,failure,limit,gap," INTERVALS
         "\n"
@@ -126,7 +126,7 @@ TEST_CASE("studies: a summary of too few rows is none") {
   const TemporaryDirectory directory;
   const StudyPlan plan = plan_of(5);
   const auto file = directory.file("runs.csv", runs_csv(plan, {10, 1, 4}));
-  CHECK(contains(summarize_runs(file, plan).error().message, "has 3 of 10 runs"));
+  CHECK(contains(summarize_study(file, plan).error().message, "has 3 of 10 runs"));
 }
 
 TEST_CASE("studies: parts make each run once, with a seed of its own") {

@@ -90,7 +90,8 @@ bool would_overwrite_input(const std::string& directory, const LoadedStudy& stud
   for (const auto& [path, text] : study.plan.files) documents.push_back(path);
   const auto inputs = inputs_of(documents, *study.plugins);
   std::vector<std::string> outputs;
-  for (const char* name : {"study.json", "study.json.new", "runs.csv", "summary.csv"}) {
+  for (const char* name : {"study.json", "study.json.new", "runs.csv", "runs.csv.zst",
+                           "cells.jsonl", "cell.json", "summary.csv"}) {
     outputs.push_back(directory + '/' + name);
   }
   std::error_code none;
@@ -121,13 +122,14 @@ Result<std::optional<StudyFault>> make_rows(const StudyCommandOptions& options,
                      .write =
                          [&](std::string_view lines, std::span<const RowResult> made) {
                            for (const RowResult& row : made) rows.add(row);
-                           written = folder.append(lines);
+                           written = folder.append(lines, made);
                            return written.has_value();
                          },
                      .out_of_range = [&](const StudyOutOfRange& it) { out_of_range.add(it); },
                      .idle = [&] { progress.show(); }});
   }
-  return written.map([&] { return fault; });
+  // Also what was made before a fault or a signal.
+  return written.and_then([&] { return folder.save(); }).map([&] { return fault; });
 }
 
 int make_study(const StudyCommandOptions& options, const LoadedStudy& study) {
@@ -224,6 +226,12 @@ void define_runs(CLI::App& app, StudyOptions& options) {
                              kMostVirtualTicks))
       ->type_name("N")
       ->transform(whole_number(1));
+  app.add_option("--rows", options.rows,
+                 "What is kept of each run: a row of runs.csv, of runs.csv.zst, or none: then its "
+                 "cell has counts, means, and quartiles to 0.05 %, in as much memory for 10^9 runs "
+                 "as for 10^4")
+      ->check(CLI::IsMember({"csv", "zst", "none"}))
+      ->capture_default_str();
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
       ->type_name("I/N");
 }
@@ -262,7 +270,8 @@ std::function<int()> define_study(CLI::App& app) {
 
 extern const Command kStudyCommand{
     "study", "Run a tree many times, over a grid of arguments, and measure it",
-    "Writes runs.csv (a row per run), summary.csv (box-plot numbers), study.json (how it was "
+    "Writes runs.csv (a row per run, see --rows), summary.csv (box-plot numbers), study.json (how "
+    "it was "
     "made)\n"
     "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
@@ -279,6 +288,7 @@ extern const Command kStudyCommand{
     "      --grid barrier_count=5,10\n"
     "  lockstep study trees/paper/example5.xml --runs 100000 --until-ci 2% \\\n"
     "      --grid noise=0,0.05\n"
+    "  lockstep study trees/paper/example5.xml --runs 10000000 --rows none\n"
     "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study\n"
     "  lockstep study compare study-example5 --cells 0 1",

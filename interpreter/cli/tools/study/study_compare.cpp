@@ -120,6 +120,11 @@ int compare(const CompareOptions& options) {
   const StudyFolder folder(options.directory);
   const auto plan = folder.read_plan();
   if (!plan) return refuse(plan.error().message);
+  if (plan->rows == StudyRows::None) {
+    return refuse(
+        fmt::format("the study in '{}' has no rows, which the tests need", options.directory),
+        "make it without --rows none");
+  }
   const CellPair cells{options.cells.front(), options.cells.back()};
   if (cells.first == cells.second) return refuse("--cells: expected two different cells");
   for (const std::uint64_t cell : options.cells) {
@@ -128,7 +133,7 @@ int compare(const CompareOptions& options) {
                   fmt::format("it has {}, counted from 0; the column 'cell' of runs.csv has them",
                               counted(cell_count(*plan), "cell")));
   }
-  const auto comparisons = compare_cells(folder.file("runs.csv"), *plan, cells);
+  const auto comparisons = compare_cells(folder.file(result_file_name(plan->rows)), *plan, cells);
   if (!comparisons) return refuse(comparisons.error().message, comparisons.error().hint);
   return write_results(options.json ? comparison_json(*plan, cells, *comparisons)
                                     : comparison_table(*plan, cells, *comparisons));

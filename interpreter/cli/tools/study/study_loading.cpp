@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
+#include "compression/whole_frame.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "measure/measure_spec.h"
@@ -47,6 +49,7 @@ class StudyLoader {
   void read_measures();
   void read_shard();
   void read_precision();
+  void read_rows();
   void parse_grids();
   void read_grid(const std::vector<DeclaredArgument>& declared);
   void read_axis(GridAxis& axis, const std::vector<DeclaredArgument>& declared);
@@ -104,6 +107,21 @@ void StudyLoader::read_precision() {
   } else if (study_.plan.shard.of != 1) {
     error("--until-ci: such a study has no parts, since all runs of a cell decide when it ends",
           "leave out --shard");
+  }
+}
+
+void StudyLoader::read_rows() {
+  const auto rows = std::ranges::find(kStudyRows, options_.rows) - kStudyRows.begin();
+  study_.plan.rows = static_cast<StudyRows>(rows);
+  if (study_.plan.rows == StudyRows::None && study_.plan.precision) {
+    error("--rows none: with --until-ci the values of all runs of a cell decide when it ends",
+          "leave out one of the two");
+  }
+  if (study_.plan.rows != StudyRows::Zst) return;
+  try {
+    zstd_frame("");
+  } catch (const std::runtime_error& missing) {
+    error(fmt::format("--rows zst: {}", missing.what()));
   }
 }
 
@@ -252,6 +270,7 @@ int StudyLoader::load() {
   read_measures();
   read_shard();
   read_precision();
+  read_rows();
   parse_grids();
   plan.arguments = pairs(options_.load.arguments);
   plan.values = pairs(options_.load.values);

@@ -22,6 +22,7 @@ struct StudyOptions {
   std::optional<std::string> until_ci = {};  // as precision_from() reads it
   std::vector<std::string> grid;             // as parse_grid() reads it
   std::vector<std::string> measures;         // none: progress-distance
+  std::string rows = "csv";                  // a word of kStudyRows
   std::string shard;                         // I/N
   std::optional<double> rate;                // none: that of the leaves, else 100
   std::optional<std::uint64_t> max_ticks;    // none: that of the leaves, else kMostVirtualTicks

@@ -98,7 +98,11 @@ def read(recording):
 
 def read_study(directory, table="runs"):
     'The runs of a study ("runs"), or what its cells have in common ("summary").'
-    text = (pathlib.Path(directory) / f"{table}.csv").read_text(encoding="utf-8")
+    file = pathlib.Path(directory) / f"{table}.csv"
+    if table == "runs" and not file.exists() and (file.parent / "study.json").exists():
+        raise FileNotFoundError(f"no '{file}': the study was made with --rows zst (unpack it: zstd -d '{file}.zst') or "
+                                "with --rows none, which has a summary only")
+    text = file.read_text(encoding="utf-8")
     names = next(csv.reader(io.StringIO(text)), [])
     begin, end = (1, "run") if table == "runs" else (0, "node")
     return _table(text, arguments=names[begin:names.index(end)] if end in names else ())
