@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "core/language.h"
+#include "core/version.h"
 #include "core/wording.h"
 #include "loading/plugin_directories.h"
 #include "lockstep/leaf.h"
@@ -46,7 +47,7 @@ std::string about_text() {
   utsname system{};
   uname(&system);
   const PluginOptions defaults;
-  std::string text = "lockstep " LOCKSTEP_VERSION "\n";
+  std::string text = fmt::format("lockstep {}\n", kVersion);
   const auto line = [&text](std::string_view name, const std::string& value) {
     text += fmt::format("{:<17} {}\n", name, value);
   };

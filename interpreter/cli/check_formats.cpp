@@ -8,6 +8,7 @@
 
 #include "core/path_in_uri.h"
 #include "core/utf8.h"
+#include "core/version.h"
 #include "json/json.h"
 
 namespace lockstep::host {
@@ -128,7 +129,7 @@ std::string as_sarif(std::span<const Diagnostic> messages) {
                      {"shortDescription", {{"text", rule.description}}},
                      {"defaultConfiguration", {{"level", rule.level}}}});
   }
-  Json driver = {{"name", "lockstep"}, {"version", LOCKSTEP_VERSION}, {"rules", std::move(rules)}};
+  Json driver = {{"name", "lockstep"}, {"version", kVersion}, {"rules", std::move(rules)}};
   Json run = {{"tool", {{"driver", std::move(driver)}}},
               {"columnKind", "unicodeCodePoints"},
               {"results", Json::array()}};

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/exit_code.h"
 #include "cli/help_text.h"
+#include "core/version.h"
 #include "terminal/terminal.h"
 
 namespace lockstep::host {
@@ -22,7 +23,8 @@ Program::Program(const std::vector<std::string>& words, Options options)
   CLI::Option* const verbose = app_->add_flag(
       "--verbose", is_verbose_, "With --version: also the parts, the paths and the other versions");
   CLI::Option* const version = app_->set_version_flag(
-      "--version", [this] { return is_verbose_ ? about_text() : "lockstep " LOCKSTEP_VERSION; },
+      "--version",
+      [this] { return is_verbose_ ? about_text() : std::string("lockstep ") + kVersion; },
       "Print the version and exit");
   verbose->needs(version);
   app_->footer(

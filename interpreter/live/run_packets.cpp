@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parameter_value.h"
+#include "core/version.h"
 #include "core/wording.h"
 #include "engine/writers.h"
 #include "live/watched_nodes.h"
@@ -43,7 +44,7 @@ RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& f
 std::string RunPackets::header(const RunStart& start) const {
   return format_.header({.tree = tree_.id,
                          .file = run_.tree_file,
-                         .version = LOCKSTEP_VERSION,
+                         .version = kVersion,
                          .law = kLawVersion,
                          .rate_hz = run_.rate_hz,
                          .clock = start.real_time ? "wall" : "virtual",

@@ -11,7 +11,7 @@ export SOURCE_DATE_EPOCH
 
 upstream=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 version=$upstream-1
-soname=${upstream%.*}
+soname=${upstream%%.*}
 architecture=$(dpkg --print-architecture)
 library=liblockstep-runtime$soname
 # Package and the components that CMake installs in it.

@@ -38,7 +38,7 @@ constexpr lockstep_plugin plugin_of(std::uint32_t count, const lockstep_leaf_typ
   plugin.abi_minor = LOCKSTEP_ABI_MINOR;
   plugin.struct_size = sizeof plugin;
   plugin.name = "ros2";
-  plugin.version = "0.1.0";
+  plugin.version = "1.0.0";
   plugin.doc = "Every action, service and topic of ROS 2 as a leaf.";
   plugin.leaf_type_count = count;
   plugin.leaf_types = types;

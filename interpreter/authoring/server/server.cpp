@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "core/version.h"
 #include "core/wording.h"
 
 namespace lockstep::host {
@@ -132,7 +133,7 @@ Json Server::initialize(Message& message) {
   client_ = read_client_params(connection_.reader(), message);
   is_initialized_ = true;
   use(client_);
-  Json about{{"name", "lockstep"}, {"version", LOCKSTEP_VERSION}};
+  Json about{{"name", "lockstep"}, {"version", kVersion}};
   return {{"capabilities", capabilities()}, {"serverInfo", std::move(about)}};
 }
 

@@ -11,6 +11,7 @@
 #include "blackboard/conversion.h"
 #include "core/parameter_value.h"
 #include "core/utf8.h"
+#include "core/version.h"
 #include "core/wording.h"
 #include "plugin/contract/boards.h"
 #include "plugin/contract/held.h"
@@ -491,7 +492,7 @@ const lockstep_host& host_table() {
       .abi_minor = LOCKSTEP_ABI_MINOR,
       .struct_size = sizeof(lockstep_host),
       .name = "lockstep",
-      .version = LOCKSTEP_VERSION,
+      .version = kVersion,
       .get_bool = get<bool>,
       .get_int = get<std::int64_t>,
       .get_double = get_double,

@@ -12,6 +12,7 @@
 #include "cli/load/real_time_leaves.h"
 #include "compression/whole_frame.h"
 #include "core/suggest.h"
+#include "core/version.h"
 #include "core/wording.h"
 #include "measure/measure_spec.h"
 #include "study/column_names.h"
@@ -259,7 +260,7 @@ Arguments StudyLoader::first_arguments() const {
 
 int StudyLoader::load() {
   StudyPlan& plan = study_.plan;
-  plan.version = LOCKSTEP_VERSION;
+  plan.version = kVersion;
   plan.tree_file = options_.tree;
   plan.runs = options_.runs;
   plan.seed = options_.seed;
