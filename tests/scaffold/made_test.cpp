@@ -32,7 +32,10 @@ void make_project(const std::string& language, const TemporaryDirectory& directo
               " || { cat log; exit 1; }\n"
               "lockstep run trees/robot.xml --plugin-path build --clock virtual\n"
               "lockstep check --strict trees/*.xml --plugin-path build\n"
-              "lockstep test --plugin-path build\n",
+              "lockstep test --plugin-path build\n"
+              // As colcon does; the plugin is found without --plugin-path then.
+              "cmake --install build --prefix installed >>log\n"
+              "AMENT_PREFIX_PATH=$PWD/installed lockstep run trees/robot.xml --clock virtual\n",
           directory);
   const std::string log = read_file(directory.path("robot/log"));
   CHECK(contains(log, "100% tests passed, 0 tests failed out of 3"));

@@ -53,6 +53,13 @@ void add_source(const NewPlugin& plugin, const Values& values, const fs::path& f
   }
 }
 
+// Names of ROS packages are in lower case.
+NewFile colcon_package(const std::string& name, const fs::path& folder) {
+  Values values;
+  values.texts = {{"name", as_lower_name(name)}};
+  return {folder / "package.xml", render("plugin/package.xml", values)};
+}
+
 // NAME.xml and NAME.test.xml.
 void add_tree(Values values, const fs::path& folder, const std::string& name, NewFiles& files) {
   values.texts["tree"] = name + ".xml";
@@ -72,6 +79,7 @@ NewFiles plan_plugin(const NewPlugin& plugin, const fs::path& folder) {
   add_source(plugin, values, folder, files);
   add_tree(values, folder, "tree", files);
   files.push_back({folder / "README.md", render("plugin/README.md", values)});
+  if (!is(plugin, "python")) files.push_back(colcon_package(plugin.name, folder));
   return files;
 }
 
@@ -90,6 +98,7 @@ NewFiles plan_project(const NewPlugin& plugin, const fs::path& folder) {
   NewFiles files{{folder / "CMakeLists.txt", render("project/CMakeLists.txt", values)}};
   for (NewFile& file : plan_plugin_of_project(plugin, folder)) files.push_back(std::move(file));
   files.push_back({folder / "README.md", render("project/README.md", values)});
+  files.push_back(colcon_package(plugin.name, folder));
   files.push_back({folder / ".gitignore", render("project/gitignore", values)});
   files.push_back({folder / ".github/workflows/test.yml", render("project/test.yml", values)});
   return files;
