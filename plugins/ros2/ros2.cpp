@@ -5,6 +5,7 @@
 
 #include "middleware.hpp"
 #include "ros_action.hpp"
+#include "ros_lifecycle.hpp"
 #include "ros_parameter.hpp"
 #include "ros_service.hpp"
 #include "ros_topics.hpp"
@@ -52,9 +53,9 @@ constexpr lockstep_plugin plugin_of(std::uint32_t count, const lockstep_leaf_typ
 
 // The tables of leaf types are made when the plugin is opened.
 const lockstep_plugin* describe(const char** /*why*/) {
-  static const lockstep_leaf_type* const types[] = {&ros2::ros_action(), &ros2::ros_service(),
-                                                    &ros2::ros_publish(), &ros2::ros_receive(),
-                                                    &ros2::ros_parameter()};
+  static const lockstep_leaf_type* const types[] = {&ros2::ros_action(),    &ros2::ros_service(),
+                                                    &ros2::ros_publish(),   &ros2::ros_receive(),
+                                                    &ros2::ros_parameter(), &ros2::ros_lifecycle()};
   static const lockstep_plugin plugin = plugin_of(std::size(types), types);
   return &plugin;
 }

@@ -96,3 +96,46 @@ class Parameter(World):
               <Inverter><RosParameter {attributes} error="{{why}}"/></Inverter>
               <Check code="why == '{words}'"/></Sequence>""")
             self.assertEqual(run.returncode, 0, (words, run.err))
+
+
+class Lifecycle(World):
+    """RosLifecycle against a node of rclcpp_lifecycle."""
+
+    @staticmethod
+    def change(transition, more=""):
+        return f'<RosLifecycle node="/camera" transition="{transition}" {more}/>'
+
+    def test_through_all_states(self):
+        names = ["configure", "activate", "deactivate", "cleanup", "configure", "shutdown"]
+        server = self.server("camera", program="lifecycle_server")
+        run = self.run_tree(f"""<Sequence memory="true">{"".join(map(self.change, names))}
+          <RosService type="lifecycle_msgs/srv/GetState" service="/camera/get_state"
+                      response.current_state.label="{{state}}"/>
+          <Check code="state == 'finalized'"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        server.wait_for("shutdown")
+        self.assertEqual(server.lines, ["ready", *names])
+
+    def failure(self, node, words):
+        run = self.run_tree(f"""<Sequence memory="true"><Inverter>{node}</Inverter>
+          <Check code="why == '{words}'"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_what_its_state_does_not_allow_is_refused(self):
+        self.server("camera", program="lifecycle_server")
+        self.failure(self.change("activate", 'error="{why}"'), "refused")
+
+    def test_what_the_node_does_not_do_is_refused(self):
+        self.server("camera", "--refuse", program="lifecycle_server")
+        self.failure(f"""<Sequence memory="true">{self.change("configure")}
+          {self.change("activate", 'error="{why}"')}</Sequence>""", "refused")
+
+    def test_no_node(self):
+        self.failure(self.change("configure", 'timeout="0.3" error="{why}"'), "no node")
+        run = self.run_tree(self.change("configure", 'timeout="0.3" on_failure="fault"'))
+        self.assertIn("configure '/camera': no node", run.err)
+
+    def test_a_transition_that_is_none(self):
+        run = self.check(self.change("activat"))
+        self.assertIn("activate", run.stderr)
+        self.assertNotEqual(run.returncode, 0)

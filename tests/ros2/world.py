@@ -10,7 +10,7 @@ import threading
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SERVER = ROOT / "build/ros2/tests/counting_server"
+SERVERS = ROOT / "build/ros2/tests"
 LOCKSTEP = pathlib.Path(os.environ.get("LOCKSTEP", ROOT / "build/dev/lockstep"))
 PLUGINS = ROOT / "build/ros2/plugin"
 
@@ -23,12 +23,12 @@ def count(name, action, order=5, more=""):
 
 
 class Server:
-    """A counting_server; `lines` is what it has said."""
+    """A program that has said that it is ready; `lines` is what it has said."""
 
-    def __init__(self, *options):
+    def __init__(self, program, *options):
         self.lines = []
         self._heard = threading.Condition()
-        self.process = subprocess.Popen([SERVER, *map(str, options)], stdout=subprocess.PIPE,
+        self.process = subprocess.Popen([SERVERS / program, *map(str, options)], stdout=subprocess.PIPE,
                                         stderr=subprocess.DEVNULL, text=True)
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
@@ -61,8 +61,8 @@ class World(unittest.TestCase):
         self.directory = pathlib.Path(directory.name)
         self.recording = self.directory / "run.jsonl"
 
-    def server(self, *options):
-        server = Server(*options)
+    def server(self, *options, program="counting_server"):
+        server = Server(program, *options)
         self.addCleanup(server.stop)
         return server
 
