@@ -5,7 +5,8 @@
 #include <rosidl_typesupport_introspection_c/field_types.h>
 #include <time.h>
 
-#include <memory>
+#include <algorithm>
+#include <map>
 #include <type_traits>
 #include <vector>
 
@@ -67,37 +68,87 @@ const void* address_in(const Field& field, const void* message) {
   return static_cast<const unsigned char*>(message) + field.offset;
 }
 
+std::size_t rows_in(const Rows& rows, const void* message) {
+  return rows.member->size_function(static_cast<const unsigned char*>(message) + rows.offset);
+}
+void* row_of(const Rows& rows, void* message, std::size_t index) {
+  return rows.member->get_function(static_cast<unsigned char*>(message) + rows.offset, index);
+}
+const void* row_of(const Rows& rows, const void* message, std::size_t index) {
+  return rows.member->get_const_function(static_cast<const unsigned char*>(message) + rows.offset,
+                                         index);
+}
+
 std::size_t count_in(const Field& field, const void* message) {
   return field.member->size_function(address_in(field, message));
 }
-const void* item_of(const Field& field, const void* message, std::size_t index) {
-  return field.member->get_const_function(address_in(field, message), index);
+
+// The items of a list, or of a column from the first message on.
+template <class Visit>
+void for_each_item(const Field& field, const void* message, Visit visit) {
+  const auto visit_list = [&](const void* list) {
+    const std::size_t count = field.member->size_function(list);
+    for (std::size_t i = 0; i < count; ++i) visit(field.member->get_const_function(list, i));
+  };
+  if (field.rows == nullptr) return visit_list(address_in(field, message));
+  const std::size_t rows = rows_in(*field.rows, message);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const void* const at = address_in(field, row_of(*field.rows, message, i));
+    field.member->is_array_ ? visit_list(at) : visit(at);
+  }
 }
 
-std::string too_long(const Field& field, std::size_t has, std::size_t most, const char* what) {
-  return "'" + field.path + "' has " + std::to_string(has) + " " + what + ", expected at most " +
+std::string too_long(const std::string& path, std::size_t has, std::size_t most, const char* what) {
+  return "'" + path + "' has " + std::to_string(has) + " " + what + ", expected at most " +
          std::to_string(most);
 }
 
 // Makes room for the items of a list. "" or what is wrong.
-std::string resize(const Field& field, void* list, std::size_t count) {
-  const Member& member = *field.member;
+std::string resize(const std::string& path, const Member& member, void* list, std::size_t count) {
   if (member.is_upper_bound_ && count > member.array_size_) {
-    return too_long(field, count, member.array_size_, "items");
+    return too_long(path, count, member.array_size_, "items");
   }
   if (member.resize_function != nullptr) {
-    return member.resize_function(list, count) ? "" : "there is no memory for '" + field.path + "'";
+    return member.resize_function(list, count) ? "" : "there is no memory for '" + path + "'";
   }
   if (count == member.array_size_) return {};
-  return "'" + field.path + "' has " + std::to_string(count) + " items, expected " +
+  return "'" + path + "' has " + std::to_string(count) + " items, expected " +
          std::to_string(member.array_size_);
+}
+
+// A column: one value for each message, or one for all; of lists, as many values for each.
+template <class Item, class Put>
+std::string put_column(const Field& field, void* message, const Item* items, std::size_t count,
+                       Put put) {
+  const std::size_t rows = rows_in(*field.rows, message);
+  const bool is_list = field.member->is_array_;
+  if (is_list ? count % std::max<std::size_t>(rows, 1) != 0 : count != rows && count != 1) {
+    return "'" + field.path + "' has " + std::to_string(count) + " values for the " +
+           std::to_string(rows) + " items of '" + field.rows->path + "'";
+  }
+  const std::size_t each = is_list && rows != 0 ? count / rows : 1;
+  for (std::size_t i = 0; i < rows; ++i) {
+    void* const at = address_in(field, row_of(*field.rows, message, i));
+    if (!is_list) {
+      put(at, items[count == 1 ? 0 : i]);
+      continue;
+    }
+    if (std::string wrong = resize(field.path, *field.member, at, each); !wrong.empty())
+      return wrong;
+    for (std::size_t j = 0; j < each; ++j) {
+      put(field.member->get_function(at, j), items[i * each + j]);
+    }
+  }
+  return {};
 }
 
 template <class Item, class Put>
 std::string put_list(const Field& field, void* message, const Item* items, std::size_t count,
                      Put put) {
+  if (field.rows != nullptr) return put_column(field, message, items, count, put);
   void* const list = address_in(field, message);
-  if (std::string wrong = resize(field, list, count); !wrong.empty()) return wrong;
+  std::string wrong = resize(field.path, *field.member, list, count);
+  if (!wrong.empty()) return wrong;
   for (std::size_t i = 0; i < count; ++i) {
     put(field.member->get_function(list, i), items[i]);
   }
@@ -112,7 +163,7 @@ std::string put_numbers(const Field& field, void* message, const Item* items, st
 
 std::string put_string(const Field& field, void* message, const char* text, std::size_t length) {
   const std::size_t most = field.member->string_upper_bound_;
-  if (most != 0 && length > most) return too_long(field, length, most, "bytes");
+  if (most != 0 && length > most) return too_long(field.path, length, most, "bytes");
   return put_text(address_in(field, message), text, length)
              ? ""
              : "there is no memory for '" + field.path + "'";
@@ -127,7 +178,41 @@ void put_now(const Field& field, void* message) {
   stamp[1] = static_cast<std::int32_t>(now.tv_nsec);
 }
 
+// How many values a list port has now; nothing: it has none.
+std::optional<std::size_t> length_of(const PortOf& from, Kind kind) {
+  const auto& [host, caller, port] = from;
+  std::size_t count = 0;
+  const bool* flags = nullptr;
+  const std::int64_t* wholes = nullptr;
+  const double* numbers = nullptr;
+  const lockstep_text* texts = nullptr;
+  const bool has_one = kind == Kind::BoolList  ? host->get_bool_list(caller, port, &flags, &count)
+                       : kind == Kind::IntList ? host->get_int_list(caller, port, &wholes, &count)
+                       : kind == Kind::DoubleList
+                           ? host->get_double_list(caller, port, &numbers, &count)
+                           : host->get_string_list(caller, port, &texts, &count);
+  return has_one ? std::optional(count) : std::nullopt;
+}
+
 }  // namespace
+
+std::string size_rows(const lockstep_host& host, const lockstep_caller* caller,
+                      const FieldPorts& ports, void* message) {
+  std::map<const Rows*, std::size_t> sizes;
+  for (const auto& [port, field] : ports) {
+    if (field->rows == nullptr) continue;
+    const auto length = length_of({&host, caller, port}, field->kind);
+    if (!length) continue;
+    std::size_t& size = sizes[field->rows.get()];
+    size = std::max(size, field->member->is_array_ ? std::min<std::size_t>(*length, 1) : *length);
+  }
+  for (const auto& [rows, size] : sizes) {
+    std::string wrong = resize(rows->path, *rows->member,
+                               static_cast<unsigned char*>(message) + rows->offset, size);
+    if (!wrong.empty()) return wrong;
+  }
+  return {};
+}
 
 std::string read_port(const PortOf& from, const Field& field, void* message) {
   const auto& [host, caller, port] = from;
@@ -190,7 +275,7 @@ std::string read_port(const PortOf& from, const Field& field, void* message) {
 void write_port(const PortOf& to, const Field& field, const void* message) {
   const auto& [host, caller, port] = to;
   const std::uint8_t type = field.member == nullptr ? 0 : field.member->type_id_;
-  const void* const at = address_in(field, message);
+  const void* const at = field.rows == nullptr ? address_in(field, message) : nullptr;
   switch (field.kind) {
     case Kind::Bool:
       host->set_bool(caller, port, number_at<bool>(type, at));
@@ -207,36 +292,33 @@ void write_port(const PortOf& to, const Field& field, const void* message) {
       return;
     }
     case Kind::BoolList: {
-      const std::size_t count = count_in(field, message);
-      const auto items = std::make_unique<bool[]>(count);
-      for (std::size_t i = 0; i < count; ++i) {
-        items[i] = number_at<bool>(type, item_of(field, message, i));
-      }
-      host->set_bool_list(caller, port, items.get(), count);
+      std::vector<char> flags;
+      for_each_item(field, message,
+                    [&](const void* item) { flags.push_back(number_at<bool>(type, item)); });
+      host->set_bool_list(caller, port, reinterpret_cast<const bool*>(flags.data()), flags.size());
       return;
     }
     case Kind::IntList: {
-      std::vector<std::int64_t> items(count_in(field, message));
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        items[i] = number_at<std::int64_t>(type, item_of(field, message, i));
-      }
+      std::vector<std::int64_t> items;
+      for_each_item(field, message, [&](const void* item) {
+        items.push_back(number_at<std::int64_t>(type, item));
+      });
       host->set_int_list(caller, port, items.data(), items.size());
       return;
     }
     case Kind::DoubleList: {
-      std::vector<double> items(count_in(field, message));
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        items[i] = number_at<double>(type, item_of(field, message, i));
-      }
+      std::vector<double> items;
+      for_each_item(field, message,
+                    [&](const void* item) { items.push_back(number_at<double>(type, item)); });
       host->set_double_list(caller, port, items.data(), items.size());
       return;
     }
     case Kind::StringList: {
-      std::vector<lockstep_text> items(count_in(field, message));
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        const auto& text = *static_cast<const String*>(item_of(field, message, i));
-        items[i] = {text.data, text.size};
-      }
+      std::vector<lockstep_text> items;
+      for_each_item(field, message, [&](const void* item) {
+        const auto& text = *static_cast<const String*>(item);
+        items.push_back({text.data, text.size});
+      });
       host->set_string_list(caller, port, items.data(), items.size());
       return;
     }
@@ -257,6 +339,7 @@ std::optional<double> size_in(const Field& field, const void* message) {
   if (field.kind == Kind::String) {
     return double(static_cast<const String*>(address_in(field, message))->size);
   }
+  if (field.rows != nullptr) return double(rows_in(*field.rows, message));
   if (field.member == nullptr || !field.member->is_array_) return std::nullopt;
   return double(count_in(field, message));
 }

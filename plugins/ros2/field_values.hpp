@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fields.hpp"
 
@@ -17,6 +18,17 @@ struct PortOf {
   std::uint32_t port;
 };
 
+// A port of a leaf type, by its index, and its field.
+struct FieldPort {
+  std::uint32_t port;
+  const Field* field;
+};
+using FieldPorts = std::vector<FieldPort>;
+
+// Gives the sequences of messages, of which the ports are columns, as many messages as the longest
+// column has. Returns "" or what is wrong.
+std::string size_rows(const lockstep_host& host, const lockstep_caller* caller,
+                      const FieldPorts& ports, void* message);
 // Sets the field if the port has a value. Returns "" or what is wrong.
 std::string read_port(const PortOf& from, const Field& field, void* message);
 // Sets the entry that the port is bound to, if any.

@@ -66,32 +66,49 @@ bool is_time(const Members& members) {
          std::strcmp(members.message_name_, "Time") == 0;
 }
 
-void add_fields(const Members& members, const std::string& prefix, std::size_t offset,
-                std::vector<Field>& fields) {
-  for (std::uint32_t i = 0; i < members.member_count_; ++i) {
-    const Member& member = members.members_[i];
-    if (std::strcmp(member.name_, "structure_needs_at_least_one_member") == 0) continue;
-    const std::string path = prefix + member.name_;
-    const std::size_t at = offset + member.offset_;
-    if (const auto scalar = scalar_of(member.type_id_)) {
-      fields.push_back({path, member.is_array_ ? scalar->list : scalar->kind, at, &member,
-                        scalar->min, scalar->max});
-    } else if (member.type_id_ != rosidl_typesupport_introspection_c__ROS_TYPE_MESSAGE) {
-      continue;
-    } else if (member.is_array_) {
-      fields.push_back({path, Kind::Messages, at, &member});
-    } else {
-      if (is_time(members_of(member))) fields.push_back({path, Kind::Time, at, nullptr});
-      add_fields(members_of(member), path + ".", at, fields);
+class FieldList {
+ public:
+  explicit FieldList(std::vector<Field>& fields) : fields_(fields) {}
+
+  // With `rows`, these are the members of a message in that sequence.
+  void add(const Members& members, const std::string& prefix, std::size_t offset,
+           const std::shared_ptr<const Rows>& rows) {
+    for (std::uint32_t i = 0; i < members.member_count_; ++i) {
+      const Member& member = members.members_[i];
+      if (std::strcmp(member.name_, "structure_needs_at_least_one_member") == 0) continue;
+      const std::string path = prefix + member.name_;
+      const std::size_t at = offset + member.offset_;
+      if (const auto scalar = scalar_of(member.type_id_)) {
+        const bool is_list = member.is_array_ || rows != nullptr;
+        fields_.push_back({path, is_list ? scalar->list : scalar->kind, at, &member, scalar->min,
+                           scalar->max, rows});
+      } else if (member.type_id_ == rosidl_typesupport_introspection_c__ROS_TYPE_MESSAGE) {
+        add_message(member, path, at, rows);
+      }
     }
   }
-}
+
+ private:
+  void add_message(const Member& member, const std::string& path, std::size_t at,
+                   const std::shared_ptr<const Rows>& rows) {
+    const Members& members = members_of(member);
+    if (!member.is_array_) {
+      if (rows == nullptr && is_time(members)) fields_.push_back({path, Kind::Time, at, nullptr});
+      add(members, path + ".", at, rows);
+    } else if (rows == nullptr) {
+      fields_.push_back({path, Kind::Messages, at, &member});
+      add(members, path + ".", 0, std::make_shared<const Rows>(Rows{path, at, &member}));
+    }
+  }
+
+  std::vector<Field>& fields_;
+};
 
 }  // namespace
 
 std::vector<Field> fields_of(const Members& members, std::size_t offset) {
   std::vector<Field> fields;
-  add_fields(members, "", offset, fields);
+  FieldList(fields).add(members, "", offset, nullptr);
   return fields;
 }
 

@@ -1,12 +1,20 @@
 // The fields of a message, each with all names from the top: "pose.position.x".
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "message.hpp"
 
 namespace ros2 {
+
+// A sequence of messages. Its fields are columns: each is a list with a value for every message.
+struct Rows {
+  std::string path;
+  std::size_t offset;    // from the beginning of the whole message
+  const Member* member;  // the sequence
+};
 
 struct Field {
   enum class Kind {
@@ -19,13 +27,14 @@ struct Field {
     DoubleList,
     StringList,
     Time,     // a stamp: its fields follow, and "now" is a value of the whole
-    Messages  // of which only the number is known
+    Messages  // a sequence; its columns follow
   };
   std::string path;
   Kind kind;
-  std::size_t offset;       // from the beginning of the whole message
+  std::size_t offset;       // from the beginning of the whole message; of a column, of its message
   const Member* member;     // of a Time, null
   double min = 0, max = 0;  // of numbers; both 0: any
+  std::shared_ptr<const Rows> rows = {};  // of a column
 };
 
 // Wide strings and long doubles are left out: no port can carry them.

@@ -11,8 +11,6 @@
 
 namespace ros2 {
 
-using FieldPorts = std::vector<PortList::FieldPort>;
-
 // The data of the type that the leaf's element has.
 template <class Element>
 const Element& element_of(const lockstep_host& host, const lockstep_caller* caller) {
@@ -53,6 +51,10 @@ class LeafBase {
   }
   // False after an error.
   bool read(const FieldPorts& ports, Message& message) {
+    if (const std::string wrong = size_rows(host_, caller_, ports, message.get()); !wrong.empty()) {
+      fail(wrong.c_str());
+      return false;
+    }
     for (const auto& [port, field] : ports) {
       const std::string wrong = read_port({&host_, caller_, port}, *field, message.get());
       if (wrong.empty()) continue;

@@ -36,11 +36,10 @@ lockstep_type type_of(Kind kind, lockstep_direction direction) {
 
 }  // namespace
 
-std::vector<PortList::FieldPort> PortList::add(const std::string& prefix,
-                                               const std::vector<Field>& fields,
-                                               lockstep_direction direction) {
+FieldPorts PortList::add(const std::string& prefix, const std::vector<Field>& fields,
+                         lockstep_direction direction) {
   constexpr std::size_t kMost = 4096;  // that a leaf type may have
-  std::vector<FieldPort> added;
+  FieldPorts added;
   for (const Field& field : fields) {
     const lockstep_type type = type_of(field.kind, direction);
     if (type == 0 || list_.size() == kMost) continue;

@@ -22,13 +22,9 @@ class PortList {
   PortList(const PortList&) = delete;
   PortList& operator=(const PortList&) = delete;
 
-  struct FieldPort {
-    std::uint32_t port;
-    const Field* field;
-  };
   // "goal.order" for each field. The fields outlive this.
-  std::vector<FieldPort> add(const std::string& prefix, const std::vector<Field>& fields,
-                             lockstep_direction direction);
+  FieldPorts add(const std::string& prefix, const std::vector<Field>& fields,
+                 lockstep_direction direction);
   void give_to(lockstep_leaf_type& type) const;
 
  private:

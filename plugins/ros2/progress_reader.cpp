@@ -119,8 +119,8 @@ class ProgressReader {
     using Kind = Field::Kind;
     const bool is_number =
         found->kind == Kind::Bool || found->kind == Kind::Int || found->kind == Kind::Double;
-    const bool has_size =
-        found->kind == Kind::String || (found->member != nullptr && found->member->is_array_);
+    const bool has_size = found->kind == Kind::String || found->rows != nullptr ||
+                          (found->member != nullptr && found->member->is_array_);
     if (what == What::Size && !has_size) return fail("'" + name + "' has no size", "size(LIST)");
     if (what == What::Field && !is_number) {
       return fail("'" + name + "' is no number",

@@ -62,7 +62,7 @@ struct ActionElement {
   Hold hold;
   bool faults = false;
   PortList ports;
-  std::vector<PortList::FieldPort> goal, feedback, result;
+  FieldPorts goal, feedback, result;
   lockstep_leaf_type leaf{};
 };
 

@@ -73,6 +73,36 @@ class Topic(World):
           <Check code="frame == 'map' &amp;&amp; sec &gt; 1000000000"/></Sequence>""")
         self.assertEqual(run.returncode, 0, run.err)
 
+    POSES = 'type="geometry_msgs/msg/PoseArray" topic="/poses" qos="latched"'
+
+    def test_a_sequence_of_messages_is_columns(self):
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {self.POSES} message.poses.position.x="1;2;3" message.header.frame_id="map"
+                      message.poses.position.y="0.5" message.poses.orientation.w="1"/>
+          <RosReceive {self.POSES} timeout="5" message.poses.position.x="{{x}}"
+                      message.poses.position.y="{{y}}" message.poses.position.z="{{z}}"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        for text in ('"1;2;3"', '"0.5;0.5;0.5"', '"0;0;0"'):
+            self.assertIn(text, self.recording.read_text())
+
+    def test_columns_of_different_lengths(self):
+        run = self.run_tree(f"""<RosPublish {self.POSES} message.poses.position.x="1;2;3"
+                                            message.poses.position.y="1;2"/>""")
+        self.assertIn("'poses.position.y' has 2 values for the 3 items of 'poses'", run.err)
+
+    def test_columns_of_lists(self):
+        kind = 'type="diagnostic_msgs/msg/DiagnosticArray" topic="/d" qos="latched"'
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {kind} message.status.name="a;b" message.status.level="1;2"/>
+          <RosReceive {kind} timeout="5" message.status.name="{{names}}"
+                      message.status.level="{{levels}}"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn('"a;b"', self.recording.read_text())
+
+    def test_a_column_that_is_not_there(self):
+        run = self.check(f'<RosPublish {self.POSES} message.poses.position.u="1"/>')
+        self.assertIn("no parameter 'message.poses.position.u'", run.stderr)
+
 
 class Parameter(World):
     def test_read_and_set(self):
