@@ -82,10 +82,12 @@ void Middleware::stop() {
 }
 
 std::string Middleware::open() {
-  rcutils_logging_set_output_handler(keep_log_line);
+  // A program that embeds lockstep and uses ROS has its own handler, which stays.
+  const bool is_free =
+      rcutils_logging_initialize() == RCUTILS_RET_OK &&
+      rcutils_logging_get_output_handler() == rcutils_logging_console_output_handler;
+  if (is_free) rcutils_logging_set_output_handler(keep_log_line);
   if (std::string why = open_context(context_); !why.empty()) return why;
-  // rcl_init with arguments does not configure logging, but the handler may have been set again.
-  rcutils_logging_set_output_handler(keep_log_line);
   rcl_node_options_t options = rcl_node_get_default_options();
   options.enable_rosout = false;
   node_ = rcl_get_zero_initialized_node();

@@ -24,12 +24,21 @@ if [ "${1:-}" = --build ]; then
   cmake -S plugins/ros2 -B build/ros2/plugin -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo $python \
     -Dlockstep_DIR="$PWD/build/dev/cmake/lockstep" >/dev/null
   cmake --build build/ros2/plugin
-  cmake -S tests/ros2 -B build/ros2/tests -G Ninja -DCMAKE_BUILD_TYPE=Release $python >/dev/null
+  # An interface package is used from where it is installed.
+  cmake -S plugins/lockstep_ros -B build/ros2/lockstep_ros -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo $python \
+    -Dlockstep_DIR="$PWD/build/dev/cmake/lockstep" -DCMAKE_INSTALL_PREFIX="$PWD/build/ros2/installed" >/dev/null
+  cmake --build build/ros2/lockstep_ros
+  cmake --install build/ros2/lockstep_ros >/dev/null
+  cmake -S tests/ros2 -B build/ros2/tests -G Ninja -DCMAKE_BUILD_TYPE=Release $python \
+    -Dlockstep_DIR="$PWD/build/dev/cmake/lockstep" -Dlockstep_ros_DIR="$PWD/build/ros2/installed/share/lockstep_ros/cmake" \
+    >/dev/null
   cmake --build build/ros2/tests
 elif [ ! -e build/ros2/plugin/ros2.so ] || [ ! -e build/ros2/tests/counting_server ]; then
   echo "the tests of plugins/ros2 are not built: ./dev test-ros2 builds and runs them"
   exit 77
 fi
+export AMENT_PREFIX_PATH=$PWD/build/ros2/installed:$AMENT_PREFIX_PATH
+export LD_LIBRARY_PATH=$PWD/build/ros2/installed/lib:$LD_LIBRARY_PATH
 # Others on the same network must neither see nor disturb them. Cyclone DDS finds its peers here
 # without multicast, and there are more of them than it expects.
 export ROS_DOMAIN_ID=${ROS_DOMAIN_ID:-77}

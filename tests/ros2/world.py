@@ -11,6 +11,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SERVERS = ROOT / "build/ros2/tests"
+TREE_SERVER = ROOT / "build/ros2/installed/lib/lockstep_ros/tree_server"
 LOCKSTEP = pathlib.Path(os.environ.get("LOCKSTEP", ROOT / "build/dev/lockstep"))
 PLUGINS = ROOT / "build/ros2/plugin"
 
@@ -23,16 +24,17 @@ def count(name, action, order=5, more=""):
 
 
 class Server:
-    """A program that has said that it is ready; `lines` is what it has said."""
+    """A program that has said that it is ready, if it does; `lines` is what it has said."""
 
-    def __init__(self, program, *options):
+    def __init__(self, program, *options, ready="ready"):
         self.lines = []
         self._heard = threading.Condition()
         self.process = subprocess.Popen([SERVERS / program, *map(str, options)], stdout=subprocess.PIPE,
                                         stderr=subprocess.DEVNULL, text=True)
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
-        self.wait_for("ready")
+        if ready:
+            self.wait_for(ready)
 
     def _read(self):
         with self.process.stdout as said:
@@ -55,22 +57,27 @@ class Server:
 
 
 class World(unittest.TestCase):
+    plugins = ("ros2",)
+    plugin_paths = (PLUGINS,)
+
     def setUp(self):
         directory = tempfile.TemporaryDirectory()
         self.addCleanup(directory.cleanup)
         self.directory = pathlib.Path(directory.name)
         self.recording = self.directory / "run.jsonl"
 
-    def server(self, *options, program="counting_server"):
-        server = Server(program, *options)
+    def server(self, *options, program="counting_server", **more):
+        server = Server(program, *options, **more)
         self.addCleanup(server.stop)
         return server
 
     def command(self, verb, nodes, *options):
         tree = self.directory / "tree.xml"
-        tree.write_text('<root lockstep="1"><plugin name="ros2"/><BehaviorTree ID="T">\n'
+        used = "".join(f'<plugin name="{name}"/>' for name in self.plugins)
+        tree.write_text(f'<root lockstep="1">{used}<BehaviorTree ID="T">\n'
                         f"{nodes}\n</BehaviorTree></root>\n")
-        return [LOCKSTEP, verb, tree, "--plugin-path", PLUGINS, *map(str, options)]
+        paths = [word for path in self.plugin_paths for word in ("--plugin-path", path)]
+        return [LOCKSTEP, verb, tree, *paths, *map(str, options)]
 
     def check(self, nodes):
         return subprocess.run(self.command("check", nodes), text=True, capture_output=True,

@@ -1,0 +1,119 @@
+"""The action server run_tree, which RosAction uses here as any client does."""
+
+from world import PLUGINS, TREE_SERVER, World, count
+
+STATE = 'type="lockstep_ros/msg/TreeState" topic="/tree_server/state" qos="latched" timeout="5"'
+
+
+class TreeServer(World):
+    def serve(self, *parameters):
+        options = [f"trees:={self.directory}", f"plugin_path:=['{PLUGINS}']", *parameters]
+        arguments = [word for option in options for word in ("-p", option)]
+        return self.server("--ros-args", *arguments, program=TREE_SERVER, ready="")
+
+    def tree(self, nodes, name="served.xml"):
+        (self.directory / name).write_text(
+            '<root lockstep="1"><plugin name="ros2"/><arg name="order" default="3"/>'
+            f'<BehaviorTree ID="T">{nodes}</BehaviorTree></root>')
+
+    @staticmethod
+    def goal(more="", tree="served.xml"):
+        return (f'<RosAction name="run" type="lockstep_ros/action/RunTree" action="/run_tree" '
+                f'goal.tree="{tree}" progress="feedback.state.progress" error="{{error}}" '
+                f'result.status="{{status}}" result.reason="{{reason}}" {more}/>')
+
+    def run_goal(self, checks, more="", tree="served.xml"):
+        """Sends the goal, whatever becomes of it, and checks the entries."""
+        run = self.run_tree(f"""<Sequence memory="true">
+          <Fallback memory="true">{self.goal(more, tree)}<AlwaysSuccess/></Fallback>
+          <Check code="{checks}"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, (run.err, self.recording.read_text()[-2000:]))
+        return run
+
+    def test_success(self):
+        self.tree('<Wait seconds="1"/>')
+        self.serve()
+        self.run_goal("status == 'success' &amp;&amp; reason == ''")
+        self.assertGreater(len(set(self.progress("run").values())), 3)
+
+    def test_what_fails_is_named(self):
+        self.tree('<Sequence><AlwaysSuccess/><AlwaysFailure name="broken"/></Sequence>')
+        self.serve()
+        self.run_goal("status == 'failure' &amp;&amp; reason == 'T/Sequence/broken' "
+                      "&amp;&amp; error == 'aborted'")
+
+    def test_a_file_that_is_no_tree(self):
+        self.tree("<Nonsense/>")
+        self.serve()
+        self.run_goal("status == 'invalid'")
+        self.assertIn("Nonsense", self.recording.read_text())
+        self.run_goal("status == 'invalid'", tree="absent.xml")
+
+    def test_an_argument_that_is_not_there(self):
+        self.tree("<AlwaysSuccess/>")
+        self.serve()
+        self.run_goal("status == 'invalid'", 'goal.arguments="ordr=5"')
+        self.assertIn("ordr", self.recording.read_text())
+
+    def test_a_fault_is_told(self):
+        self.tree(count("c", "/nobody", 1, 'server_timeout="0.1" on_failure="fault"'))
+        self.serve()
+        self.run_goal("status == 'fault'")
+        self.assertIn("the action '/nobody': no server", self.recording.read_text())
+
+    def test_the_tree_may_use_ros_and_has_arguments(self):
+        server = self.server("--action", "/count")
+        self.tree(count("c", "/count", "${order}"))
+        self.serve()
+        self.run_goal("status == 'success'", 'goal.arguments="order=7"')
+        self.assertIn("succeeded 7", server.lines)
+
+    def test_who_is_held_by_whom(self):
+        self.tree("""<ParallelAbsolute name="both" barriers="0.5">
+          <Wait name="fast" seconds="0.4"/><Wait name="slow" seconds="4"/></ParallelAbsolute>""")
+        self.serve()
+        run = self.run_tree(f"""<Parallel success_count="1">{self.goal()}
+          <Sequence memory="true"><Wait seconds="1.5"/>
+            <RosReceive {STATE} message.progress="{{progress}}" message.held.path="{{held}}"
+                        message.held.by="{{by}}" message.running.path="{{running}}"/>
+            <Check code="progress &gt; 0.1"/></Sequence></Parallel>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        text = self.recording.read_text()
+        self.assertIn('"T/both/fast"', text)
+        self.assertIn('"T/both"', text)
+        self.assertIn('"T/both/fast;T/both/slow"', text)
+
+    def test_a_cancel_halts(self):
+        server = self.server("--action", "/count")
+        self.tree(count("c", "/count", 1000))
+        self.serve()
+        run = self.run_tree(f"""<Sequence memory="true">
+          <Inverter><Timeout seconds="1.5">{self.goal()}</Timeout></Inverter><Wait seconds="1"/>
+          <RosReceive {STATE} message.status="{{status}}"/>
+          <Check code="status == 'halted'"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        server.wait_for("cancel")
+
+    def test_one_tree_at_a_time(self):
+        self.tree('<Wait seconds="2"/>')
+        self.serve()
+        run = self.run_tree(f"""<Parallel success_count="2">{self.goal()}
+          <Sequence memory="true"><Wait seconds="1"/>
+            <Inverter>{self.goal().replace("{error}", "{why}")}</Inverter>
+            <Check code="why == 'rejected'"/></Sequence></Parallel>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_diagnostics(self):
+        self.tree('<AlwaysFailure name="broken"/>')
+        self.serve()
+        self.run_goal("status == 'failure'")
+        run = self.run_tree("""<RosReceive type="diagnostic_msgs/msg/DiagnosticArray" take="next"
+          topic="/diagnostics" timeout="5" message.status.message="{message}"/>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("failure: T/broken", self.recording.read_text())
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main()
