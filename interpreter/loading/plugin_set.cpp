@@ -340,6 +340,15 @@ PluginWords PluginSet::words() const {
   return all;
 }
 
+const lockstep_clock* PluginSet::clock(std::string_view name) const {
+  for (const auto& plugin : plugins_) {
+    if (plugin->remote != nullptr) continue;
+    const lockstep_clock* const clock = clock_of(plugin->descriptors.plugin);
+    if (clock != nullptr && name == clock->name) return clock;
+  }
+  return nullptr;
+}
+
 std::vector<PluginSet::Info> PluginSet::list() const {
   const auto text = [](const char* it) { return std::string(it == nullptr ? "" : it); };
   std::vector<Info> list;

@@ -13,6 +13,7 @@
 #include "core/diagnostics.h"
 #include "core/node_type.h"
 #include "lockstep/leaf.h"
+#include "plugin/contract/plugin_clock.h"
 #include "plugin/contract/words.h"
 #include "remote/isolation_options.h"
 #include "remote/json_lines/hold.h"
@@ -76,6 +77,9 @@ class PluginSet {
 
   // The words of all plugins that scripts know as numbers; of two of one name, the first.
   PluginWords words() const;
+
+  // The clock of that name that a plugin of this process has. Null: none has it.
+  const lockstep_clock* clock(std::string_view name) const;
 
   // The facts about each plugin, in the order of loading.
   struct Info {

@@ -3,12 +3,13 @@
 #include <rosidl_runtime_c/string.h>
 #include <rosidl_runtime_c/string_functions.h>
 #include <rosidl_typesupport_introspection_c/field_types.h>
-#include <time.h>
 
 #include <algorithm>
 #include <map>
 #include <type_traits>
 #include <vector>
+
+#include "time_source.hpp"
 
 namespace ros2 {
 namespace {
@@ -171,11 +172,11 @@ std::string put_string(const Field& field, void* message, const char* text, std:
 
 // The only value that a whole stamp has.
 void put_now(const Field& field, void* message) {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t now = ros_now();
   auto* const stamp = static_cast<std::int32_t*>(address_in(field, message));
-  stamp[0] = static_cast<std::int32_t>(now.tv_sec);
-  stamp[1] = static_cast<std::int32_t>(now.tv_nsec);
+  stamp[0] = static_cast<std::int32_t>(now / kSecond);
+  stamp[1] = static_cast<std::int32_t>(now % kSecond);
 }
 
 // How many values a list port has now; nothing: it has none.

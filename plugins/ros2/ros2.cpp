@@ -1,6 +1,7 @@
 // The plugin ros2: docs/ros2.md.
 #include <lockstep/leaf.h>
 
+#include <cstring>
 #include <iterator>
 
 #include "middleware.hpp"
@@ -10,6 +11,7 @@
 #include "ros_service.hpp"
 #include "ros_topics.hpp"
 #include "run_end.hpp"
+#include "time_source.hpp"
 
 namespace {
 
@@ -31,6 +33,10 @@ void destroy_run(void* run) {
   delete static_cast<ros2::RunEnd*>(run);
 }
 
+const void* get_extension(const char* id) {
+  return std::strcmp(id, LOCKSTEP_CLOCK) == 0 ? &ros2::ros_clock() : nullptr;
+}
+
 const lockstep_plugin* describe(const char** /*why*/);
 
 constexpr lockstep_plugin plugin_of(std::uint32_t count, const lockstep_leaf_type* const* types) {
@@ -47,6 +53,7 @@ constexpr lockstep_plugin plugin_of(std::uint32_t count, const lockstep_leaf_typ
   plugin.deinit = deinit;
   plugin.create_run = create_run;
   plugin.destroy_run = destroy_run;
+  plugin.get_extension = get_extension;
   if (count == 0) plugin.describe = describe;
   return plugin;
 }

@@ -103,6 +103,15 @@ class TreeServer(World):
             <Check code="why == 'rejected'"/></Sequence></Parallel>""")
         self.assertEqual(run.returncode, 0, run.err)
 
+    def test_in_simulated_time(self):
+        self.tree('<Wait seconds="4"/>')
+        self.serve("use_sim_time:=true")
+        self.server("100:102:4", "50:60:4", program="clock_publisher")
+        self.run_goal("status == 'success' &amp;&amp; seconds &gt; 3.9 &amp;&amp; seconds &lt; 4.2",
+                      'result.seconds="{seconds}"')
+        real = max(float(row["time_s"]) for row in self.rows("run"))
+        self.assertLess(real, 3.5)
+
     def test_diagnostics(self):
         self.tree('<AlwaysFailure name="broken"/>')
         self.serve()

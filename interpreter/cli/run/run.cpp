@@ -19,6 +19,7 @@
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "plugin/contract/plugin_clock.h"
 #include "recording/part_names.h"
 #include "recording/write/recorder.h"
 #include "runtime/crash_report.h"
@@ -127,6 +128,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       print_diagnostics(refused, Severity::Warning);
       return kExitPluginRefused;
     }
+    if (options_.has_plugin_clock() && !open_clock(*plugins)) return kExitUsage;
     const auto end = run_tree();
     const int code = end ? first_failure(code_of(*end), print_summary()) : kExitUsage;
     plugins.reset();
@@ -139,7 +141,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<RunEnd> run_tree() {
     WallClock wall_clock;
     VirtualClock virtual_clock;
-    Clock& clock = options_.is_wall() ? static_cast<Clock&>(wall_clock) : virtual_clock;
+    Clock& clock = plugin_clock_        ? static_cast<Clock&>(*plugin_clock_)
+                   : options_.is_real() ? static_cast<Clock&>(wall_clock)
+                                        : virtual_clock;
+    if (plugin_clock_) wait_for_time();
     RunEnd end;
     std::vector<Fault> in_last_halt;
     {
@@ -152,6 +157,34 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     if (end.fault) print_error(describe(*end.fault, tree_, end));
     for (const Fault& fault : in_last_halt) print_error(describe(fault, tree_, end));
     return end;
+  }
+
+  bool open_clock(const PluginSet& plugins) {
+    const lockstep_clock* const clock = plugins.clock(options_.clock);
+    if (clock != nullptr) {
+      const auto why = plugin_clock_.emplace(*clock).open();
+      if (!why) return true;
+      print_error(fmt::format("--clock {}: {}", options_.clock, *why));
+    } else {
+      print_error(fmt::format("--clock {}: no plugin of this process has it", options_.clock),
+                  "the plugin ros2 has the clock ros: --plugin ros2, without --isolate");
+    }
+    view_.close();
+    return false;
+  }
+
+  // A tick before the clock has a time would be at a time of its own.
+  void wait_for_time() {
+    constexpr Nanoseconds kSilence = std::chrono::seconds(2);
+    const Nanoseconds begun = monotonic_now();
+    bool is_told = false;
+    while (!plugin_clock_->has_time() && StopSignals::received() == 0) {
+      if (!is_told && monotonic_now() - begun > kSilence) {
+        view_.print(fmt::format("the run begins when --clock {} has a time", options_.clock));
+        is_told = true;
+      }
+      WallClock().sleep_until(monotonic_now() + std::chrono::milliseconds(5));
+    }
   }
 
   // Threads that were started before keep their priority and their processors.
@@ -168,7 +201,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
             .log = leaf_log(),
             .on_fault = options_.on_fault,
             .exactly_once = options_.exactly_once,
-            .virtual_time = !options_.is_wall(),
+            .virtual_time = !options_.is_real(),
             .watch = &watch_.leaves(),
             .end_budget = &end_budget_};
   }
@@ -194,7 +227,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     RecorderOptions recorder{.path = options_.record, .run = description_};
     recorder.compresses = options_.record_compress;
     recorder.rotation = options_.rotation;
-    if (options_.record.ends_with(".mcap")) recorder.encoder = mcap_recording(options_.is_wall());
+    if (options_.record.ends_with(".mcap")) recorder.encoder = mcap_recording(options_.is_real());
     recorder.on_error = [this](const std::string& error) { view_.print("error: " + error); };
     return recorder;
   }
@@ -300,6 +333,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   const RunCommandOptions& options_;
   const Tree& tree_;
   EndBudget end_budget_;
+  std::optional<PluginClock> plugin_clock_;  // none: a clock of lockstep
   View view_;
   RunWatch watch_;
   Statistics statistics_;
@@ -422,7 +456,7 @@ int run(RunCommandOptions options) {
   if (!properties) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);
-  if (!options.is_wall()) {
+  if (!options.is_real()) {
     warn_of_real_time_leaves(runnable.tree, options.tree, "the run means little; use --clock wall",
                              notes);
   }

@@ -39,9 +39,11 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->check(number_between(0.001, 100000.0))
       ->each([&options](const std::string&) { options.is_rate_given = true; })
       ->capture_default_str();
-  app.add_option("--clock", options.clock,
-                 "wall: real time; virtual: as fast as the machine allows")
-      ->check(one_of({"wall", "virtual"}))
+  app.add_option(
+         "--clock", options.clock,
+         "wall: real time; virtual: as fast as the machine allows; ros: the topic /clock of "
+         "ROS 2, with the plugin ros2")
+      ->check(one_of({"wall", "virtual", "ros"}))
       ->capture_default_str();
   app.add_option("--seed", options.seed,
                  "The seed of the leaves' random numbers: the same seed gives the same numbers")
@@ -202,7 +204,7 @@ void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
 }  // namespace
 
 std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
-  if (!is_wall()) return std::nullopt;
+  if (!is_real()) return std::nullopt;
   if (!tick_budget_ms) return deadline_of(1, rate);
   if (*tick_budget_ms == 0) return std::nullopt;
   return from_seconds(*tick_budget_ms / 1e3);
@@ -222,7 +224,7 @@ LoopOptions RunCommandOptions::loop() const {
                    .spin = from_seconds(spin_us / 1e6)};
   if (timeout) loop.timeout = from_seconds(*timeout);
   // A tree that never completes would fill a disk with its recording in minutes.
-  if (!is_wall() && !timeout && !max_ticks) loop.max_ticks = kMostVirtualTicks;
+  if (!is_real() && !timeout && !max_ticks) loop.max_ticks = kMostVirtualTicks;
   return loop;
 }
 

@@ -58,7 +58,8 @@ struct RunCommandOptions {
   std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
   bool groot2_control = false;        // it may pause the run
 
-  bool is_wall() const { return clock == "wall"; }
+  bool is_real() const { return clock != "virtual"; }  // time passes by itself
+  bool has_plugin_clock() const { return is_real() && clock != "wall"; }
   // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;
   // The limit of all that waits after the last halt; nothing: none.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lockstep_ros/action/run_tree.hpp"
+#include <lockstep_ros/action/run_tree.hpp>
 
 namespace lockstep_ros {
 

@@ -83,18 +83,24 @@ TreeServer::RunTree::Result TreeServer::run_tree(GoalHandle& handle) {
   if (!get_parameter("use_sim_time").as_bool()) {
     return run.loop([&] { return is_stopped(handle); }, tell_of);
   }
-  const rclcpp::Time start = now();
-  return run.loop([&](double time) { return wait_for(time, start, handle); }, tell_of);
+  while (now().nanoseconds() == 0 && !is_stopped(handle)) std::this_thread::sleep_for(5ms);
+  rclcpp::Time last = now();
+  double passed = 0;
+  return run.loop([&](double time) { return wait_for(time, last, passed, handle); }, tell_of);
 }
 
 bool TreeServer::is_stopped(const GoalHandle& handle) const {
   return is_ending_ || !rclcpp::ok() || handle.is_canceling();
 }
 
-// In simulated time: until the clock has come to `time`. While it stands, nothing is ticked.
-double TreeServer::wait_for(double time, const rclcpp::Time& start, const GoalHandle& handle) {
+// In simulated time: until the clock has come to `time`. While it stands, nothing is ticked; after
+// it was reset, the run goes on from where it was.
+double TreeServer::wait_for(double time, rclcpp::Time& last, double& passed,
+                            const GoalHandle& handle) {
   while (!is_stopped(handle)) {
-    const double passed = (now() - start).seconds();
+    const rclcpp::Time there = now();
+    if (there > last) passed += (there - last).seconds();
+    last = there;
     if (passed >= time) return passed;
     std::this_thread::sleep_for(1ms);
   }

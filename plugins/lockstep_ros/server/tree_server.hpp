@@ -6,9 +6,9 @@
 #include <mutex>
 #include <thread>
 
-#include "diagnostic_msgs/msg/diagnostic_array.hpp"
-#include "rclcpp/rclcpp.hpp"
-#include "rclcpp_action/rclcpp_action.hpp"
+#include <diagnostic_msgs/msg/diagnostic_array.hpp>
+#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_action/rclcpp_action.hpp>
 #include "tree_run.hpp"
 
 namespace lockstep_ros {
@@ -27,7 +27,7 @@ class TreeServer : public rclcpp::Node {
   void run(const std::shared_ptr<GoalHandle>& handle);
   RunTree::Result run_tree(GoalHandle& handle);
   bool is_stopped(const GoalHandle& handle) const;
-  double wait_for(double time, const rclcpp::Time& start, const GoalHandle& handle);
+  double wait_for(double time, rclcpp::Time& last, double& passed, const GoalHandle& handle);
   void tell(GoalHandle& handle, msg::TreeState state);
   void end(const RunTree::Goal& goal, const RunTree::Result& result);
   void diagnose();
