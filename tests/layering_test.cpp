@@ -37,6 +37,7 @@ const std::vector<Layer> kOutside{
     {"interpreter/main.cpp", {"system/", "runtime/", "cli/"}},
     {"interpreter/leafhost.cpp", {"system/", "remote/", "runtime/"}},
     {"plugins/sdk/btcpp/", {"lockstep/", "behaviortree_cpp/"}},
+    {"plugins/lockstep_ros/", {"lockstep/", "behaviortree_ros2/"}},
     {"plugins/", {"lockstep/"}},
 };
 

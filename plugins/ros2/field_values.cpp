@@ -5,10 +5,12 @@
 #include <rosidl_typesupport_introspection_c/field_types.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <type_traits>
 #include <vector>
 
+#include "message_object.hpp"
 #include "time_source.hpp"
 
 namespace ros2 {
@@ -208,6 +210,9 @@ std::string size_rows(const lockstep_host& host, const lockstep_caller* caller,
     size = std::max(size, field->member->is_array_ ? std::min<std::size_t>(*length, 1) : *length);
   }
   for (const auto& [rows, size] : sizes) {
+    // What an object has already stays, but for the columns.
+    const std::size_t has = rows_in(*rows, message);
+    if (has == size || (has > 1 && size == 1)) continue;
     std::string wrong = resize(rows->path, *rows->member,
                                static_cast<unsigned char*>(message) + rows->offset, size);
     if (!wrong.empty()) return wrong;
@@ -267,6 +272,13 @@ std::string read_port(const PortOf& from, const Field& field, void* message) {
         });
       }
       return {};
+    case Kind::Object:
+      if (void* object{}; host->get_object(caller, port, &object) && object != nullptr) {
+        return copy_object(*field.message, address_in(field, message), object)
+                   ? ""
+                   : "there is no memory for '" + field.path + "'";
+      }
+      return {};
     case Kind::Messages:
       return {};
   }
@@ -323,10 +335,39 @@ void write_port(const PortOf& to, const Field& field, const void* message) {
       host->set_string_list(caller, port, items.data(), items.size());
       return;
     }
+    case Kind::Object: {
+      void* const object = make_object(*field.message, address_in(field, message));
+      if (object == nullptr) return;
+      host->set_object(caller, port, object);
+      release_object(object);
+      return;
+    }
     case Kind::Time:
     case Kind::Messages:
       return;
   }
+}
+
+std::string text_of(const Members& members, const void* message) {
+  std::string all;
+  const auto add = [&](const std::string& path, const std::string& value) {
+    all += (all.empty() ? "" : ", ") + path + ": " + value;
+  };
+  for (const Field& field : fields_of(members)) {
+    const auto number = number_in(field, message);
+    char text[32];
+    if (number && *number != 0) {
+      std::snprintf(text, sizeof text, "%.6g", *number);
+      add(field.path, text);
+    } else if (field.kind == Kind::String) {
+      const auto& it = *static_cast<const String*>(address_in(field, message));
+      if (it.size != 0) add(field.path, {it.data, it.size});
+    } else if (field.kind == Kind::Messages || (field.rows == nullptr && size_in(field, message))) {
+      const double size = *size_in(field, message);
+      if (size != 0) add(field.path, std::to_string(int(size)) + " items");
+    }
+  }
+  return all;
 }
 
 std::optional<double> number_in(const Field& field, const void* message) {

@@ -34,6 +34,9 @@ std::string read_port(const PortOf& from, const Field& field, void* message);
 // Sets the entry that the port is bound to, if any.
 void write_port(const PortOf& to, const Field& field, const void* message);
 
+// "header.frame_id: map, pose.position.x: 1": what is not 0 or empty.
+std::string text_of(const Members& members, const void* message);
+
 // Nothing: it is no number. A bool is 0 or 1.
 std::optional<double> number_in(const Field& field, const void* message);
 // The number of items of a list, or bytes of a string.

@@ -70,6 +70,11 @@ class FieldList {
  public:
   explicit FieldList(std::vector<Field>& fields) : fields_(fields) {}
 
+  void add_object(const Members& members, const std::string& path, std::size_t at) {
+    Field& field = fields_.emplace_back(Field{path, Kind::Object, at, nullptr});
+    field.message = &members;
+  }
+
   // With `rows`, these are the members of a message in that sequence.
   void add(const Members& members, const std::string& prefix, std::size_t offset,
            const std::shared_ptr<const Rows>& rows) {
@@ -93,7 +98,11 @@ class FieldList {
                    const std::shared_ptr<const Rows>& rows) {
     const Members& members = members_of(member);
     if (!member.is_array_) {
-      if (rows == nullptr && is_time(members)) fields_.push_back({path, Kind::Time, at, nullptr});
+      if (rows == nullptr && is_time(members)) {
+        fields_.push_back({path, Kind::Time, at, nullptr});
+      } else if (rows == nullptr) {
+        add_object(members, path, at);
+      }
       add(members, path + ".", at, rows);
     } else if (rows == nullptr) {
       fields_.push_back({path, Kind::Messages, at, &member});
@@ -108,7 +117,9 @@ class FieldList {
 
 std::vector<Field> fields_of(const Members& members, std::size_t offset) {
   std::vector<Field> fields;
-  FieldList(fields).add(members, "", offset, nullptr);
+  FieldList list(fields);
+  list.add_object(members, "", offset);
+  list.add(members, "", offset, nullptr);
   return fields;
 }
 

@@ -26,15 +26,17 @@ struct Field {
     IntList,
     DoubleList,
     StringList,
-    Time,     // a stamp: its fields follow, and "now" is a value of the whole
-    Messages  // a sequence; its columns follow
+    Time,      // a stamp: its fields follow, and "now" is a value of the whole
+    Messages,  // a sequence; its columns follow
+    Object     // a whole message, which an entry carries; its fields follow
   };
-  std::string path;
+  std::string path;  // "": the whole
   Kind kind;
   std::size_t offset;       // from the beginning of the whole message; of a column, of its message
   const Member* member;     // of a Time, null
   double min = 0, max = 0;  // of numbers; both 0: any
   std::shared_ptr<const Rows> rows = {};  // of a column
+  const Members* message = nullptr;       // of an Object
 };
 
 // Wide strings and long doubles are left out: no port can carry them.

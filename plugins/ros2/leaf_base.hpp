@@ -49,19 +49,11 @@ class LeafBase {
     }
     return given;
   }
-  // False after an error.
+  // False after an error. Objects first: the fields of a message change it.
   bool read(const FieldPorts& ports, Message& message) {
-    if (const std::string wrong = size_rows(host_, caller_, ports, message.get()); !wrong.empty()) {
-      fail(wrong.c_str());
-      return false;
-    }
-    for (const auto& [port, field] : ports) {
-      const std::string wrong = read_port({&host_, caller_, port}, *field, message.get());
-      if (wrong.empty()) continue;
-      fail(wrong.c_str());
-      return false;
-    }
-    return true;
+    return read_each(ports, message, true) &&
+           is_good(size_rows(host_, caller_, ports, message.get())) &&
+           read_each(ports, message, false);
   }
   void write(const FieldPorts& ports, const Message& message) {
     for (const auto& [port, field] : ports) {
@@ -82,6 +74,19 @@ class LeafBase {
 
   const lockstep_host& host_;
   const lockstep_caller* caller_;
+
+ private:
+  bool is_good(const std::string& wrong) {
+    if (!wrong.empty()) fail(wrong.c_str());
+    return wrong.empty();
+  }
+  bool read_each(const FieldPorts& ports, Message& message, bool objects) {
+    for (const auto& [port, field] : ports) {
+      if ((field->kind == Field::Kind::Object) != objects) continue;
+      if (!is_good(read_port({&host_, caller_, port}, *field, message.get()))) return false;
+    }
+    return true;
+  }
 };
 
 // The outcome of a leaf that has failed: it fails, or ends the run.

@@ -1,5 +1,9 @@
 #include "message.hpp"
 
+#include <rosidl_runtime_c/string_functions.h>
+#include <rosidl_runtime_c/u16string_functions.h>
+#include <rosidl_typesupport_introspection_c/field_types.h>
+
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -15,6 +19,69 @@ const Member& member_named(const Members& members, const char* name) {
 
 const Members& members_of(const Member& member) {
   return *static_cast<const Members*>(member.members_->data);
+}
+
+namespace {
+
+std::size_t size_of(std::uint8_t type) {
+  switch (type) {
+    case rosidl_typesupport_introspection_c__ROS_TYPE_LONG_DOUBLE:
+      return sizeof(long double);
+    case rosidl_typesupport_introspection_c__ROS_TYPE_DOUBLE:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT64:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT64:
+      return 8;
+    case rosidl_typesupport_introspection_c__ROS_TYPE_FLOAT:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT32:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT32:
+      return 4;
+    case rosidl_typesupport_introspection_c__ROS_TYPE_WCHAR:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_UINT16:
+    case rosidl_typesupport_introspection_c__ROS_TYPE_INT16:
+      return 2;
+    default:
+      return 1;
+  }
+}
+
+bool copy_item(const Member& member, void* to, const void* from) {
+  switch (member.type_id_) {
+    case rosidl_typesupport_introspection_c__ROS_TYPE_MESSAGE:
+      return copy_message(members_of(member), to, from);
+    case rosidl_typesupport_introspection_c__ROS_TYPE_STRING:
+      return rosidl_runtime_c__String__copy(static_cast<const rosidl_runtime_c__String*>(from),
+                                            static_cast<rosidl_runtime_c__String*>(to));
+    case rosidl_typesupport_introspection_c__ROS_TYPE_WSTRING:
+      return rosidl_runtime_c__U16String__copy(
+          static_cast<const rosidl_runtime_c__U16String*>(from),
+          static_cast<rosidl_runtime_c__U16String*>(to));
+    default:
+      std::memcpy(to, from, size_of(member.type_id_));
+      return true;
+  }
+}
+
+bool copy_list(const Member& member, void* to, const void* from) {
+  const std::size_t count = member.size_function(from);
+  if (member.resize_function != nullptr && !member.resize_function(to, count)) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!copy_item(member, member.get_function(to, i), member.get_const_function(from, i))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool copy_message(const Members& members, void* to, const void* from) {
+  for (std::uint32_t i = 0; i < members.member_count_; ++i) {
+    const Member& member = members.members_[i];
+    void* const there = static_cast<unsigned char*>(to) + member.offset_;
+    const void* const here = static_cast<const unsigned char*>(from) + member.offset_;
+    if (!(member.is_array_ ? copy_list : copy_item)(member, there, here)) return false;
+  }
+  return true;
 }
 
 Message::Message(const Members& members)

@@ -14,6 +14,9 @@ using Member = rosidl_typesupport_introspection_c__MessageMember;
 const Member& member_named(const Members& members, const char* name);
 const Members& members_of(const Member& member);
 
+// False: there is no memory. Both have been initialized.
+bool copy_message(const Members& members, void* to, const void* from);
+
 class Message {
  public:
   explicit Message(const Members& members);

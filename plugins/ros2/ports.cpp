@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "message_object.hpp"
+
 namespace ros2 {
 namespace {
 
@@ -28,6 +30,8 @@ lockstep_type type_of(Kind kind, lockstep_direction direction) {
       return LOCKSTEP_STRING_LIST;
     case Kind::Time:
       return direction == LOCKSTEP_INPUT ? LOCKSTEP_STRING : 0;
+    case Kind::Object:
+      return LOCKSTEP_OBJECT;
     case Kind::Messages:
       return 0;
   }
@@ -43,7 +47,8 @@ FieldPorts PortList::add(const std::string& prefix, const std::vector<Field>& fi
   for (const Field& field : fields) {
     const lockstep_type type = type_of(field.kind, direction);
     if (type == 0 || list_.size() == kMost) continue;
-    const std::string& name = names_.emplace_back(prefix + field.path);
+    const std::string& name = names_.emplace_back(
+        field.path.empty() ? prefix.substr(0, prefix.size() - 1) : prefix + field.path);
     lockstep_port& port = ports_.emplace_back();
     port.struct_size = sizeof port;
     port.type = type;
@@ -52,6 +57,7 @@ FieldPorts PortList::add(const std::string& prefix, const std::vector<Field>& fi
     port.min = field.min;
     port.max = field.max;
     if (direction == LOCKSTEP_INPUT) port.flags = LOCKSTEP_OPTIONAL;
+    if (field.kind == Kind::Object) port.object = &object_type(*field.message);
     if (field.kind == Kind::Time) {
       port.choices = "now";
       port.doc = "now: the time at which the goal is sent.";

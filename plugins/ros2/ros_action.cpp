@@ -283,7 +283,7 @@ const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t co
 const lockstep_leaf_type& ros_action() {
   static const lockstep_leaf_type type = [] {
     lockstep_leaf_type base = base_type();
-    base.more_ports = "goal.*;feedback.*;result.*";
+    base.more_ports = "goal;goal.*;feedback;feedback.*;result;result.*";
     base.describe = describe;
     // An element may have them.
     base.progress = LeafFunctions<RosAction>::progress;

@@ -58,7 +58,7 @@ const lockstep_leaf_type& ros_publish() {
         "Publishes a message on a topic of ROS 2, of any type, and succeeds at once. The "
         "attributes message.FIELD are the message.");
     base.flags |= LOCKSTEP_AT_ONCE;
-    base.more_ports = "message.*";
+    base.more_ports = "message;message.*";
     base.describe = describe;
     ports.give_to(base);
     return base;

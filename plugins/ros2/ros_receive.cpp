@@ -113,7 +113,7 @@ const lockstep_leaf_type& ros_receive() {
         "RosReceive",
         "Waits for a message on a topic of ROS 2, of any type, and succeeds when it has one. The "
         "attributes message.FIELD are put into entries.");
-    base.more_ports = "message.*";
+    base.more_ports = "message;message.*";
     base.describe = describe;
     ports.give_to(base);
     return base;

@@ -104,7 +104,7 @@ const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t co
 const lockstep_leaf_type& ros_service() {
   static const lockstep_leaf_type type = [] {
     lockstep_leaf_type base = base_type();
-    base.more_ports = "request.*;response.*";
+    base.more_ports = "request;request.*;response;response.*";
     base.describe = describe;
     return base;
   }();

@@ -13,6 +13,12 @@ class Action(World):
         self.assertEqual(run.returncode, 0, run.err)
         self.assertIn("1;2;3;4;5", self.recording.read_text())
 
+    def test_the_whole_result_is_an_object(self):
+        self.server("--action", "/count")
+        run = self.run_tree(count("c", "/count", 5, 'result="{whole}" goal="{none}"'))
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("sequence: 5 items", self.recording.read_text())
+
     def test_in_a_separate_process(self):
         self.server("--action", "/count")
         run = self.run_tree(count("c", "/count", 5, 'result.sequence="{all}"'), "--isolate")

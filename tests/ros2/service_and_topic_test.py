@@ -90,6 +90,42 @@ class Topic(World):
                                             message.poses.position.y="1;2"/>""")
         self.assertIn("'poses.position.y' has 2 values for the 3 items of 'poses'", run.err)
 
+    def test_whole_messages_are_objects(self):
+        stamped = 'type="geometry_msgs/msg/PoseStamped" qos="latched"'
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {stamped} topic="/a" message.header.frame_id="map"
+                      message.pose.position.x="1.5" message.pose.position.y="2"/>
+          <RosReceive {stamped} topic="/a" timeout="5" message="{{whole}}" message.pose="{{pose}}"/>
+          <RosPublish {stamped} topic="/b" message="{{whole}}" message.pose.position.y="3"/>
+          <RosReceive {stamped} topic="/b" timeout="5" message.header.frame_id="{{frame}}"
+                      message.pose.position.x="{{x}}" message.pose.position.y="{{y}}"/>
+          <Check code="frame == 'map' &amp;&amp; x == 1.5 &amp;&amp; y == 3"/>
+          <RosPublish type="geometry_msgs/msg/Pose" topic="/c" qos="latched" message="{{pose}}"/>
+          <RosReceive type="geometry_msgs/msg/Pose" topic="/c" qos="latched" timeout="5"
+                      message.position.y="{{z}}"/><Check code="z == 2"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("header.frame_id: map, pose.position.x: 1.5", self.recording.read_text())
+
+    def test_an_object_of_another_type(self):
+        run = self.check("""<Sequence memory="true">
+          <RosReceive type="geometry_msgs/msg/Pose" topic="/a" message="{it}"/>
+          <RosPublish type="geometry_msgs/msg/Point" topic="/b" message="{it}"/></Sequence>""")
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("geometry_msgs/msg/Point", run.stderr)
+
+    def test_an_object_with_sequences(self):
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {self.POSES} message.poses.position.x="1;2;3"/>
+          <RosReceive {self.POSES} timeout="5" message="{{all}}"/>
+          <RosPublish {self.POSES.replace("/poses", "/again")} message="{{all}}"
+                      message.poses.position.y="7"/>
+          <RosReceive {self.POSES.replace("/poses", "/again")} timeout="5"
+                      message.poses.position.x="{{x}}" message.poses.position.y="{{y}}"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        text = self.recording.read_text()
+        self.assertIn('"1;2;3"', text)
+        self.assertIn('"7;7;7"', text)
+
     def test_columns_of_lists(self):
         kind = 'type="diagnostic_msgs/msg/DiagnosticArray" topic="/d" qos="latched"'
         run = self.run_tree(f"""<Sequence memory="true">
