@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "named_leaves.hpp"
 #include "ports.hpp"
 
 namespace ros2 {
@@ -17,11 +18,14 @@ namespace ros2 {
 // The texts that an element gives to its fixed ports.
 class FixedTexts {
  public:
-  FixedTexts(const lockstep_fixed* fixed, std::uint32_t count) : fixed_(fixed), count_(count) {}
+  FixedTexts(const lockstep_fixed* fixed, std::uint32_t count)
+      : fixed_(fixed), count_(count), named_(named_leaf(fixed_text(fixed, count, kTagPort))) {}
   // "" when it is left out.
   std::string operator[](const lockstep_port& port) const {
-    return fixed_text(fixed_, count_, port.name);
+    return fixed_text(fixed_, count_, named_ == nullptr ? port.name : named_->name_of(port.name));
   }
+  // Null: the tag is that of a leaf type of the plugin.
+  const NamedLeaf* named() const { return named_; }
   std::vector<std::string> all() const {
     std::vector<std::string> texts;
     for (std::uint32_t i = 0; i < count_; ++i) {
@@ -34,6 +38,7 @@ class FixedTexts {
  private:
   const lockstep_fixed* fixed_;
   std::uint32_t count_;
+  const NamedLeaf* named_;
 };
 
 struct Refusal {
@@ -54,7 +59,11 @@ const lockstep_leaf_type* described(const lockstep_fixed* fixed, std::uint32_t c
   if (const auto it = known.find(key); it != known.end()) return &it->second->leaf;
   Refusal refusal;
   std::unique_ptr<Element> made = make(texts, refusal);
-  if (made == nullptr) return refuse(why, refusal.port->name, refusal.problem);
+  if (made == nullptr) {
+    const char* const port = refusal.port->name;
+    const NamedLeaf* const named = texts.named();
+    return refuse(why, named == nullptr ? port : named->name_of(port), refusal.problem);
+  }
   made->leaf.data = made.get();
   return &known.emplace(key, made.release()).first->second->leaf;
 }

@@ -5,6 +5,7 @@
 #include <rosidl_typesupport_introspection_c/field_types.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <type_traits>
@@ -172,13 +173,18 @@ std::string put_string(const Field& field, void* message, const char* text, std:
              : "there is no memory for '" + field.path + "'";
 }
 
-// The only value that a whole stamp has.
-void put_now(const Field& field, void* message) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  const std::int64_t now = ros_now();
-  auto* const stamp = static_cast<std::int32_t*>(address_in(field, message));
-  stamp[0] = static_cast<std::int32_t>(now / kSecond);
-  stamp[1] = static_cast<std::int32_t>(now % kSecond);
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+// A stamp or a duration: seconds, which may be negative, and nanoseconds, which are not.
+void put_time(const Field& field, void* message, std::int64_t nanoseconds) {
+  auto* const parts = static_cast<std::int32_t*>(address_in(field, message));
+  const std::int64_t rest = (nanoseconds % kSecond + kSecond) % kSecond;
+  parts[0] = static_cast<std::int32_t>((nanoseconds - rest) / kSecond);
+  parts[1] = static_cast<std::int32_t>(rest);
+}
+double seconds_in(const Field& field, const void* message) {
+  const auto* const parts = static_cast<const std::int32_t*>(address_in(field, message));
+  return parts[0] + static_cast<std::uint32_t>(parts[1]) / 1e9;
 }
 
 // How many values a list port has now; nothing: it has none.
@@ -240,6 +246,11 @@ std::string read_port(const PortOf& from, const Field& field, void* message) {
         put_number(type, address_in(field, message), value);
       }
       return {};
+    case Kind::Duration:
+      if (double value{}; host->get_double(caller, port, &value)) {
+        put_time(field, message, std::llround(value * 1e9));
+      }
+      return {};
     case Kind::String:
       if (const char* text{}; host->get_string(caller, port, &text, &count)) {
         return put_string(field, message, text, count);
@@ -247,7 +258,7 @@ std::string read_port(const PortOf& from, const Field& field, void* message) {
       return {};
     case Kind::Time:
       if (const char* text{}; host->get_string(caller, port, &text, &count)) {
-        put_now(field, message);
+        put_time(field, message, ros_now());
       }
       return {};
     case Kind::BoolList:
@@ -298,6 +309,9 @@ void write_port(const PortOf& to, const Field& field, const void* message) {
       return;
     case Kind::Double:
       host->set_double(caller, port, number_at<double>(type, at));
+      return;
+    case Kind::Duration:
+      host->set_double(caller, port, seconds_in(field, message));
       return;
     case Kind::String: {
       const auto& text = *static_cast<const String*>(at);
@@ -373,6 +387,7 @@ std::string text_of(const Members& members, const void* message) {
 std::optional<double> number_in(const Field& field, const void* message) {
   const bool is_number =
       field.kind == Kind::Bool || field.kind == Kind::Int || field.kind == Kind::Double;
+  if (field.kind == Kind::Duration) return seconds_in(field, message);
   if (!is_number) return std::nullopt;
   return number_at<double>(field.member->type_id_, address_in(field, message));
 }

@@ -61,9 +61,9 @@ std::optional<Scalar> scalar_of(std::uint8_t type) {
   }
 }
 
-bool is_time(const Members& members) {
+bool is_builtin(const Members& members, const char* name) {
   return std::strcmp(members.message_namespace_, "builtin_interfaces__msg") == 0 &&
-         std::strcmp(members.message_name_, "Time") == 0;
+         std::strcmp(members.message_name_, name) == 0;
 }
 
 class FieldList {
@@ -98,8 +98,10 @@ class FieldList {
                    const std::shared_ptr<const Rows>& rows) {
     const Members& members = members_of(member);
     if (!member.is_array_) {
-      if (rows == nullptr && is_time(members)) {
+      if (rows == nullptr && is_builtin(members, "Time")) {
         fields_.push_back({path, Kind::Time, at, nullptr});
+      } else if (rows == nullptr && is_builtin(members, "Duration")) {
+        fields_.push_back({path, Kind::Duration, at, nullptr});
       } else if (rows == nullptr) {
         add_object(members, path, at);
       }

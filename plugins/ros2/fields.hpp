@@ -27,13 +27,14 @@ struct Field {
     DoubleList,
     StringList,
     Time,      // a stamp: its fields follow, and "now" is a value of the whole
+    Duration,  // in seconds; its fields follow
     Messages,  // a sequence; its columns follow
     Object     // a whole message, which an entry carries; its fields follow
   };
   std::string path;  // "": the whole
   Kind kind;
   std::size_t offset;       // from the beginning of the whole message; of a column, of its message
-  const Member* member;     // of a Time, null
+  const Member* member;     // of a Time, Duration and Object, null
   double min = 0, max = 0;  // of numbers; both 0: any
   std::shared_ptr<const Rows> rows = {};  // of a column
   const Members* message = nullptr;       // of an Object

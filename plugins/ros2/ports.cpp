@@ -17,6 +17,7 @@ lockstep_type type_of(Kind kind, lockstep_direction direction) {
     case Kind::Int:
       return LOCKSTEP_INT;
     case Kind::Double:
+    case Kind::Duration:
       return direction == LOCKSTEP_INPUT ? LOCKSTEP_NUMBER : LOCKSTEP_DOUBLE;
     case Kind::String:
       return LOCKSTEP_STRING;
@@ -42,30 +43,43 @@ lockstep_type type_of(Kind kind, lockstep_direction direction) {
 
 FieldPorts PortList::add(const std::string& prefix, const std::vector<Field>& fields,
                          lockstep_direction direction) {
-  constexpr std::size_t kMost = 4096;  // that a leaf type may have
   FieldPorts added;
   for (const Field& field : fields) {
-    const lockstep_type type = type_of(field.kind, direction);
-    if (type == 0 || list_.size() == kMost) continue;
-    const std::string& name = names_.emplace_back(
-        field.path.empty() ? prefix.substr(0, prefix.size() - 1) : prefix + field.path);
-    lockstep_port& port = ports_.emplace_back();
-    port.struct_size = sizeof port;
-    port.type = type;
-    port.direction = direction;
-    port.name = name.c_str();
-    port.min = field.min;
-    port.max = field.max;
-    if (direction == LOCKSTEP_INPUT) port.flags = LOCKSTEP_OPTIONAL;
-    if (field.kind == Kind::Object) port.object = &object_type(*field.message);
-    if (field.kind == Kind::Time) {
-      port.choices = "now";
-      port.doc = "now: the time at which the goal is sent.";
+    const std::string name =
+        field.path.empty() ? prefix.substr(0, prefix.size() - 1) : prefix + field.path;
+    // A short name may be that of another field.
+    if (named_ == nullptr || named_->names.count(name) == 0) {
+      add_one(name, field, direction, added);
     }
-    added.push_back({static_cast<std::uint32_t>(list_.size()), &field});
-    list_.push_back(&port);
+    if (named_ == nullptr) continue;
+    for (const auto& [short_name, means] : named_->names) {
+      if (means == name) add_one(short_name, field, direction, added);
+    }
   }
   return added;
+}
+
+void PortList::add_one(const std::string& name, const Field& field, lockstep_direction direction,
+                       FieldPorts& added) {
+  constexpr std::size_t kMost = 4096;  // that a leaf type may have
+  const lockstep_type type = type_of(field.kind, direction);
+  if (type == 0 || list_.size() == kMost) return;
+  lockstep_port& port = ports_.emplace_back();
+  port.struct_size = sizeof port;
+  port.type = type;
+  port.direction = direction;
+  port.name = names_.emplace_back(name).c_str();
+  port.min = field.min;
+  port.max = field.max;
+  if (direction == LOCKSTEP_INPUT) port.flags = LOCKSTEP_OPTIONAL;
+  if (field.kind == Kind::Duration) port.unit = "s";
+  if (field.kind == Kind::Object) port.object = &object_type(*field.message);
+  if (field.kind == Kind::Time) {
+    port.choices = "now";
+    port.doc = "now: the time at which the goal is sent.";
+  }
+  added.push_back({static_cast<std::uint32_t>(list_.size()), &field});
+  list_.push_back(&port);
 }
 
 void PortList::give_to(lockstep_leaf_type& type) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "field_values.hpp"
+#include "named_leaves.hpp"
 #include "result.hpp"
 
 namespace ros2 {
@@ -16,18 +17,24 @@ class PortList {
  public:
   // Those that every element has come first.
   template <std::size_t Count>
-  explicit PortList(const lockstep_port (&own)[Count]) {
+  explicit PortList(const lockstep_port (&own)[Count], const NamedLeaf* named = nullptr)
+      : named_(named) {
     for (const lockstep_port& port : own) list_.push_back(&port);
+    if (named != nullptr) list_ = named->ports;
   }
   PortList(const PortList&) = delete;
   PortList& operator=(const PortList&) = delete;
 
-  // "goal.order" for each field. The fields outlive this.
+  // "goal.order" for each field, and what a table calls it. The fields outlive this.
   FieldPorts add(const std::string& prefix, const std::vector<Field>& fields,
                  lockstep_direction direction);
   void give_to(lockstep_leaf_type& type) const;
 
  private:
+  void add_one(const std::string& name, const Field& field, lockstep_direction direction,
+               FieldPorts& added);
+
+  const NamedLeaf* named_;
   std::deque<lockstep_port> ports_;
   std::deque<std::string> names_;
   std::vector<const lockstep_port*> list_;

@@ -117,8 +117,8 @@ class ProgressReader {
       return fail("knows no '" + name + "'", suggestion(name, names));
     }
     using Kind = Field::Kind;
-    const bool is_number =
-        found->kind == Kind::Bool || found->kind == Kind::Int || found->kind == Kind::Double;
+    const bool is_number = found->kind == Kind::Bool || found->kind == Kind::Int ||
+                           found->kind == Kind::Double || found->kind == Kind::Duration;
     const bool has_size = found->kind == Kind::String || found->rows != nullptr ||
                           (found->member != nullptr && found->member->is_array_);
     if (what == What::Size && !has_size) return fail("'" + name + "' has no size", "size(LIST)");

@@ -2,9 +2,11 @@
 #include <lockstep/leaf.h>
 
 #include <cstring>
-#include <iterator>
+#include <string>
+#include <vector>
 
 #include "middleware.hpp"
+#include "named_leaves.hpp"
 #include "ros_action.hpp"
 #include "ros_lifecycle.hpp"
 #include "ros_parameter.hpp"
@@ -59,11 +61,18 @@ constexpr lockstep_plugin plugin_of(std::uint32_t count, const lockstep_leaf_typ
 }
 
 // The tables of leaf types are made when the plugin is opened.
-const lockstep_plugin* describe(const char** /*why*/) {
-  static const lockstep_leaf_type* const types[] = {&ros2::ros_action(),    &ros2::ros_service(),
-                                                    &ros2::ros_publish(),   &ros2::ros_receive(),
-                                                    &ros2::ros_parameter(), &ros2::ros_lifecycle()};
-  static const lockstep_plugin plugin = plugin_of(std::size(types), types);
+const lockstep_plugin* describe(const char** why) {
+  static std::vector<const lockstep_leaf_type*> types = {
+      &ros2::ros_action(),  &ros2::ros_service(),   &ros2::ros_publish(),
+      &ros2::ros_receive(), &ros2::ros_parameter(), &ros2::ros_lifecycle()};
+  static const std::string wrong =
+      ros2::read_named_leaves(ros2::ros_action(), ros2::ros_service(), types);
+  if (!wrong.empty()) {
+    *why = wrong.c_str();
+    return nullptr;
+  }
+  static const lockstep_plugin plugin =
+      plugin_of(static_cast<std::uint32_t>(types.size()), types.data());
   return &plugin;
 }
 

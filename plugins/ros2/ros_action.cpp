@@ -53,7 +53,7 @@ constexpr lockstep_port kOwnPorts[] = {
 
 // One element's: what its constants say, and the ports that follow from that.
 struct ActionElement {
-  explicit ActionElement(const ActionType& of) : type(of), ports(kOwnPorts) {}
+  ActionElement(const ActionType& of, const NamedLeaf* named) : type(of), ports(kOwnPorts, named) {}
 
   const ActionType& type;
   std::string action;
@@ -251,7 +251,7 @@ std::unique_ptr<ActionElement> make_element(const FixedTexts& texts, Refusal& re
     refusal = {&kOwnPorts[kType], type.problem()};
     return nullptr;
   }
-  auto element = std::make_unique<ActionElement>(**type);
+  auto element = std::make_unique<ActionElement>(**type, texts.named());
   element->action = texts[kOwnPorts[kAction]];
   element->faults = texts[kOwnPorts[kOnFailure]] == "fault";
   if (const std::string text = texts[kOwnPorts[kProgress]]; !text.empty()) {
@@ -270,6 +270,7 @@ std::unique_ptr<ActionElement> make_element(const FixedTexts& texts, Refusal& re
   }
   element->hold = *hold;
   describe_ports(*element);
+  if (texts.named() != nullptr) element->leaf.id = texts.named()->id.c_str();
   return element;
 }
 

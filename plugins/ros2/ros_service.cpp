@@ -23,7 +23,8 @@ constexpr lockstep_port kOwnPorts[] = {
 };
 
 struct ServiceElement {
-  explicit ServiceElement(const ServiceType& of) : type(of), ports(kOwnPorts) {}
+  ServiceElement(const ServiceType& of, const NamedLeaf* named)
+      : type(of), ports(kOwnPorts, named) {}
 
   const ServiceType& type;
   std::string service;
@@ -84,13 +85,14 @@ std::unique_ptr<ServiceElement> make_element(const FixedTexts& texts, Refusal& r
     refusal = {&kOwnPorts[kType], type.problem()};
     return nullptr;
   }
-  auto element = std::make_unique<ServiceElement>(**type);
+  auto element = std::make_unique<ServiceElement>(**type, texts.named());
   element->service = texts[kOwnPorts[kService]];
   element->faults = texts[kOwnPorts[kOnFailure]] == "fault";
   element->request = element->ports.add("request.", element->type.request, LOCKSTEP_INPUT);
   element->response = element->ports.add("response.", element->type.response, LOCKSTEP_OUTPUT);
   element->leaf = base_type();
   element->ports.give_to(element->leaf);
+  if (texts.named() != nullptr) element->leaf.id = texts.named()->id.c_str();
   return element;
 }
 

@@ -1,0 +1,35 @@
+// Short tags for actions and services, from a table: LOCKSTEP_ROS_NODES, docs/ros2.md.
+#pragma once
+
+#include <lockstep/leaf.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace ros2 {
+
+struct NamedLeaf {
+  std::string id, kind, type, name;
+  std::map<std::string, std::string> names;     // an attribute, and the field or port that it means
+  std::map<std::string, std::string> defaults;  // of ports
+  // Made of these: the ports that each element has, and the leaf type.
+  std::vector<lockstep_port> own;
+  std::vector<const lockstep_port*> ports;
+  std::string more_ports;
+  lockstep_leaf_type leaf{};
+
+  // What the tag calls a port of the base.
+  const char* name_of(const char* port) const;
+};
+
+// The port that tells which row an element is of. Its only value is the tag.
+constexpr const char* kTagPort = "tag";
+// Null: `tag` is "".
+const NamedLeaf* named_leaf(const std::string& tag);
+
+// Reads the tables. Returns "" or what is wrong in them. `action` and `service` are the bases.
+std::string read_named_leaves(const lockstep_leaf_type& action, const lockstep_leaf_type& service,
+                              std::vector<const lockstep_leaf_type*>& types);
+
+}  // namespace ros2

@@ -1,0 +1,105 @@
+"""Short tags from a table, as nav2.nodes has them for Nav2."""
+
+import os
+from unittest import mock
+
+from world import LOCKSTEP, PLUGINS, ROOT, World
+
+TABLE = """# tags of this test
+CountTo action example_interfaces/action/Fibonacci /count
+  server_name = action
+  order = goal.order
+  counted = result.sequence
+  progress : size(feedback.sequence) / goal.order
+  hold : cancel
+
+Lamp service example_interfaces/srv/SetBool
+  service_name = service
+  on = request.data
+"""
+
+
+class Named(World):
+    plugins = ("ros2", "nav_control")
+    plugin_paths = (PLUGINS, LOCKSTEP.parent / "plugins")
+
+    def setUp(self):
+        super().setUp()
+        self.use(TABLE)
+
+    def use(self, text):
+        table = self.directory / "own.nodes"
+        table.write_text(text)
+        patch = mock.patch.dict(os.environ, LOCKSTEP_ROS_NODES=str(table))
+        patch.start()
+        self.addCleanup(patch.stop)
+
+    def test_a_tree_of_the_shape_of_those_of_nav2(self):
+        server = self.server("--action", "/count", "--abort", 9, "--hold-service", "/lamp")
+        tree = self.directory / "navigate.xml"
+        tree.write_text("""<root BTCPP_format="4" main_tree_to_execute="Main">
+          <BehaviorTree ID="Main">
+            <RecoveryNode number_of_retries="2" name="all">
+              <PipelineSequence name="drive">
+                <RateController hz="10"><CountTo order="2" counted="{path}"/></RateController>
+                <CountTo server_name="/slow" order="4"/>
+              </PipelineSequence>
+              <RoundRobin name="help">
+                <Lamp service_name="/lamp" on="true"/>
+                <CountTo order="1"/>
+              </RoundRobin>
+            </RecoveryNode>
+          </BehaviorTree></root>""")
+        self.server("--action", "/slow", "--step", 100)
+        with mock.patch.object(self, "command", lambda verb, nodes, *options: [
+                LOCKSTEP, verb, tree, "--plugin", "ros2", "--plugin", "nav_control", "--plugin-path", PLUGINS,
+                "--plugin-path", LOCKSTEP.parent / "plugins", *options]):
+            run = self.run_tree("")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertGreater(server.lines.count("succeeded 2"), 1)
+
+    def test_in_the_language_of_lockstep(self):
+        self.server("--action", "/count")
+        run = self.run_tree('<CountTo name="c" order="5" counted="{all}"/>')
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn('"1;2;3;4;5"', self.recording.read_text())
+        self.assertIn(0.4, self.progress("c").values())
+
+    def test_a_barrier_holds_them(self):
+        self.server("--action", "/fast", "--step", 20, "--keep")
+        self.server("--action", "/slow", "--step", 60)
+        run = self.run_tree("""<ParallelAbsolute barriers="0.5">
+          <CountTo name="fast" server_name="/fast" order="20"/>
+          <CountTo name="slow" server_name="/slow" order="20"/></ParallelAbsolute>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        fast, slow = self.progress("fast"), self.progress("slow")
+        self.assertLess(max(abs(fast[at] - slow[at]) for at in fast.keys() & slow.keys()), 0.45)
+
+    def test_mistakes_in_a_tree(self):
+        run = self.check('<CountTo ordr="5"/>')
+        self.assertIn("did you mean 'order'?", run.stderr)
+        run = self.check('<Lamp on="true"/>')
+        self.assertIn("needs the parameter 'service_name'", run.stderr)
+
+    def test_a_package_that_is_not_there(self):
+        self.use((ROOT / "plugins/ros2/nav2.nodes").read_text())
+        self.plugins = ("ros2",)
+        run = self.check('<ComputePathToPose goal="{goal}" path="{path}"/>')
+        if os.path.exists("/opt/ros") and run.returncode == 0:
+            self.skipTest("nav2_msgs is installed")
+        self.assertIn("there is no package 'nav2_msgs'", run.stderr)
+
+    def test_mistakes_in_a_table(self):
+        for text, what in (("CountTo topic a/b/C", "own.nodes:1: expected TAG action|service"),
+                           (TABLE + "\n  nothing", "own.nodes:13: expected NAME = FIELD"),
+                           (TABLE + "\nCountTo action a/action/B", "'CountTo' is there twice")):
+            self.use(text)
+            run = self.check("<AlwaysSuccess/>")
+            self.assertNotEqual(run.returncode, 0)
+            self.assertIn(what, run.stderr)
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main()
