@@ -147,8 +147,9 @@ class Held(World):
         return run
 
     def test_nothing_lets_the_robot_go_on(self):
-        self.pair('hold="nothing"')
+        run = self.pair('hold="nothing"')
         self.assertGreater(self.spread, 0.55)
+        self.assertIn("went on while it was held", run.out)
 
     def test_cancel_and_send_again_to_a_robot_that_has_a_position(self):
         self.pair('hold="cancel"', "--keep")
