@@ -1,5 +1,7 @@
 """The action server run_tree, which RosAction uses here as any client does."""
 
+import signal
+
 from world import PLUGINS, TREE_SERVER, World, count
 
 STATE = 'type="lockstep_ros/msg/TreeState" topic="/tree_server/state" qos="latched" timeout="5"'
@@ -93,6 +95,22 @@ class TreeServer(World):
           <Check code="status == 'halted'"/></Sequence>""")
         self.assertEqual(run.returncode, 0, run.err)
         server.wait_for("cancel")
+
+    def test_a_server_that_is_stopped_halts_the_tree(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            robot = self.server("--action", "/count")
+            self.tree(count("c", "/count", 1000))
+            server = self.serve()
+            run = self.start(self.goal())
+            robot.wait_for("goal 1000")
+            server.stop(number)
+            robot.wait_for("cancel")
+            _, err = run.communicate(timeout=5)
+            self.assertIn("run: failure", err)
+            self.assertIn('"aborted"', self.recording.read_text())
+            self.assertIn('"halted"', self.recording.read_text())
+            self.assertEqual(server.process.returncode, 0)
+            robot.stop()
 
     def test_one_tree_at_a_time(self):
         self.tree('<Wait seconds="2"/>')

@@ -50,7 +50,9 @@ class RosActionNode : public ActionNodeBase {
   using Feedback = typename ActionT::Feedback;
 
   RosActionNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ActionNodeBase(name, config), lockstep_work_(params) {}
+      : ActionNodeBase(name, config), lockstep_work_(params) {
+    if (lockstep_detail::has_ros_name(*this, "action_name", params)) lockstep_open();
+  }
   // A goal that was halted before the server has accepted it is canceled then.
   ~RosActionNode() override {
     lockstep_work_.spin_until([this] { return lockstep_unanswered_ == 0; },

@@ -36,7 +36,9 @@ class RosServiceNode : public ActionNodeBase {
   using Response = typename ServiceT::Response;
 
   RosServiceNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ActionNodeBase(name, config), lockstep_work_(params) {}
+      : ActionNodeBase(name, config), lockstep_work_(params) {
+    if (lockstep_detail::has_ros_name(*this, "service_name", params)) lockstep_open();
+  }
 
   static PortsList providedBasicPorts(PortsList more) {
     return lockstep_detail::with_name_port("service_name", "The name of the service",

@@ -12,7 +12,9 @@ class RosTopicPubNode : public ConditionNode {
   using Publisher = rclcpp::Publisher<TopicT>;
 
   RosTopicPubNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ConditionNode(name, config), lockstep_work_(params) {}
+      : ConditionNode(name, config), lockstep_work_(params) {
+    if (lockstep_detail::has_ros_name(*this, "topic_name", params)) lockstep_open();
+  }
 
   static PortsList providedBasicPorts(PortsList more) {
     return lockstep_detail::with_name_port("topic_name", "The name of the topic", std::move(more));

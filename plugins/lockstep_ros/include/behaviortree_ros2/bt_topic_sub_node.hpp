@@ -14,8 +14,7 @@ class RosTopicSubNode : public ConditionNode {
   // Messages count from here on, where the name of the topic is known already.
   RosTopicSubNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
       : ConditionNode(name, config), lockstep_work_(params) {
-    const auto given = getInput<std::string>("topic_name");
-    if ((given && !given.value().empty()) || !params.default_port_value.empty()) lockstep_open();
+    if (lockstep_detail::has_ros_name(*this, "topic_name", params)) lockstep_open();
   }
 
   static PortsList providedBasicPorts(PortsList more) {

@@ -62,6 +62,12 @@ inline std::string ros_name(const TreeNode& node, const char* port, const RosNod
                      "RosNodeParams::default_port_value");
 }
 
+// Whether it is known before the first tick, which is not to wait for the making of a client.
+inline bool has_ros_name(const TreeNode& node, const char* port, const RosNodeParams& params) {
+  const auto given = node.getInput<std::string>(port);
+  return (given && !given.value().empty()) || !params.default_port_value.empty();
+}
+
 inline PortsList with_name_port(const char* port, const char* doc, PortsList more) {
   PortsList all = {InputPort<std::string>(port, "", doc)};
   all.insert(more.begin(), more.end());
