@@ -110,7 +110,8 @@ void ModelLeaves::begin_tick() {
     const std::int64_t now = states_[leaf].level;
     const std::int64_t first = std::clamp<std::int64_t>(now + model.least_drift, 0, top);
     const std::int64_t last = std::clamp<std::int64_t>(now + model.most_drift, 0, top);
-    const std::int64_t to = first + answers_.choose(static_cast<std::uint32_t>(last - first + 1));
+    const std::int64_t to =
+        first + answers_.choose(static_cast<std::uint32_t>(last - first + 1), leaf);
     set_level(leaf, to);
     mark(leaf).drifted = true;
     mark(leaf).held_progress = progress_[leaf];
@@ -160,16 +161,18 @@ bool ModelLeaves::ask(std::uint32_t fact) {
   FactState& state = facts_[fact];
   if (asked_[fact]) return state == FactState::True;
   asked_[fact] = true;
+  const auto asker = static_cast<std::uint32_t>(states_.size()) + fact;
   const bool is_settled = (changes == Changes::Never && state != FactState::Unknown) ||
                           (changes == Changes::Rises && state == FactState::True) ||
                           (changes == Changes::Falls && state == FactState::False);
-  if (!is_settled) state = answers_.choose(2) == 0 ? FactState::True : FactState::False;
+  if (!is_settled) state = answers_.choose(2, asker) == 0 ? FactState::True : FactState::False;
   return state == FactState::True;
 }
 
 void ModelLeaves::write(std::uint32_t leaf) {
   for (const LeafModel::Output& output : models_.leaves[leaf].outputs) {
-    const std::uint32_t which = answers_.choose(static_cast<std::uint32_t>(output.values.size()));
+    const auto count = static_cast<std::uint32_t>(output.values.size());
+    const std::uint32_t which = answers_.choose(count, leaf);
     mark(leaf).written.push_back(which);
     write_(leaf, output, output.values[which]);
   }
@@ -216,7 +219,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
     model.can_run ? void(may_run = true) : void(ends[count++] = Status::Success);
   }
   const auto running = may_run ? static_cast<std::uint32_t>(to - from + 1) : 0;
-  std::uint32_t choice = answers_.choose(count + (may_fault ? 1 : 0) + running);
+  std::uint32_t choice = answers_.choose(count + (may_fault ? 1 : 0) + running, leaf);
   if (choice < count) {
     mark.result = ends[choice];
     mark.ended = true;

@@ -31,7 +31,7 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   if (!found.is_complete()) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
-  Stepper stepper(tree, models, {}, period, found.symmetry);
+  Stepper stepper(tree, models, {}, period, found.symmetry, found.rising_answers);
   for (StateId state = 0; state < found.store.size(); ++state) {
     stepper.load(found.store[state], state == 0);
     const std::vector<Activity> before = stepper.before().run.activity;

@@ -31,8 +31,7 @@ void ChildOrder::sort(KeptState& state) {
   has_moved_ = false;
   number_kept_children(state, Numbered::FromNode);
   for (const EqualChildren& it : symmetry_.classes()) {
-    const bool are_plain = it.nodes == 1 && it.leaves == 1 && it.words == 0;
-    const bool is_sorted = are_plain ? sort_leaves(it, state) : sort_subtrees(it, state);
+    const bool is_sorted = it.are_leaves() ? sort_leaves(it, state) : sort_subtrees(it, state);
     if (!is_sorted) apply(it, state);
   }
   number_kept_children(state, Numbered::InTree);

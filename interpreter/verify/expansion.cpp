@@ -30,7 +30,7 @@ Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const P
                    Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits)
     : tree_(tree),
       limits_(limits),
-      stepper_(tree, models, properties, period, symmetry),
+      stepper_(tree, models, properties, period, symmetry, limits.rising_answers),
       labeller_(tree, models, properties.size(), symmetry),
       coverage_(tree) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
@@ -110,7 +110,7 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   look_at_values(step, into);
   labeller_.of(stepper_);
   const StateBytes& state = stepper_.fold();
-  const std::uint32_t label = labels_.add(labeller_.with_moves(stepper_.origins()));
+  const std::uint32_t label = labels_.add(labeller_.with_moves(stepper_));
   const std::uint64_t hash = hash_of(state);
   StateId to = known_->find(state, hash);
   if (to == kNoState) {

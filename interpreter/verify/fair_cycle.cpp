@@ -29,7 +29,8 @@ class UnionFind {
 
 // Finds a fair cycle in a component, by leaving out edges on which a leaf works that never ends in
 // it. A leaf that may move is, in each state, the leaf at a place: in a component, the places that
-// the edges lead it through are one set, from each of which it comes to each other one.
+// the edges lead it through are one set, from each of which it comes to each other one. So are the
+// places of leaves in equal states.
 class FairCycle {
  public:
   enum class Fairness : bool { Needed, Ignored };
@@ -142,6 +143,7 @@ class FairCycle {
     for_each_edge(component, within, [&](StateId from, const Edge& edge) {
       for (std::size_t i = 0; i < count; ++i) {
         leaves.unite(place(from, i), place(edge.to, graph_.leaf_after(edge, i)));
+        leaves.unite(place(from, i), place(from, graph_.leaf_before(edge, i)));
       }
     });
     std::vector<bool> work(component.size() * count), end(component.size() * count);
@@ -167,9 +169,12 @@ class FairCycle {
   std::vector<CycleStep> walk(const Component& component, const Way::Uses& within) const {
     const StateId start = std::ranges::min(component);
     const Way way(graph_, within);
-    const Way following(graph_, within, {moving_.size(), [&](const Edge& edge, std::size_t i) {
-                                           return graph_.leaf_after(edge, i);
-                                         }});
+    const Way following(
+        graph_, within,
+        {.places = moving_.size(),
+         .choices = [&](const Edge& edge, std::size_t i,
+                        const FollowedLeaf::Take& take) { graph_.for_each_equal(edge, i, take); },
+         .next = [&](const Edge& edge, std::size_t i) { return graph_.leaf_after(edge, i); }});
     const auto is_start = [&](StateId, const Edge& edge, std::size_t) { return edge.to == start; };
     std::vector<CycleStep> cycle = way.find(start, is_start);
     const auto take = [&](const std::vector<CycleStep>& steps) {
@@ -211,6 +216,7 @@ class FairCycle {
       std::size_t place = first;
       bool work = false, end = false;
       for (const CycleStep& it : cycle) {
+        place = it.swaps[0](place);
         work |= works(it.edge, moving_[place]);
         end |= ends(it.edge, moving_[place]);
         place = graph_.leaf_after(it.edge, place);

@@ -2,6 +2,7 @@
 // did. The questions of a verdict are asked here, without the engine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -34,12 +35,41 @@ struct Graph {
     const std::size_t leaves = shape.moving_leaves.size();
     return shape.place_after(labels[edge.label], leaves + moving) - leaves;
   }
+  // The one before it that is in an equal state before the edge, or itself.
+  std::size_t leaf_before(const Edge& edge, std::size_t moving) const {
+    return shape.equal_before(labels[edge.label], moving);
+  }
+  // Calls it for each of the leaves that may move whose places this one may have before the edge:
+  // itself, and those in equal states.
+  template <class F>
+  void for_each_equal(const Edge& edge, std::size_t moving, const F& call) const {
+    const auto label = labels[edge.label];
+    call(moving);
+    if (!shape.has_equal(label)) return;
+    for (std::size_t i = moving; shape.equal_before(label, i) != i;) {
+      call(i = shape.equal_before(label, i));
+    }
+    for (std::size_t i = moving + 1, last = moving; i < shape.moving_leaves.size(); ++i) {
+      if (shape.equal_before(label, i) == last) call(last = i);
+    }
+  }
 };
+
+// Two leaves in equal states that change places, by their places among those that may move.
+struct Swap {
+  std::size_t one = 0, other = 0;
+
+  std::size_t operator()(std::size_t leaf) const {
+    return leaf == one ? other : leaf == other ? one : leaf;
+  }
+};
+using Swaps = std::array<Swap, 2>;  // the first one first
 
 // A way through a graph, edge by edge.
 struct CycleStep {
   StateId from;
   Edge edge;
+  Swaps swaps = {};  // before the edge
 };
 // The edges that it may use.
 using EdgeFilter = std::function<bool(const Edge&)>;

@@ -8,6 +8,29 @@
 
 namespace lockstep::host {
 
+// Children that may come to each other's places, followed: a state for each state and each of them,
+// and the edges that hold it.
+class FollowedChildren {
+ public:
+  // Both must outlive this.
+  FollowedChildren(const Graph& graph, const std::vector<std::size_t>& children);
+
+  Graph graph() const;
+  // The step of the graph that is followed for one of that.
+  CycleStep step(const Graph& followed, const CycleStep& step) const;
+
+ private:
+  template <class F>
+  void for_each(const Edge& edge, std::size_t child, const F& call) const;
+  std::vector<std::byte> label(const Edge& edge, std::size_t child, Swap swap) const;
+
+  const Graph& graph_;
+  const std::vector<std::size_t>& children_;
+  std::vector<std::size_t> moving_;    // of each child: its place among those that may move
+  std::vector<std::size_t> places_;    // of each that may move: its place among the children
+  std::vector<std::uint32_t> leaves_;  // of each child: its place among the leaves that may move
+};
+
 class Holds {
  public:
   // `graph` must outlive this. `children`, of LabelShape::held: one, or all that may come to its
@@ -28,8 +51,8 @@ class Holds {
 
   const Graph& graph_;
   const std::vector<std::size_t> children_;
-  // With several children: a state for each state and each of them, and the edges that hold it.
-  Graph followed_;
+  const FollowedChildren following_;
+  Graph followed_;  // with several children
 };
 
 }  // namespace lockstep::host

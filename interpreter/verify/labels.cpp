@@ -43,10 +43,16 @@ Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t prope
     number_of_held_[held_[i].child] = static_cast<std::uint32_t>(moving_held_.size());
     moving_held_.push_back(i);
   }
+  for (const std::uint32_t leaf : moving_leaves_) {
+    const std::uint32_t held = number_of_held_[tree.leaves[leaf].node];
+    held_of_leaf_.push_back(held == kStays ? LabelShape::kNowhere
+                                           : static_cast<LabelShape::Place>(held));
+  }
 }
 
 LabelShape Labeller::shape() const {
-  return {tree_.leaves.size(), held_.size(), properties_, moving_leaves_, moving_held_};
+  return {tree_.leaves.size(), held_.size(), properties_,
+          moving_leaves_,      moving_held_, held_of_leaf_};
 }
 
 const LabelTable::Bits& Labeller::of(Stepper& stepper) {
@@ -70,21 +76,28 @@ const LabelTable::Bits& Labeller::of(Stepper& stepper) {
   return bits_;
 }
 
-const LabelTable::Bits& Labeller::with_moves(std::span<const NodeIndex> origins) {
-  if (origins.empty()) return bits_;
+const LabelTable::Bits& Labeller::with_moves(const Stepper& stepper) {
+  const std::span<const NodeIndex> origins = stepper.origins();
+  const TickAnswers& answers = stepper.answers();
+  if (origins.empty() && !answers.has_equal()) return bits_;
+  const std::size_t leaves = moving_leaves_.size(), moves = leaves + moving_held_.size();
   with_moves_.resize(bits_.size() +
-                     (moving_leaves_.size() + moving_held_.size()) * sizeof(LabelShape::Place));
+                     (moves + (answers.has_equal() ? leaves : 0)) * sizeof(LabelShape::Place));
   std::ranges::copy(bits_, with_moves_.begin());
-  const auto put = [&](std::size_t from, std::size_t to) {
-    const auto place = static_cast<LabelShape::Place>(to);
-    std::memcpy(with_moves_.data() + bits_.size() + from * sizeof place, &place, sizeof place);
+  const auto put = [&](std::size_t number, std::size_t value) {
+    const auto place = static_cast<LabelShape::Place>(value);
+    std::memcpy(with_moves_.data() + bits_.size() + number * sizeof place, &place, sizeof place);
   };
-  const std::size_t leaves = moving_leaves_.size();
+  const auto origin = [&](NodeIndex node) { return origins.empty() ? node : origins[node]; };
   for (std::size_t to = 0; to < leaves; ++to) {
-    put(number_of_leaf_[origins[tree_.leaves[moving_leaves_[to]].node]], to);
+    put(number_of_leaf_[origin(tree_.leaves[moving_leaves_[to]].node)], to);
   }
   for (std::size_t to = 0; to < moving_held_.size(); ++to) {
-    put(leaves + number_of_held_[origins[held_[moving_held_[to]].child]], leaves + to);
+    put(leaves + number_of_held_[origin(held_[moving_held_[to]].child)], leaves + to);
+  }
+  for (std::size_t i = 0; i < leaves && answers.has_equal(); ++i) {
+    const std::uint32_t before = answers.equal_before(moving_leaves_[i]);
+    put(moves + i, before == TickAnswers::kNone ? i : number_of_leaf_[tree_.leaves[before].node]);
   }
   return with_moves_;
 }

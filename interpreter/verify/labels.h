@@ -22,8 +22,8 @@ class Labeller {
   LabelShape shape() const;
   // After a tick, before its state is folded. Valid until the next call.
   const LabelTable::Bits& of(Stepper& stepper);
-  // The same once the state is folded, with where everything went; `origins` are Stepper's.
-  const LabelTable::Bits& with_moves(std::span<const NodeIndex> origins);
+  // The same once the state is folded, with where everything went.
+  const LabelTable::Bits& with_moves(const Stepper& stepper);
   // A label without moves, of the same tick in a run where each node is at one of these places.
   LabelTable::Bits moved(const LabelTable::Bits& bits, std::span<const NodeIndex> places) const;
 
@@ -35,6 +35,7 @@ class Labeller {
   const std::vector<Holdable> held_;
   const std::size_t properties_;
   std::vector<std::uint32_t> moving_leaves_, moving_held_;
+  std::vector<LabelShape::Place> held_of_leaf_;
   std::vector<std::uint32_t> number_of_leaf_, number_of_held_;  // of nodes: among those that move
   LabelTable::Bits bits_, with_moves_;
 };

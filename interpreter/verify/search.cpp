@@ -21,6 +21,7 @@ class Searcher {
            Nanoseconds period, const SearchLimits& limits)
       : tree_(tree), limits_(limits), crew_(std::max(1u, limits.jobs)), result_(tree) {
     result_.store = StateStore(limits.hash_bits);
+    result_.rising_answers = limits.rising_answers;
     if (limits.symmetry) result_.symmetry = Symmetry(tree, models, nodes_of(properties, tree));
     for (unsigned i = 0; i < std::max(1u, limits.jobs); ++i) {
       expanders_.push_back(

@@ -25,6 +25,7 @@ struct SearchResult {
   std::string note;  // of Values: which entry
   int signal = 0;
   Symmetry symmetry;
+  bool rising_answers = true;  // as in the limits
   StateStore store;
   std::deque<Step> before;      // of each state: the tick that found it; of the first none
   std::vector<StateId> depths;  // the first state of each depth

@@ -29,6 +29,7 @@ struct SearchLimits {
   unsigned jobs = 1;                                     // threads; all find the same
   unsigned hash_bits = 0;                                // in place of states; 0: states are kept
   bool symmetry = true;                                  // states of equal children count once
+  bool rising_answers = true;  // of equal leaves in equal states: one of all orders
 };
 
 enum class SearchEnd : std::uint8_t {

@@ -16,10 +16,11 @@ SavedRun saved(const Ticker& ticker) {
 }  // namespace
 
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-                 Nanoseconds period, const Symmetry& symmetry)
+                 Nanoseconds period, const Symmetry& symmetry, bool rising_answers)
     : period_(period),
       board_(tree),
-      leaves_(tree, models, board_, odometer_),
+      answers_(rising_answers ? symmetry : Symmetry(), tree.leaves.size() + models.facts.size()),
+      leaves_(tree, models, board_, answers_),
       ticker_(tree, leaves_.slots(), board_),
       watch_(tree, properties),
       fresh_(saved(ticker_)),
@@ -44,13 +45,13 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   parameters_.give(from_);
   leaves_.restore(from_leaves_, from_facts_);
   time_ = is_first ? Nanoseconds(0) : period_;
-  odometer_.start_over();
+  answers_.begin_state(from_.run.activity, from_leaves_);
 }
 
 Status Stepper::tick() {
   ticker_.restore(from_);
   leaves_.restore_again(from_leaves_, from_facts_);
-  odometer_.begin();
+  answers_.begin();
   leaves_.begin_tick();
   if (!watch_.empty()) {
     property_bytes_ = from_properties_;

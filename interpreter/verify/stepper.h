@@ -9,6 +9,7 @@
 #include "verify/property_watch.h"
 #include "verify/read_parameters.h"
 #include "verify/state_code.h"
+#include "verify/tick_answers.h"
 
 namespace lockstep::host {
 
@@ -16,7 +17,7 @@ class Stepper {
  public:
   // All must outlive this.
   Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-          Nanoseconds period, const Symmetry& symmetry);
+          Nanoseconds period, const Symmetry& symmetry, bool rising_answers);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -25,9 +26,11 @@ class Stepper {
 
   // From this state on. Then `tick` for each combination of answers, until `next` is false.
   void load(std::span<const std::byte> state, bool is_first);
+  // In place of combinations: `tick` has these answers, once for each.
+  void give(std::span<const Answer> answers) { answers_.give(answers); }
   // The root's status; Running also after a fault. What the tick did can be looked at until `fold`.
   Status tick();
-  bool next() { return odometer_.next(); }
+  bool next() { return answers_.next(); }
   // The state after a tick, with equal children in one order. Valid until the next call.
   const StateBytes& fold();
   // After that, of each place: the node that had what it has; empty if none has moved.
@@ -37,6 +40,8 @@ class Stepper {
   // A state in which each node is at one of these places.
   const StateBytes& moved(std::span<const std::byte> state, std::span<const NodeIndex> places);
 
+  // Those of the last tick, and the leaves that are equal in the state that was loaded.
+  const TickAnswers& answers() const { return answers_; }
   // The state that was loaded.
   const SavedRun& before() const { return from_; }
   Ticker& ticker() { return ticker_; }
@@ -49,7 +54,7 @@ class Stepper {
  private:
   const Nanoseconds period_;
   Blackboard board_;
-  Odometer odometer_;
+  TickAnswers answers_;
   ModelLeaves leaves_;
   Ticker ticker_;
   PropertyWatch watch_;

@@ -21,6 +21,8 @@ struct EqualChildren {
   };
   std::uint32_t nodes, leaves, words;  // of each child
   std::vector<Place> places;           // of the children, in the order of the tree
+
+  bool are_leaves() const { return nodes == 1 && leaves == 1 && words == 0; }
 };
 
 class Symmetry {

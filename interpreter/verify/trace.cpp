@@ -24,7 +24,7 @@ Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Prope
     : tree_(tree),
       models_(models),
       found_(found),
-      stepper_(tree, models, properties, period, found.symmetry),
+      stepper_(tree, models, properties, period, found.symmetry, found.rising_answers),
       labeller_(tree, models, properties.size(), found.symmetry) {}
 
 // One that the store has forgotten is made again.
@@ -35,7 +35,7 @@ StateBytes Tracer::state_of(StateId state) {
   }
   StateBytes here = stepper_.first_state();
   for (const Step& step : found_.way_to(state)) {
-    tick({here, step.from == 0, step.combination});
+    tick(here, step);
     here = stepper_.fold();
   }
   return here;
@@ -50,7 +50,7 @@ Step Tracer::step_of(const CycleStep& wanted) {
     if (status == Status::Running && !stepper_.ticker().faulted()) {
       labeller_.of(stepper_);
       const bool is_there = found_.store.is(wanted.edge.to, stepper_.fold());
-      if (is_there && std::ranges::equal(labeller_.with_moves(stepper_.origins()), label)) {
+      if (is_there && std::ranges::equal(labeller_.with_moves(stepper_), label)) {
         return step;
       }
     }
@@ -59,9 +59,9 @@ Step Tracer::step_of(const CycleStep& wanted) {
   fail("an edge of a search is not there any more");
 }
 
-std::vector<Step> Tracer::steps_of(std::span<const CycleStep> edges) {
-  std::vector<Step> steps;
-  for (const CycleStep& it : edges) steps.push_back(step_of(it));
+std::vector<GuidedStep> Tracer::steps_of(std::span<const CycleStep> edges) {
+  std::vector<GuidedStep> steps;
+  for (const CycleStep& it : edges) steps.push_back({step_of(it), it.swaps});
   return steps;
 }
 
@@ -74,14 +74,20 @@ Trail Tracer::begin(std::vector<NodeIndex> nodes) {
   return {{}, first, first, std::move(nodes)};
 }
 
-Status Tracer::tick(const TracedTick& tick) {
-  stepper_.load(tick.before, tick.is_first);
+Status Tracer::tick(std::span<const std::byte> state, const Step& step) {
+  stepper_.load(state, step.from == 0);
   Status status = stepper_.tick();
-  for (std::uint32_t i = 0; i < tick.combination; ++i) {
+  for (std::uint32_t i = 0; i < step.combination; ++i) {
     stepper_.next();
     status = stepper_.tick();
   }
   return status;
+}
+
+Status Tracer::tick(const TracedTick& tick) {
+  stepper_.load(tick.before, tick.is_first);
+  stepper_.give(tick.answers);
+  return stepper_.tick();
 }
 
 Tracer::Outcome Tracer::outcome(Status status) {
@@ -98,41 +104,54 @@ Tracer::Outcome Tracer::outcome(Status status) {
   return outcome;
 }
 
-// The run does in its places what the search does in others.
+void Tracer::go(Trail& trail, std::span<const GuidedStep> steps) {
+  for (const GuidedStep& step : steps) go(trail, step);
+}
+
 void Tracer::go(Trail& trail, std::span<const Step> steps) {
-  const bool may_move = !found_.symmetry.empty();
-  for (const Step& step : steps) {
-    TracedTick next{trail.searched, step.from == 0, step.combination};
-    Outcome wanted = outcome(tick(next));
-    trail.searched = wanted.searched;
-    if (may_move) {
-      const std::vector<NodeIndex> nodes = trail.nodes;
-      if (!wanted.state.empty()) {
-        const auto origins = stepper_.origins();
-        for (std::size_t i = 0; i < origins.size(); ++i) trail.nodes[i] = nodes[origins[i]];
-        wanted.state = stepper_.moved(wanted.state, nodes);
-      }
-      wanted.label = labeller_.moved(wanted.label, nodes);
-      next.before = trail.now;
-      next.combination = find(next, wanted);
+  for (const Step& step : steps) go(trail, GuidedStep{step});
+}
+
+// The run does in its places what the search does in others.
+void Tracer::go(Trail& trail, const GuidedStep& step) {
+  for (const Swap& it : step.swaps) swap(trail.nodes, it);
+  Outcome wanted = outcome(tick(trail.searched, step.step));
+  TracedTick next{trail.now, step.step.from == 0, stepper_.answers().asked()};
+  trail.searched = wanted.searched;
+  if (!found_.symmetry.empty()) {
+    const std::vector<NodeIndex> nodes = trail.nodes;
+    if (!wanted.state.empty()) {
+      const auto origins = stepper_.origins();
+      for (std::size_t i = 0; i < origins.size(); ++i) trail.nodes[i] = nodes[origins[i]];
+      wanted.state = stepper_.moved(wanted.state, nodes);
     }
-    trail.now = wanted.state;
-    trail.run.push_back(std::move(next));
+    wanted.label = labeller_.moved(wanted.label, nodes);
+    next.answers = moved(std::move(next.answers), nodes);
+    if (outcome(tick(next)) != wanted) fail("children that change places are not equal");
   }
+  trail.now = wanted.state;
+  trail.run.push_back(std::move(next));
 }
 
-// The first combination with this outcome.
-std::uint32_t Tracer::find(const TracedTick& tick, const Outcome& wanted) {
-  stepper_.load(tick.before, tick.is_first);
-  std::uint32_t combination = 0;
-  do {
-    if (outcome(stepper_.tick()) == wanted) return combination;
-    ++combination;
-  } while (stepper_.next());
-  fail("children that change places are not equal");
+void Tracer::swap(std::vector<NodeIndex>& nodes, const Swap& swap) const {
+  if (swap.one == swap.other) return;
+  const auto& leaves = found_.graph.shape.moving_leaves;
+  std::swap(nodes[tree_.leaves[leaves[swap.one]].node],
+            nodes[tree_.leaves[leaves[swap.other]].node]);
 }
 
-void Tracer::go_round(Trail& trail, std::span<const Step> cycle) {
+// The answers of the leaves that have the places of these. Those of facts are the same.
+std::vector<Answer> Tracer::moved(std::vector<Answer> answers,
+                                  std::span<const NodeIndex> nodes) const {
+  for (Answer& it : answers) {
+    if (it.asker < tree_.leaves.size()) {
+      it.asker = tree_.nodes[nodes[tree_.leaves[it.asker].node]].params;
+    }
+  }
+  return answers;
+}
+
+void Tracer::go_round(Trail& trail, std::span<const GuidedStep> cycle) {
   constexpr int kMostRounds = 100'000;  // changes of places come back to the first far earlier
   const StateBytes start = trail.now;
   for (int round = 0; round < kMostRounds; ++round) {

@@ -9,14 +9,20 @@
 
 namespace lockstep::host {
 
-// A tick of a run: the state before it, with each child where it is in that run, and which of its
-// combinations of answers.
+// A tick of a run: the state before it, with each child where it is in that run, and the answers of
+// its leaves.
 struct TracedTick {
   StateBytes before;
   bool is_first = false;
-  std::uint32_t combination = 0;
+  std::vector<Answer> answers = {};
 };
 using TracedRun = std::vector<TracedTick>;
+
+// A step of a search, before which leaves in equal states change places.
+struct GuidedStep {
+  Step step;
+  Swaps swaps = {};
+};
 
 // A run along steps of a search, as far as it has come. Where equal children have changed places in
 // the search, they stay in theirs in the run.
@@ -33,13 +39,14 @@ class Tracer {
          Nanoseconds period, const SearchResult& found);
 
   // The combinations of answers that take states over these edges.
-  std::vector<Step> steps_of(std::span<const CycleStep> edges);
+  std::vector<GuidedStep> steps_of(std::span<const CycleStep> edges);
 
   // `nodes`: of each place, the node that begins there; empty: its own.
   Trail begin(std::vector<NodeIndex> nodes = {});
+  void go(Trail& trail, std::span<const GuidedStep> steps);
   void go(Trail& trail, std::span<const Step> steps);
   // Rounds of a cycle until everything is where it was.
-  void go_round(Trail& trail, std::span<const Step> cycle);
+  void go_round(Trail& trail, std::span<const GuidedStep> cycle);
 
   // After each tick; its state is not folded yet.
   using After = std::function<void(Stepper&, Status status, std::size_t tick)>;
@@ -53,9 +60,12 @@ class Tracer {
 
   StateBytes state_of(StateId state);
   Step step_of(const CycleStep& edge);
+  Status tick(std::span<const std::byte> state, const Step& step);
   Status tick(const TracedTick& tick);
   Outcome outcome(Status status);
-  std::uint32_t find(const TracedTick& tick, const Outcome& wanted);
+  void go(Trail& trail, const GuidedStep& step);
+  void swap(std::vector<NodeIndex>& nodes, const Swap& swap) const;
+  std::vector<Answer> moved(std::vector<Answer> answers, std::span<const NodeIndex> nodes) const;
   void add_words(LeafScripts& scripts);
   [[noreturn]] void fail(const char* what) const;
 

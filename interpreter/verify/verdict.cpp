@@ -81,7 +81,8 @@ class VerdictMaker {
       if (found_.symmetry.first_like(first) != first) continue;
       std::vector<std::string> names;
       for (const auto& place : it.places) names.push_back(tree_.segment(place.node));
-      say("alike", fmt::format("{} of {}: states in which they have changed places count once",
+      say("alike", fmt::format("{} of {}: they may do the same, so states in which they have "
+                               "changed places count once",
                                some_of(names), tree_.path(tree_.labels[first].parent)));
     }
   }
@@ -146,7 +147,7 @@ class VerdictMaker {
     return round;
   }
 
-  std::vector<Step> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
+  std::vector<GuidedStep> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
     if (from == cycle.front().from) return {};
     std::vector<bool> is_goal(graph_.states());
     is_goal[cycle.front().from] = true;

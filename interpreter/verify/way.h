@@ -10,9 +10,12 @@
 
 namespace lockstep::host {
 
-// The places of a leaf that is followed: how many there are, and where an edge moves it.
+// The places of a leaf that is followed: how many there are, between which of them it may choose
+// before an edge, and where the edge moves it then.
 struct FollowedLeaf {
   std::size_t places = 1;
+  using Take = std::function<void(std::size_t place)>;
+  std::function<void(const Edge&, std::size_t place, const Take&)> choices = {};
   std::function<std::size_t(const Edge&, std::size_t place)> next = {};
 };
 
@@ -31,15 +34,24 @@ class Way {
     std::vector<Taken> queue;
     std::vector<bool> seen(graph_.states() * followed_.places);
     seen[from * followed_.places + place] = true;
+    // True: a goal is the last of the queue.
+    const auto take = [&](const CycleStep& step, std::size_t here, std::size_t came_by) {
+      const bool goal = is_goal(step.from, step.edge, here);
+      const std::size_t there = followed_.next ? followed_.next(step.edge, here) : here;
+      const std::size_t number = step.edge.to * followed_.places + there;
+      if (!goal && seen[number]) return false;
+      seen[number] = true;
+      queue.push_back({step, there, came_by == kStart ? queue.size() : came_by});
+      return goal;
+    };
     const auto expand = [&](StateId state, std::size_t here, std::size_t came_by) {
       for (const Edge& edge : graph_.edges_of(state)) {
         if (!uses_(state, edge)) continue;
-        const bool goal = is_goal(state, edge, here);
-        const std::size_t there = followed_.next ? followed_.next(edge, here) : here;
-        const std::size_t number = edge.to * followed_.places + there;
-        if (!goal && seen[number]) continue;
-        seen[number] = true;
-        queue.push_back({{state, edge}, there, came_by == kStart ? queue.size() : came_by});
+        bool goal = false;
+        const auto take_from = [&](std::size_t chosen) {
+          goal = goal || take({state, edge, {Swap{here, chosen}}}, chosen, came_by);
+        };
+        followed_.choices ? followed_.choices(edge, here, take_from) : take_from(here);
         if (goal) return true;
       }
       return false;

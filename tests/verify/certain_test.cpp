@@ -67,7 +67,9 @@ TEST_CASE("a node that is dead in one of its SubTrees only is not spoken of") {
 TEST_CASE("of a tree with more states than the bound nothing is said") {
   std::string leaves;
   for (int i = 0; i < 12; ++i) leaves += " a" + std::to_string(i);
-  CHECK(said_of("Sequence(Parallel(" + leaves.substr(1) + ") Inverter(AlwaysSuccess) z)").empty());
+  const std::string parallel =
+      "ParallelAbsolute[barriers=.1;.2;.3;.4;.5;.6;.7;.8](" + leaves.substr(1) + ')';
+  CHECK(said_of("Sequence(" + parallel + " Inverter(AlwaysSuccess) z)").empty());
 }
 
 }  // namespace lockstep::host::test

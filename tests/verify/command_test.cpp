@@ -134,6 +134,24 @@ TEST_CASE("a limit is heeded within a state of very many answers") {
   }
 }
 
+TEST_CASE("children are alike in what they may do, whatever their names and constant ports") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml", std::string(kHead) +
+                                  R"(<BehaviorTree ID="T"><ParallelAbsolute barriers="0.5">
+                      <Advance name="left" step="0.05"/><Advance name="right" step="0.2"/>
+                      </ParallelAbsolute></BehaviorTree></root>)");
+  const Outcome it = run_lockstep({"verify", tree});
+  CHECK(it.code == 0);
+  CHECK(contains(it.out,
+                 "left, right of T/ParallelAbsolute: they may do the same, so states in "
+                 "which they have changed places count once"));
+  const std::string rows = directory.file(
+      "t.leaves.xml",
+      R"(<leaves lockstep="1"><leaf path="*/left" ticks="20" result="success"/></leaves>)");
+  CHECK_FALSE(contains(run_lockstep({"verify", tree, "--leaves", rows}).out, "left, right of"));
+}
+
 TEST_CASE("what cannot be verified is reported with its place") {
   const Outcome it = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/navigate.xml"});
   CHECK(it.code == 3);

@@ -69,6 +69,40 @@ class RandomTree {
   std::mt19937_64 random_;
 };
 
+// Equal leaves under one parallel, and who else may decide when it ends.
+class RandomLeaves {
+ public:
+  explicit RandomLeaves(std::uint64_t seed) : random_(seed) {}
+
+  std::string text() {
+    const std::string leaves = one_of({"a a", "a a", "a a a"});
+    const std::string parallel =
+        one_of({"Parallel", "Parallel[success_count=1]", "Parallel[memory=false]",
+                "ParallelAbsolute[barriers=.5]", "ParallelAbsolute[barriers=.25;.75]",
+                "ParallelRelative[delta=0]", "ParallelRelative[delta=.25]",
+                "ParallelRelative[delta=.5]"}) +
+        '(' + one_of({leaves, leaves, leaves + " Repeat(d)", leaves + " d"}) + ')';
+    return one_of({"Repeat(" + parallel + ')', "Repeat(ForceSuccess(" + parallel + "))", parallel,
+                   "Fallback(Sequence(c? " + parallel + ") d)",
+                   "Repeat(Timeout[seconds=.3](" + parallel + "))",
+                   "Parallel(Repeat(" + parallel + ") d)", "Retry[attempts=2](" + parallel + ')'});
+  }
+  std::string rows() {
+    const std::string held = one_of({"still", "-1..0", "-4..0", "-1..1", "0..1"});
+    return one_of({"<tree ends=\"no\"/>", ""}) + "<leaf path=\"*\" result=\"" +
+           one_of({"success", "success;failure", "success;skipped", "failure"}) + "\" ticks=\"" +
+           one_of({"1..2", "1..inf", "2..inf", "1..3"}) + "\" finish=\"" + one_of({"full", "any"}) +
+           "\" progress=\"grid:4\" step=\"" + one_of({"0..1", "-1..1", "1..2", "0..inf"}) +
+           "\" held=\"" + held + "\"/>";
+  }
+
+ private:
+  std::string one_of(const std::vector<std::string>& words) {
+    return words[random_() % words.size()];
+  }
+  std::mt19937_64 random_;
+};
+
 // What must be the same: a cycle may have another length.
 std::string said_by(const Verified& it) {
   std::string said = it.findings() + '\n';
@@ -111,11 +145,23 @@ void check_run(const Verified& it, const Finding& finding) {
   for (std::size_t leaf = 0; leaf < works.size(); ++leaf) CHECK((!works[leaf] || ends[leaf]));
 }
 
+// One order of answers finds the states that all orders find, and each as early.
+void check_same_states(const Verified& one, const Verified& all) {
+  const SearchResult &a = one.found, &b = all.found;
+  REQUIRE(a.store.size() == b.store.size());
+  CHECK(a.depths == b.depths);
+  CHECK(a.transitions <= b.transitions);
+  for (StateId id = 0; id < a.store.size(); ++id) {
+    const StateId same = b.store.find(a.store[id], hash_of(a.store[id]));
+    if (same == kNoState || a.depth_of(id) != b.depth_of(same)) FAIL("state " << id);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("equal children: random trees have the same verdict with and without symmetry") {
   constexpr std::uint64_t kTrees = 400;
-  std::size_t compared = 0, smaller = 0, cycles = 0, starving = 0;
+  std::size_t compared = 0, smaller = 0, fewer = 0, cycles = 0, starving = 0;
   for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
     RandomTree random(seed);
     const std::string tree = random.text(), rows = random.rows(tree);
@@ -125,12 +171,17 @@ TEST_CASE("equal children: random trees have the same verdict with and without s
     if (!plain.found.is_complete()) continue;
     limits.symmetry = true;
     const Verified folded(tree, rows, limits);
+    limits.rising_answers = false;
+    const Verified all_orders(tree, rows, limits);
     ++compared;
     smaller += folded.found.store.size() < plain.found.store.size();
     CHECK(folded.found.is_complete());
     CHECK(folded.found.store.size() <= plain.found.store.size());
     CHECK(said_by(folded) == said_by(plain));
-    for (const Verified* it : {&plain, &folded}) {
+    CHECK(said_by(all_orders) == said_by(plain));
+    check_same_states(folded, all_orders);
+    fewer += folded.found.transitions < all_orders.found.transitions;
+    for (const Verified* it : {&plain, &folded, &all_orders}) {
       for (const Finding& finding : it->verdict.findings) {
         cycles += finding.name == "cycle";
         starving += finding.name.starts_with("starvation/");
@@ -141,8 +192,28 @@ TEST_CASE("equal children: random trees have the same verdict with and without s
   INFO(compared << " compared, " << smaller << " smaller, " << cycles << " cycles, " << starving);
   CHECK(compared > kTrees / 2);
   CHECK(smaller > kTrees / 5);
+  CHECK(fewer > kTrees / 10);
   CHECK(cycles > 10);
   CHECK(starving > 10);
+}
+
+TEST_CASE("equal leaves: one order of their answers has the verdict that each child counted has") {
+  constexpr std::uint64_t kTrees = 300;
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+    RandomLeaves random(seed);
+    const std::string tree = random.text(), rows = random.rows();
+    INFO("seed " << seed << ": " << tree << ' ' << rows);
+    SearchLimits limits{.states = 1500, .transitions = 15'000, .symmetry = false};
+    const Verified plain(tree, rows, limits);
+    if (!plain.found.is_complete()) continue;
+    limits.symmetry = true;
+    const Verified folded(tree, rows, limits);
+    ++compared;
+    CHECK(said_by(folded) == said_by(plain));
+    for (const Finding& finding : folded.verdict.findings) check_run(folded, finding);
+  }
+  CHECK(compared > kTrees / 2);
 }
 
 // clang-format off
@@ -209,6 +280,19 @@ TEST_CASE("equal children: only those that nobody can tell apart") {
     CHECK(threads.found.store.size() == folded.found.store.size());
     for (const Finding& finding : folded.verdict.findings) check_run(folded, finding);
   }
+}
+
+TEST_CASE("equal children: forty leaves in equal states give their answers in one order") {
+  std::string leaves = "a";
+  for (int i = 1; i < 40; ++i) leaves += " a";
+  const Verified it("ParallelAbsolute[barriers=.5](" + leaves + ')',
+                    R"(<leaf path="*" finish="full" result="success"/>)");
+  CHECK(it.found.is_complete());
+  // So many are ahead of the barrier, at it, or have succeeded.
+  CHECK(it.found.store.size() == 42 * 41 / 2);
+  CHECK(it.findings() == "");
+  CHECK(it.said("always ends") == "yes");
+  CHECK(it.said("results") == "success (from 1 tick)");
 }
 
 TEST_CASE("equal children: a child that starves is the one that the finding names") {

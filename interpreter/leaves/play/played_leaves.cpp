@@ -139,7 +139,7 @@ class PlayedRun final : public RemoteRun {
 class RandomAnswers final : public Answers {
  public:
   explicit RandomAnswers(const lockstep_caller& caller) : caller_(caller) {}
-  std::uint32_t choose(std::uint32_t count) override {
+  std::uint32_t choose(std::uint32_t count, std::uint32_t) override {
     return static_cast<std::uint32_t>(host_table().random(&caller_) * count);
   }
 

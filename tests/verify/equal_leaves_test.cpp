@@ -1,0 +1,139 @@
+// What a search leaves out where leaves are equal, a verdict still knows: small graphs in which it
+// matters who has given which answer, and a tick that only one child has shown.
+#include <catch2/catch.hpp>
+#include <initializer_list>
+
+#include "verify/fair_cycle.h"
+#include "verify/holds.h"
+#include "verify/verified.h"
+
+namespace lockstep::host::test {
+namespace {
+
+// Two leaves under a synchronized node, which may change places.
+const LabelShape kShape{.leaves = 2,
+                        .held = 2,
+                        .properties = 0,
+                        .moving_leaves = {0, 1},
+                        .moving_held = {0, 1},
+                        .held_of_leaf = {0, 1}};
+
+enum class Equal : bool { No, Yes };
+
+// All stay where they are.
+LabelTable::Bits label(std::initializer_list<std::size_t> bits, Equal equal) {
+  LabelTable::Bits label(kShape.bytes());
+  for (const std::size_t bit : bits) LabelTable::set(label, bit);
+  std::vector<LabelShape::Place> places{0, 1, 2, 3};
+  if (equal == Equal::Yes) places.insert(places.end(), {0, 0});
+  const auto* const first = reinterpret_cast<const std::byte*>(places.data());
+  label.insert(label.end(), first, first + places.size() * sizeof places[0]);
+  return label;
+}
+
+struct Tick {
+  StateId from, to;
+  LabelTable::Bits label;
+};
+
+Graph graph_of(StateId states, const std::vector<Tick>& ticks) {
+  Graph graph{.edges = {}, .ends = std::vector<bool>(states), .labels = {}, .shape = kShape};
+  for (StateId state = 0; state < states; ++state) {
+    std::vector<Edge> edges;
+    for (const Tick& it : ticks) {
+      if (it.from == state) edges.push_back({it.to, graph.labels.add(it.label)});
+    }
+    graph.edges.add(edges);
+  }
+  return graph;
+}
+
+constexpr std::size_t kLeft = 0, kRight = 1;
+
+}  // namespace
+
+TEST_CASE("equal leaves: a cycle is fair if each of them may be the one that ends") {
+  const auto ticks = [](Equal equal) {
+    return std::vector<Tick>{
+        {0, 0, label({kShape.worked_bit(kLeft), kShape.ended_bit(kRight)}, equal)}};
+  };
+  CHECK(fair_cycle(graph_of(1, ticks(Equal::No))).empty());
+  const std::vector<CycleStep> cycle = fair_cycle(graph_of(1, ticks(Equal::Yes)));
+  REQUIRE_FALSE(cycle.empty());
+  // Whoever begins at the left ends on the way.
+  std::size_t place = kLeft;
+  bool ends = false;
+  for (const CycleStep& it : cycle) {
+    place = it.swaps[0](place);
+    ends |= place == kRight;
+  }
+  CHECK(ends);
+}
+
+TEST_CASE("equal leaves: one that is held goes on to be held where its equal is") {
+  const auto longest = [](Equal equal) {
+    const Graph graph = graph_of(3, {{1, 0, label({kShape.held_bit(kLeft)}, Equal::No)},
+                                     {0, 2, label({kShape.held_bit(kRight)}, equal)}});
+    return Holds(graph, {kLeft, kRight}).longest();
+  };
+  CHECK(longest(Equal::No) == 1u);
+  CHECK(longest(Equal::Yes) == 2u);
+}
+
+TEST_CASE("equal leaves: the one that is held for ever is not the one that works for ever") {
+  const Graph graph = graph_of(
+      1, {{0, 0,
+           label({kShape.worked_bit(kLeft), kShape.ended_bit(kRight), kShape.held_bit(kRight)},
+                 Equal::Yes)}});
+  CHECK_FALSE(Holds(graph, {kLeft, kRight}).longest());
+  CHECK_FALSE(Holds(graph, {kLeft, kRight}).for_ever());
+}
+
+TEST_CASE("equal leaves: a starving one is shown in the places that it has in turn") {
+  const Graph graph = graph_of(2, {{0, 1, label({kShape.held_bit(kRight)}, Equal::Yes)},
+                                   {1, 0, label({kShape.held_bit(kLeft)}, Equal::Yes)}});
+  const auto endless = Holds(graph, {kLeft, kRight}).for_ever();
+  REQUIRE(endless);
+  std::size_t place = endless->child;
+  for (const CycleStep& it : endless->cycle) {
+    for (const Swap& swap : it.swaps) place = swap(place);
+    CHECK(graph.has(it.edge, kShape.held_bit(place)));
+  }
+  CHECK(place == endless->child);
+}
+
+TEST_CASE("equal children: what one has shown holds for the others") {
+  const Verified it(
+      "ParallelAbsolute[barriers=.5](ParallelAbsolute[barriers=.5](a b) "
+      "ParallelAbsolute[barriers=.5](a b))",
+      R"(<leaf path="*" progress="grid:4"/>)");
+  REQUIRE_FALSE(it.found.symmetry.empty());
+  Stepper stepper(it.tree, it.models, {}, from_seconds(0.1), it.found.symmetry, true);
+  const StateBytes first = stepper.first_state();
+  stepper.load(first, true);
+  // Success, failure, or running with a progress: the leaves of the first child are apart.
+  stepper.give(std::vector<Answer>{{0, 2}, {1, 5}, {2, 2}, {3, 2}});
+  stepper.tick();
+  stepper.fold();
+  const StateBytes second = stepper.in_place();
+  stepper.load(second, false);
+  stepper.give(std::vector<Answer>{{0, 0}, {2, 2}, {3, 2}});
+  stepper.tick();
+  SearchCoverage coverage(it.tree);
+  coverage.after_tick(stepper.ticker());
+  const NodeIndex leaf = it.tree.leaves[0].node;
+  const auto spread_of = [&](std::size_t child) {
+    return coverage.synchronized()[1 + child].largest_spread;
+  };
+  CHECK(coverage.has_been(leaf, Status::Success));
+  CHECK(spread_of(0) > spread_of(1));
+  coverage.spread(it.found.symmetry);
+  for (const LeafNode& other : it.tree.leaves) {
+    CHECK(coverage.has_been(other.node, Status::Success));
+    CHECK(coverage.was_ticked(other.node));
+  }
+  CHECK(spread_of(0) == spread_of(1));
+  CHECK(spread_of(1) > 0);
+}
+
+}  // namespace lockstep::host::test
