@@ -12,8 +12,12 @@ export SOURCE_DATE_EPOCH
 upstream=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 version=$upstream-1
 soname=${upstream%%.*}
-architecture=$(dpkg --print-architecture)
+architecture=${DEB_HOST_ARCH:-$(dpkg --print-architecture)}
 library=liblockstep-runtime$soname
+# Of another processor, the libraries and their packages are in a sysroot.
+libraries=()
+[ -z "${LOCKSTEP_SYSROOT:-}" ] ||
+  libraries=("--admindir=$LOCKSTEP_SYSROOT/var/lib/dpkg" "-l$LOCKSTEP_SYSROOT/usr/lib/$(dpkg-architecture -a"$architecture" -qDEB_HOST_MULTIARCH)")
 # Package and the components that CMake installs in it.
 packages=("lockstep lockstep" "lockstep-dev sdk runtime_dev" "$library runtime" "python3-lockstep python" "lockstep-doc doc")
 
@@ -67,7 +71,7 @@ finish() {
   cd "$work"
   if [ "$package" = lockstep ] || [ "$package" = "$library" ]; then
     find "$root" -type f -print0 | xargs -0 file -N | sed -n 's/: *ELF.*//p' | sort | sed 's/^/-e/' |
-      xargs dpkg-shlibdeps --ignore-missing-info -Tsubstvars
+      xargs dpkg-shlibdeps --ignore-missing-info -Tsubstvars "${libraries[@]}"
   else
     : >substvars
   fi

@@ -1,24 +1,48 @@
 #!/usr/bin/env bash
-# ./dev package: builds with Debian's flags, makes the packages and the archive of the sources.
+# ./dev package [--try] [--arch arm64]: builds with Debian's flags, makes the packages and the archive of the sources.
+# For another processor, with Debian's cross compiler and packages of that processor in build/sysroot-ARCH.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+here=interpreter/packaging
+architecture="" trial=""
+while [ $# -gt 0 ]; do
+  case $1 in
+    --try) trial=yes ;;
+    --arch) architecture=${2:?--arch needs an architecture of Debian} && shift ;;
+    *) echo "package: expected [--try] [--arch ARCHITECTURE], got '$1'" >&2 && exit 2 ;;
+  esac
+  shift
+done
+[ "$architecture" != "$(dpkg --print-architecture)" ] || architecture=""
+[ -z "$architecture" ] || [ -z "$trial" ] || { echo "package: packages of another processor cannot be tried here" >&2 && exit 2; }
+
 if [ -z "${SOURCE_DATE_EPOCH:-}" ]; then
   # Of the last commit; in an archive without git, of the change log.
   SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || stat -c %Y CHANGELOG.md)
 fi
 export SOURCE_DATE_EPOCH
+build=build/package options=()
+if [ -n "$architecture" ]; then
+  build=build/package-$architecture
+  triplet=$(dpkg-architecture -a"$architecture" -qDEB_HOST_MULTIARCH 2>/dev/null)
+  LOCKSTEP_SYSROOT=$PWD/build/sysroot-$architecture
+  export DEB_HOST_ARCH=$architecture LOCKSTEP_SYSROOT STRIP=$triplet-strip
+  # shellcheck disable=SC2086
+  $here/sysroot.sh "$architecture" "$LOCKSTEP_SYSROOT" libc6-dev libstdc++-12-dev $PACKAGE_LIBRARIES
+  options=("-DCMAKE_TOOLCHAIN_FILE=$here/cross.cmake" "-DLOCKSTEP_TRIPLET=$triplet" "-DLOCKSTEP_SYSROOT=$LOCKSTEP_SYSROOT")
+fi
 export DEB_BUILD_MAINT_OPTIONS=hardening=+all DEB_CFLAGS_MAINT_STRIP=-g DEB_CXXFLAGS_MAINT_STRIP=-g
 for flags in CFLAGS CXXFLAGS LDFLAGS; do
   export $flags="$(dpkg-buildflags --get $flags)"
 done
 CFLAGS+=" $(dpkg-buildflags --get CPPFLAGS)"
 CXXFLAGS+=" $(dpkg-buildflags --get CPPFLAGS)"
-cmake --preset package >/dev/null
-cmake --build build/package -j "$(nproc)"
-interpreter/packaging/build.sh build/package
+cmake --preset package -B "$build" "${options[@]}" >/dev/null
+cmake --build "$build" -j "$(nproc)"
+$here/build.sh "$build"
 
-out=build/package/packages
-name=lockstep-$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' build/package/CMakeCache.txt)
+out=$build/packages
+name=lockstep-$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
 if git rev-parse HEAD >/dev/null 2>&1; then
   git archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$out/$name.tar.gz"
 else
@@ -27,4 +51,4 @@ else
 fi
 (cd "$out" && sha256sum ./*.deb ./*.tar.gz | sed 's, \./, ,' >SHA256SUMS)
 lintian --allow-root --fail-on error,warning "$out"/*.deb
-[ "${1:-}" != --try ] || interpreter/packaging/try.sh "$out"
+[ -z "$trial" ] || $here/try.sh "$out"
