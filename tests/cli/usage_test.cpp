@@ -61,7 +61,7 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
        ""},
       {{"run", "--timeout", "1e10", "t.xml"}, "--timeout: '1e10' is not a number from 0 to", ""},
       {{"run", "--clock", "virtaul", "t.xml"},
-       "--clock: 'virtaul' is not one of wall, virtual; did you mean 'virtual'?",
+       "--clock: 'virtaul' is not one of wall, virtual, ros; did you mean 'virtual'?",
        "see `lockstep run --help`"},
       {{"run", "--overrun", "skp", "t.xml"},
        "--overrun: 'skp' is not one of skip, catch-up, fail; did you mean 'skip'?",
