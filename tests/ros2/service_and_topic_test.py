@@ -106,6 +106,19 @@ class Topic(World):
         self.assertEqual(run.returncode, 0, run.err)
         self.assertIn("header.frame_id: map, pose.position.x: 1.5", self.recording.read_text())
 
+    def test_objects_between_separate_processes(self):
+        pose = 'type="geometry_msgs/msg/PoseArray" qos="latched"'
+        run = self.run_tree(f"""<Sequence memory="true">
+          <RosPublish {pose} topic="/a" message.header.frame_id="map"
+                      message.poses.position.x="1.5;2.5"/>
+          <RosReceive {pose} topic="/a" timeout="5" message="{{whole}}"/>
+          <RosPublish {pose} topic="/b" message="{{whole}}"/>
+          <RosReceive {pose} topic="/b" timeout="5" message.poses.position.x="{{x}}"
+                      message.header.frame_id="{{frame}}"/>
+          <Check code="frame == 'map'"/></Sequence>""", "--isolate")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn('"1.5;2.5"', self.recording.read_text())
+
     def test_an_object_of_another_type(self):
         run = self.check("""<Sequence memory="true">
           <RosReceive type="geometry_msgs/msg/Pose" topic="/a" message="{it}"/>
