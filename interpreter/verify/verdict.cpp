@@ -154,8 +154,15 @@ class VerdictMaker {
     return tracer_.steps_of(shortest_way(graph_, from, is_goal));
   }
 
-  // Says who waits for whom in the end, as a run would report it.
+  // Says who waits for whom in the end, or what is done instead.
   std::vector<std::string> why_it_stands(const Finding& finding) {
+    std::vector<std::string> lines = standstill_of(finding);
+    if (lines.empty()) lines.push_back(who_is_ticked(finding));
+    return lines;
+  }
+
+  // As a run would report it. Empty: nobody waits all the time.
+  std::vector<std::string> standstill_of(const Finding& finding) {
     std::vector<std::string> lines;
     StallWatch watch(tree_, period_ / 2, [&](const Standstill& standstill) {
       lines = standstill_lines(tree_, standstill);
@@ -180,7 +187,6 @@ class VerdictMaker {
       const auto end = line.find(" s", since + 7);
       if (end != std::string::npos) line.erase(since, end + 2 - since);
     }
-    if (lines.empty()) lines.push_back(who_is_ticked(finding));
     return lines;
   }
 
@@ -212,6 +218,7 @@ class VerdictMaker {
     const std::string round = counted(add_lasso(cycle.front().from, cycle, finding), "tick");
     finding.message = fmt::format("it may go on for ever: from tick {} on it repeats a cycle of {}",
                                   *finding.repeats, round);
+    finding.more = standstill_of(finding);
     finding.more.push_back(what_happens(finding));
     say("always ends", fmt::format("NO: a cycle of {}", round));
     verdict_.findings.push_back(std::move(finding));

@@ -134,6 +134,27 @@ TEST_CASE("a limit is heeded within a state of very many answers") {
   }
 }
 
+TEST_CASE("a cycle in which somebody waits all the time says who waits for whom") {
+  const TemporaryDirectory directory;
+  const auto use = [](const std::string& leaf) {
+    return "<UseResources pool=\"hand\" resources=\"tool\" keep=\"true\"><SyncProgress "
+           "barrier=\"meet\"><Advance name=\"" +
+           leaf + "\" step=\"0.1\"/></SyncProgress></UseResources>";
+  };
+  const std::string tree = directory.file(
+      "t.xml", std::string(kHead) +
+                   "<plugin name=\"fetch\"/><resources name=\"hand\"/>"
+                   "<barrier name=\"meet\" barriers=\"0.5\"/><BehaviorTree ID=\"T\"><Parallel>" +
+                   use("screw") + "<Sequence><BatteryAbove name=\"guard\" level=\"0.3\"/>" +
+                   use("hold") + "</Sequence></Parallel></BehaviorTree></root>");
+  const Outcome it = run_lockstep({"verify", tree, "--out", directory.path("out")});
+  INFO(it.out);
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, "\nfinding cycle: "));
+  CHECK(contains(it.out, "'meet' holds "));
+  CHECK(contains(it.out, "\n    in it: T/Parallel/Sequence/guard succeeded\n"));
+}
+
 TEST_CASE("children are alike in what they may do, whatever their names and constant ports") {
   const TemporaryDirectory directory;
   const std::string tree =
