@@ -228,8 +228,8 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->transform(whole_number(1));
   app.add_option("--rows", options.rows,
                  "What is kept of each run: a row of runs.csv, of runs.csv.zst, or none: then its "
-                 "cell has counts, means, and quartiles to 0.05 %, in as much memory for 10^9 runs "
-                 "as for 10^4")
+                 "cell has counts, means, and quartiles to 0.05 %, and memory does not grow with "
+                 "the runs")
       ->check(CLI::IsMember({"csv", "zst", "none"}))
       ->capture_default_str();
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
