@@ -3,6 +3,7 @@
 # view of this machine in which /usr, /etc and /var are copied on write, and which is gone afterwards.
 set -euo pipefail
 packages=$(realpath "$1")
+sources=$(realpath "$(dirname "$0")/../..")
 if [ "${2:-}" != inside ]; then
   exec unshare --mount --pid --fork --mount-proc "$0" "$packages" inside
 fi
@@ -45,6 +46,10 @@ cp /usr/share/lockstep/examples/in_c.c .
 # shellcheck disable=SC2046
 cc in_c.c -o in_c $(pkg-config --cflags --libs lockstep-runtime)
 ./in_c >/dev/null 2>&1 || [ $? -le 2 ]
+step "the tutorial and the recipes, from their first line to their last"
+for page in tutorial recipes; do
+  python3 "$sources/tests/help/tutorial_test.py" "$sources/docs/$page.md" /usr/bin "$home/$page"
+done
 step "the module of Python"
 python3 -c 'import lockstep
 tree = "<root lockstep=\"1\"><BehaviorTree ID=\"M\"><AlwaysSuccess/></BehaviorTree></root>"
