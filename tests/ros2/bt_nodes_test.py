@@ -4,7 +4,7 @@ from world import SERVERS, World
 
 
 class BtNodes(World):
-    plugins = ("bt_nodes",)
+    plugins = ("bt_nodes", "bt_one_node")
     plugin_paths = (SERVERS,)
 
     @staticmethod
@@ -66,6 +66,12 @@ class BtNodes(World):
         run = self.run_tree("""<Timeout seconds="5"><Parallel success_count="1" failure_count="2">
           <Repeat><Say topic_name="/said" data="true"/></Repeat>
           <Retry attempts="1000"><Hear topic_name="/said"/></Retry></Parallel></Timeout>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
+    def test_a_plugin_with_one_node(self):
+        run = self.run_tree("""<Timeout seconds="5"><Parallel success_count="1" failure_count="2">
+          <Repeat><SayTrue topic_name="/one"/></Repeat>
+          <Retry attempts="1000"><Hear topic_name="/one"/></Retry></Parallel></Timeout>""")
         self.assertEqual(run.returncode, 0, run.err)
 
 

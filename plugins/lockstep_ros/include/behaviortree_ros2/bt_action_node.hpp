@@ -39,7 +39,7 @@ inline const char* toStr(const ActionNodeErrorCode& code) {
 }
 
 template <class ActionT>
-class RosActionNode : public ActionNodeBase {
+class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase> {
  public:
   using ActionType = ActionT;
   using ActionClient = rclcpp_action::Client<ActionT>;
@@ -50,7 +50,7 @@ class RosActionNode : public ActionNodeBase {
   using Feedback = typename ActionT::Feedback;
 
   RosActionNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ActionNodeBase(name, config), lockstep_work_(params) {
+      : RosNode(name, config, params) {
     if (lockstep_detail::has_ros_name(*this, "action_name", params)) lockstep_open();
   }
   // A goal that was halted before the server has accepted it is canceled then.
@@ -100,8 +100,6 @@ class RosActionNode : public ActionNodeBase {
 
  protected:
   std::string getActionName() const { return lockstep_name_; }
-  rclcpp::Logger logger() { return lockstep_work_.node()->get_logger(); }
-  rclcpp::Time now() { return lockstep_work_.node()->now(); }
 
   // For onPaused: the goal is canceled and kept. For onResumed: it is sent again.
   void lockstep_hold() {
@@ -218,8 +216,6 @@ class RosActionNode : public ActionNodeBase {
     lockstep_result_.reset();
   }
 
-  lockstep_detail::RosWork lockstep_work_;
-  std::string lockstep_name_;
   ActionClientPtr lockstep_client_;
   Goal lockstep_goal_;
   Phase lockstep_phase_ = Phase::Idle;

@@ -28,7 +28,7 @@ inline const char* toStr(const ServiceNodeErrorCode& code) {
 }
 
 template <class ServiceT>
-class RosServiceNode : public ActionNodeBase {
+class RosServiceNode : public lockstep_detail::RosNode<ActionNodeBase> {
  public:
   using ServiceType = ServiceT;
   using ServiceClient = rclcpp::Client<ServiceT>;
@@ -36,7 +36,7 @@ class RosServiceNode : public ActionNodeBase {
   using Response = typename ServiceT::Response;
 
   RosServiceNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ActionNodeBase(name, config), lockstep_work_(params) {
+      : RosNode(name, config, params) {
     if (lockstep_detail::has_ros_name(*this, "service_name", params)) lockstep_open();
   }
 
@@ -69,8 +69,6 @@ class RosServiceNode : public ActionNodeBase {
 
  protected:
   std::string getServiceName() const { return lockstep_name_; }
-  rclcpp::Logger logger() { return lockstep_work_.node()->get_logger(); }
-  rclcpp::Time now() { return lockstep_work_.node()->now(); }
 
  private:
   enum class Phase { Idle, WaitsForServer, IsSent };
@@ -124,8 +122,6 @@ class RosServiceNode : public ActionNodeBase {
     lockstep_response_.reset();
   }
 
-  lockstep_detail::RosWork lockstep_work_;
-  std::string lockstep_name_;
   typename ServiceClient::SharedPtr lockstep_client_;
   typename Request::SharedPtr lockstep_request_;
   typename Response::SharedPtr lockstep_response_;

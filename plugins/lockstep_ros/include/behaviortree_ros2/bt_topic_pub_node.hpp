@@ -7,12 +7,12 @@
 namespace BT {
 
 template <class TopicT>
-class RosTopicPubNode : public ConditionNode {
+class RosTopicPubNode : public lockstep_detail::RosNode<ConditionNode> {
  public:
   using Publisher = rclcpp::Publisher<TopicT>;
 
   RosTopicPubNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ConditionNode(name, config), lockstep_work_(params) {
+      : RosNode(name, config, params) {
     if (lockstep_detail::has_ros_name(*this, "topic_name", params)) lockstep_open();
   }
 
@@ -32,10 +32,6 @@ class RosTopicPubNode : public ConditionNode {
     return NodeStatus::SUCCESS;
   }
 
- protected:
-  rclcpp::Logger logger() { return lockstep_work_.node()->get_logger(); }
-  rclcpp::Time now() { return lockstep_work_.node()->now(); }
-
  private:
   void lockstep_open() {
     const std::string name =
@@ -45,8 +41,6 @@ class RosTopicPubNode : public ConditionNode {
     lockstep_publisher_ = lockstep_work_.node()->template create_publisher<TopicT>(name, 1);
   }
 
-  lockstep_detail::RosWork lockstep_work_;
-  std::string lockstep_name_;
   typename Publisher::SharedPtr lockstep_publisher_;
 };
 

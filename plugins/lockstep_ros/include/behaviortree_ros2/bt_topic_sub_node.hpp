@@ -7,13 +7,13 @@
 namespace BT {
 
 template <class TopicT>
-class RosTopicSubNode : public ConditionNode {
+class RosTopicSubNode : public lockstep_detail::RosNode<ConditionNode> {
  public:
   using Subscriber = rclcpp::Subscription<TopicT>;
 
   // Messages count from here on, where the name of the topic is known already.
   RosTopicSubNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
-      : ConditionNode(name, config), lockstep_work_(params) {
+      : RosNode(name, config, params) {
     if (lockstep_detail::has_ros_name(*this, "topic_name", params)) lockstep_open();
   }
 
@@ -35,10 +35,6 @@ class RosTopicSubNode : public ConditionNode {
     return status;
   }
 
- protected:
-  rclcpp::Logger logger() { return lockstep_work_.node()->get_logger(); }
-  rclcpp::Time now() { return lockstep_work_.node()->now(); }
-
  private:
   void lockstep_open() {
     const std::string name =
@@ -53,8 +49,6 @@ class RosTopicSubNode : public ConditionNode {
         options);
   }
 
-  lockstep_detail::RosWork lockstep_work_;
-  std::string lockstep_name_;
   typename Subscriber::SharedPtr lockstep_subscriber_;
   std::shared_ptr<TopicT> lockstep_last_;
 };

@@ -74,6 +74,20 @@ inline PortsList with_name_port(const char* port, const char* doc, PortsList mor
   return all;
 }
 
+// A node of a tree with its part of ROS.
+template <class Base>
+class RosNode : public Base {
+ protected:
+  RosNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
+      : Base(name, config), lockstep_work_(params) {}
+
+  rclcpp::Logger logger() { return lockstep_work_.node()->get_logger(); }
+  rclcpp::Time now() { return lockstep_work_.node()->now(); }
+
+  RosWork lockstep_work_;
+  std::string lockstep_name_;  // of its action, service or topic
+};
+
 inline NodeStatus completed(NodeStatus status, const char* function) {
   if (status == NodeStatus::SUCCESS || status == NodeStatus::FAILURE) return status;
   throw LogicError(std::string(function) + " has to return SUCCESS or FAILURE");
