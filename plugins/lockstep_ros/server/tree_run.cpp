@@ -25,22 +25,24 @@ std::string file_of(const std::string& tree, const std::string& directory) {
 }  // namespace
 
 TreeRun::TreeRun(const Goal& goal, const TreeSettings& settings)
-    : name_(goal.tree), settings_(settings) {
-  for (const std::string& path : settings.plugin_path) project_.add_plugin_path(path);
+    : name_(goal.tree),
+      settings_(settings),
+      project_(std::make_shared<lockstep::runtime::Project>()) {
+  for (const std::string& path : settings.plugin_path) project_->add_plugin_path(path);
   for (const std::string& argument : goal.arguments) {
     const auto equals = argument.find('=');
     if (equals == std::string::npos) {
       throw Error("the argument '" + argument + "' has no '=': NAME=VALUE");
     }
-    project_.set_argument(argument.substr(0, equals), argument.substr(equals + 1));
+    project_->set_argument(argument.substr(0, equals), argument.substr(equals + 1));
   }
-  if (!goal.main_tree.empty()) project_.set_main_tree(goal.main_tree);
-  project_.load_file(file_of(goal.tree, settings.trees));
-  nodes_ = project_.nodes();
+  if (!goal.main_tree.empty()) project_->set_main_tree(goal.main_tree);
+  project_->load_file(file_of(goal.tree, settings.trees));
+  nodes_ = project_->nodes();
   lockstep::runtime::RunSettings of_run;
   of_run.tick_period = settings.period;
   of_run.log = settings.log;
-  run_ = std::make_unique<lockstep::runtime::Run>(project_, of_run);
+  run_ = std::make_unique<lockstep::runtime::Run>(*project_, of_run);
 }
 
 void TreeRun::observe(const Tell& tell) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <lockstep/runtime.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ class TreeRun {
   // Throws lockstep::runtime::Error with all that is wrong in the tree.
   TreeRun(const Goal& goal, const TreeSettings& settings);
 
+  // Whoever keeps it keeps the plugins as they are: the next tree that has them begins sooner.
+  std::shared_ptr<lockstep::runtime::Project> project() const { return project_; }
+
   // Until the tree completes or `stop()`. `tell` gets the state after the first tick, then each
   // period of `told_each`, and after the last tick.
   Result loop(const std::function<bool()>& stop,
@@ -44,7 +48,7 @@ class TreeRun {
 
   const std::string name_;
   const TreeSettings settings_;
-  lockstep::runtime::Project project_;
+  const std::shared_ptr<lockstep::runtime::Project> project_;
   std::vector<lockstep::runtime::NodeInfo> nodes_;
   std::unique_ptr<lockstep::runtime::Run> run_;
   std::uint64_t ticks_ = 0;

@@ -79,6 +79,7 @@ void TreeServer::run(const std::shared_ptr<GoalHandle>& handle) {
 
 TreeServer::RunTree::Result TreeServer::run_tree(GoalHandle& handle) {
   TreeRun run(*handle.get_goal(), settings());
+  last_project_ = run.project();
   const auto tell_of = [&](const msg::TreeState& state) { tell(handle, state); };
   if (!get_parameter("use_sim_time").as_bool()) {
     return run.loop([&] { return is_stopped(handle); }, tell_of);

@@ -39,6 +39,7 @@ class TreeServer : public rclcpp::Node {
   rclcpp::TimerBase::SharedPtr timer_;
   std::thread thread_;
   std::atomic<bool> is_busy_{false}, is_ending_{false};
+  std::shared_ptr<lockstep::runtime::Project> last_project_;  // of the thread that runs
   std::mutex mutex_;
   msg::TreeState last_;    // guarded by mutex_
   RunTree::Result ended_;  // guarded by mutex_
