@@ -1,6 +1,6 @@
-/* lockstep/clock.h: a clock that a plugin has, for `lockstep run --clock NAME`; such as the simulated
- * time of a robot's simulator. Found with lockstep_plugin::get_extension(LOCKSTEP_CLOCK). Since
- * contract 1.4; not of a plugin in a separate process. */
+/* lockstep/clock.h: a clock that a plugin has, for `lockstep run --clock NAME`; such as the
+ * simulated time of a robot's simulator. Found with lockstep_plugin::get_extension(LOCKSTEP_CLOCK).
+ * Since contract 1.4; not of a plugin in a separate process. */
 #ifndef LOCKSTEP_CLOCK_H
 #define LOCKSTEP_CLOCK_H
 
