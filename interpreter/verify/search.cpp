@@ -66,7 +66,7 @@ class Searcher {
 
   // False: a limit was reached.
   bool do_round(StateId first, StateId last) {
-    if (has_ended(first)) return false;
+    if (has_ended(first) || is_over(first)) return false;
     const StateId count = (last - first + kStatesOfChunk - 1) / kStatesOfChunk;
     if (chunks_.size() < count) chunks_.resize(count);
     std::atomic<StateId> next{0}, cut{count};  // chunks; nothing behind one that is cut counts
@@ -176,7 +176,7 @@ class Searcher {
     }
   }
 
-  // Before the edges of a state are put to the others.
+  // Before a round, and before the edges of a state are put to the others.
   bool is_over(StateId state) {
     if (state == next_depth_) {
       next_depth_ = static_cast<StateId>(result_.store.size());

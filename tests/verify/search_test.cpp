@@ -152,6 +152,16 @@ TEST_CASE("a limit that counts ends a search of any number of threads at the sam
   }
 }
 
+TEST_CASE("a search that has reached a limit makes no further ticks") {
+  std::string leaves = "a";
+  for (int i = 1; i < 64; ++i) leaves += " a";
+  int looks = 0;  // at the signal: one in 32 ticks
+  const Verified it("Sequence[memory=true](" + leaves + ')', "",
+                    {.states = 10, .stop_signal = [&] { return ++looks, 0; }});
+  CHECK(it.found.end == SearchEnd::States);
+  CHECK(looks < 16);  // those of the first state, in place of 64 states
+}
+
 TEST_CASE("hashes in place of states: the same states, findings and runs in less memory") {
   constexpr auto kDeadlock =
       "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
