@@ -14,10 +14,19 @@ version=$upstream-1
 soname=${upstream%%.*}
 architecture=${DEB_HOST_ARCH:-$(dpkg --print-architecture)}
 library=liblockstep-runtime$soname
-# Of another processor, the libraries and their packages are in a sysroot.
-libraries=()
-[ -z "${LOCKSTEP_SYSROOT:-}" ] ||
-  libraries=("--admindir=$LOCKSTEP_SYSROOT/var/lib/dpkg" "-l$LOCKSTEP_SYSROOT/usr/lib/$(dpkg-architecture -a"$architecture" -qDEB_HOST_MULTIARCH)")
+# dependencies FILE…: substvars. dpkg-shlibdeps finds libraries of this machine only: those of another processor are in a
+# sysroot, whose packages are needed in their version there, or later.
+dependencies() {
+  if [ -z "${LOCKSTEP_SYSROOT:-}" ]; then
+    printf -- '-e%s\n' "$@" | xargs dpkg-shlibdeps --ignore-missing-info -Tsubstvars
+    return
+  fi
+  local query=(dpkg-query "--admindir=$LOCKSTEP_SYSROOT/var/lib/dpkg") library package
+  readelf --dynamic "$@" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | sort -u | while read -r library; do
+    package=$("${query[@]}" --search "*/$library" 2>/dev/null | sed -n '1s/:.*//p')
+    [ -z "$package" ] || echo "$package (>= $("${query[@]}" --show --showformat='${Version}' "$package:$architecture"))"
+  done | sort -u | paste -sd, | sed 's/^/shlibs:Depends=/; s/,/, /g' >substvars
+}
 # Package and the components that CMake installs in it.
 packages=("lockstep lockstep" "lockstep-dev sdk runtime_dev" "$library runtime" "python3-lockstep python" "lockstep-doc doc")
 
@@ -70,8 +79,8 @@ finish() {
   local root=$1 package=$2
   cd "$work"
   if [ "$package" = lockstep ] || [ "$package" = "$library" ]; then
-    find "$root" -type f -print0 | xargs -0 file -N | sed -n 's/: *ELF.*//p' | sort | sed 's/^/-e/' |
-      xargs dpkg-shlibdeps --ignore-missing-info -Tsubstvars "${libraries[@]}"
+    mapfile -t programs < <(find "$root" -type f -print0 | xargs -0 file -N | sed -n 's/: *ELF.*//p' | sort)
+    dependencies "${programs[@]}"
   else
     : >substvars
   fi

@@ -8,6 +8,7 @@ root=$(realpath "$2")
 shift 2
 [ ! -e "$root/.done" ] || [ "$(cat "$root/.done")" != "$*" ] || exit 0
 mkdir -p "$root"/var/lib/dpkg/{info,updates} "$root"/apt/{lists,cache/archives}/partial
+echo 1 >"$root/var/lib/dpkg/info/format"
 touch "$root/var/lib/dpkg/status" "$root/var/lib/dpkg/available"
 apt=(-qq -o "APT::Architecture=$architecture" -o "APT::Architectures=$architecture" -o "Dir::State::Lists=$root/apt/lists"
   -o "Dir::Cache=$root/apt/cache" -o "Dir::State::status=$root/var/lib/dpkg/status" -o APT::Sandbox::User=root
@@ -24,7 +25,7 @@ for package in "$root"/apt/cache/archives/*.deb; do
   dpkg-deb --control "$package" "$control"
   for kind in symbols shlibs md5sums; do [ ! -e "$control/$kind" ] || cp "$control/$kind" "$info.$kind"; done
   rm -rf "$control"
-  dpkg-deb --fsys-tarfile "$package" | tar -t | sed 's,^\.,,; s,/$,,' >"$info.list"
+  dpkg-deb --fsys-tarfile "$package" | tar -t | sed 's,^\.,,; s,/$,,; s,^$,/.,' >"$info.list"
   { dpkg-deb --field "$package" && echo "Status: install ok installed" && echo; } >>"$root/var/lib/dpkg/status"
 done
 # Links of packages lead from the root of their machine.
