@@ -17,14 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kEndless = tree_text("<Advance name=\"arm\" step=\"0\"/>");
+const std::string kAttachedTo = tree_text("<Advance name=\"arm\" step=\"0\"/>");
 
 class Attachable {
  public:
   explicit Attachable(std::vector<std::string> more = {}) {
     fs::create_directory(directory.path("run"));
-    arguments = {"run", directory.file("tree.xml", kEndless), "--view", "none", "--monitor-socket",
-                 socket};
+    arguments = {
+        "run", directory.file("tree.xml", kAttachedTo), "--view", "none", "--monitor-socket",
+        socket};
     arguments.insert(arguments.end(), more.begin(), more.end());
     begin();
   }

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kEndless = tree_text("<Advance name=\"arm\" step=\"0\"/>");
+const std::string kEndlessRun = tree_text("<Advance name=\"arm\" step=\"0\"/>");
 
 struct Place {
   Place() {
@@ -42,7 +42,7 @@ struct Place {
 
 TEST_CASE("the runs of a user that have a monitor are listed while they live") {
   const Place place;
-  const std::string tree = place.directory.file("tree.xml", kEndless);
+  const std::string tree = place.directory.file("tree.xml", kEndlessRun);
   const Outcome none = place.lockstep({"monitor"});
   CHECK(none.code == 2);
   CHECK(contains(none.err, "no run of yours has a monitor"));
@@ -76,7 +76,7 @@ TEST_CASE("the runs of a user that have a monitor are listed while they live") {
 
 TEST_CASE("the page of a run is opened in the browser") {
   const Place place;
-  const std::string tree = place.directory.file("tree.xml", kEndless);
+  const std::string tree = place.directory.file("tree.xml", kEndlessRun);
   Process process({.arguments = {"run", tree, "--monitor", "--view", "none"},
                    .environment = place.environment});
   const std::string link = place.link_of(process);
@@ -101,7 +101,7 @@ TEST_CASE("the page of a run is opened in the browser") {
 
 TEST_CASE("a directory that others can write to is not used for links") {
   const Place place;
-  const std::string tree = place.directory.file("tree.xml", kEndless);
+  const std::string tree = place.directory.file("tree.xml", kEndlessRun);
   const std::string shared = place.directory.path("run") + "/lockstep";
   fs::create_directory(shared);
   chmod(shared.c_str(), 0777);
