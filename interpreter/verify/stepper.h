@@ -27,7 +27,7 @@ class Stepper {
   // From this state on. Then `tick` for each combination of answers, until `next` is false.
   void load(std::span<const std::byte> state, bool is_first);
   // In place of combinations: `tick` has these answers, once for each.
-  void give(std::span<const Answer> answers) { answers_.give(answers); }
+  void give(std::span<const LeafAnswer> answers) { answers_.give(answers); }
   // The root's status; Running also after a fault. What the tick did can be looked at until `fold`.
   Status tick();
   bool next() { return answers_.next(); }

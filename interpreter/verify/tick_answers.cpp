@@ -29,7 +29,7 @@ void TickAnswers::begin_state(const std::vector<Activity>& activity,
   }
 }
 
-void TickAnswers::give(std::span<const Answer> answers) {
+void TickAnswers::give(std::span<const LeafAnswer> answers) {
   is_given_ = true;
   given_.assign(answers.begin(), answers.end());
 }
@@ -82,8 +82,8 @@ std::uint32_t TickAnswers::given(std::uint32_t asker) {
   throw std::logic_error("a tick asks for more than it did before");
 }
 
-std::vector<Answer> TickAnswers::asked() const {
-  std::vector<Answer> asked;
+std::vector<LeafAnswer> TickAnswers::asked() const {
+  std::vector<LeafAnswer> asked;
   for (std::size_t i = 0; i < at_; ++i) asked.push_back({digits_[i].asker, digits_[i].value});
   return asked;
 }

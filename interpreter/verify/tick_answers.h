@@ -13,10 +13,10 @@
 
 namespace lockstep::host {
 
-struct Answer {
+struct LeafAnswer {
   std::uint32_t asker, value;
 
-  friend bool operator==(const Answer&, const Answer&) = default;
+  friend bool operator==(const LeafAnswer&, const LeafAnswer&) = default;
 };
 
 class TickAnswers final : public Answers {
@@ -27,7 +27,7 @@ class TickAnswers final : public Answers {
   // All combinations of a state, from the first on.
   void begin_state(const std::vector<Activity>& activity, const std::vector<LeafState>& leaves);
   // In place of combinations: those of each asker in their order.
-  void give(std::span<const Answer> answers);
+  void give(std::span<const LeafAnswer> answers);
 
   // Before each tick.
   void begin();
@@ -36,7 +36,7 @@ class TickAnswers final : public Answers {
   std::uint32_t choose(std::uint32_t count, std::uint32_t asker) override;
 
   // What the tick has asked that had more than one answer.
-  std::vector<Answer> asked() const;
+  std::vector<LeafAnswer> asked() const;
   // The leaf before this one among those that are equal and in equal states; kNone: none.
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t equal_before(std::uint32_t leaf) const { return equal_before_[leaf]; }
@@ -61,7 +61,7 @@ class TickAnswers final : public Answers {
   std::vector<Digit> digits_;
   std::size_t at_ = 0;
   bool is_given_ = false;
-  std::vector<Answer> given_;
+  std::vector<LeafAnswer> given_;
   std::vector<bool> is_used_;  // of those
 };
 

@@ -141,9 +141,9 @@ void Tracer::swap(std::vector<NodeIndex>& nodes, const Swap& swap) const {
 }
 
 // The answers of the leaves that have the places of these. Those of facts are the same.
-std::vector<Answer> Tracer::moved(std::vector<Answer> answers,
-                                  std::span<const NodeIndex> nodes) const {
-  for (Answer& it : answers) {
+std::vector<LeafAnswer> Tracer::moved(std::vector<LeafAnswer> answers,
+                                      std::span<const NodeIndex> nodes) const {
+  for (LeafAnswer& it : answers) {
     if (it.asker < tree_.leaves.size()) {
       it.asker = tree_.nodes[nodes[tree_.leaves[it.asker].node]].params;
     }

@@ -14,7 +14,7 @@ namespace lockstep::host {
 struct TracedTick {
   StateBytes before;
   bool is_first = false;
-  std::vector<Answer> answers = {};
+  std::vector<LeafAnswer> answers = {};
 };
 using TracedRun = std::vector<TracedTick>;
 
@@ -65,7 +65,8 @@ class Tracer {
   Outcome outcome(Status status);
   void go(Trail& trail, const GuidedStep& step);
   void swap(std::vector<NodeIndex>& nodes, const Swap& swap) const;
-  std::vector<Answer> moved(std::vector<Answer> answers, std::span<const NodeIndex> nodes) const;
+  std::vector<LeafAnswer> moved(std::vector<LeafAnswer> answers,
+                                std::span<const NodeIndex> nodes) const;
   void add_words(LeafScripts& scripts);
   [[noreturn]] void fail(const char* what) const;
 

@@ -34,8 +34,8 @@ void make_project(const std::string& language, const TemporaryDirectory& directo
               "lockstep check --strict trees/*.xml --plugin-path build\n"
               "lockstep test --plugin-path build\n"
               // As colcon does; the plugin is found without --plugin-path then.
-              "cmake --install build --prefix installed >>log\n"
-              "AMENT_PREFIX_PATH=$PWD/installed lockstep run trees/robot.xml --clock virtual\n",
+              "cmake --install build --prefix ../installed >>log\n"
+              "AMENT_PREFIX_PATH=$PWD/../installed lockstep run trees/robot.xml --clock virtual\n",
           directory);
   const std::string log = read_file(directory.path("robot/log"));
   CHECK(contains(log, "100% tests passed, 0 tests failed out of 3"));

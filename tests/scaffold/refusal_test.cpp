@@ -127,7 +127,7 @@ TEST_CASE("after a file that cannot be written, none of the others is there") {
   const Outcome leaf = shell("ulimit -f 1; lockstep new leaf Open", directory);
   CHECK(leaf.code == 2);
   CHECK(read_file(directory.path("arm/arm.cpp")) == source);
-  CHECK(count_files(directory) == 5);
+  CHECK(count_files(directory) == 6);
 }
 
 TEST_CASE("a dry run lists the files that would be made, and makes none") {

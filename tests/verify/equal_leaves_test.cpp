@@ -112,12 +112,12 @@ TEST_CASE("equal children: what one has shown holds for the others") {
   const StateBytes first = stepper.first_state();
   stepper.load(first, true);
   // Success, failure, or running with a progress: the leaves of the first child are apart.
-  stepper.give(std::vector<Answer>{{0, 2}, {1, 5}, {2, 2}, {3, 2}});
+  stepper.give(std::vector<LeafAnswer>{{0, 2}, {1, 5}, {2, 2}, {3, 2}});
   stepper.tick();
   stepper.fold();
   const StateBytes second = stepper.in_place();
   stepper.load(second, false);
-  stepper.give(std::vector<Answer>{{0, 0}, {2, 2}, {3, 2}});
+  stepper.give(std::vector<LeafAnswer>{{0, 0}, {2, 2}, {3, 2}});
   stepper.tick();
   SearchCoverage coverage(it.tree);
   coverage.after_tick(stepper.ticker());
