@@ -21,6 +21,7 @@ problems=()
 says() { grep -q -- "$2" "$1" || problems+=("$1 has another version: expected $2"); }
 says package.xml "<version>$version</version>"
 says plugins/ros2/package.xml "<version>$version</version>"
+says plugins/lockstep_ros/package.xml "<version>$version</version>"
 says plugins/sdk/python/pyproject.toml "^version = \"$version\""
 says schema/editors/vscode/package.json "\"version\": \"$version\""
 says CHANGELOG.md "^## $version\$"
