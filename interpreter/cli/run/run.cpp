@@ -173,7 +173,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return false;
   }
 
-  // A tick before the clock has a time would be at a time of its own.
+  // Before the clock has a time, no tick has one.
   void wait_for_time() {
     constexpr Nanoseconds kSilence = std::chrono::seconds(2);
     const Nanoseconds begun = monotonic_now();

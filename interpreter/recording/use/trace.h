@@ -4,8 +4,8 @@
 #pragma once
 
 #include "recording/read/recording_reader.h"
-#include "recording/use/export_sink.h"
 #include "recording/tick_range.h"
+#include "recording/use/export_sink.h"
 
 namespace lockstep::host {
 

@@ -24,7 +24,7 @@ class TreeRun {
   using Goal = action::RunTree::Goal;
   using Result = action::RunTree::Result;
 
-  // Throws lockstep::runtime::Error with all that is wrong in the tree.
+  // Throws lockstep::runtime::Error with all errors of the tree.
   TreeRun(const Goal& goal, const TreeSettings& settings);
 
   // Whoever keeps it keeps the plugins as they are: the next tree that has them begins sooner.

@@ -1,5 +1,7 @@
-// The plugin of 1.0. frozen.so beside it was built from this source, with the headers of that version, by
-//   g++ -std=c++20 -O2 -shared -fPIC -fvisibility=hidden -Iplugins/sdk frozen.cpp -o frozen.so && strip frozen.so
+// The plugin of 1.0. frozen.so beside it was built from this source, with the headers of that
+// version, by
+//   g++ -std=c++20 -O2 -shared -fPIC -fvisibility=hidden -Iplugins/sdk frozen.cpp -o frozen.so &&
+//   strip frozen.so
 #include <lockstep/leaf.hpp>
 
 #include <algorithm>
@@ -48,4 +50,5 @@ class Note : public lockstep::Action<NotePorts> {
 
 }  // namespace
 
-LOCKSTEP_PLUGIN("frozen", "1.0.0", "What 1.0 could do", lockstep::leaf<Move>("Move", "moves"), lockstep::leaf<Note>("Note", "logs"));
+LOCKSTEP_PLUGIN("frozen", "1.0.0", "What 1.0 could do", lockstep::leaf<Move>("Move", "moves"),
+                lockstep::leaf<Note>("Note", "logs"));
