@@ -63,6 +63,35 @@ TEST_CASE("rows: compressed they are the same rows, and the summary is the same"
   CHECK(compare("zst") == compare("csv"));
 }
 
+TEST_CASE("rows: a run in which a measure has no value counts for none of its numbers") {
+  const StudyCase it;
+  write(it.path("late.xml"),
+        R"(<root lockstep="1"><plugin name="motion"/><BehaviorTree ID="M"><Fallback memory="true">
+           <Timeout seconds="0.05"><Advance step="0.2" noise="0.1"/></Timeout>
+           <ParallelAbsolute name="p" barriers="0.5"><Advance step="0.1" noise="0.05"/><Advance step="0.2"/>
+           </ParallelAbsolute></Fallback></BehaviorTree></root>)");
+  for (const char* rows : {"csv", "none"}) {
+    it.make({it.path("late.xml"), "--runs", "200", "--measure", "spread", "--rows", rows}, rows);
+  }
+  double sum = 0;
+  int count = 0;
+  for (const std::string& row : lines(it.read("csv", "runs.csv"))) {
+    const std::string value = fields(row).back();
+    if (value.empty() || std::isdigit(value.front()) == 0) continue;
+    sum += std::stod(value);
+    ++count;
+  }
+  CHECK(count > 10);
+  CHECK(count < 190);
+  const std::string summary = it.read("csv", "summary.csv");
+  INFO(summary);
+  CHECK(column(summary, "mean").at(0) == Approx(sum / count));
+  CHECK(column(summary, "n").at(0) == count);
+  const std::string without_rows = it.read("none", "summary.csv");  // its quartiles are near
+  CHECK(column(without_rows, "mean") == column(summary, "mean"));
+  CHECK(column(without_rows, "n") == column(summary, "n"));
+}
+
 TEST_CASE("rows: without them, quartiles are as near as promised and all else is the same") {
   const StudyCase it;
   it.make(study("csv"), "csv");
