@@ -180,6 +180,7 @@ class Compiler {
       const auto has = [&](Hook it) { return hooked.script(it) != HookedNode::kNoScript; };
       hooked.begins = has(Hook::FailureIf) || has(Hook::SuccessIf) || has(Hook::SkipIf);
       hooked.ends = has(Hook::OnSuccess) || has(Hook::OnFailure) || has(Hook::Post);
+      hooked.of_plugin = definition_.nodes[node].type->leaf != nullptr;
       tree_.has_halt_hooks |= has(Hook::OnHalted);
       kind = hooked_kind_of(kind);
     }

@@ -66,6 +66,7 @@ struct HookedNode {
   std::array<std::uint32_t, kHooks> scripts;  // in Tree::scripts; or kNoScript
   bool begins = false;                        // one of them may decide before the first tick
   bool ends = false;                          // one of them runs after the last tick
+  bool of_plugin = false;                     // it has a slot in the run
 
   static constexpr std::uint32_t kNoScript = 0xffffffff;
   std::uint32_t script(Hook hook) const { return scripts[static_cast<std::size_t>(hook)]; }

@@ -10,6 +10,17 @@ std::optional<double> constant(const Instruction& it) {
   return is_exact ? std::optional(number) : std::nullopt;
 }
 
+// What is added to a whole number, where that is all.
+std::optional<std::int64_t> step_of(Operation operation, double by) {
+  if (!(std::fabs(by) <= static_cast<double>(kLargestExact))) return std::nullopt;
+  const auto whole = static_cast<std::int64_t>(by);
+  if (static_cast<double>(whole) != by) return std::nullopt;
+  if (operation == Operation::Add || operation == Operation::AddTo) return whole;
+  const bool is_subtracted =
+      operation == Operation::Subtract || operation == Operation::SubtractFrom;
+  return is_subtracted ? std::optional(-whole) : std::nullopt;
+}
+
 bool is_one_of(Operation operation, Operation first, Operation last) {
   return operation >= first && operation <= last;
 }
@@ -27,7 +38,8 @@ std::optional<Change> only_change(const std::vector<Instruction>& code) {
                                         code[4].operation == Operation::Store &&
                                         code[1].argument == code[0].argument
                                   : is_one_of(operation, Operation::AddTo, Operation::DivideBy);
-  return by && is_change ? std::optional(Change{operation, *by}) : std::nullopt;
+  if (!by || !is_change) return std::nullopt;
+  return Change{operation, *by, step_of(operation, *by)};
 }
 
 }  // namespace lockstep::host

@@ -31,6 +31,7 @@ inline double calculated(double left, Operation operation, double right) {
 struct Change {
   Operation operation;
   double by;
+  std::optional<std::int64_t> step;  // a whole number is changed by adding this
 };
 
 // The change that the code makes in its first entry, if it does no more.
@@ -39,6 +40,15 @@ std::optional<Change> only_change(const std::vector<Instruction>& code);
 // False: nothing has happened, and the whole program says what does.
 inline bool apply(const Change& change, Entry& entry) {
   if (auto* const whole = std::get_if<std::int64_t>(&entry.value)) {
+    if (change.step) {
+      const auto is_exact = [](std::int64_t it) {
+        return it <= kLargestExact && it >= -kLargestExact;
+      };
+      if (!is_exact(*whole) || !is_exact(*whole + *change.step)) return false;
+      *whole += *change.step;
+      ++entry.writes;
+      return true;
+    }
     double number = 0;
     if (!take_exactly(*whole, number)) return false;
     const double result = calculated(number, change.operation, change.by);
