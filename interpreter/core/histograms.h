@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 
 namespace lockstep::host {
@@ -15,8 +16,14 @@ class Histograms {
  public:
   explicit Histograms(std::size_t many);
 
-  // Allocates nothing.
+  static constexpr std::uint64_t kLargest = (std::uint64_t{1} << 40) - 1;
+
+  // Allocates nothing. What is larger than kLargest counts as that.
   void record(std::size_t which, std::uint64_t value) {
+    record_in_range(which, std::min(value, kLargest));
+  }
+  // The same of what is not larger.
+  void record_in_range(std::size_t which, std::uint64_t value) {
     std::uint32_t& count = at(which, value);
     if (++count == 0) [[unlikely]]
       halve(which, count);
@@ -31,15 +38,16 @@ class Histograms {
  private:
   // A row has the values of one number of binary digits, the first all that have up to four.
   static constexpr unsigned kBits = 4, kInRow = 1u << kBits, kRows = 37;
+  static_assert(kLargest >> (kRows - 1 + kBits) == 0);
 
   std::uint32_t& at(std::size_t which, std::uint64_t value) {
-    constexpr std::uint64_t kLargest = (std::uint64_t{1} << (kRows - 1 + kBits)) - 1;
-    value = std::min(value, kLargest);
-    const auto row = static_cast<unsigned>(std::bit_width(value | (kInRow - 1))) - kBits;
-    const unsigned shift = row - (row != 0 ? 1u : 0u);
-    return of(which, row)[(value >> shift) & (kInRow - 1)];
+    constexpr unsigned kWidest = std::numeric_limits<std::uint64_t>::digits - 1;
+    const auto widest_bit = kWidest - static_cast<unsigned>(std::countl_zero(value | kInRow));
+    const unsigned shift = widest_bit - kBits;
+    const std::uint64_t leading = value >> shift;  // with the highest bit from the second row on
+    return of(which, shift + (leading >> kBits))[leading & (kInRow - 1)];
   }
-  std::uint32_t* of(std::size_t which, unsigned row) const {
+  std::uint32_t* of(std::size_t which, std::size_t row) const {
     return &counts_[(row * many_ + which) * kInRow];
   }
   void halve(std::size_t which, std::uint32_t& full);

@@ -93,7 +93,8 @@ void LeafWatch::note_unusual(std::uint32_t place, NodeIndex leaf, PluginFunction
 void LeafWatch::set_usual() {
   usual_ = slowest_.function == PluginFunction::None
                ? 0
-               : static_cast<std::uint64_t>(std::min(slowest_took_, budget_));
+               : std::min(static_cast<std::uint64_t>(std::min(slowest_took_, budget_)),
+                          Histograms::kLargest);
 }
 
 void LeafWatch::note_over_budget(std::uint32_t place, NodeIndex leaf, PluginFunction function,

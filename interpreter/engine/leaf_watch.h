@@ -69,7 +69,9 @@ class LeafWatch {
     if (static_cast<std::uint64_t>(took) > usual_ || mark.carried != Nanoseconds(0)) [[unlikely]] {
       return note_unusual(place, leaf, function, took, std::exchange(mark.carried, Nanoseconds(0)));
     }
-    if (function == PluginFunction::Tick) ticks_->record(place, static_cast<std::uint64_t>(took));
+    if (function == PluginFunction::Tick) {
+      ticks_->record_in_range(place, static_cast<std::uint64_t>(took));
+    }
   }
 
   // Around any call, which may be within another one.
