@@ -33,6 +33,7 @@ enum class FaultPolicy : std::uint8_t {
 
 class NodeContext : public RunView {
   friend class LeafCall;  // what is around a call of a leaf: engine/leaf_call.h
+  friend class LeafLoop;  // the calls of leaves in a loop: engine/leaf_loop.h
 
  public:
   // --- the life cycle of nodes -------------------------------------------------------------------

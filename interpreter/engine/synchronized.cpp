@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/leaf_loop.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -27,6 +29,15 @@ bool is_constant(const Tree& tree, NodeIndex node, Synchronization wanted) {
 }
 
 }  // namespace
+
+double snapshot_of(NodeContext& context, NodeIndex child) {
+  double progress = 0;
+  if (LeafLoop::read_progress(context, child, child + 1, &progress) != child) return progress;
+  const Activity activity = context.activity(child);
+  if (activity == Activity::Skipped) return kLeftOut;
+  if (activity == Activity::Failure && context.is_latched(child)) return 1.0;
+  return context.progress(child);
+}
 
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Absolute)) return std::nullopt;

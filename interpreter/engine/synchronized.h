@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/leaf_call.h"
+#include "engine/node_context.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -74,21 +74,7 @@ inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 
 // The progress of a child as its parallel counts it. One that was skipped in the last tick is left
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
-// `child` is the sibling after it then.
-inline double snapshot_and_pass(NodeContext& context, NodeIndex& child) {
-  double progress = 0;
-  if (LeafCall::progress_of_running(context, child, progress)) return progress;
-  const NodeIndex node = child;
-  const Node& it = context.node(node);
-  child = it.end;
-  const Activity activity = context.activity(node);
-  if (activity == Activity::Skipped) return kLeftOut;
-  if (activity == Activity::Failure && it.is_latched != 0) return 1.0;
-  return context.progress(node);
-}
-inline double snapshot_of(NodeContext& context, NodeIndex child) {
-  return snapshot_and_pass(context, child);
-}
+double snapshot_of(NodeContext& context, NodeIndex child);
 
 // The least progress of the children that were not left out; 1 if all were. Four at a time: a
 // comparison waits for the one before it.

@@ -63,6 +63,7 @@ void Ticker::watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch) {
   if (watches_ == nullptr) watches_ = std::make_unique<NodeWatches>(tree_);
   watches_->watch(nodes, watch);
   nodes_ = watches_->nodes();
+  in_line_ = nullptr;  // in a tick: a loop over leaves goes on with other nodes
   scripts_.use(watches_->hooked());
   notes_halts_ = tree_.has_halt_hooks || watch != nullptr;
 }

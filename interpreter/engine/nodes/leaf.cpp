@@ -254,8 +254,11 @@ double progress_of_control(NodeContext& context, NodeIndex self) {
 
 }  // namespace
 
-Status LeafCall::spoiled_tick(NodeContext& context, NodeIndex node, lockstep_status result) {
-  Status status = spoiled<Kind::Action>(context, node, context.leaf(node), result);
+Status LeafCall::complete(NodeContext& context, NodeIndex node, const LeafSlot& leaf,
+                          lockstep_status result) {
+  const bool is_plain = leaf.error == nullptr && is_result<Kind::Action>(result);
+  Status status = is_plain ? static_cast<Status>(result)
+                           : spoiled<Kind::Action>(context, node, context.leaf(node), result);
   if (context.faulted()) status = Status::Running;
   context.state_.activity[node] = static_cast<Activity>(status);
   context.state_.last_tick[node] = context.state_.tick_number;

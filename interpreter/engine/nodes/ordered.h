@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "engine/leaf_call.h"
+#include "engine/leaf_loop.h"
 #include "engine/nodes/fold.h"
 
 namespace lockstep::host::ordered {
@@ -52,18 +52,17 @@ Status tick(NodeContext& context, NodeIndex self) {
   for (NodeIndex next = begin; next != end;) {
     NodeIndex child = next;
     Status status = Status::Idle;
-    if (context.node(child).kind == &kPluginAction) {
-      const LeafCall::Stop stop = LeafCall::tick_row<kGoOn>(context, child, end);
+    if (LeafLoop::begins_at(context, child)) {
+      const LeafLoop::Stop stop = LeafLoop::tick<kGoOn>(context, child, end);
       if (stop.child == end) break;
       child = stop.child;
-      status = stop.status != Status::Idle ? stop.status : context.tick_apart(child);
       next = context.end_of(child);
-      if (status == kGoOn) continue;
+      status = stop.status != Status::Idle ? stop.status : context.tick_apart(child);
     } else {
       next = context.end_of(child);
       status = context.tick(child);
-      if (status == kGoOn) continue;
     }
+    if (status == kGoOn) continue;
     if (status == Status::Skipped) {
       if (!has_memory<kMemory>(context, self)) context.forget_range(child, next);
       ++skipped;

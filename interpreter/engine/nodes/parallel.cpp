@@ -1,4 +1,4 @@
-#include "engine/leaf_call.h"
+#include "engine/leaf_loop.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
 #include "engine/nodes/parallel_rule.h"
@@ -19,16 +19,13 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
   const NodeIndex end = context.end_of(self);
   parallel::Tally tally;
   for (NodeIndex child = self + 1; child != end;) {
-    const Status status = LeafCall::tick_running(context, child);
-    if (status == Status::Running) continue;
-    if (status != Status::Idle) {
-      tally.add(status);
-    } else if (parallel::is_over(context, child)) {
-      tally.add(context.status(child));
-      child = context.end_of(child);
-    } else {
-      tally.add(LeafCall::tick_and_pass(context, child));
+    auto [stop, status] = LeafLoop::tick<Status::Running>(context, child, end);
+    if (stop == end) break;
+    child = context.end_of(stop);
+    if (status == Status::Idle) {
+      status = parallel::is_over(context, stop) ? context.status(stop) : context.tick(stop);
     }
+    tally.add(status);
   }
   return parallel::judge(context, self, kParallelCounts, tally);
 }

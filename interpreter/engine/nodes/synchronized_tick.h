@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/leaf_call.h"
+#include "engine/leaf_loop.h"
 #include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
 
@@ -14,9 +14,16 @@ namespace lockstep::host::synchronized {
 // One snapshot before any child is ticked; returns its minimum. In two steps, since the least
 // number so far would have to survive each call.
 inline double take_snapshot(NodeContext& context, NodeIndex self) {
-  NodeIndex child = self + 1;
+  const NodeIndex end = context.end_of(self);
   const std::span<double> numbers = context.child_states<double>(self);
-  for (double& number : numbers) number = snapshot_and_pass(context, child);
+  double* number = numbers.data();
+  for (NodeIndex child = self + 1; child != end; child = context.end_of(child), ++number) {
+    const NodeIndex stop = LeafLoop::read_progress(context, child, end, number);
+    number += stop - child;
+    child = stop;
+    if (child == end) break;
+    *number = snapshot_of(context, child);
+  }
   return least_progress(numbers);
 }
 
@@ -24,24 +31,20 @@ inline double take_snapshot(NodeContext& context, NodeIndex self) {
 inline Status tick_each(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
                         double held_from) {
   parallel::Tally tally;
-  NodeIndex child = self + 1;
-  for (const double reached : context.child_states<double>(self)) {
-    if (reached < held_from) {
-      const Status status = LeafCall::tick_running(context, child);
-      if (status == Status::Running) continue;
-      if (status != Status::Idle) {
-        tally.add(status);
-        continue;
-      }
-    }
+  const NodeIndex end = context.end_of(self);
+  const double* reached = context.child_states<double>(self).data();
+  for (NodeIndex child = self + 1; child != end; ++reached) {
+    auto [stop, status] = LeafLoop::tick_below(context, child, end, reached, held_from);
+    if (stop == end) break;
+    reached += stop - child;
+    child = context.end_of(stop);
     if (context.faulted()) return Status::Running;
-    const bool is_over = parallel::is_over(context, child);
-    if (is_over || (reached >= held_from && !context.is_guard(child) && context.hold(child))) {
-      tally.add(context.status(child));
-      child = context.end_of(child);
-    } else {
-      tally.add(LeafCall::tick_and_pass(context, child));
+    if (status == Status::Idle) {
+      const bool is_over = parallel::is_over(context, stop) ||
+                           (*reached >= held_from && !context.is_guard(stop) && context.hold(stop));
+      status = is_over ? context.status(stop) : context.tick(stop);
     }
+    tally.add(status);
   }
   return context.faulted() ? Status::Running : parallel::judge(context, self, counts, tally);
 }
@@ -64,8 +67,8 @@ inline void decided(NodeContext& context, NodeIndex self, Status result) {
 // The progress of the least progressed child, so that synchronized nodes can be nested.
 inline double least_progress(NodeContext& context, NodeIndex self) {
   double least = 1.0;
-  for (NodeIndex child = self + 1; child != context.end_of(self);) {
-    if (const double number = snapshot_and_pass(context, child); number < least) least = number;
+  for (NodeIndex child = self + 1; child != context.end_of(self); child = context.end_of(child)) {
+    if (const double number = snapshot_of(context, child); number < least) least = number;
   }
   return least;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "dialect/btcpp/nodes/kinds.h"
-#include "engine/leaf_call.h"
+#include "engine/leaf_loop.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/parallel_rule.h"
 
@@ -57,11 +57,9 @@ std::optional<RuleBreak> all_rule(const ParameterValues& given) {
   return check_count(given, kMaxFailures, "max_failures");
 }
 
-// `child` is the sibling after it then. Running: also of one that has completed before.
-Status tick_unless_over(NodeContext& context, NodeIndex& child) {
-  if (!is_complete(context.status(child))) return LeafCall::tick_and_pass(context, child);
-  child = context.end_of(child);
-  return Status::Running;
+// Running: also of one that has completed before.
+Status tick_unless_over(NodeContext& context, NodeIndex child) {
+  return is_complete(context.status(child)) ? Status::Running : context.tick(child);
 }
 
 // Decides after each child, so that those to the right of the one that decides are not ticked. The
@@ -72,9 +70,11 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
   const NodeIndex end = context.end_of(self);
   bool may_decide = true;
   for (NodeIndex next = self + 1; next != end;) {
-    Status status = LeafCall::tick_running(context, next);
-    if (status == Status::Running && !may_decide) continue;
-    if (status == Status::Idle) status = tick_unless_over(context, next);
+    auto [child, status] = may_decide ? LeafLoop::Stop{next, Status::Idle}
+                                      : LeafLoop::tick<Status::Running>(context, next, end);
+    if (child == end) break;
+    next = context.end_of(child);
+    if (status == Status::Idle) status = tick_unless_over(context, child);
     if (context.faulted()) return Status::Running;
     if (status != Status::Running) {
       may_decide = true;
@@ -99,8 +99,12 @@ Status tick_parallel(NodeContext& context, NodeIndex self) {
 Status tick_all(NodeContext& context, NodeIndex self) {
   Tally& tally = begin_tick(context, self);
   const std::int64_t all = context.node(self).children;
-  for (NodeIndex next = self + 1; next != context.end_of(self);) {
-    tally.add(tick_unless_over(context, next));
+  const NodeIndex end = context.end_of(self);
+  for (NodeIndex next = self + 1; next != end;) {
+    const auto [child, status] = LeafLoop::tick<Status::Running>(context, next, end);
+    if (child == end) break;
+    next = context.end_of(child);
+    tally.add(status == Status::Idle ? tick_unless_over(context, child) : status);
   }
   if (context.faulted()) return Status::Running;
   if (tally.of(Status::Skipped) == all) return Status::Skipped;

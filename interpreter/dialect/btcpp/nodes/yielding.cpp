@@ -23,7 +23,7 @@ Status tick_yielding(NodeContext& context, NodeIndex self) {
   begin(context, self, state, kPlace);
   while (state.current != context.end_of(self)) {
     const bool was_idle = context.first_tick(state.current);
-    const Status status = LeafCall::tick(context, state.current);
+    const Status status = context.tick(state.current);
     if (status != kGoOn && status != Status::Skipped) return status;
     if (status == Status::Skipped) ++state.skipped;
     state.current = context.end_of(state.current);

@@ -1,0 +1,160 @@
+// Calls siblings that are next to each other and actions of plugins, in one small loop. Only a mark
+// is around each call and, where calls are timed, its time. All else stops the loop, and is done by
+// the control node as for any other child. The slots of such siblings are next to each other too.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "engine/leaf_call.h"
+
+namespace lockstep::host {
+
+class LeafLoop {
+ public:
+  // The child at which a row ends, and its status; Idle: it was not ticked. At the end of the
+  // parent's children there is no child.
+  struct Stop {
+    NodeIndex child;
+    Status status;
+  };
+
+  // Whether the child is called so at all, if it is ready.
+  static bool begins_at(const NodeContext& context, NodeIndex child) {
+    return context.nodes_[child].kind == &kPluginAction && context.in_line_ != nullptr;
+  }
+
+  // Ticks the children from `child` to `end`, as long as each returns `kGoesOn`. Running: only
+  // those that run.
+  template <Status kGoesOn>
+  [[gnu::always_inline]] static Stop tick(NodeContext& context, NodeIndex child, NodeIndex end) {
+    return tick_while<kGoesOn>(context, child, end, Any{});
+  }
+  // The same of those that run and whose progress, `reached` and the numbers after it, is below a
+  // limit. One that is held, and is not, stays held.
+  [[gnu::always_inline]] static Stop tick_below(NodeContext& context, NodeIndex child,
+                                                NodeIndex end, const double* reached,
+                                                double limit) {
+    return tick_while<Status::Running>(context, child, end, Below{reached, limit});
+  }
+  // Stores the progress of those that run, also of one that is held. Returns the first child of
+  // which it does not.
+  [[gnu::always_inline]] static NodeIndex read_progress(NodeContext& context, NodeIndex child,
+                                                        NodeIndex end, double* progress) {
+    if (!begins_at(context, child)) return child;
+    return context.timer_ != nullptr ? read_row<true>(context, child, end, progress)
+                                     : read_row<false>(context, child, end, progress);
+  }
+
+ private:
+  struct Any {
+    static constexpr bool kHolds = false;
+    bool next() { return true; }
+  };
+  struct Below {
+    static constexpr bool kHolds = true;
+    bool next() { return *reached++ < limit; }
+    const double* reached;
+    const double limit;
+  };
+
+  // Nothing but the call belongs to the tick.
+  static bool is_ready(Activity before, const LeafSlot& leaf) {
+    const bool is_simple =
+        before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
+    return is_simple && !leaf.failed && !leaf.unreset;
+  }
+  template <class While>
+  [[gnu::always_inline]] static bool stays_held(const NodeContext& context, Activity before,
+                                                While& chosen) {
+    return While::kHolds && before == Activity::Paused && context.state_.failed_leaves.empty() &&
+           !chosen.next();
+  }
+  // From 0 to 1, but not -0: the bits of such numbers are ordered as the numbers are.
+  static bool is_usual(double progress) {
+    return std::bit_cast<std::uint64_t>(progress) <= std::bit_cast<std::uint64_t>(1.0);
+  }
+
+  template <Status kGoesOn, class While>
+  [[gnu::always_inline]] static Stop tick_while(NodeContext& context, NodeIndex child,
+                                                NodeIndex end, While chosen) {
+    if (!begins_at(context, child)) return {child, Status::Idle};
+    return context.timer_ != nullptr ? tick_row<kGoesOn, true>(context, child, end, chosen)
+                                     : tick_row<kGoesOn, false>(context, child, end, chosen);
+  }
+  template <Status kGoesOn, bool kTimed, class While>
+  [[gnu::noinline]] static Stop tick_row(NodeContext& context, NodeIndex child, NodeIndex end,
+                                         While chosen);
+  template <bool kTimed>
+  [[gnu::noinline]] static NodeIndex read_row(NodeContext& context, NodeIndex child, NodeIndex end,
+                                              double* progress);
+};
+
+template <Status kGoesOn, bool kTimed, class While>
+LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeIndex end,
+                                  While chosen) {
+  constexpr bool kRuns = kGoesOn == Status::Running;
+  CallMark& mark = *context.in_line_;
+  const Node* node = context.nodes_ + child;
+  LeafSlot* leaf = context.leaves_.data() + node->params;
+  Activity* const activity = context.state_.activity.data();
+  std::uint32_t* const last_tick = context.state_.last_tick.data();
+  const std::uint32_t tick_number = context.state_.tick_number;
+  // A call may end the calls in line, also by a fault: then the next child is not called so.
+  const auto pass = [&] {
+    ++child, ++node, ++leaf;
+    return child != end && context.in_line_ != nullptr && node->kind == &kPluginAction;
+  };
+  do {
+    const Activity before = activity[child];
+    if constexpr (!kRuns) {
+      if (!is_ready(before, *leaf)) break;
+      leaf->started = true;
+    } else if (before != Activity::Running) {
+      if (stays_held(context, before, chosen)) continue;
+      break;
+    } else if (!chosen.next() || leaf->failed) {
+      break;
+    }
+    const auto result = LeafCall::marked<PluginFunction::Tick, kTimed>(
+        context, mark, child, node->params, *leaf, leaf->type->tick);
+    if (leaf->error != nullptr || result != static_cast<int>(kGoesOn)) [[unlikely]] {
+      const Status status = LeafCall::complete(context, child, *leaf, result);
+      if (status != kGoesOn) return {child, status};
+      continue;
+    }
+    if constexpr (!kRuns) activity[child] = static_cast<Activity>(kGoesOn);
+    last_tick[child] = tick_number;
+  } while (pass());
+  return {child, Status::Idle};
+}
+
+template <bool kTimed>
+NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex end,
+                             double* progress) {
+  CallMark& mark = *context.in_line_;
+  const Node* node = context.nodes_ + child;
+  const LeafSlot* leaf = context.leaves_.data() + node->params;
+  const Activity* const activity = context.state_.activity.data();
+  const auto pass = [&] {
+    ++child, ++node, ++leaf, ++progress;
+    return child != end && context.in_line_ != nullptr && node->kind == &kPluginAction;
+  };
+  do {
+    if (status_of(activity[child]) != Status::Running || leaf->failed) break;
+    double reported = 0.0;
+    if (leaf->kept_progress != nullptr) {
+      reported = leaf->read_progress();
+    } else if (leaf->type->progress == nullptr) {
+      break;
+    } else {
+      reported = LeafCall::marked<PluginFunction::Progress, kTimed>(
+          context, mark, child, node->params, *leaf, leaf->type->progress);
+    }
+    const bool is_plain = leaf->error == nullptr && is_usual(reported);
+    *progress = is_plain ? reported : LeafCall::spoiled_progress(context, child, reported);
+  } while (pass());
+  return child;
+}
+
+}  // namespace lockstep::host
