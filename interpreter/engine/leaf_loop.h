@@ -64,11 +64,10 @@ class LeafLoop {
         before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
     return is_simple && !leaf.failed && !leaf.unreset;
   }
+  // One that has failed as a program is not held: its progress is 0.
   template <class While>
-  [[gnu::always_inline]] static bool stays_held(const NodeContext& context, Activity before,
-                                                While& chosen) {
-    return While::kHolds && before == Activity::Paused && context.state_.failed_leaves.empty() &&
-           !chosen.next();
+  [[gnu::always_inline]] static bool stays_held(Activity before, While& chosen) {
+    return While::kHolds && before == Activity::Paused && !chosen.next();
   }
   // From 0 to 1, but not -0: the bits of such numbers are ordered as the numbers are.
   static bool is_usual(double progress) {
@@ -111,7 +110,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
       if (!is_ready(before, *leaf)) break;
       leaf->started = true;
     } else if (before != Activity::Running) {
-      if (stays_held(context, before, chosen)) continue;
+      if (stays_held(before, chosen)) continue;
       break;
     } else if (!chosen.next() || leaf->failed) {
       break;
