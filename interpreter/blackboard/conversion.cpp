@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/value_types.h"
 #include "json/reader.h"
 
 namespace lockstep::host {
@@ -20,12 +21,9 @@ std::optional<FromText<Number>> front_number(std::string_view text) {
   return FromText<Number>{number, rest != end};
 }
 
-std::optional<FromText<std::int64_t>> read_item(std::string_view text, std::int64_t /*type*/) {
-  return front_number<std::int64_t>(text);
-}
-
-std::optional<FromText<double>> read_item(std::string_view text, double /*type*/) {
-  return front_number<double>(text);
+template <IsNumber Number>
+std::optional<FromText<Number>> read_item(std::string_view text, Number /*type*/) {
+  return front_number<Number>(text);
 }
 
 std::optional<FromText<Flag>> read_item(std::string_view text, Flag /*type*/) {
@@ -43,14 +41,18 @@ std::optional<FromText<std::string>> read_item(std::string_view text, const std:
 }
 
 template <class T>
-std::optional<FromText<Value>> read_one(std::string_view text) {
+std::optional<FromText<Value>> read(std::string_view text, std::type_identity<T>) {
   auto found = read_item(text, T{});
   if (!found) return std::nullopt;
   return FromText<Value>{Value(std::move(found->value)), found->has_rest};
 }
 
-bool get_item(JsonValue& item, double& number) {
-  return item.get(number);
+template <std::floating_point Real>
+bool get_item(JsonValue& item, Real& number) {
+  double real = 0;
+  const bool is_number = item.get(real);
+  number = static_cast<Real>(real);
+  return is_number;
 }
 bool get_item(JsonValue& item, std::int64_t& number) {
   double real = 0;
@@ -91,7 +93,7 @@ std::optional<FromText<Value>> read_json_list(std::string_view text) {
 
 // Parts between ';'; one at the end is ignored.
 template <class T>
-std::optional<FromText<Value>> read_list(std::string_view text) {
+std::optional<FromText<Value>> read(std::string_view text, std::type_identity<std::vector<T>>) {
   constexpr std::string_view kJson = "json:";
   if (text.starts_with(kJson)) return read_json_list<T>(text.substr(kJson.size()));
   std::vector<T> list;
@@ -107,12 +109,19 @@ std::optional<FromText<Value>> read_list(std::string_view text) {
   return FromText<Value>{Value(std::move(list)), has_rest};
 }
 
-std::optional<FromText<Value>> read_number(std::string_view text) {
-  auto whole = read_one<std::int64_t>(text);
-  return whole && !whole->has_rest ? whole : read_one<double>(text);
+std::optional<FromText<Value>> read(std::string_view /*text*/, std::type_identity<NoValue>) {
+  return std::nullopt;
+}
+std::optional<FromText<Value>> read(std::string_view /*text*/, std::type_identity<Object>) {
+  return std::nullopt;
 }
 
-std::optional<FromText<Value>> read_bool(std::string_view text) {
+std::optional<FromText<Value>> read_number(std::string_view text) {
+  auto whole = read(text, std::type_identity<std::int64_t>());
+  return whole && !whole->has_rest ? whole : read(text, std::type_identity<double>());
+}
+
+std::optional<FromText<Value>> read(std::string_view text, std::type_identity<bool>) {
   const auto flag = read_item(text, Flag{});
   if (!flag) return std::nullopt;
   return FromText<Value>{Value(flag->value.is_set), false};
@@ -172,29 +181,9 @@ std::optional<FromText<double>> number_from_text(std::string_view text) {
 
 std::optional<FromText<Value>> value_from_text(ValueType type, const ObjectType* object,
                                                std::string_view text) {
-  switch (type) {
-    case ValueType::Number:
-      return read_number(text);
-    case ValueType::Bool:
-      return read_bool(text);
-    case ValueType::Int:
-      return read_one<std::int64_t>(text);
-    case ValueType::Double:
-      return read_one<double>(text);
-    case ValueType::String:
-      return read_one<std::string>(text);
-    case ValueType::DoubleList:
-      return read_list<double>(text);
-    case ValueType::IntList:
-      return read_list<std::int64_t>(text);
-    case ValueType::BoolList:
-      return read_list<Flag>(text);
-    case ValueType::StringList:
-      return read_list<std::string>(text);
-    case ValueType::Object:
-      break;
-  }
-  return read_object(object, text);
+  if (type == ValueType::Number) return read_number(text);
+  if (type == ValueType::Object) return read_object(object, text);
+  return with_type(type, [&](auto of) { return read(text, of); });
 }
 
 std::optional<double> to_real(std::int64_t number) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/value_types.h"
 #include "core/wording.h"
 
 namespace lockstep::host {
@@ -21,10 +22,9 @@ class OutOfRange {
   std::optional<double> operator()(const T& /*no number*/) const {
     return std::nullopt;
   }
-  std::optional<double> operator()(std::int64_t number) const {
-    return (*this)(static_cast<double>(number));
-  }
-  std::optional<double> operator()(double number) const {
+  template <IsNumber Number>
+  std::optional<double> operator()(const Number& given) const {
+    const auto number = static_cast<double>(given);
     const bool above = range_.min_excluded ? number > range_.min : number >= range_.min;
     return above && number <= range_.max ? std::nullopt : std::optional(number);
   }

@@ -48,7 +48,7 @@ Values port_values(const SourceLanguage& language, const NewPort& port) {
                   {"is_required", has_default || is_output ? "" : "yes"},
                   {"default", has_default ? "yes" : ""},
                   {"text", has_default ? in_quotes(*port.default_text) : ""},
-                  {"value", has_default ? literal(language, port.type, *port.default_text) : ""}};
+                  {"value", has_default ? literal(language, *type, *port.default_text) : ""}};
   return values;
 }
 

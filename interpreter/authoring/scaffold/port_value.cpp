@@ -9,6 +9,7 @@ namespace {
 
 struct Literal {
   bool is_python;
+  std::string_view type;  // as the language has it
 
   std::string operator()(NoValue) const { return {}; }
   std::string operator()(const Object&) const { return {}; }
@@ -31,13 +32,8 @@ struct Literal {
     std::vector<std::string> items;
     for (const Item& item : values) items.push_back((*this)(item));
     const std::string list = joined(items, ", ");
-    return is_python ? '[' + list + ']' : type_of(values) + '{' + list + '}';
+    return is_python ? '[' + list + ']' : fmt::format("{}{{{}}}", type, list);
   }
-
-  static std::string type_of(const std::vector<double>&) { return "std::vector<double>"; }
-  static std::string type_of(const std::vector<std::int64_t>&) { return "std::vector<int>"; }
-  static std::string type_of(const std::vector<Flag>&) { return "std::vector<bool>"; }
-  static std::string type_of(const std::vector<std::string>&) { return "std::vector<std::string>"; }
 };
 
 }  // namespace
@@ -51,9 +47,11 @@ std::string in_quotes(std::string_view text) {
   return quoted;
 }
 
-std::string literal(const SourceLanguage& language, ValueType type, std::string_view text) {
-  const auto value = parse_value(type == ValueType::Number ? ValueType::Double : type, text);
-  return value ? std::visit(Literal{language.name == "python"}, *value) : std::string();
+std::string literal(const SourceLanguage& language, const PortType& type, std::string_view text) {
+  const auto value =
+      parse_value(type.type == ValueType::Number ? ValueType::Double : type.type, text);
+  if (!value) return {};
+  return std::visit(Literal{language.name == "python", type.text}, *value);
 }
 
 }  // namespace lockstep::host

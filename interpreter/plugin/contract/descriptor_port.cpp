@@ -7,6 +7,7 @@
 #include "core/diagnostics.h"
 #include "core/identifier.h"
 #include "core/parameter_value.h"
+#include "core/value_types.h"
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/object_type.h"
 
@@ -133,9 +134,7 @@ bool has_range(const lockstep_port& port) {
 
 std::optional<Problem> check_range(const lockstep_port& port, ValueType type) {
   if (!has_range(port)) return std::nullopt;
-  constexpr ValueType kNumbers[] = {ValueType::Number, ValueType::Int, ValueType::Double,
-                                    ValueType::IntList, ValueType::DoubleList};
-  if (std::ranges::find(kNumbers, type) == std::end(kNumbers)) {
+  if (!has_numbers(type)) {
     return Problem{fmt::format("('{}') has min and max, but is not a number", port.name),
                    "only numbers and lists of them have min and max"};
   }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/value_types.h"
 #include "plugin/contract/object_type.h"
 
 namespace lockstep::host {
@@ -10,82 +11,85 @@ namespace {
 
 static_assert(sizeof(Flag) == sizeof(bool));
 
-template <class T>
-void describe_list(const std::vector<T>& list, lockstep_entry_value& value) {
-  value.items = list.data();
-  value.count = list.size();
-}
+// What a value is in the contract. The texts of a list are put together in `texts`.
+struct Describer {
+  lockstep_entry_value& value;
+  std::vector<lockstep_text>& texts;
 
-void describe(const Object& object, lockstep_entry_value& value) {
-  value.object_name = object.type()->name().data();
-  if (object.type()->is_packed()) {
-    value.type = 0;
-  } else {
-    value.object = object.get();
+  void operator()(const NoValue& /*none*/) const {}
+  void operator()(bool flag) const { value.flag = flag; }
+  void operator()(std::int64_t whole) const { value.whole = whole; }
+  void operator()(double number) const { value.number = number; }
+  void operator()(const std::string& text) const { point_to(text.c_str(), text.size()); }
+  template <class T>
+  void operator()(const std::vector<T>& list) const {
+    point_to(list.data(), list.size());
   }
-}
-
-void describe(const Value& from, lockstep_entry_value& value, std::vector<lockstep_text>& texts) {
-  // The types of the contract have the numbers of the alternatives.
-  value.type = static_cast<lockstep_type>(from.index());
-  if (const auto* flag = std::get_if<bool>(&from)) value.flag = *flag;
-  if (const auto* whole = std::get_if<std::int64_t>(&from)) value.whole = *whole;
-  if (const auto* number = std::get_if<double>(&from)) value.number = *number;
-  if (const auto* text = std::get_if<std::string>(&from)) {
-    value.items = text->c_str();
-    value.count = text->size();
-  }
-  if (const auto* list = std::get_if<std::vector<double>>(&from)) describe_list(*list, value);
-  if (const auto* list = std::get_if<std::vector<std::int64_t>>(&from)) describe_list(*list, value);
-  if (const auto* list = std::get_if<std::vector<Flag>>(&from)) describe_list(*list, value);
-  if (const auto* list = std::get_if<std::vector<std::string>>(&from)) {
+  void operator()(const std::vector<std::string>& list) const {
     texts.clear();
-    for (const std::string& text : *list) texts.push_back({text.c_str(), text.size()});
-    describe_list(texts, value);
+    for (const std::string& text : list) texts.push_back({text.c_str(), text.size()});
+    point_to(texts.data(), texts.size());
   }
-  if (const auto* object = std::get_if<Object>(&from)) describe(*object, value);
-}
+  void operator()(const Object& object) const {
+    value.object_name = object.type()->name().data();
+    if (object.type()->is_packed()) {
+      value.type = 0;
+    } else {
+      value.object = object.get();
+    }
+  }
 
-template <class T>
-Value list_of(const lockstep_entry_value& value) {
-  const auto* const items = static_cast<const T*>(value.items);
-  return std::vector<T>(items, items + value.count);
-}
+ private:
+  void point_to(const void* items, std::size_t count) const {
+    value.items = items;
+    value.count = count;
+  }
+};
 
-Value text_list_of(const lockstep_entry_value& value) {
-  std::vector<std::string> texts;
-  const auto* const items = static_cast<const lockstep_text*>(value.items);
-  for (std::size_t i = 0; i < value.count; ++i) texts.emplace_back(items[i].text, items[i].length);
-  return texts;
-}
+// The other way: one overload for each shape of a value.
+class Taker {
+ public:
+  Taker(const lockstep_entry_value& value, const ObjectType* type) : value_(value), type_(type) {}
+
+  bool operator()(std::type_identity<bool>) const { return value_.flag; }
+  std::int64_t operator()(std::type_identity<std::int64_t>) const { return value_.whole; }
+  double operator()(std::type_identity<double>) const { return value_.number; }
+  std::string operator()(std::type_identity<std::string>) const {
+    return {static_cast<const char*>(value_.items), value_.count};
+  }
+  template <class T>
+  std::vector<T> operator()(std::type_identity<std::vector<T>>) const {
+    const auto* const items = static_cast<const T*>(value_.items);
+    return std::vector<T>(items, items + value_.count);
+  }
+  std::vector<std::string> operator()(std::type_identity<std::vector<std::string>>) const {
+    std::vector<std::string> texts;
+    const auto* const items = static_cast<const lockstep_text*>(value_.items);
+    for (std::size_t i = 0; i < value_.count; ++i) {
+      texts.emplace_back(items[i].text, items[i].length);
+    }
+    return texts;
+  }
+  NoValue operator()(std::type_identity<NoValue>) const { return {}; }
+  Value operator()(std::type_identity<Object>) const {
+    if (type_ == nullptr || value_.object == nullptr) return {};
+    type_->retain(value_.object);
+    return Object(*type_, value_.object);
+  }
+
+ private:
+  const lockstep_entry_value& value_;
+  const ObjectType* type_;
+};
 
 // Nothing: it is no value.
 std::optional<Value> value_of(const lockstep_entry_value& value, const ObjectType* type) {
-  switch (value.type) {
-    case LOCKSTEP_BOOL:
-      return Value(value.flag);
-    case LOCKSTEP_INT:
-      return Value(value.whole);
-    case LOCKSTEP_DOUBLE:
-      return Value(value.number);
-    case LOCKSTEP_STRING:
-      return Value(std::string(static_cast<const char*>(value.items), value.count));
-    case LOCKSTEP_DOUBLE_LIST:
-      return list_of<double>(value);
-    case LOCKSTEP_INT_LIST:
-      return list_of<std::int64_t>(value);
-    case LOCKSTEP_BOOL_LIST:
-      return list_of<Flag>(value);
-    case LOCKSTEP_STRING_LIST:
-      return text_list_of(value);
-    default:
-      break;
-  }
-  if (value.type != LOCKSTEP_OBJECT || type == nullptr || value.object == nullptr) {
-    return std::nullopt;
-  }
-  type->retain(value.object);
-  return Value(Object(*type, value.object));
+  const Taker take(value, type);
+  // The types of the contract have the numbers of the alternatives.
+  const auto number = static_cast<std::size_t>(value.type);
+  Value taken = with_alternative(number, [&](auto of) { return Value(take(of)); });
+  if (std::holds_alternative<NoValue>(taken)) return std::nullopt;
+  return taken;
 }
 
 // Gives the entry its declared type.
@@ -105,7 +109,9 @@ lockstep_entry_value described(const Entry& entry, std::vector<lockstep_text>& t
                    : entry.type == ValueType::Number ? LOCKSTEP_NUMBER
                                                      : static_cast<lockstep_type>(entry.type);
   if (entry.object != nullptr) value.object_name = entry.object->name().data();
-  describe(entry.value, value, texts);
+  // The types of the contract have the numbers of the alternatives.
+  value.type = static_cast<lockstep_type>(entry.value.index());
+  std::visit(Describer{value, texts}, entry.value);
   return value;
 }
 

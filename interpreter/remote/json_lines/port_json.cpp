@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/value_types.h"
 #include "json/json.h"
 #include "plugin/contract/host.h"
 
@@ -17,10 +18,8 @@ void append_item(std::string& to, bool item) {
 void append_item(std::string& to, Flag item) {
   append_item(to, item.is_set);
 }
-void append_item(std::string& to, std::int64_t item) {
-  append_text(item, to);
-}
-void append_item(std::string& to, double item) {
+template <IsNumber Number>
+void append_item(std::string& to, Number item) {
   append_text(item, to);
 }
 void append_item(std::string& to, const std::string& item) {
@@ -49,6 +48,13 @@ template <class T>
 bool read_item(JsonValue value, T& item) {
   return value.get(item);
 }
+template <std::floating_point Real>
+bool read_item(JsonValue value, Real& item) {
+  double number = 0;
+  const bool is_number = value.get(number);
+  item = static_cast<Real>(number);
+  return is_number;
+}
 bool read_item(JsonValue value, Flag& item) {
   return value.get(item.is_set);
 }
@@ -72,15 +78,12 @@ bool read_item(JsonValue /*value*/, Object& /*item*/) {
   return false;
 }
 
-// The value as one of this type, that of the alternative with its number; NoValue if it is none.
-template <std::size_t kIndex = 0>
+// The value as one of this type; NoValue if it is none.
 Value value_of(JsonValue value, ValueType type) {
-  if constexpr (kIndex < std::variant_size_v<Value>) {
-    if (static_cast<std::size_t>(type) != kIndex) return value_of<kIndex + 1>(value, type);
-    std::variant_alternative_t<kIndex, Value> item{};
-    if (read_item(value, item)) return item;
-  }
-  return {};
+  return with_type(type, [&]<class T>(std::type_identity<T>) {
+    T item{};
+    return read_item(value, item) ? Value(std::move(item)) : Value();
+  });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/value_types.h"
 #include "plugin/contract/held.h"
 
 namespace lockstep::host {
@@ -25,10 +26,6 @@ void MessageWriter::put_text_or_null(const char* text) {
 
 namespace {
 
-// The items of a list that are copied together. A bool is not: not every byte is one.
-template <class T>
-constexpr bool kIsNumber = std::is_same_v<T, double> || std::is_same_v<T, std::int64_t>;
-
 class ValueWriter {
  public:
   explicit ValueWriter(MessageWriter& message) : message_(message) {}
@@ -41,13 +38,15 @@ class ValueWriter {
   }
   void operator()(bool flag) const { message_.put(static_cast<std::uint8_t>(flag)); }
   void operator()(Flag flag) const { (*this)(flag.is_set); }
-  void operator()(std::int64_t number) const { message_.put(number); }
-  void operator()(double number) const { message_.put(number); }
+  template <IsNumber Number>
+  void operator()(Number number) const {
+    message_.put(number);
+  }
   void operator()(const std::string& text) const { message_.put_text(text); }
   template <class T>
   void operator()(const std::vector<T>& list) const {
     message_.put(std::uint64_t{list.size()});
-    if constexpr (kIsNumber<T>) {
+    if constexpr (IsNumber<T>) {  // copied together; not every byte is a bool
       message_.append(list.data(), list.size() * sizeof(T));
     } else {
       for (const T& item : list) (*this)(item);
@@ -77,12 +76,9 @@ class ValueReader {
     return message_.good();
   }
   bool operator()(Flag& flag) const { return (*this)(flag.is_set); }
-  bool operator()(std::int64_t& number) const {
-    number = message_.get<std::int64_t>();
-    return message_.good();
-  }
-  bool operator()(double& number) const {
-    number = message_.get<double>();
+  template <IsNumber Number>
+  bool operator()(Number& number) const {
+    number = message_.get<Number>();
     return message_.good() && std::isfinite(number);
   }
   bool operator()(std::string& text) const {
@@ -91,11 +87,12 @@ class ValueReader {
   }
   template <class T>
   bool operator()(std::vector<T>& list) const {
-    constexpr std::size_t kLeast = std::is_same_v<T, Flag> ? 1 : 8;  // bytes of an item
+    // The bytes of an item, at least: a text has its size.
+    constexpr std::size_t kLeast = std::is_same_v<T, std::string> ? 8 : sizeof(T);
     const auto count = message_.get<std::uint64_t>();
     if (!message_.good() || count > message_.rest().size() / kLeast) return false;
     list.resize(count);
-    if constexpr (kIsNumber<T>) {
+    if constexpr (IsNumber<T>) {
       const std::byte* const data = message_.take(count * sizeof(T));
       if (count != 0) std::memcpy(list.data(), data, count * sizeof(T));
       return std::ranges::all_of(list, [](T it) { return std::isfinite(it); });
@@ -108,14 +105,6 @@ class ValueReader {
   MessageReader& message_;
   const PackedType* objects_;
 };
-
-// Reads the alternative of this number.
-template <std::size_t... kIndices>
-bool read_alternative(const ValueReader& read, std::size_t index, Value& value,
-                      std::index_sequence<kIndices...>) {
-  return ((index == kIndices && read(held<std::variant_alternative_t<kIndices, Value>>(value))) ||
-          ...);
-}
 
 }  // namespace
 
@@ -154,8 +143,11 @@ bool MessageReader::has_text() {
 bool MessageReader::value_into(Value& value, const PackedType* objects) {
   const auto index = get<std::uint8_t>();
   if (!good_) return false;
-  constexpr auto kAll = std::make_index_sequence<std::variant_size_v<Value>>();
-  return read_alternative(ValueReader(*this, objects), index, value, kAll) || fail();
+  const ValueReader read(*this, objects);
+  const bool is_read =
+      index < std::variant_size_v<Value> &&
+      with_alternative(index, [&]<class T>(std::type_identity<T>) { return read(held<T>(value)); });
+  return is_read || fail();
 }
 
 }  // namespace lockstep::host
