@@ -1,5 +1,6 @@
 // The entries of a lockstep_run, by key and by index.
 #include <fmt/format.h>
+#include <lockstep/value_types.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <utility>
 
 #include "core/parameter_value.h"
+#include "core/value_types.h"
 #include "embedding/run_handle.h"
 
 namespace lockstep::host::embedding {
@@ -74,7 +76,7 @@ bool get(lockstep_run* run, Where where, T* value) {
 
 // A whole number is also a real one.
 template <class Where>
-bool get_number(lockstep_run* run, Where where, double* value) {
+bool get(lockstep_run* run, Where where, double* value) {
   return guarded([&] {
     const InEngine scope(lock_of(run));
     if (value == nullptr) return fail("an argument is NULL");
@@ -92,14 +94,13 @@ bool get_number(lockstep_run* run, Where where, double* value) {
   });
 }
 
-// The items of T and those of the interface look the same in memory.
-template <class T, class Item, class Where>
+template <class Item, class Where>
 bool get_list(lockstep_run* run, Where where, const Item** items, std::size_t* count) {
-  static_assert(sizeof(T) == sizeof(Item));
+  static_assert(sizeof(ItemOf<Item>) == sizeof(Item));
   return guarded([&] {
     const InEngine scope(lock_of(run));
     if (items == nullptr || count == nullptr) return fail("an argument is NULL");
-    const auto* const found = find_value<std::vector<T>>(run, where);
+    const auto* const found = find_value<std::vector<ItemOf<Item>>>(run, where);
     if (found == nullptr) return false;
     *items = reinterpret_cast<const Item*>(found->data());
     *count = found->size();
@@ -114,18 +115,17 @@ bool write(Entry& entry, Value value) {
 }
 
 template <class T>
-bool is_finite(const T& /*no double*/) {
+bool is_finite(const T& value) {
+  if constexpr (std::is_floating_point_v<T>) return std::isfinite(value);
   return true;
 }
-bool is_finite(double value) {
-  return std::isfinite(value);
-}
-bool is_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double it) { return std::isfinite(it); });
+template <class Item>
+bool is_finite(const std::vector<Item>& values) {
+  return std::ranges::all_of(values, [](const Item& it) { return is_finite(it); });
 }
 
 template <class T, class Where>
-bool set(lockstep_run* run, Where where, T value) {
+bool put(lockstep_run* run, Where where, T value) {
   return guarded([&] {
     const InEngine scope(lock_of(run));
     Entry* const entry = find_entry(run, where);
@@ -140,9 +140,14 @@ bool set(lockstep_run* run, Where where, T value) {
   });
 }
 
+template <class T, class Where>
+bool set(lockstep_run* run, Where where, T value) {
+  return put(run, where, std::move(value));
+}
+
 // A whole number where the entry has a real one, if it is that exactly.
 template <class Where>
-bool set_whole(lockstep_run* run, Where where, std::int64_t value) {
+bool set(lockstep_run* run, Where where, std::int64_t value) {
   const bool is_real = guarded([&] {
     const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
@@ -152,17 +157,17 @@ bool set_whole(lockstep_run* run, Where where, std::int64_t value) {
   });
   const auto real = static_cast<double>(value);
   constexpr auto kExact = std::int64_t{1} << std::numeric_limits<double>::digits;
-  return is_real && value <= kExact && value >= -kExact ? set(run, where, real)
-                                                        : set(run, where, value);
+  return is_real && value <= kExact && value >= -kExact ? put(run, where, real)
+                                                        : put(run, where, value);
 }
 
-template <class T, class Item, class Where>
+template <class Item, class Where>
 bool set_list(lockstep_run* run, Where where, const Item* items, std::size_t count) {
-  static_assert(sizeof(T) == sizeof(Item));
+  using T = ItemOf<Item>;
   return guarded([&] {
     if (items == nullptr && count != 0) return fail("an argument is NULL");
     const auto* const first = reinterpret_cast<const T*>(items);
-    return set(run, where, std::vector<T>(first, first + count));
+    return put(run, where, std::vector<T>(first, first + count));
   });
 }
 
@@ -225,7 +230,7 @@ bool set_text_list(lockstep_run* run, Where where, const lockstep_text* values, 
       if (!is_empty && !is_text("a text", values[i].text, values[i].length)) return false;
       texts.emplace_back(is_empty ? "" : values[i].text, values[i].length);
     }
-    return set(run, where, std::move(texts));
+    return put(run, where, std::move(texts));
   });
 }
 
@@ -270,29 +275,46 @@ bool set_object(lockstep_run* run, Where where, const lockstep_object_type* type
 using namespace lockstep::host;
 using namespace lockstep::host::embedding;
 
+// Each function exists twice: for an entry by its key, and by its index.
+
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                \
+  bool lockstep_run_get_##of_type(lockstep_run* run, const char* key, Item* value) {     \
+    return get(run, key, value);                                                         \
+  }                                                                                      \
+  bool lockstep_run_get_##of_type##_at(lockstep_run* run, uint32_t entry, Item* value) { \
+    return get(run, entry, value);                                                       \
+  }                                                                                      \
+  bool lockstep_run_set_##of_type(lockstep_run* run, const char* key, Item value) {      \
+    return set(run, key, value);                                                         \
+  }                                                                                      \
+  bool lockstep_run_set_##of_type##_at(lockstep_run* run, uint32_t entry, Item value) {  \
+    return set(run, entry, value);                                                       \
+  }
+LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
+
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                      \
+  bool lockstep_run_get_##of_type(lockstep_run* run, const char* key, const Item** values,     \
+                                  size_t* count) {                                             \
+    return get_list(run, key, values, count);                                                  \
+  }                                                                                            \
+  bool lockstep_run_get_##of_type##_at(lockstep_run* run, uint32_t entry, const Item** values, \
+                                       size_t* count) {                                        \
+    return get_list(run, entry, values, count);                                                \
+  }                                                                                            \
+  bool lockstep_run_set_##of_type(lockstep_run* run, const char* key, const Item* values,      \
+                                  size_t count) {                                              \
+    return set_list(run, key, values, count);                                                  \
+  }                                                                                            \
+  bool lockstep_run_set_##of_type##_at(lockstep_run* run, uint32_t entry, const Item* values,  \
+                                       size_t count) {                                         \
+    return set_list(run, entry, values, count);                                                \
+  }
+LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
+
 const char* lockstep_run_get_text(lockstep_run* run, const char* key) {
   return get_text(run, key);
-}
-bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value) {
-  return get(run, key, value);
-}
-bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value) {
-  return get(run, key, value);
-}
-bool lockstep_run_get_double(lockstep_run* run, const char* key, double* value) {
-  return get_number(run, key, value);
-}
-bool lockstep_run_get_bool_list(lockstep_run* run, const char* key, const bool** values,
-                                size_t* count) {
-  return get_list<Flag>(run, key, values, count);
-}
-bool lockstep_run_get_int_list(lockstep_run* run, const char* key, const int64_t** values,
-                               size_t* count) {
-  return get_list<std::int64_t>(run, key, values, count);
-}
-bool lockstep_run_get_double_list(lockstep_run* run, const char* key, const double** values,
-                                  size_t* count) {
-  return get_list<double>(run, key, values, count);
 }
 bool lockstep_run_get_text_list(lockstep_run* run, const char* key, const lockstep_text** values,
                                 size_t* count) {
@@ -300,27 +322,6 @@ bool lockstep_run_get_text_list(lockstep_run* run, const char* key, const lockst
 }
 bool lockstep_run_set_text(lockstep_run* run, const char* key, const char* text) {
   return set_text(run, key, text);
-}
-bool lockstep_run_set_bool(lockstep_run* run, const char* key, bool value) {
-  return set(run, key, value);
-}
-bool lockstep_run_set_int(lockstep_run* run, const char* key, int64_t value) {
-  return set_whole(run, key, value);
-}
-bool lockstep_run_set_double(lockstep_run* run, const char* key, double value) {
-  return set(run, key, value);
-}
-bool lockstep_run_set_bool_list(lockstep_run* run, const char* key, const bool* values,
-                                size_t count) {
-  return set_list<Flag>(run, key, values, count);
-}
-bool lockstep_run_set_int_list(lockstep_run* run, const char* key, const int64_t* values,
-                               size_t count) {
-  return set_list<std::int64_t>(run, key, values, count);
-}
-bool lockstep_run_set_double_list(lockstep_run* run, const char* key, const double* values,
-                                  size_t count) {
-  return set_list<double>(run, key, values, count);
 }
 bool lockstep_run_set_text_list(lockstep_run* run, const char* key, const lockstep_text* values,
                                 size_t count) {
@@ -333,54 +334,12 @@ lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key) {
 const char* lockstep_run_get_text_at(lockstep_run* run, uint32_t entry) {
   return get_text(run, entry);
 }
-bool lockstep_run_get_bool_at(lockstep_run* run, uint32_t entry, bool* value) {
-  return get(run, entry, value);
-}
-bool lockstep_run_get_int_at(lockstep_run* run, uint32_t entry, int64_t* value) {
-  return get(run, entry, value);
-}
-bool lockstep_run_get_double_at(lockstep_run* run, uint32_t entry, double* value) {
-  return get_number(run, entry, value);
-}
-bool lockstep_run_get_bool_list_at(lockstep_run* run, uint32_t entry, const bool** values,
-                                   size_t* count) {
-  return get_list<Flag>(run, entry, values, count);
-}
-bool lockstep_run_get_int_list_at(lockstep_run* run, uint32_t entry, const int64_t** values,
-                                  size_t* count) {
-  return get_list<std::int64_t>(run, entry, values, count);
-}
-bool lockstep_run_get_double_list_at(lockstep_run* run, uint32_t entry, const double** values,
-                                     size_t* count) {
-  return get_list<double>(run, entry, values, count);
-}
 bool lockstep_run_get_text_list_at(lockstep_run* run, uint32_t entry, const lockstep_text** values,
                                    size_t* count) {
   return get_text_list(run, entry, values, count);
 }
 bool lockstep_run_set_text_at(lockstep_run* run, uint32_t entry, const char* text) {
   return set_text(run, entry, text);
-}
-bool lockstep_run_set_bool_at(lockstep_run* run, uint32_t entry, bool value) {
-  return set(run, entry, value);
-}
-bool lockstep_run_set_int_at(lockstep_run* run, uint32_t entry, int64_t value) {
-  return set_whole(run, entry, value);
-}
-bool lockstep_run_set_double_at(lockstep_run* run, uint32_t entry, double value) {
-  return set(run, entry, value);
-}
-bool lockstep_run_set_bool_list_at(lockstep_run* run, uint32_t entry, const bool* values,
-                                   size_t count) {
-  return set_list<Flag>(run, entry, values, count);
-}
-bool lockstep_run_set_int_list_at(lockstep_run* run, uint32_t entry, const int64_t* values,
-                                  size_t count) {
-  return set_list<std::int64_t>(run, entry, values, count);
-}
-bool lockstep_run_set_double_list_at(lockstep_run* run, uint32_t entry, const double* values,
-                                     size_t count) {
-  return set_list<double>(run, entry, values, count);
 }
 bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t entry, const lockstep_text* values,
                                    size_t count) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <lockstep/runtime.h>
+#include <lockstep/value_types.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -438,38 +439,32 @@ class Run {
   // number is also a double.
   template <class T>
   T get(const EntryName& entry) const;
-  void set(const EntryName& entry, bool value) {
-    write(entry, lockstep_run_set_bool, lockstep_run_set_bool_at, value);
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                             \
+  void set(const EntryName& entry, Item value) {                                      \
+    write(entry, lockstep_run_set_##of_type, lockstep_run_set_##of_type##_at, value); \
   }
+  LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
   // A whole number, also where the entry has a real one.
   template <class T, std::enable_if_t<std::is_integral_v<T>, int> = 0>
   void set(const EntryName& entry, T value) {
     if constexpr (std::is_unsigned_v<T> && sizeof(T) == sizeof(std::int64_t)) {
       if (value > static_cast<T>(INT64_MAX)) throw Error("a number is too large for an entry");
     }
-    write(entry, lockstep_run_set_int, lockstep_run_set_int_at, static_cast<std::int64_t>(value));
-  }
-  void set(const EntryName& entry, double value) {
-    write(entry, lockstep_run_set_double, lockstep_run_set_double_at, value);
+    set(entry, static_cast<std::int64_t>(value));
   }
   void set(const EntryName& entry, const std::string& text) {
     write(entry, lockstep_run_set_text, lockstep_run_set_text_at, text.c_str());
   }
-  void set(const EntryName& entry, const char* text) { set(entry, std::string(text)); }
-  void set(const EntryName& entry, const std::vector<bool>& values) {
-    const std::unique_ptr<bool[]> flags(new bool[values.size()]);  // NOLINT: std::vector has none
-    std::copy(values.begin(), values.end(), flags.get());
-    write(entry, lockstep_run_set_bool_list, lockstep_run_set_bool_list_at, flags.get(),
-          values.size());
+  void set(const EntryName& entry, const char* text) {
+    set(entry, std::string(text));
   }
-  void set(const EntryName& entry, const std::vector<std::int64_t>& values) {
-    write(entry, lockstep_run_set_int_list, lockstep_run_set_int_list_at, values.data(),
-          values.size());
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                   \
+  void set(const EntryName& entry, const std::vector<Item>& values) {                       \
+    write_list(entry, lockstep_run_set_##of_type, lockstep_run_set_##of_type##_at, values); \
   }
-  void set(const EntryName& entry, const std::vector<double>& values) {
-    write(entry, lockstep_run_set_double_list, lockstep_run_set_double_list_at, values.data(),
-          values.size());
-  }
+  LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
   void set(const EntryName& entry, const std::vector<std::string>& values) {
     std::vector<lockstep_text> texts;
     for (const std::string& text : values) texts.push_back({text.data(), text.size()});
@@ -502,7 +497,9 @@ class Run {
     hooks_->observers.push_back(std::move(observe));
   }
 
-  lockstep_run* get() const { return it_.get(); }
+  lockstep_run* get() const {
+    return it_.get();
+  }
 
  private:
   using Stop = std::function<bool()>;
@@ -515,18 +512,30 @@ class Run {
   void write(const EntryName& entry, ByKey by_key, ByIndex by_index, Rest... value) {
     detail::require(entry.call(by_key, by_index, it_.get(), value...));
   }
+  template <class Item, class ByKey, class ByIndex>
+  void write_list(const EntryName& entry, ByKey by_key, ByIndex by_index,
+                  const std::vector<Item>& values) {
+    write(entry, by_key, by_index, values.data(), values.size());
+  }
+  template <class ByKey, class ByIndex>
+  void write_list(const EntryName& entry, ByKey by_key, ByIndex by_index,
+                  const std::vector<bool>& values) {
+    const std::unique_ptr<bool[]> flags(new bool[values.size()]);  // NOLINT: std::vector has none
+    std::copy(values.begin(), values.end(), flags.get());
+    write(entry, by_key, by_index, flags.get(), values.size());
+  }
   template <class T, class ByKey, class ByIndex>
   T read(const EntryName& entry, ByKey by_key, ByIndex by_index) const {
     T value{};
     detail::require(entry.call(by_key, by_index, it_.get(), &value));
     return value;
   }
-  template <class T, class Item, class ByKey, class ByIndex>
-  std::vector<T> read_list(const EntryName& entry, ByKey by_key, ByIndex by_index) const {
+  template <class Item, class ByKey, class ByIndex>
+  std::vector<Item> read_list(const EntryName& entry, ByKey by_key, ByIndex by_index) const {
     const Item* values = nullptr;
     std::size_t count = 0;
     detail::require(entry.call(by_key, by_index, it_.get(), &values, &count));
-    return std::vector<T>(values, values + count);
+    return std::vector<Item>(values, values + count);
   }
 
   // The functions that the C interface calls back. No exception may pass through it: it is kept and
@@ -588,18 +597,20 @@ class Run {
   std::unique_ptr<lockstep_run, Free> it_;
 };
 
-template <>
-inline bool Run::get<bool>(const EntryName& entry) const {
-  return read<bool>(entry, lockstep_run_get_bool, lockstep_run_get_bool_at);
-}
-template <>
-inline std::int64_t Run::get<std::int64_t>(const EntryName& entry) const {
-  return read<std::int64_t>(entry, lockstep_run_get_int, lockstep_run_get_int_at);
-}
-template <>
-inline double Run::get<double>(const EntryName& entry) const {
-  return read<double>(entry, lockstep_run_get_double, lockstep_run_get_double_at);
-}
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                  \
+  template <>                                                                              \
+  inline Item Run::get<Item>(const EntryName& entry) const {                               \
+    return read<Item>(entry, lockstep_run_get_##of_type, lockstep_run_get_##of_type##_at); \
+  }
+LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                       \
+  template <>                                                                                   \
+  inline std::vector<Item> Run::get<std::vector<Item>>(const EntryName& entry) const {          \
+    return read_list<Item>(entry, lockstep_run_get_##of_type, lockstep_run_get_##of_type##_at); \
+  }
+LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
 template <>
 inline std::string Run::get<std::string>(const EntryName& entry) const {
   const char* const text = entry.call(lockstep_run_get_text, lockstep_run_get_text_at, it_.get());
@@ -607,24 +618,10 @@ inline std::string Run::get<std::string>(const EntryName& entry) const {
   return text;
 }
 template <>
-inline std::vector<bool> Run::get<std::vector<bool>>(const EntryName& entry) const {
-  return read_list<bool, bool>(entry, lockstep_run_get_bool_list, lockstep_run_get_bool_list_at);
-}
-template <>
-inline std::vector<std::int64_t> Run::get<std::vector<std::int64_t>>(const EntryName& entry) const {
-  return read_list<std::int64_t, std::int64_t>(entry, lockstep_run_get_int_list,
-                                               lockstep_run_get_int_list_at);
-}
-template <>
-inline std::vector<double> Run::get<std::vector<double>>(const EntryName& entry) const {
-  return read_list<double, double>(entry, lockstep_run_get_double_list,
-                                   lockstep_run_get_double_list_at);
-}
-template <>
 inline std::vector<std::string> Run::get<std::vector<std::string>>(const EntryName& entry) const {
   std::vector<std::string> texts;
-  const auto views = read_list<lockstep_text, lockstep_text>(entry, lockstep_run_get_text_list,
-                                                             lockstep_run_get_text_list_at);
+  const auto views =
+      read_list<lockstep_text>(entry, lockstep_run_get_text_list, lockstep_run_get_text_list_at);
   for (const lockstep_text& it : views) texts.emplace_back(it.text, it.length);
   return texts;
 }

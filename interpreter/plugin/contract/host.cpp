@@ -11,8 +11,10 @@
 #include "blackboard/conversion.h"
 #include "core/parameter_value.h"
 #include "core/utf8.h"
+#include "core/value_types.h"
 #include "core/version.h"
 #include "core/wording.h"
+#include "lockstep/value_types.h"
 #include "plugin/contract/boards.h"
 #include "plugin/contract/held.h"
 #include "plugin/contract/packed_object.h"
@@ -38,16 +40,6 @@ bool may_be_set(const lockstep_caller& caller, const BoundPort& port, const Valu
   const auto why = refuse_value(*port.parameter, value);
   if (why) refuse_to_set(caller, port, why->message + "; " + why->hint);
   return !why;
-}
-
-// The type whose values are of type T.
-template <class T, std::size_t kIndex = 1>
-constexpr ValueType type_of() {
-  if constexpr (std::is_same_v<T, std::variant_alternative_t<kIndex, Value>>) {
-    return static_cast<ValueType>(kIndex);
-  } else {
-    return type_of<T, kIndex + 1>();
-  }
 }
 
 // The value of an entry that has another type than the port, as one of the port's; or null. Another
@@ -119,7 +111,7 @@ inline const Value* readable(const lockstep_caller* caller, std::uint32_t port, 
 
 template <class T>
 const T* readable(const lockstep_caller* caller, std::uint32_t port) {
-  return std::get_if<T>(readable(caller, port, type_of<T>()));
+  return std::get_if<T>(readable(caller, port, value_type_of<T>()));
 }
 
 template <class T>
@@ -157,7 +149,7 @@ bool get_string(const lockstep_caller* caller, std::uint32_t port, const char** 
   return true;
 }
 
-bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value) {
+bool get(const lockstep_caller* caller, std::uint32_t port, double* value) {
   const double* const found = ordinary<double>(caller, port);
   if (found == nullptr) [[unlikely]]
     return get_double_otherwise(caller, port, value);
@@ -165,12 +157,11 @@ bool get_double(const lockstep_caller* caller, std::uint32_t port, double* value
   return true;
 }
 
-// The items as the contract has them; those of std::vector<T> look the same in memory.
-template <class T, class Item>
+template <class Item>
 bool get_list(const lockstep_caller* caller, std::uint32_t port, const Item** items,
               std::size_t* count) {
-  static_assert(sizeof(T) == sizeof(Item));
-  const auto* found = readable<std::vector<T>>(caller, port);
+  static_assert(sizeof(ItemOf<Item>) == sizeof(Item));
+  const auto* found = readable<std::vector<ItemOf<Item>>>(caller, port);
   if (found == nullptr) return false;
   *items = reinterpret_cast<const Item*>(found->data());
   *count = found->size();
@@ -252,13 +243,13 @@ template <class T>
     if (!std::isfinite(value) && !is_loose(port, ValueType::Double)) return false;
   }
   return store(
-      caller, port, type_of<T>(), [=] { return Value(value); },
+      caller, port, value_type_of<T>(), [=] { return Value(value); },
       [=](Value& target) { held<T>(target) = value; });
 }
 
 template <class T>
 bool is_finite(T value) {
-  if constexpr (std::is_same_v<T, double>) return std::isfinite(value);
+  if constexpr (std::is_floating_point_v<T>) return std::isfinite(value);
   return true;
 }
 
@@ -270,7 +261,7 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   if (it->has_limits) return set_otherwise(*caller, *it, value);
   if (entry == nullptr) return false;
   T* const target = std::get_if<T>(&entry->value);
-  const bool is_ordinary = target != nullptr && it->type == type_of<T>() && !it->is_generic &&
+  const bool is_ordinary = target != nullptr && it->type == value_type_of<T>() && !it->is_generic &&
                            entry->typing == Typing::Strict && caller->run->sets_plainly();
   if (!is_ordinary || !is_finite(value)) return set_otherwise(*caller, *it, value);
   ++entry->writes;
@@ -288,16 +279,12 @@ bool set_string(const lockstep_caller* caller, std::uint32_t port, const char* t
       [=](Value& target) { held<std::string>(target).assign(given, length); });
 }
 
-template <class T, class Item>
+template <class Item>
 bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* items,
               std::size_t count) {
-  static_assert(sizeof(T) == sizeof(Item));
+  using T = ItemOf<Item>;
   if (items == nullptr && count != 0) return false;
-  if constexpr (std::is_same_v<Item, double>) {
-    if (!std::all_of(items, items + count, [](double it) { return std::isfinite(it); })) {
-      return false;
-    }
-  }
+  if (!std::all_of(items, items + count, is_finite<Item>)) return false;
   const auto* const values = reinterpret_cast<const T*>(items);
   const auto assign = [=](Value& target) {
     auto& list = held<std::vector<T>>(target);
@@ -310,7 +297,7 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
     }
   };
   return try_to_store(
-      caller, port, type_of<std::vector<T>>(),
+      caller, port, value_type_of<std::vector<T>>(),
       [=] { return Value(std::vector<T>(values, values + count)); }, assign);
 }
 
@@ -435,6 +422,42 @@ const void* get_extension(const char* id) {
   return nullptr;
 }
 
+constexpr lockstep_host whole_table() {
+  lockstep_host table{};
+  table.abi_major = LOCKSTEP_ABI_MAJOR;
+  table.abi_minor = LOCKSTEP_ABI_MINOR;
+  table.struct_size = sizeof(lockstep_host);
+  table.name = "lockstep";
+  table.version = kVersion;
+  // The types of the contract have the numbers of ours.
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                    \
+  static_assert(LOCKSTEP_##TYPE == static_cast<int>(value_type_of<Item>())); \
+  table.get_##of_type = get;                                                 \
+  table.set_##of_type = set;
+  LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                         \
+  static_assert(LOCKSTEP_##TYPE == static_cast<int>(value_type_of<std::vector<ItemOf<Item>>>())); \
+  table.get_##of_type = get_list<Item>;                                                           \
+  table.set_##of_type = set_list<Item>;
+  LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
+  table.get_string = get_string;
+  table.set_string = set_string;
+  table.get_string_list = get_string_list;
+  table.set_string_list = set_string_list;
+  table.get_object = get_object;
+  table.set_object = set_object;
+  table.set_error = set_error;
+  table.now = now;
+  table.tick_period = tick_period;
+  table.random_bits = random_bits;
+  table.random = random_double;
+  table.log = log;
+  table.get_extension = get_extension;
+  return table;
+}
+
 // A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is
 // made complete.
 Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
@@ -487,38 +510,7 @@ bool write_port(const lockstep_caller& caller, std::uint32_t port, const Value& 
 }
 
 const lockstep_host& host_table() {
-  static constexpr lockstep_host kTable{
-      .abi_major = LOCKSTEP_ABI_MAJOR,
-      .abi_minor = LOCKSTEP_ABI_MINOR,
-      .struct_size = sizeof(lockstep_host),
-      .name = "lockstep",
-      .version = kVersion,
-      .get_bool = get<bool>,
-      .get_int = get<std::int64_t>,
-      .get_double = get_double,
-      .get_string = get_string,
-      .get_double_list = get_list<double>,
-      .set_bool = set<bool>,
-      .set_int = set<std::int64_t>,
-      .set_double = set<double>,
-      .set_string = set_string,
-      .set_double_list = set_list<double>,
-      .set_error = set_error,
-      .now = now,
-      .tick_period = tick_period,
-      .random_bits = random_bits,
-      .random = random_double,
-      .log = log,
-      .get_extension = get_extension,
-      .get_int_list = get_list<std::int64_t>,
-      .get_bool_list = get_list<Flag>,
-      .get_string_list = get_string_list,
-      .set_int_list = set_list<std::int64_t>,
-      .set_bool_list = set_list<Flag>,
-      .set_string_list = set_string_list,
-      .get_object = get_object,
-      .set_object = set_object,
-  };
+  static constexpr lockstep_host kTable = whole_table();
   return kTable;
 }
 

@@ -139,15 +139,12 @@ constexpr Limits all_limits(Limits limits) {
   if constexpr (std::is_enum_v<T>) limits.choices = PortTraits<T>::kWords;
   if (!is_for_constant()) return limits;
   constexpr auto kType = PortTraits<T>::kType;
-  constexpr bool kIsNumber = kType == LOCKSTEP_NUMBER || kType == LOCKSTEP_INT ||
-                             kType == LOCKSTEP_DOUBLE || kType == LOCKSTEP_INT_LIST ||
-                             kType == LOCKSTEP_DOUBLE_LIST;
   if (limits.choices && kType != LOCKSTEP_STRING) error_only_a_string_has_choices();
   if (limits.choices && !are_choices(limits.choices)) {
     error_choices_are_different_words_separated_by_semicolons();
   }
   const bool has_range = limits.min != 0 || limits.max != 0;
-  if (has_range && !kIsNumber) error_only_numbers_have_limits();
+  if (has_range && !has_numbers<T>) error_only_numbers_have_limits();
   if (!(limits.min <= limits.max)) error_limits_are_a_least_and_a_greatest_number();
   return limits;
 }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "../value_types.h"
 #include "caller.hpp"
 #include "text.hpp"
 
@@ -119,12 +120,25 @@ struct PortTraits {
       "these, lockstep::Number, an enum, or a std::shared_ptr<const T>");
 };
 
+// Numbers, and lists of them.
+template <class T>
+inline constexpr bool has_numbers = std::is_same_v<T, Number> ||
+                                    (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>);
+template <class Item>
+inline constexpr bool has_numbers<std::vector<Item>> = has_numbers<Item>;
+
+template <class Item>
+constexpr bool is_item(std::string_view text) {
+  if constexpr (std::is_same_v<Item, bool>) return is_bool(text);
+  return std::is_integral_v<Item> ? is_int(text) : is_double(text);
+}
+
 // Values that `kGet` and `kSet` of the host exchange as they are.
-template <class T, lockstep_type kOfType, auto kGet, auto kSet, bool (*kAccepts)(std::string_view)>
-struct ScalarTraits {
+template <class T, lockstep_type kOfType, auto kGet, auto kSet>
+struct PlainTraits {
   using View = T;
   static constexpr lockstep_type kType = kOfType;
-  static constexpr bool accepts(std::string_view text) { return kAccepts(text); }
+  static constexpr bool accepts(std::string_view text) { return is_item<T>(text); }
   static bool get(const Caller& caller, std::uint32_t port, View& value) {
     return (caller.host->*kGet)(caller.id, port, &value);
   }
@@ -133,17 +147,12 @@ struct ScalarTraits {
   }
 };
 
-template <>
-struct PortTraits<bool> : ScalarTraits<bool, LOCKSTEP_BOOL, &lockstep_host::get_bool,
-                                       &lockstep_host::set_bool, is_bool> {};
-
-template <>
-struct PortTraits<std::int64_t> : ScalarTraits<std::int64_t, LOCKSTEP_INT, &lockstep_host::get_int,
-                                               &lockstep_host::set_int, is_int> {};
-
-template <>
-struct PortTraits<double> : ScalarTraits<double, LOCKSTEP_DOUBLE, &lockstep_host::get_double,
-                                         &lockstep_host::set_double, is_double> {};
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                     \
+  template <>                                                                                 \
+  struct PortTraits<Item> : PlainTraits<Item, LOCKSTEP_##TYPE, &lockstep_host::get_##of_type, \
+                                        &lockstep_host::set_##of_type> {};
+LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
 
 // Only of an input.
 template <>
@@ -327,12 +336,11 @@ struct PortTraits<std::shared_ptr<const T>> {
   }
 };
 
-template <class Item, lockstep_type kOfType, auto kGet, auto kSet,
-          bool (*kAccepts)(std::string_view)>
+template <class Item, lockstep_type kOfType, auto kGet, auto kSet>
 struct ListTraits {
   using View = BasicListView<Item>;
   static constexpr lockstep_type kType = kOfType;
-  static constexpr bool accepts(std::string_view text) { return is_list(text, kAccepts); }
+  static constexpr bool accepts(std::string_view text) { return is_list(text, is_item<Item>); }
   static bool get(const Caller& caller, std::uint32_t port, View& value) {
     const Item* data = nullptr;
     std::size_t size = 0;
@@ -351,20 +359,13 @@ struct ListTraits {
   }
 };
 
-template <>
-struct PortTraits<std::vector<double>>
-    : ListTraits<double, LOCKSTEP_DOUBLE_LIST, &lockstep_host::get_double_list,
-                 &lockstep_host::set_double_list, is_double> {};
-
-template <>
-struct PortTraits<std::vector<std::int64_t>>
-    : ListTraits<std::int64_t, LOCKSTEP_INT_LIST, &lockstep_host::get_int_list,
-                 &lockstep_host::set_int_list, is_int> {};
-
-template <>
-struct PortTraits<std::vector<bool>>
-    : ListTraits<bool, LOCKSTEP_BOOL_LIST, &lockstep_host::get_bool_list,
-                 &lockstep_host::set_bool_list, is_bool> {};
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                \
+  template <>                                                            \
+  struct PortTraits<std::vector<Item>>                                   \
+      : ListTraits<Item, LOCKSTEP_##TYPE, &lockstep_host::get_##of_type, \
+                   &lockstep_host::set_##of_type> {};
+LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
 
 template <>
 struct PortTraits<std::vector<std::string>> {
