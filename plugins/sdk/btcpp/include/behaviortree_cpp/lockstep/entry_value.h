@@ -36,11 +36,7 @@ template <class T>
 void describe_object(const std::shared_ptr<void>& value, EntryValue& described) {
   constexpr lockstep_type kType = port_type<T>();
   const T& object = *static_cast<const T*>(value.get());
-  if constexpr (kType == LOCKSTEP_DOUBLE_LIST) {
-    described.keep_list(kType, object);
-  } else if constexpr (kType == LOCKSTEP_INT_LIST) {
-    described.keep_list(kType, std::vector<std::int64_t>(object.begin(), object.end()));
-  } else if constexpr (kType == LOCKSTEP_BOOL_LIST) {
+  if constexpr (kType == LOCKSTEP_BOOL_LIST) {
     const std::size_t count = object.size();
     const std::shared_ptr<bool[]> flags(new bool[count == 0 ? 1 : count]);
     for (std::size_t i = 0; i < count; ++i) flags[i] = object[i];
@@ -52,6 +48,8 @@ void describe_object(const std::shared_ptr<void>& value, EntryValue& described) 
     std::vector<lockstep_text> texts;
     for (const std::string& text : object) texts.push_back({text.data(), text.size()});
     described.keep_list(kType, std::move(texts));  // they point into `value`
+  } else if constexpr (list_type<T>() != LOCKSTEP_OBJECT) {
+    described.keep_list(kType, HostList<T>(object.begin(), object.end()));
   } else if constexpr (kType == LOCKSTEP_OBJECT) {
     using Holder = lockstep::detail::ObjectHolder<T>;
     auto* const holder = new Holder{std::static_pointer_cast<const T>(value)};
@@ -73,11 +71,7 @@ const KnownObject* find_object(const char* name);
 template <class T>
 Any list_value(const lockstep_entry_value& value) {
   const auto* const items = static_cast<const T*>(value.items);
-  if constexpr (std::is_same_v<T, std::int64_t>) {
-    return Any(std::vector<int>(items, items + value.count));
-  } else {
-    return Any(std::vector<T>(items, items + value.count));
-  }
+  return Any(ListOf<T>(items, items + value.count));
 }
 
 // Empty: there is no value, or an object of a type that this shared object does not use.

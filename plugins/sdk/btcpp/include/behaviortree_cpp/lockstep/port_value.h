@@ -1,6 +1,8 @@
 // Values of ports, as the host has them and as a C++ type has them. Included by basic_types.h.
 #pragma once
 
+#include <lockstep/value_types.h>
+
 #include <charconv>
 #include <cstdint>
 #include <memory>
@@ -18,6 +20,27 @@ struct AnyTypeAllowed;
 
 namespace BT::lockstep_detail {
 
+// A list of such items, as C++ for BehaviorTree.CPP has it: its whole numbers are ints.
+template <class Item>
+using ListOf = std::vector<std::conditional_t<std::is_same_v<Item, std::int64_t>, int, Item>>;
+
+// How the host has a list that is a T; an object: not as a list.
+template <class T>
+constexpr lockstep_type list_type() {
+#define LOCKSTEP_ROW(TYPE, of_type, Item) \
+  if (std::is_same_v<T, ListOf<Item>>) return LOCKSTEP_##TYPE;
+  LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
+  return std::is_same_v<T, std::vector<std::string>> ? LOCKSTEP_STRING_LIST : LOCKSTEP_OBJECT;
+}
+
+// The list of the host that a T is, and its functions.
+template <class T>
+using HostList =
+    std::conditional_t<std::is_same_v<T, std::vector<int>>, std::vector<std::int64_t>, T>;
+template <class T>
+using HostListTraits = lockstep::detail::PortTraits<HostList<T>>;
+
 // How the host has values of type T. An enum may be a number or a name, so its ports take both.
 template <class T>
 constexpr lockstep_type port_type() {
@@ -32,16 +55,8 @@ constexpr lockstep_type port_type() {
     return LOCKSTEP_DOUBLE;
   } else if constexpr (is_text_v<T>) {
     return LOCKSTEP_STRING;
-  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
-    return LOCKSTEP_DOUBLE_LIST;
-  } else if constexpr (std::is_same_v<T, std::vector<int>>) {
-    return LOCKSTEP_INT_LIST;
-  } else if constexpr (std::is_same_v<T, std::vector<bool>>) {
-    return LOCKSTEP_BOOL_LIST;
-  } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-    return LOCKSTEP_STRING_LIST;
   } else {
-    return LOCKSTEP_OBJECT;
+    return list_type<T>();
   }
 }
 
@@ -66,19 +81,13 @@ const lockstep_object_type* object_type_of() {
   }
 }
 
-template <class Item, class T, class Get>
-bool get_list(const Place& place, std::uint32_t port, T& value, Get get) {
-  const Item* items = nullptr;
-  std::size_t count = 0;
-  if (!get(place.caller, port, &items, &count)) return false;
+template <class T>
+bool get_list(const Place& place, std::uint32_t port, T& value) {
+  typename HostListTraits<T>::View items;
+  const lockstep::detail::Caller caller{place.host, place.caller};
+  if (!HostListTraits<T>::get(caller, port, items)) return false;
   value.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    if constexpr (std::is_same_v<Item, lockstep_text>) {
-      value.emplace_back(items[i].text, items[i].length);
-    } else {
-      value.push_back(static_cast<typename T::value_type>(items[i]));
-    }
-  }
+  for (const auto item : items) value.push_back(static_cast<typename T::value_type>(item));
   return true;
 }
 
@@ -107,14 +116,8 @@ bool get(const Place& place, std::uint32_t port, T& value) {
       value = T(text, length);
     }
     return true;
-  } else if constexpr (kType == LOCKSTEP_DOUBLE_LIST) {
-    return get_list<double>(place, port, value, host.get_double_list);
-  } else if constexpr (kType == LOCKSTEP_INT_LIST) {
-    return get_list<std::int64_t>(place, port, value, host.get_int_list);
-  } else if constexpr (kType == LOCKSTEP_BOOL_LIST) {
-    return get_list<bool>(place, port, value, host.get_bool_list);
-  } else if constexpr (kType == LOCKSTEP_STRING_LIST) {
-    return get_list<lockstep_text>(place, port, value, host.get_string_list);
+  } else if constexpr (list_type<T>() != LOCKSTEP_OBJECT) {
+    return get_list(place, port, value);
   } else if constexpr (kType == LOCKSTEP_OBJECT) {
     void* object = nullptr;
     if (!host.get_object(place.caller, port, &object) &&
@@ -148,17 +151,13 @@ bool set(const Place& place, std::uint32_t port, const T& value) {
   } else if constexpr (kType == LOCKSTEP_STRING) {
     const std::string_view text(value);
     return host.set_string(place.caller, port, text.data(), text.size());
-  } else if constexpr (kType == LOCKSTEP_DOUBLE_LIST) {
-    return host.set_double_list(place.caller, port, value.data(), value.size());
-  } else if constexpr (kType == LOCKSTEP_INT_LIST) {
-    const std::vector<std::int64_t> items(value.begin(), value.end());
-    return host.set_int_list(place.caller, port, items.data(), items.size());
-  } else if constexpr (kType == LOCKSTEP_BOOL_LIST) {
-    return lockstep::detail::PortTraits<std::vector<bool>>::set({place.host, place.caller}, port,
-                                                                value);
-  } else if constexpr (kType == LOCKSTEP_STRING_LIST) {
-    return lockstep::detail::PortTraits<std::vector<std::string>>::set({place.host, place.caller},
-                                                                       port, value);
+  } else if constexpr (list_type<T>() != LOCKSTEP_OBJECT) {
+    const lockstep::detail::Caller caller{place.host, place.caller};
+    if constexpr (std::is_same_v<T, HostList<T>>) {
+      return HostListTraits<T>::set(caller, port, value);
+    } else {
+      return HostListTraits<T>::set(caller, port, HostList<T>(value.begin(), value.end()));
+    }
   } else if constexpr (kType == LOCKSTEP_OBJECT) {
     void* const object = ObjectCalls<T>::made_from(value);
     const bool is_set = host.set_object(place.caller, port, object) ||

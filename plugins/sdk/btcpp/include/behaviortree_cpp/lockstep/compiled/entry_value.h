@@ -61,12 +61,11 @@ LOCKSTEP_BTCPP_INLINE Any value_of(const lockstep_entry_value& value) {
       return Any(value.number);
     case LOCKSTEP_STRING:
       return Any(std::string(static_cast<const char*>(value.items), value.count));
-    case LOCKSTEP_DOUBLE_LIST:
-      return list_value<double>(value);
-    case LOCKSTEP_INT_LIST:
-      return list_value<std::int64_t>(value);
-    case LOCKSTEP_BOOL_LIST:
-      return list_value<bool>(value);
+#define LOCKSTEP_ROW(TYPE, of_type, Item) \
+  case LOCKSTEP_##TYPE:                   \
+    return list_value<Item>(value);
+      LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
     case LOCKSTEP_STRING_LIST: {
       std::vector<std::string> texts;
       const auto* const items = static_cast<const lockstep_text*>(value.items);
@@ -118,12 +117,11 @@ LOCKSTEP_BTCPP_INLINE TypeInfo type_of_entry(const lockstep_entry_value& value) 
       return TypeInfo::Create<double>();
     case LOCKSTEP_STRING:
       return TypeInfo::Create<std::string>();
-    case LOCKSTEP_DOUBLE_LIST:
-      return TypeInfo::Create<std::vector<double>>();
-    case LOCKSTEP_INT_LIST:
-      return TypeInfo::Create<std::vector<int>>();
-    case LOCKSTEP_BOOL_LIST:
-      return TypeInfo::Create<std::vector<bool>>();
+#define LOCKSTEP_ROW(TYPE, of_type, Item) \
+  case LOCKSTEP_##TYPE:                   \
+    return TypeInfo::Create<ListOf<Item>>();
+      LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
     case LOCKSTEP_STRING_LIST:
       return TypeInfo::Create<std::vector<std::string>>();
     case LOCKSTEP_OBJECT: {

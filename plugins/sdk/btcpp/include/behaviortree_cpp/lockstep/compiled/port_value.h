@@ -29,12 +29,11 @@ LOCKSTEP_BTCPP_INLINE bool get_any(const Place& place, std::uint32_t port, locks
       return read(std::int64_t{});
     case LOCKSTEP_DOUBLE:
       return read(double{});
-    case LOCKSTEP_DOUBLE_LIST:
-      return read(std::vector<double>());
-    case LOCKSTEP_INT_LIST:
-      return read(std::vector<int>());
-    case LOCKSTEP_BOOL_LIST:
-      return read(std::vector<bool>());
+#define LOCKSTEP_ROW(TYPE, of_type, Item) \
+  case LOCKSTEP_##TYPE:                   \
+    return read(ListOf<Item>());
+      LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
+#undef LOCKSTEP_ROW
     case LOCKSTEP_STRING_LIST:
       return read(std::vector<std::string>());
     case LOCKSTEP_OBJECT:
