@@ -6,12 +6,10 @@
 #include <cstdlib>
 
 #include "core/random.h"
-#include "definition/resolve.h"
-#include "engine/compile.h"
-#include "loading/plugin_set.h"
 #include "measure/measure_spec.h"
 #include "study/plan.h"
 #include "study/study_run.h"
+#include "support/compiled.h"
 
 namespace lockstep::host {
 
@@ -27,13 +25,8 @@ class BenchStudy {
   explicit BenchStudy(const char* tree) {
     Diagnostics diagnostics;
     plugins_.load_file(LOCKSTEP_BENCH_MOTION, diagnostics);
-    const auto project = load_project_text("tree.xml", tree, {}, diagnostics);
-    Catalog catalog;
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-    for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto definition = resolve(*project, catalog, {}, diagnostics);
-    if (!definition || !plugins_.initialize(diagnostics)) std::abort();
-    cell.tree = compile(*definition);
+    cell.tree = test::compiled(tree, plugins_);
+    if (!plugins_.initialize(diagnostics)) std::abort();
     cell.columns = {0};
   }
 

@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <string>
 
-#include "definition/resolve.h"
-#include "engine/compile.h"
-#include "loading/plugin_set.h"
+#include "support/compiled.h"
 
 namespace lockstep::host {
 
@@ -25,13 +22,7 @@ class BenchTree {
 #ifdef LOCKSTEP_BENCH_BTCPP
     plugins_.load_file(LOCKSTEP_BENCH_BTCPP, diagnostics);
 #endif
-    const auto project = load_project_text("bench.xml", text, {}, diagnostics);
-    Catalog catalog;
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-    for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto definition = resolve(*project, catalog, {}, diagnostics);
-    if (!definition) std::abort();
-    tree_ = compile(*definition);
+    tree_ = test::compiled(text, plugins_);
   }
   // One control node with so many leaves.
   BenchTree(const std::string& control, const std::string& attributes, const std::string& leaf,

@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "definition/resolve.h"
-#include "engine/compile.h"
-#include "loading/plugin_set.h"
 #include "runtime/run.h"
+#include "support/compiled.h"
 
 namespace {
 
@@ -31,13 +29,8 @@ class IsolatedTree {
     plugins_.set_isolation({.leafhost = LOCKSTEP_BENCH_LEAFHOST});
     const bool works = plugins_.load_file(LOCKSTEP_BENCH_LEAVES, diagnostics, {}, isolation) &&
                        plugins_.initialize(diagnostics);
-    const auto project = load_project_text("bench.xml", text, {}, diagnostics);
-    Catalog catalog;
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-    for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto definition = resolve(*project, catalog, {}, diagnostics);
-    if (!works || !definition) std::abort();
-    tree_ = compile(*definition);
+    if (!works) std::abort();
+    tree_ = test::compiled(text, plugins_);
   }
   const Tree& tree() const { return tree_; }
 

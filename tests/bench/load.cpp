@@ -19,6 +19,7 @@
 #include "document/file.h"
 #include "engine/compile.h"
 #include "engine/run_state.h"
+#include "loading/plugins.h"
 #include "system/freed_memory.h"
 
 namespace {
@@ -137,12 +138,6 @@ std::vector<std::string> includes(std::int64_t nodes) {
   return texts;
 }
 
-Catalog built_ins() {
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-  return catalog;
-}
-
 // What a run of the benchmark did, in seconds.
 struct Times {
   double tinyxml2 = 0, read = 0, resolve = 0, compile = 0, destroy = 0, nodes = 0;
@@ -223,7 +218,7 @@ double median(std::vector<double> values) {
 
 void load(benchmark::State& state, Texts texts) {
   const Files files(texts(state.range(0)));
-  const Catalog catalog = built_ins();
+  const Catalog catalog = make_catalog({});
   std::vector<Times> all;
   for (auto _ : state) {
     const Times alone = in_fresh_process([&](Times& it) { parse_alone(files.paths(), it); });
@@ -270,7 +265,7 @@ double resident_bytes() {
 
 void memory(benchmark::State& state, Texts texts) {
   const Files files(texts(state.range(0)));
-  const Catalog catalog = built_ins();
+  const Catalog catalog = make_catalog({});
   malloc_trim(0);
   const double before = resident_bytes();
   Diagnostics diagnostics;

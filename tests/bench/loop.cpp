@@ -13,11 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/histogram.h"
-#include "definition/resolve.h"
-#include "engine/compile.h"
 #include "runtime/loop.h"
 #include "runtime/realtime.h"
 #include "runtime/run.h"
+#include "support/compiled.h"
 
 namespace {
 
@@ -36,15 +35,9 @@ struct Samples {
 };
 
 Tree endless_tree() {
-  Diagnostics diagnostics;
-  const auto project = load_project_text(
-      "loop.xml",
+  return test::compiled(
       "<root lockstep='1'><BehaviorTree ID='Loop'><KeepRunningUntilFailure><AlwaysSuccess/>"
-      "</KeepRunningUntilFailure></BehaviorTree></root>",
-      {}, diagnostics);
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-  return compile(resolve(*project, catalog, {}, diagnostics).value());
+      "</KeepRunningUntilFailure></BehaviorTree></root>");
 }
 
 class Watcher final : public Observer {

@@ -12,10 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "definition/resolve.h"
-#include "engine/compile.h"
-#include "loading/plugin_set.h"
 #include "plugin/contract/leaf_set.h"
+#include "support/compiled.h"
 
 // Sanitizers have a separate allocator.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -88,14 +86,7 @@ class PlainTree {
       text += fmt::format(R"(<{} size="{}.5" step="{}.25"/>)", id, number, number);
     }
     text += "</Parallel></BehaviorTree></root>";
-    Catalog catalog;
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-    for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto project = load_project_text("plain.xml", text, {}, diagnostics);
-    const auto definition = resolve(*project, catalog, {}, diagnostics);
-    for (const Diagnostic& it : diagnostics.all()) UNSCOPED_INFO(it.message);
-    REQUIRE(definition);
-    tree_ = compile(*definition);
+    tree_ = test::compiled(text, plugins_);
   }
   const Tree& tree() const { return tree_; }
 

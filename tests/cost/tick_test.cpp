@@ -17,13 +17,10 @@
 #include <cstdlib>
 #include <new>
 
-#include "definition/resolve.h"
-#include "engine/compile.h"
 #include "expression/evaluator.h"
 #include "live/line_feed.h"
 #include "live/snapshot_feed.h"
 #include "live/status_feed.h"
-#include "loading/plugin_set.h"
 #include "measure/entry_changes.h"
 #include "measure/measure_spec.h"
 #include "recording/write/json_lines.h"
@@ -33,6 +30,7 @@
 #include "runtime/run_control.h"
 #include "study/run_measures.h"
 #include "summary/statistics.h"
+#include "support/compiled.h"
 #include "support/paths.h"
 
 namespace {
@@ -122,14 +120,7 @@ class TickingTree {
     Diagnostics diagnostics;
     REQUIRE(plugins_.load_file(LOCKSTEP_BINARY_DIR "/plugins/motion.so", diagnostics));
     REQUIRE(plugins_.initialize(diagnostics));
-    Catalog catalog;
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-    for (const NodeType* type : plugins_.types()) catalog.add(type);
-    const auto project = load_project_text("cost.xml", text, {}, diagnostics);
-    const auto definition = resolve(*project, catalog, {}, diagnostics);
-    for (const Diagnostic& it : diagnostics.all()) UNSCOPED_INFO(it.message);
-    REQUIRE(definition);
-    tree_ = compile(*definition);
+    tree_ = test::compiled(text, plugins_);
   }
   const Tree& tree() const { return tree_; }
 

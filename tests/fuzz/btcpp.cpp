@@ -9,6 +9,7 @@
 #include "dialect/btcpp/rules.h"
 #include "document/language_of.h"
 #include "engine/compile.h"
+#include "loading/plugins.h"
 #include "require.h"
 #include "runtime/run.h"
 
@@ -23,8 +24,7 @@ constexpr std::size_t kMostTickedNodes = 60;
 constexpr std::uint64_t kMostElements = 400;  // an expansion may be as large as the law allows
 
 std::optional<Tree> load(const std::string& text) {
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(btcpp::kRules)) catalog.add(&kind->type);
+  const Catalog catalog = make_catalog({}, btcpp::kRules);
   Diagnostics diagnostics;
   const auto project = load_project_text("/nowhere/tree.xml", text, {}, diagnostics);
   if (project == nullptr) {

@@ -9,6 +9,7 @@
 #include "definition/resolve.h"
 #include "engine/compile.h"
 #include "groot/answers.h"
+#include "loading/plugins.h"
 #include "require.h"
 #include "runtime/run.h"
 
@@ -51,11 +52,9 @@ class Answered {
         "<Wait seconds=\"{pause}\"/><Script code=\"n := 1\"/></Sequence></Repeat></BehaviorTree>"
         "</root>",
         {}, diagnostics);
-    Catalog catalog;
-    for (const NodeKind* it : built_in_kinds()) catalog.add(&it->type);
     ResolveOptions options;
     options.values["pause"] = "0.02";
-    auto definition = resolve(*project, catalog, options, diagnostics);
+    auto definition = resolve(*project, make_catalog({}), options, diagnostics);
     require(definition.has_value());
     return std::move(*definition);
   }

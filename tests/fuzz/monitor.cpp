@@ -7,11 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "definition/resolve.h"
-#include "engine/compile.h"
 #include "live/orders.h"
 #include "require.h"
 #include "runtime/run_control.h"
+#include "support/compiled.h"
 #include "web/gate.h"
 #include "web/http_server.h"
 
@@ -24,17 +23,9 @@ constexpr std::string_view kToken = "TOKEN";
 
 // A Wait with an entry, under a Sequence.
 Tree small_tree() {
-  Diagnostics diagnostics;
-  const auto project = load_project_text(
-      "fuzz.xml",
+  return test::compiled(
       "<root lockstep=\"1\"><BehaviorTree ID=\"B\"><Sequence><Wait seconds=\"{pause}\"/></Sequence>"
-      "</BehaviorTree></root>",
-      {}, diagnostics);
-  Catalog catalog;
-  for (const NodeKind* it : built_in_kinds()) catalog.add(&it->type);
-  const auto definition = resolve(*project, catalog, {}, diagnostics);
-  require(definition.has_value());
-  return compile(*definition);
+      "</BehaviorTree></root>");
 }
 
 // What the monitor answers, with the run left out.

@@ -6,7 +6,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
-#include "loading/plugin_set.h"
+#include "loading/plugins.h"
 #include "mock_leaf.h"
 #include "require.h"
 #include "runtime/run.h"
@@ -23,13 +23,10 @@ constexpr std::size_t kMaxTickedNodes = 300;
 
 // Nothing: it is refused, or too large to be ticked.
 std::optional<Tree> load(const std::string& text, const PluginSet& plugins) {
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-  for (const NodeType* type : plugins.types()) catalog.add(type);
   Diagnostics diagnostics;
   const auto project = load_project_text("/nowhere/tree.xml", text, {}, diagnostics);
   require(project != nullptr, "what the generator writes is XML");
-  const auto definition = resolve(*project, catalog, {}, diagnostics);
+  const auto definition = resolve(*project, make_catalog(plugins), {}, diagnostics);
   require(definition.has_value() != diagnostics.has_errors(), "a definition, or errors");
   if (!definition || definition->nodes.size() > kMaxTickedNodes) return std::nullopt;
   return compile(*definition);

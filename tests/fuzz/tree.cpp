@@ -12,6 +12,7 @@
 #include "document/language_of.h"
 #include "document/scanner.h"
 #include "engine/compile.h"
+#include "loading/plugins.h"
 #include "runtime/run.h"
 
 namespace {
@@ -85,8 +86,6 @@ void compare_with_reader(std::string text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(language_of(text))) catalog.add(&kind->type);
   compare_with_reader(text);
   Diagnostics diagnostics;
   const auto project = load_project_text("/nowhere/tree.xml", text, {}, diagnostics);
@@ -95,7 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   requested_plugins(*project, diagnostics);
-  const auto definition = resolve(*project, catalog, {}, diagnostics);
+  const auto definition = resolve(*project, make_catalog({}, language_of(text)), {}, diagnostics);
   if (definition.has_value() == diagnostics.has_errors()) std::abort();
   diagnostics.sort();
   for (const Diagnostic& diagnostic : diagnostics.all()) {

@@ -10,6 +10,7 @@
 #include "core/value.h"
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "loading/plugins.h"
 #include "require.h"
 
 namespace {
@@ -62,12 +63,10 @@ void check_barriers(std::string_view text) {
       "<root lockstep=\"1\"><BehaviorTree ID=\"A\"><ParallelAbsolute barriers=\"{}\">"
       "<AlwaysSuccess/></ParallelAbsolute></BehaviorTree></root>",
       attribute(text));
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
   Diagnostics diagnostics;
   const auto project = load_project_text("/nowhere/tree.xml", file, {}, diagnostics);
   require(project != nullptr);
-  const auto definition = resolve(*project, catalog, {}, diagnostics);
+  const auto definition = resolve(*project, make_catalog({}), {}, diagnostics);
   require(definition.has_value() != diagnostics.has_errors());
   if (!definition) return;
   double before = 0;

@@ -5,6 +5,7 @@
 
 #include "definition/resolve.h"
 #include "engine/compile.h"
+#include "loading/plugins.h"
 #include "support/scripted_leaf.h"
 
 namespace lockstep::host::test::law {
@@ -26,8 +27,7 @@ const NodeType kCond{.id = "Cond",
 
 Tree tree_of(const Document& document) {
   const std::string xml = to_xml(document);
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(btcpp::kRules)) catalog.add(&kind->type);
+  Catalog catalog = make_catalog({}, btcpp::kRules);
   catalog.add(&kAct);
   catalog.add(&kCond);
   Diagnostics diagnostics;

@@ -4,15 +4,14 @@
 #include "definition/resolve.h"
 #include "document/project.h"
 #include "engine/compile.h"
-#include "engine/node_kind.h"
+#include "loading/plugins.h"
 #include "support/scripted_types.h"
 
 namespace lockstep::host::test {
 namespace {
 
 Catalog scripted_catalog() {
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
+  Catalog catalog = make_catalog({});
   for (const NodeType* leaf : {&kScriptedActionType, &kScriptedConditionType, &kBareActionType}) {
     catalog.add(leaf);
   }

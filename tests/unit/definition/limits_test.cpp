@@ -10,6 +10,7 @@
 #include "definition/check/references.h"
 #include "definition/definition.h"
 #include "engine/node_kind.h"
+#include "loading/plugins.h"
 #include "unit/document/told.h"
 
 namespace lockstep::host::test {
@@ -32,14 +33,13 @@ struct Checked {
   explicit Checked(const std::string& inside)
       : project(load_project_text("t.xml", "<root lockstep=\"1\">" + inside + "</root>", {},
                                   diagnostics)) {
-    for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
     trees = check_trees(*project, catalog, diagnostics);
     may_expand = check_references(trees, {project->sources, diagnostics});
   }
 
   Diagnostics diagnostics;
   std::unique_ptr<Project> project;
-  Catalog catalog;
+  Catalog catalog = make_catalog({});
   CheckedTrees trees;
   bool may_expand = false;
 };

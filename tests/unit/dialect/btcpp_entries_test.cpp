@@ -5,7 +5,7 @@
 
 #include "definition/resolve.h"
 #include "dialect/btcpp/rules.h"
-#include "engine/node_kind.h"
+#include "loading/plugins.h"
 #include "unit/document/told.h"
 
 using namespace lockstep::host;
@@ -47,8 +47,7 @@ Resolved resolved(const std::string& main, const std::string& sub) {
                                      main + "</All></BehaviorTree></root>",
                                  {}, it.diagnostics);
   REQUIRE(it.project);
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds(btcpp::kRules)) catalog.add(&kind->type);
+  Catalog catalog = make_catalog({}, btcpp::kRules);
   catalog.add(&kLeaf);
   catalog.add(&kAll);
   it.definition = resolve(*it.project, catalog, {}, it.diagnostics);

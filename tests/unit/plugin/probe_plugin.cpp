@@ -2,9 +2,8 @@
 
 #include <stdexcept>
 
-#include "definition/resolve.h"
-#include "engine/compile.h"
 #include "engine/nodes/kinds.h"
+#include "support/compiled.h"
 #include "support/leaf_node.h"
 #include "support/plugin_tables.h"
 
@@ -74,16 +73,9 @@ ProbeTree::ProbeTree(std::uint32_t full_leaves, std::uint32_t bare_leaves) {
 ProbeTree::ProbeTree(const std::string& root) {
   Diagnostics diagnostics;
   if (!plugins_.add(kPlugin, "probe", diagnostics)) throw std::logic_error("probe was refused");
-  const auto project = load_project_text(
-      "probe.xml",
-      "<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + root + "</BehaviorTree></root>", {},
-      diagnostics);
-  Catalog catalog;
-  for (const NodeKind* kind : built_in_kinds()) catalog.add(&kind->type);
-  for (const NodeType* type : plugins_.types()) catalog.add(type);
-  const auto definition = resolve(*project, catalog, {}, diagnostics);
-  if (!definition) throw std::logic_error("the tree of the probe is wrong");
-  tree_ = compile(*definition);
+  tree_ =
+      compiled("<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + root + "</BehaviorTree></root>",
+               plugins_);
 }
 
 void ProbeTree::add_leaf(const NodeType& type) {

@@ -1,0 +1,26 @@
+// A compiled tree from a whole document, with the nodes of plugins.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "core/diagnostics.h"
+#include "definition/resolve.h"
+#include "document/project.h"
+#include "engine/compile.h"
+#include "loading/plugins.h"
+
+namespace lockstep::host::test {
+
+// Throws what is wrong with the document.
+inline Tree compiled(const std::string& text, const PluginSet& plugins = {}) {
+  Diagnostics diagnostics;
+  const auto project = load_project_text("tree.xml", text, {}, diagnostics);
+  if (project != nullptr) {
+    const auto definition = resolve(*project, make_catalog(plugins), {}, diagnostics);
+    if (definition) return compile(*definition);
+  }
+  throw std::invalid_argument(diagnostics.all().front().message);
+}
+
+}  // namespace lockstep::host::test
