@@ -39,7 +39,7 @@ inline const char* toStr(const ActionNodeErrorCode& code) {
 }
 
 template <class ActionT>
-class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase> {
+class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_detail::ActionName> {
  public:
   using ActionType = ActionT;
   using ActionClient = rclcpp_action::Client<ActionT>;
@@ -51,19 +51,13 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase> {
 
   RosActionNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
       : RosNode(name, config, params) {
-    if (lockstep_detail::has_ros_name(*this, "action_name", params)) lockstep_open();
+    if (lockstep_has_name()) lockstep_open();
   }
   // A goal that was halted before the server has accepted it is canceled then.
   ~RosActionNode() override {
     lockstep_work_.spin_until([this] { return lockstep_unanswered_ == 0; },
                               std::chrono::seconds(1));
   }
-
-  static PortsList providedBasicPorts(PortsList more) {
-    return lockstep_detail::with_name_port("action_name", "The name of the action",
-                                           std::move(more));
-  }
-  static PortsList providedPorts() { return providedBasicPorts({}); }
 
   // False: the node fails with INVALID_GOAL.
   virtual bool setGoal(Goal& goal) = 0;
@@ -119,12 +113,9 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase> {
   using Handle = typename GoalHandle::SharedPtr;
 
   void lockstep_open() {
-    const std::string name =
-        lockstep_detail::ros_name(*this, "action_name", lockstep_work_.params());
-    if (name == lockstep_name_) return;
-    lockstep_name_ = name;
-    lockstep_client_ =
-        rclcpp_action::create_client<ActionT>(lockstep_work_.node(), name, lockstep_work_.group());
+    if (!lockstep_takes_name()) return;
+    lockstep_client_ = rclcpp_action::create_client<ActionT>(lockstep_work_.node(), lockstep_name_,
+                                                             lockstep_work_.group());
   }
 
   void lockstep_begin() {

@@ -28,7 +28,8 @@ inline const char* toStr(const ServiceNodeErrorCode& code) {
 }
 
 template <class ServiceT>
-class RosServiceNode : public lockstep_detail::RosNode<ActionNodeBase> {
+class RosServiceNode
+    : public lockstep_detail::RosNode<ActionNodeBase, lockstep_detail::ServiceName> {
  public:
   using ServiceType = ServiceT;
   using ServiceClient = rclcpp::Client<ServiceT>;
@@ -37,14 +38,8 @@ class RosServiceNode : public lockstep_detail::RosNode<ActionNodeBase> {
 
   RosServiceNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
       : RosNode(name, config, params) {
-    if (lockstep_detail::has_ros_name(*this, "service_name", params)) lockstep_open();
+    if (lockstep_has_name()) lockstep_open();
   }
-
-  static PortsList providedBasicPorts(PortsList more) {
-    return lockstep_detail::with_name_port("service_name", "The name of the service",
-                                           std::move(more));
-  }
-  static PortsList providedPorts() { return providedBasicPorts({}); }
 
   // False: the node fails with INVALID_REQUEST.
   virtual bool setRequest(typename Request::SharedPtr& request) = 0;
@@ -74,12 +69,9 @@ class RosServiceNode : public lockstep_detail::RosNode<ActionNodeBase> {
   enum class Phase { Idle, WaitsForServer, IsSent };
 
   void lockstep_open() {
-    const std::string name =
-        lockstep_detail::ros_name(*this, "service_name", lockstep_work_.params());
-    if (name == lockstep_name_) return;
-    lockstep_name_ = name;
+    if (!lockstep_takes_name()) return;
     lockstep_client_ = lockstep_work_.node()->template create_client<ServiceT>(
-        name, rmw_qos_profile_services_default, lockstep_work_.group());
+        lockstep_name_, rmw_qos_profile_services_default, lockstep_work_.group());
   }
 
   NodeStatus lockstep_advance() {

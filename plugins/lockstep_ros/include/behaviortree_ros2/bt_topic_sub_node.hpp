@@ -7,20 +7,15 @@
 namespace BT {
 
 template <class TopicT>
-class RosTopicSubNode : public lockstep_detail::RosNode<ConditionNode> {
+class RosTopicSubNode : public lockstep_detail::RosNode<ConditionNode, lockstep_detail::TopicName> {
  public:
   using Subscriber = rclcpp::Subscription<TopicT>;
 
   // Messages count from here on, where the name of the topic is known already.
   RosTopicSubNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
       : RosNode(name, config, params) {
-    if (lockstep_detail::has_ros_name(*this, "topic_name", params)) lockstep_open();
+    if (lockstep_has_name()) lockstep_open();
   }
-
-  static PortsList providedBasicPorts(PortsList more) {
-    return lockstep_detail::with_name_port("topic_name", "The name of the topic", std::move(more));
-  }
-  static PortsList providedPorts() { return providedBasicPorts({}); }
 
   // Null: none has come since the last tick.
   virtual NodeStatus onTick(const std::shared_ptr<TopicT>& last_msg) = 0;
@@ -37,16 +32,13 @@ class RosTopicSubNode : public lockstep_detail::RosNode<ConditionNode> {
 
  private:
   void lockstep_open() {
-    const std::string name =
-        lockstep_detail::ros_name(*this, "topic_name", lockstep_work_.params());
-    if (name == lockstep_name_) return;
-    lockstep_name_ = name;
+    if (!lockstep_takes_name()) return;
     lockstep_last_.reset();
     rclcpp::SubscriptionOptions options;
     options.callback_group = lockstep_work_.group();
     lockstep_subscriber_ = lockstep_work_.node()->template create_subscription<TopicT>(
-        name, 1, [this](std::shared_ptr<TopicT> message) { lockstep_last_ = std::move(message); },
-        options);
+        lockstep_name_, 1,
+        [this](std::shared_ptr<TopicT> message) { lockstep_last_ = std::move(message); }, options);
   }
 
   typename Subscriber::SharedPtr lockstep_subscriber_;

@@ -51,32 +51,29 @@ class RosWork {
   Clock::time_point deadline_;
 };
 
-// The name that a port of the tree gives, or the default of the parameters.
-inline std::string ros_name(const TreeNode& node, const char* port, const RosNodeParams& params) {
-  const auto given = node.getInput<std::string>(port);
-  const std::string name = given ? given.value() : "";
-  if (!name.empty()) return name;
-  if (!params.default_port_value.empty()) return params.default_port_value;
-  throw RuntimeError("the port '" + std::string(port) +
-                     "' is empty, and so is "
-                     "RosNodeParams::default_port_value");
-}
+// The port with the name of an action, a service or a topic.
+struct ActionName {
+  static constexpr const char *kPort = "action_name", *kDoc = "The name of the action";
+};
+struct ServiceName {
+  static constexpr const char *kPort = "service_name", *kDoc = "The name of the service";
+};
+struct TopicName {
+  static constexpr const char *kPort = "topic_name", *kDoc = "The name of the topic";
+};
 
-// Whether it is known before the first tick, which is not to wait for the making of a client.
-inline bool has_ros_name(const TreeNode& node, const char* port, const RosNodeParams& params) {
-  const auto given = node.getInput<std::string>(port);
-  return (given && !given.value().empty()) || !params.default_port_value.empty();
-}
-
-inline PortsList with_name_port(const char* port, const char* doc, PortsList more) {
-  PortsList all = {InputPort<std::string>(port, "", doc)};
-  all.insert(more.begin(), more.end());
-  return all;
-}
-
-// A node of a tree with its part of ROS.
-template <class Base>
+// A node of a tree with its part of ROS, under the name that its port gives, or the default of the
+// parameters.
+template <class Base, class Name>
 class RosNode : public Base {
+ public:
+  static PortsList providedBasicPorts(PortsList more) {
+    PortsList all = {InputPort<std::string>(Name::kPort, "", Name::kDoc)};
+    all.insert(more.begin(), more.end());
+    return all;
+  }
+  static PortsList providedPorts() { return providedBasicPorts({}); }
+
  protected:
   RosNode(const std::string& name, const NodeConfig& config, const RosNodeParams& params)
       : Base(name, config), lockstep_work_(params) {}
@@ -84,8 +81,30 @@ class RosNode : public Base {
   rclcpp::Logger logger() { return lockstep_work_.node()->get_logger(); }
   rclcpp::Time now() { return lockstep_work_.node()->now(); }
 
+  // Whether the name is known before the first tick, which is not to wait for the making of a
+  // client.
+  bool lockstep_has_name() const { return !lockstep_find_name().empty(); }
+  // True if it is another one than before.
+  bool lockstep_takes_name() {
+    std::string found = lockstep_find_name();
+    if (found.empty()) {
+      throw RuntimeError("the port '" + std::string(Name::kPort) +
+                         "' is empty, and so is RosNodeParams::default_port_value");
+    }
+    if (found == lockstep_name_) return false;
+    lockstep_name_ = std::move(found);
+    return true;
+  }
+
   RosWork lockstep_work_;
-  std::string lockstep_name_;  // of its action, service or topic
+  std::string lockstep_name_;
+
+ private:
+  std::string lockstep_find_name() const {
+    const auto given = this->template getInput<std::string>(Name::kPort);
+    const bool is_given = given && !given.value().empty();
+    return is_given ? given.value() : lockstep_work_.params().default_port_value;
+  }
 };
 
 inline NodeStatus completed(NodeStatus status, const char* function) {
