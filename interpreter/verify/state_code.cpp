@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/value_types.h"
 #include "engine/blackboard.h"
 
 namespace lockstep::host {
@@ -109,43 +110,27 @@ class StateCode::ByteReader {
     }
   }
   Value value(unsigned alternative) {
-    switch (alternative) {
-      case 1:
-        return plain<bool>();
-      case 2:
-        return plain<std::int64_t>();
-      case 3:
-        return plain<double>();
-      case 4:
-        return text();
-      case 5:
-        return list<double>();
-      case 6:
-        return list<std::int64_t>();
-      case 7:
-        return list<Flag>();
-      case 8: {
-        std::vector<std::string> texts(number());
-        for (std::string& it : texts) it = text();
-        return texts;
-      }
-      default:
-        return NoValue();
-    }
+    return with_alternative(alternative, [&](auto of) { return Value(read(of)); });
   }
 
  private:
-  std::string text() {
+  template <class T>
+  T read(std::type_identity<T>) {
+    return plain<T>();
+  }
+  std::string read(std::type_identity<std::string>) {
     std::string text(number(), '\0');
     bytes(text.data(), text.size());
     return text;
   }
   template <class T>
-  std::vector<T> list() {
+  std::vector<T> read(std::type_identity<std::vector<T>>) {
     std::vector<T> list(number());
-    for (T& it : list) it = plain<T>();
+    for (T& it : list) it = read(std::type_identity<T>());
     return list;
   }
+  NoValue read(std::type_identity<NoValue>) { return {}; }
+  NoValue read(std::type_identity<Object>) { return {}; }  // refused before a search begins
 
   std::span<const std::byte> from_;
 };
