@@ -1,10 +1,13 @@
 """tests/change_cost/change_cost.py on a project made for it: change_cost_test.py."""
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
+if shutil.which("git") is None:
+    sys.exit(77)
 HERE = pathlib.Path(__file__).parent
 SCRIPT = HERE / "change_cost.py"
 SOURCE = HERE.parents[1]
