@@ -8,7 +8,8 @@
  * where LOCKSTEP_TYPE is the type, get_of_type and set_of_type its functions in lockstep_host (in
  * runtime.h, lockstep_run_get_of_type and three more), and Item is what they exchange.
  *
- * A string, an object and a list of strings have functions of another shape. */
+ * A string, an object and a list of strings have functions of another shape. A later version may
+ * have more rows. */
 #ifndef LOCKSTEP_VALUE_TYPES_H
 #define LOCKSTEP_VALUE_TYPES_H
 
