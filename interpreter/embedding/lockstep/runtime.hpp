@@ -604,6 +604,7 @@ class Run {
   }
 LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
+// NOLINTBEGIN(bugprone-macro-parentheses): it is a type
 #define LOCKSTEP_ROW(TYPE, of_type, Item)                                                       \
   template <>                                                                                   \
   inline std::vector<Item> Run::get<std::vector<Item>>(const EntryName& entry) const {          \
@@ -611,6 +612,7 @@ LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
   }
 LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
+// NOLINTEND(bugprone-macro-parentheses)
 template <>
 inline std::string Run::get<std::string>(const EntryName& entry) const {
   const char* const text = entry.call(lockstep_run_get_text, lockstep_run_get_text_at, it_.get());

@@ -158,6 +158,11 @@ bool get(const lockstep_caller* caller, std::uint32_t port, double* value) {
 }
 
 template <class Item>
+constexpr ValueType list_type_of() {
+  return value_type_of<std::vector<ItemOf<Item>>>();
+}
+
+template <class Item>
 bool get_list(const lockstep_caller* caller, std::uint32_t port, const Item** items,
               std::size_t* count) {
   static_assert(sizeof(ItemOf<Item>) == sizeof(Item));
@@ -297,7 +302,7 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
     }
   };
   return try_to_store(
-      caller, port, value_type_of<std::vector<T>>(),
+      caller, port, list_type_of<Item>(),
       [=] { return Value(std::vector<T>(values, values + count)); }, assign);
 }
 
@@ -436,9 +441,9 @@ constexpr lockstep_host whole_table() {
   table.set_##of_type = set;
   LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
-#define LOCKSTEP_ROW(TYPE, of_type, Item)                                                         \
-  static_assert(LOCKSTEP_##TYPE == static_cast<int>(value_type_of<std::vector<ItemOf<Item>>>())); \
-  table.get_##of_type = get_list<Item>;                                                           \
+#define LOCKSTEP_ROW(TYPE, of_type, Item)                                   \
+  static_assert(LOCKSTEP_##TYPE == static_cast<int>(list_type_of<Item>())); \
+  table.get_##of_type = get_list<Item>;                                     \
   table.set_##of_type = set_list<Item>;
   LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW

@@ -359,6 +359,7 @@ struct ListTraits {
   }
 };
 
+// NOLINTBEGIN(bugprone-macro-parentheses): it is a type
 #define LOCKSTEP_ROW(TYPE, of_type, Item)                                \
   template <>                                                            \
   struct PortTraits<std::vector<Item>>                                   \
@@ -366,6 +367,7 @@ struct ListTraits {
                    &lockstep_host::set_##of_type> {};
 LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
+// NOLINTEND(bugprone-macro-parentheses)
 
 template <>
 struct PortTraits<std::vector<std::string>> {

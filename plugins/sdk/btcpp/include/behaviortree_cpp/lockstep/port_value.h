@@ -27,10 +27,12 @@ using ListOf = std::vector<std::conditional_t<std::is_same_v<Item, std::int64_t>
 // How the host has a list that is a T; an object: not as a list.
 template <class T>
 constexpr lockstep_type list_type() {
+// NOLINTBEGIN(bugprone-macro-parentheses): it is a type
 #define LOCKSTEP_ROW(TYPE, of_type, Item) \
   if (std::is_same_v<T, ListOf<Item>>) return LOCKSTEP_##TYPE;
   LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
+  // NOLINTEND(bugprone-macro-parentheses)
   return std::is_same_v<T, std::vector<std::string>> ? LOCKSTEP_STRING_LIST : LOCKSTEP_OBJECT;
 }
 

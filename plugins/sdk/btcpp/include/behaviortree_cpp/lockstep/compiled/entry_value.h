@@ -117,11 +117,13 @@ LOCKSTEP_BTCPP_INLINE TypeInfo type_of_entry(const lockstep_entry_value& value) 
       return TypeInfo::Create<double>();
     case LOCKSTEP_STRING:
       return TypeInfo::Create<std::string>();
+// NOLINTBEGIN(bugprone-macro-parentheses): it is a type
 #define LOCKSTEP_ROW(TYPE, of_type, Item) \
   case LOCKSTEP_##TYPE:                   \
     return TypeInfo::Create<ListOf<Item>>();
       LOCKSTEP_LIST_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
+      // NOLINTEND(bugprone-macro-parentheses)
     case LOCKSTEP_STRING_LIST:
       return TypeInfo::Create<std::vector<std::string>>();
     case LOCKSTEP_OBJECT: {
