@@ -16,5 +16,8 @@ class Advance(Action):
     def progress(self):
         return self.done
 
+    def pause(self):
+        pass  # it stands still between ticks
+
 
 serve()

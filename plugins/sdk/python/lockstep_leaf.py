@@ -249,7 +249,7 @@ class _Server:
         if leaf._number not in self.broken:
             self.call(leaf, "pause")
         if leaf._pauses():
-            _say(leaf=leaf._number, done=True)
+            say(leaf=leaf._number, done=True)
 
     def resume(self, leaf, request):
         self.call(leaf, "resume")
