@@ -163,6 +163,13 @@ TEST_CASE("a second plugin in a project is built with it, and a leaf goes where 
   CHECK(either.code == 2);
   CHECK(contains(either.err, "there are 2 plugins here"));
   CHECK(contains(either.err, "'--in plugins/gripper/gripper.py', '--in plugins/robot/robot.cpp'"));
+  // What is installed below the project does not count.
+  succeed(
+      "cd robot\nrm plugins/robot/robot.cpp\nfor lib in lib lib64 lib/x86_64-linux-gnu share; do\n"
+      "mkdir -p installed/$lib/lockstep/plugins\n"
+      "cp plugins/gripper/gripper.py installed/$lib/lockstep/plugins\ndone\n"
+      "lockstep new leaf Shut",
+      directory);
 }
 
 TEST_CASE("a plugin alone builds, and one in Python needs no build") {

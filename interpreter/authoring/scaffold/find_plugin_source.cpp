@@ -32,10 +32,21 @@ PluginSource read_source(const fs::path& path) {
   return {path.lexically_normal(), language, std::move(*text)};
 }
 
-// Folders of builds and hidden ones have sources that are not the author's.
+// lib/lockstep, lib/x86_64-linux-gnu/lockstep or share/lockstep of a prefix below the project.
+bool is_installed(const fs::path& folder) {
+  if (folder.filename() != "lockstep") return false;
+  const fs::path above = folder.parent_path();
+  const auto is_lib = [](const fs::path& name) { return name == "lib" || name == "lib64"; };
+  return above.filename() == "share" || is_lib(above.filename()) ||
+         is_lib(above.parent_path().filename());
+}
+
+// Folders of builds and hidden ones have sources that are not the author's, and installed plugins
+// are copies of his.
 bool is_left_out(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename();
-  return name.starts_with('.') || name.starts_with("build") || name == "node_modules";
+  return name.starts_with('.') || name.starts_with("build") || name == "node_modules" ||
+         is_installed(entry.path());
 }
 
 std::vector<PluginSource> sources_below(const fs::path& folder) {
