@@ -6,9 +6,11 @@
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/node_type.h"
+#include "core/parameter_value.h"
 #include "core/problem.h"
 
 namespace lockstep::host {
@@ -23,6 +25,12 @@ struct ElementRefusal {
   Problem why;
 };
 
+// The same, for who keeps it.
+using ElementTexts = std::vector<std::pair<std::string, std::string>>;
+std::vector<FixedText> fixed_texts(const ElementTexts& texts);
+// kind="round" count="2"
+std::string to_text(const ElementTexts& texts);
+
 class ElementTypes {
  public:
   virtual ~ElementTypes() = default;
@@ -32,7 +40,8 @@ class ElementTypes {
 };
 
 // The texts that decide the type of an element. `given` returns what the element gives to a
-// parameter, as an optional. Nothing: one is missing, or is no constant.
+// parameter, as an optional. Nothing: one is missing, is no constant, or none that the parameter
+// takes.
 template <class Given>
 std::optional<std::vector<FixedText>> fixed_texts(const NodeType& type, Given given) {
   std::vector<FixedText> fixed;
@@ -40,12 +49,17 @@ std::optional<std::vector<FixedText>> fixed_texts(const NodeType& type, Given gi
     if (!parameter.constant) continue;
     const std::optional<std::string_view> text = given(parameter.name);
     if (text && text->starts_with('{') && text->ends_with('}')) return std::nullopt;
+    if (text && !takes_text(parameter, *text)) return std::nullopt;
     const auto& known = text ? text : parameter.default_text;
     if (known) fixed.push_back({parameter.name, *known});
     if (!known && parameter.required) return std::nullopt;
   }
   return fixed;
 }
+
+// Elements of the type that are to be tried out, each with its constants: one for each choice of
+// the first parameter that has choices.
+std::vector<ElementTexts> sample_elements(const NodeType& type);
 
 // Whether a list of patterns like "goal.*;result.*" has one for the name.
 constexpr bool matches_any(std::string_view patterns, std::string_view name) {

@@ -83,6 +83,11 @@ std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& v
       .hint = "it must be one of " + listed(parameter.choices)};
 }
 
+bool takes_text(const Parameter& parameter, std::string_view text) {
+  const auto value = parse_value(parameter.type, parameter.object, text);
+  return value && !refuse_value(parameter, *value);
+}
+
 Value sample_value(const Parameter& parameter) {
   if (parameter.default_text) {
     return parse_value(parameter.type, *parameter.default_text).value_or(Value());

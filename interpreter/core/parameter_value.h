@@ -24,6 +24,9 @@ std::string why_no_object(const ObjectType* object, std::string_view text);
 // choices. The message does not mention where the value comes from.
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value);
 
+// Whether the parameter takes the value that the text means.
+bool takes_text(const Parameter& parameter, std::string_view text);
+
 // A value that the parameter takes, for one that is to be tried out; NoValue if none is known.
 Value sample_value(const Parameter& parameter);
 

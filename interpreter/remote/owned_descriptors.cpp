@@ -1,6 +1,15 @@
 #include "remote/owned_descriptors.h"
 
 namespace lockstep::host {
+namespace {
+
+// Stands for a function of the other process, which LeafDescriber asks for.
+const lockstep_leaf_type* describe_elsewhere(const lockstep_fixed* /*fixed*/,
+                                             std::uint32_t /*count*/, lockstep_refusal* /*why*/) {
+  return nullptr;
+}
+
+}  // namespace
 
 lockstep_leaf_type& OwnedDescriptors::add_leaf() {
   lockstep_leaf_type& type = leaves_.emplace_back().type;
@@ -25,6 +34,12 @@ void OwnedDescriptors::add_behavior(std::string_view word, std::string_view valu
   leaf.behavior.push_back({keep(word), keep(value)});
   leaf.type.behavior = leaf.behavior.data();
   leaf.type.behavior_count = static_cast<std::uint32_t>(leaf.behavior.size());
+}
+
+void OwnedDescriptors::set_more_ports(std::string_view patterns) {
+  lockstep_leaf_type& type = leaves_.back().type;
+  type.more_ports = keep(patterns);
+  type.describe = describe_elsewhere;
 }
 
 }  // namespace lockstep::host

@@ -25,6 +25,9 @@ class OwnedDescriptors {
   // Adds a statement to the last leaf; both texts are kept.
   void add_behavior(std::string_view word, std::string_view value);
 
+  // The patterns of the last leaf, whose elements the other process describes.
+  void set_more_ports(std::string_view patterns);
+
   lockstep_plugin plugin = proxy_plugin();
 
  private:

@@ -1,4 +1,5 @@
-// Leaf types whose ports depend on their element, in this process and isolated.
+// Leaf types whose ports depend on their element: in C, over leaf.hpp, in this process and
+// isolated, and as programs.
 #include <catch2/catch.hpp>
 
 #include "abi/support/isolated_leaves.h"
@@ -7,16 +8,31 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr Isolation kBoth[] = {Isolation::InProcess, Isolation::Isolated};
+struct Link {
+  const char* plugin;
+  const char* program = "";
+  bool isolate = false;
+};
+constexpr Link kInC{"shapes"};
+constexpr Link kLinks[] = {kInC,
+                           {.plugin = "shapes", .isolate = true},
+                           {"shapes_sdk"},
+                           {.plugin = "shapes_sdk", .isolate = true},
+                           {"shapes", "shapes.py"},
+                           {"shapes", "shapes_class.py"}};
 
 struct Shapes {
-  Shapes(const std::string& nodes, Isolation isolation) {
+  Shapes(const std::string& nodes, const Link& link, bool run_programs = true) {
     LoadOptions options;
-    options.plugins.directories = {LOCKSTEP_ABI_PLUGINS};
+    options.plugins.directories = {LOCKSTEP_ABI_PLUGINS, LOCKSTEP_SOURCE_DIR "/tests/programs"};
     options.plugins.program_directory = LOCKSTEP_BINARY_DIR;
-    options.plugins.isolate = isolation == Isolation::Isolated;
+    options.plugins.isolate = link.isolate;
+    options.plugins.run_programs = run_programs;
+    const std::string program =
+        *link.program == '\0' ? "" : fmt::format(" program=\"{}\"", link.program);
     const std::string text =
-        "<root lockstep=\"1\"><plugin name=\"shapes\"/><BehaviorTree ID=\"T\">"
+        fmt::format("<root lockstep=\"1\"><plugin name=\"{}\"{}/>", link.plugin, program) +
+        "<BehaviorTree ID=\"T\">"
         "<Sequence memory=\"true\">\n" +
         nodes + "</Sequence></BehaviorTree></root>";
     auto loaded = load_text("tree.xml", text, options, diagnostics);
@@ -36,7 +52,7 @@ struct Shapes {
   // The fault, or the entries as "name=text".
   std::string run() {
     if (!runnable) return errors().at(0);
-    Run run(runnable->tree, RunOptions{});
+    Run run(runnable->tree, {.virtual_time = true});
     run.tick(Nanoseconds(0));
     if (run.fault() != nullptr) return run.fault()->message;
     std::string text;
@@ -52,45 +68,81 @@ struct Shapes {
 };
 
 TEST_CASE("an element has the ports that its constants decide, and its leaf knows which") {
-  for (const Isolation isolation : kBoth) {
+  for (const Link& link : kLinks) {
+    CAPTURE(link.plugin, link.program, link.isolate);
     CHECK(Shapes(R"(<Shape kind="round" size.radius="2" out.area="{a}" out.text="{t}"/>
                     <Shape kind="square" size.side="{a}" out.area="{b}"/>)",
-                 isolation)
+                 link)
               .run() == "a=12 t=round of 2 b=144");
   }
 }
 
 TEST_CASE("what an element gives to a port that it does not have is an error at its place") {
-  for (const Isolation isolation : kBoth) {
-    CHECK(Shapes(R"(<Shape kind="round" size.side="2"/>)", isolation).errors() ==
+  for (const Link& link : kLinks) {
+    CAPTURE(link.plugin, link.program, link.isolate);
+    CHECK(Shapes(R"(<Shape kind="round" size.side="2"/>)", link).errors() ==
           Strings{"2:21: 'Shape' has no parameter 'size.side' | parameters of 'Shape': 'kind', "
                   "'out.area', 'out.text', 'size.radius'",
                   "2:1: 'Shape' needs the parameter 'size.radius' | parameters of 'Shape': 'kind', "
                   "'out.area', 'out.text', 'size.radius'"});
-    CHECK(Shapes(R"(<Shape kind="round" size.radios="2"/>)", isolation).errors() ==
+    CHECK(Shapes(R"(<Shape kind="round" size.radios="2"/>)", link).errors() ==
           Strings{"2:21: 'Shape' has no parameter 'size.radios' | did you mean 'size.radius'?; "
                   "parameters of 'Shape': 'kind', 'out.area', 'out.text', 'size.radius'"});
-    CHECK(Shapes(R"(<Shape kind="round" size.radius="200"/>)", isolation).errors() ==
+    CHECK(Shapes(R"(<Shape kind="round" size.radius="200"/>)", link).errors() ==
           Strings{"2:34: 200 is outside the range of 'size.radius' | it must be from 0 to 100"});
   }
 }
 
 TEST_CASE("an element that its plugin refuses is an error at the text to blame") {
-  for (const Isolation isolation : kBoth) {
-    CHECK(Shapes(R"(<Shape kind="oval" size.radius="2"/>)", isolation).errors() ==
+  for (const Link& link : kLinks) {
+    CAPTURE(link.plugin, link.program, link.isolate);
+    CHECK(Shapes(R"(<Shape kind="oval" size.radius="2"/>)", link).errors() ==
           Strings{"2:14: there is no such shape | use round or square"});
-    CHECK(Shapes(R"(<Shape kind="nameless"/>)", isolation).errors() ==
+  }
+  for (const Link& link : {kLinks[0], kLinks[1], kLinks[4]}) {
+    CHECK(Shapes(R"(<Shape kind="nameless"/>)", link).errors() ==
           Strings{"2:1: 'Shape' cannot be described, and gives no reason | ask the author of the "
                   "plugin what it needs"});
   }
 }
 
+TEST_CASE("a command that runs no programs says so at an element whose ports one knows") {
+  const Link saved{"hulls", "hulls.py"};  // with hulls.leaves.json
+  CHECK(Shapes(R"(<Hull kind="round"/>)", saved, false).errors() ==
+        Strings{"2:1: 'Hull' has ports that its program knows, which this command does not run | "
+                "give --run-programs"});
+}
+
+TEST_CASE("a program that does not answer describe as it should is an error of the element") {
+  const auto error = [](const std::string& kind) {
+    return Shapes(fmt::format(R"(<Hull kind="{}"/>)", kind), {"hulls", "hulls.py"}).errors().at(0);
+  };
+  CHECK(error("wrong") ==
+        "2:1: 'Hull' cannot be described: its program answers describe wrongly: expected 'ports' "
+        "or 'refused' | "
+        "docs/programs.md has the answers to describe");
+  CHECK(error("ends") ==
+        "2:1: 'Hull' cannot be described: its program ended with exit code 3 before it answered "
+        "describe | run it by hand to see what it prints");
+  CHECK(error("bad") ==
+        "2:1: 'Hull' cannot be described: its program answers describe wrongly: the type of a port "
+        "is 'thing', "
+        "expected bool, int, double, string, number, or 'list of ' and one of the first four | "
+        "docs/programs.md has the answers to describe");
+}
+
+TEST_CASE("a constant that its port does not take is the error that it always is") {
+  CHECK(Shapes(R"(<Hull kind="round" count="many" size.x="1"/>)", {"hulls", "hulls.py"}).errors() ==
+        Strings{"2:27: 'many' is not a whole number, which 'count' must be | "});
+}
+
 TEST_CASE("without what decides its ports, an element lacks only that") {
-  for (const Isolation isolation : kBoth) {
-    CHECK(Shapes(R"(<Shape size.radius="2"/>)", isolation).errors() ==
+  for (const Link& link : kLinks) {
+    CAPTURE(link.plugin, link.program, link.isolate);
+    CHECK(Shapes(R"(<Shape size.radius="2"/>)", link).errors() ==
           Strings{"2:1: 'Shape' needs the parameter 'kind' | parameters of 'Shape': 'kind'"});
     CHECK(
-        Shapes(R"(<Shape kind="{k}" size.radius="2"/>)", isolation).errors() ==
+        Shapes(R"(<Shape kind="{k}" size.radius="2"/>)", link).errors() ==
         Strings{"2:14: 'kind' of 'Shape' cannot be a blackboard entry | it is fixed when the tree "
                 "is loaded: write a value, or ${name} with an <arg>"});
   }
@@ -121,7 +173,7 @@ TEST_CASE("the elements of trees for BehaviorTree.CPP have them, too") {
 TEST_CASE("elements with the same constants have one type") {
   const Shapes shapes(R"(<Shape kind="round" size.radius="1"/><Shape kind="round" size.radius="2"/>
                          <Shape kind="square" size.side="1"/>)",
-                      Isolation::InProcess);
+                      kInC);
   REQUIRE(shapes.runnable);
   const auto& leaves = shapes.runnable->tree.leaves;
   REQUIRE(leaves.size() == 3);

@@ -94,3 +94,26 @@ TEST_CASE("plugin check: what is no plugin, and an option for programs") {
   CHECK(save.code == 2);
   CHECK(contains(save.err, "--save is for programs"));
 }
+
+TEST_CASE("plugin check: elements whose ports depend on a choice are tried with each choice") {
+  const Outcome object = check_plugin(abi_plugin("shapes_sdk"));
+  INFO(object.out << object.err);
+  CHECK(object.code == 0);
+  CHECK(contains(object.out, "ok    'Box' with kind=\"round\" answers 1 tick; it is success\n"));
+  CHECK(contains(object.out, "ok    'Box' with kind=\"square\" answers 1 tick; it is success\n"));
+  CHECK(
+      contains(object.out,
+               "ok    'Shape' is not examined: no element has kind=\"1\": there is no such shape"));
+  const Outcome program = check_plugin(LOCKSTEP_SOURCE_DIR "/tests/programs/shapes_class.py");
+  INFO(program.out << program.err);
+  CHECK(program.code == 0);
+  CHECK(contains(program.out, "ok    'Box' with kind=\"square\" has 4 ports\n"));
+  CHECK(contains(program.out,
+                 "ok    'Shape' with kind=\"1\" is not tried: there is no such shape\n"));
+  CHECK(contains(program.out, "'Box 2' answers "));
+  CHECK(!contains(program.out, "error"));
+  const Outcome hostile = check_plugin(LOCKSTEP_SOURCE_DIR "/tests/programs/hulls.py");
+  CHECK(hostile.code == 4);
+  CHECK(contains(hostile.out,
+                 "wrong 'Hull' with kind=\"1\" count=\"1\" is not tried: 'Hull' cannot"));
+}

@@ -107,6 +107,16 @@ TEST_CASE("nodes has the leaves and ports of a program") {
 TEST_CASE("what lockstep and a program say keeps schema/program.schema.json") {
   const TemporaryDirectory directory;
   const std::string said = directory.path("lines");
+  const std::string shapes = directory.file(
+      "shapes.xml",
+      R"(<root lockstep="1"><plugin name="tee" program="tee.py"/><BehaviorTree ID="Main">)"
+      R"(<Sequence><Shape kind="round" size.radius="2" out.area="{a}"/>)"
+      R"(<Box kind="square" size.side="{a}"/></Sequence></BehaviorTree></root>)");
+  const Outcome described =
+      run({.arguments = {"run", shapes, "--plugin-path", kProgramsFolder, "--clock", "virtual"},
+           .environment = {{"LINES", said}, {"PROGRAM", "shapes_class.py"}}});
+  INFO(described.err);
+  CHECK(described.code == 0);
   const std::string tree = directory.file(
       "tree.xml",
       R"(<root lockstep="1"><plugin name="tee" program="tee.py"/><plugin name="motion"/>)"
@@ -124,6 +134,7 @@ TEST_CASE("what lockstep and a program say keeps schema/program.schema.json") {
                          LOCKSTEP_SOURCE_DIR "/schema/program.schema.json", said},
            .program = "/usr/bin/python3"});
   INFO(validated.err);
-  CHECK(validated.out ==
-        "create destroy done halt lockstep log pause resume start status tick True\n");
+  CHECK(
+      validated.out ==
+      "create describe destroy done halt lockstep log pause ports resume start status tick True\n");
 }

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-# Passes what lockstep and steady.py say to each other on, and appends it to the file $LINES.
+# Passes what lockstep and $PROGRAM, or steady.py, say to each other on, and appends it to the file $LINES.
 import os
 import subprocess
 import sys
 import threading
 
-program = subprocess.Popen([os.path.join(os.path.dirname(__file__), "steady.py")],
+program = subprocess.Popen([os.path.join(os.path.dirname(__file__), os.environ.get("PROGRAM", "steady.py"))],
                            stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 lines = open(os.environ["LINES"], "ab", buffering=0)
 

@@ -569,6 +569,23 @@ class TreesTest(unittest.TestCase):
                 print(f"stopped {1e6 * (time.perf_counter() - began):.0f} us after the begin of the tick")
             self.assertFalse(stat.exists())
 
+    def test_ports_by_pattern_are_those_of_the_element(self):
+        spec = importlib.util.spec_from_file_location("shapes_class", SOURCES / "tests/programs/shapes_class.py")
+        shapes = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(shapes)
+        nodes = ('<Sequence><Shape kind="round" size.radius="2" out.area="{a}" out.text="{t}"/>'
+                 '<Box kind="square" size.side="{a}" out.area="{b}"/></Sequence>')
+        with lockstep.Tree(text=text_of(nodes), leaves=shapes) as it:
+            self.assertEqual(it.tick(), "success")
+            self.assertEqual(dict(it.entries), {"a": 12.0, "t": "round of 2", "b": 144.0})
+        for nodes, column, message in (
+                ('<Shape kind="round" size.radius="1" size.side="2"/>', 37, "'Shape' has no parameter 'size.side'"),
+                ('<Shape kind="oval"/>', 14, "there is no such shape")):
+            with self.assertRaises(lockstep.Error) as caught:
+                lockstep.Tree(text=text_of("\n" + nodes), leaves=shapes)
+            self.assertEqual((caught.exception.diagnostics[0].column, caught.exception.diagnostics[0].message),
+                             (column, message))
+
     def test_a_leaf_ticks_another_tree(self):
         inner = tree('<Count label="broken"/>')
 

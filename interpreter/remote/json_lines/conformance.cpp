@@ -6,11 +6,14 @@
 #include <deque>
 #include <memory>
 
+#include "core/element_types.h"
 #include "core/parameter_value.h"
 #include "core/wording.h"
+#include "plugin/contract/described_types.h"
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/host.h"
 #include "plugin/contract/leaf_set.h"
+#include "remote/json_lines/described_element.h"
 #include "remote/json_lines/hello.h"
 #include "remote/json_lines/program_leaf.h"
 
@@ -19,17 +22,23 @@ namespace {
 
 constexpr int kTicks = 20;
 
+// A leaf type to try, or one of its elements, with its constants.
+struct Tried {
+  const NodeType* type;
+  ElementTexts constants = {};
+};
+
 // A leaf without a tree: its ports are bound to entries that nobody else has.
 class Trial {
  public:
-  Trial(const Descriptors::Leaf& type, std::uint32_t number, Conversation& conversation, Hold hold)
-      : name_(fmt::format("{} {}", type.type.id, number)) {
-    slot_.type = &type.type;
-    caller_.type = &type.node_type;
-    caller_.texts.set({.name = type.type.id});
+  Trial(const Tried& it, std::uint32_t number, Conversation& conversation, Hold hold)
+      : name_(fmt::format("{} {}", it.type->id, number)) {
+    slot_.type = it.type->leaf;
+    caller_.type = it.type;
+    caller_.texts.set({.name = std::string(it.type->id)});
     caller_.who = name_.c_str();
     caller_.random = RandomStream(1, 1);
-    for (const Parameter& port : type.parameters) bind(port);
+    for (const Parameter& port : it.type->parameters) bind(port, it.constants);
     ports_.give_to(caller_);
     leaf_ = std::make_unique<ProgramLeaf>(caller_, conversation, hold, nullptr);
   }
@@ -48,11 +57,14 @@ class Trial {
   }
 
  private:
-  void bind(const Parameter& port) {
+  void bind(const Parameter& port, const ElementTexts& constants) {
     Entry& entry = entries_.emplace_back();
     entry.type = port.type;
     BoundPort bound{.parameter = &port, .entry = port.name, .type = port.type};
     if (port.direction != Direction::Output) entry.value = sample_value(port);
+    for (const auto& [parameter, text] : constants) {
+      if (parameter == port.name) entry.value = parse_value(port.type, text).value_or(Value());
+    }
     bound.read = &entry.value;
     if (port.direction != Direction::Input) bound.write = &entry;
     ports_.add(std::move(bound));
@@ -69,18 +81,35 @@ class Trial {
   std::unique_ptr<ProgramLeaf> leaf_;
 };
 
+// Describes elements before any leaf is made.
+class Describer final : public LeafDescriber {
+ public:
+  Describer(Conversation& conversation, const std::unique_ptr<Hello>& hello)
+      : conversation_(conversation), hello_(hello) {}
+  tl::expected<const lockstep_leaf_type*, ElementRefusal> describe(
+      std::string_view id, std::span<const FixedText> fixed) override {
+    return describe_element(conversation_, *hello_, id, fixed, described_.emplace_back());
+  }
+
+ private:
+  Conversation& conversation_;
+  const std::unique_ptr<Hello>& hello_;
+  std::deque<OwnedDescriptors> described_;
+};
+
 class Examiner {
  public:
   Examiner(const std::string& path, const IsolationOptions& options)
       : path_(path), options_(options) {}
 
   Conformance examine(ConformancePart part) {
-    if (begin()) {
-      for (const auto& leaf : descriptors_.leaves) {
-        if (part == ConformancePart::All && !examine_leaf(*leaf)) return std::move(result_);
+    if (!begin()) return std::move(result_);
+    if (part == ConformancePart::All) {
+      for (const Tried& it : what_to_try()) {
+        if (!examine_leaf(it)) return std::move(result_);
       }
-      end();
     }
+    if (!conversation_.is_gone()) end();
     return std::move(result_);
   }
 
@@ -106,6 +135,7 @@ class Examiner {
     if (const auto refusal = read_descriptors(hello_->plugin(), 0, descriptors_)) {
       return refuse("it ", *refusal);
     }
+    descriptors_.plugin.describer = &describer_;
     conversation_.begin(run_);
     std::vector<std::string_view> ids;
     for (const auto& leaf : descriptors_.leaves) ids.push_back(leaf->type.id);
@@ -122,10 +152,34 @@ class Examiner {
     return note(!conversation_.is_gone(), fmt::format("'{}' {}: {}", trial.name(), what, error));
   }
 
-  bool examine_leaf(const Descriptors::Leaf& type) {
-    const Hold hold = hello_->hold_of(type.type.id);
-    trials_.push_back(std::make_unique<Trial>(type, 1, conversation_, hold));
-    trials_.push_back(std::make_unique<Trial>(type, 2, conversation_, hold));
+  std::vector<Tried> what_to_try() {
+    std::vector<Tried> all;
+    for (const auto& leaf : descriptors_.leaves) {
+      if (leaf->element_types != nullptr) {
+        describe_elements(leaf->node_type, all);
+      } else {
+        all.push_back({&leaf->node_type});
+      }
+    }
+    return all;
+  }
+
+  void describe_elements(const NodeType& type, std::vector<Tried>& all) {
+    for (const ElementTexts& constants : sample_elements(type)) {
+      const auto described = type.element_types->type_of(fixed_texts(constants));
+      if (described) all.push_back({*described, constants});
+      note(!conversation_.is_gone(),
+           fmt::format("'{}' with {} {}", type.id, to_text(constants),
+                       described
+                           ? fmt::format("has {}", counted((*described)->parameters.size(), "port"))
+                           : "is not tried: " + described.error().why.message));
+    }
+  }
+
+  bool examine_leaf(const Tried& tried) {
+    const Hold hold = hello_->hold_of(tried.type->id);
+    trials_.push_back(std::make_unique<Trial>(tried, 1, conversation_, hold));
+    trials_.push_back(std::make_unique<Trial>(tried, 2, conversation_, hold));
     Trial& one = *trials_[trials_.size() - 2];
     Trial& two = *trials_.back();
     for (Trial* it : {&one, &two}) {
@@ -209,6 +263,7 @@ class Examiner {
   CallerRun shared_{.log = &log_};
   lockstep_caller run_{time_, slot_, shared_};
   Conversation conversation_{options_};
+  Describer describer_{conversation_, hello_};
   std::vector<std::unique_ptr<Trial>> trials_;
 };
 

@@ -37,7 +37,26 @@ Result<std::string> Conversation::start(const std::string& path) {
     return problem(fmt::format("does not start: {}", failure),
                    "a program is executable, and a script begins with #! and its interpreter");
   }
+  return next_line("said what leaves it has");
+}
+
+Result<std::string> Conversation::ask(std::string_view line, std::string_view what) {
+  process_.write(line);  // a deaf one says nothing, either
+  auto answer = next_line(fmt::format("answered {}", what));
+  while (answer) {
+    if (!read_reply(reader_, *answer, reply_).empty() || reply_.what != Reply::What::Log) break;
+    answer = next_line(fmt::format("answered {}", what));
+  }
+  return answer;
+}
+
+// What is wrong before it has done `what`, or a line.
+Result<std::string> Conversation::next_line(std::string_view what) {
   const auto end = monotonic_now() + options_.hang_limit;
+  const bool is_first = what == "said what leaves it has";
+  const char* const hint = is_first
+                               ? "its first line says what leaves it has; is its output buffered?"
+                               : "is its output buffered?";
   while (!process_.lines.next(line_)) {
     const auto left = hang_limit() ? std::optional(end - monotonic_now()) : std::nullopt;
     const bool is_late = left && *left <= Nanoseconds(0);
@@ -45,13 +64,13 @@ Result<std::string> Conversation::start(const std::string& path) {
       return problem(is_late
                          ? fmt::format("says nothing for {:g} s", to_seconds(options_.hang_limit))
                          : "says more than a line of 1 MiB",
-                     "its first line says what leaves it has; is its output buffered?");
+                     hint);
     }
     if (!process_.await_output(left)) continue;
     if (is_output_over()) {
       const auto death = process_.await_end(kToDie);
-      return problem(death ? fmt::format("{} before it said what leaves it has", *death)
-                           : "closed its output before it said what leaves it has",
+      return problem(death ? fmt::format("{} before it {}", *death, what)
+                           : fmt::format("closed its output before it {}", what),
                      "run it by hand to see what it prints");
     }
   }

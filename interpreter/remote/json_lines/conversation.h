@@ -29,6 +29,9 @@ class Conversation {
   explicit Conversation(const IsolationOptions& options) : options_(options) {}
   // Starts the program and returns its first line.
   Result<std::string> start(const std::string& path);
+  // Before it has any leaf: sends a line, and waits for the next one that is not for people.
+  // `what` is asked for.
+  Result<std::string> ask(std::string_view line, std::string_view what);
   // Tells it whose leaves it has: a program that says something of itself says it to the run.
   void begin(const lockstep_caller& run);
 
@@ -111,6 +114,7 @@ class Conversation {
     bool owes_anything() const { return asked != Asked::Nothing || pauses > 0; }
     Asked owed_first() const;
   };
+  Result<std::string> next_line(std::string_view what);
   bool owes(std::uint32_t leaf, Asked asked);
   bool await_here(std::uint32_t leaf, Asked asked, std::optional<Nanoseconds> patience);
   bool find_unasked();

@@ -26,6 +26,8 @@ class Hello {
 
   const lockstep_plugin& plugin() const { return tables_.plugin; }
   const std::string& line() const { return line_; }
+  // Null: there is none.
+  const lockstep_leaf_type* type_named(std::string_view id) const;
   // How a leaf type of the table is held, by its id.
   Hold hold_of(std::string_view id) const;
 

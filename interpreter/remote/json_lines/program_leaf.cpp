@@ -78,6 +78,7 @@ bool ProgramLeaf::create() {
       .field("period", host_table().tick_period(&caller_))
       .field("clock", std::string_view(is_waiting() ? "virtual" : "wall"))
       .field("seed", host_table().random_bits(&caller_) >> 11)  // exact as a double
+      .fixed(caller_)
       .unbound(caller_)
       .end();
   send(Asked::Create);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "remote/json_lines/described_element.h"
 #include "remote/json_lines/leaves_file.h"
 #include "remote/json_lines/program_run.h"
 
@@ -39,6 +40,25 @@ Result<std::string> ProgramPlugin::first_line() {
   auto line = first_->start(path_);
   is_file_stale_ = line && written && *line != *written;
   return line;
+}
+
+// A process that waits for its run answers, else one that was started for it and waits then.
+tl::expected<const lockstep_leaf_type*, ElementRefusal> ProgramPlugin::describe(
+    std::string_view id, std::span<const FixedText> fixed) {
+  const auto refused = [&](std::string_view why, const char* hint) {
+    return tl::unexpected(ElementRefusal{{}, {fmt::format("'{}' {}", id, why), hint}});
+  };
+  if (!options_.run_programs) {
+    return refused("has ports that its program knows, which this command does not run",
+                   "give --run-programs");
+  }
+  std::string failure;
+  auto conversation = acquire(failure);
+  if (conversation == nullptr) return refused("cannot be described: " + failure, "");
+  const Lock lock(mutex_);
+  auto described = describe_element(*conversation, *hello_, id, fixed, described_.emplace_back());
+  if (first_ == nullptr && !conversation->is_gone()) first_ = std::move(conversation);
+  return described;
 }
 
 std::unique_ptr<RemoteRun> ProgramPlugin::begin_run(const lockstep_caller& caller) {

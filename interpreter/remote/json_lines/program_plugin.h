@@ -1,10 +1,12 @@
 // A plugin that is a program: a process for each concurrent run.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 
 #include "core/problem.h"
+#include "plugin/contract/described_types.h"
 #include "remote/isolation_options.h"
 #include "remote/json_lines/conversation.h"
 #include "remote/json_lines/hello.h"
@@ -13,7 +15,7 @@
 
 namespace lockstep::host {
 
-class ProgramPlugin final : public RemotePlugin {
+class ProgramPlugin final : public RemotePlugin, private LeafDescriber {
  public:
   // Starts the first process, which says what leaves it has. Where programs are not run, a file
   // beside it says so.
@@ -25,6 +27,7 @@ class ProgramPlugin final : public RemotePlugin {
   ProgramPlugin& operator=(const ProgramPlugin&) = delete;
 
   const lockstep_plugin& entry() const override { return hello_->plugin(); }
+  LeafDescriber* describer() override { return this; }
   std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
   const Hello& hello() const { return *hello_; }
   // The file beside it says something else; or was read, and may do so.
@@ -38,6 +41,8 @@ class ProgramPlugin final : public RemotePlugin {
  private:
   ProgramPlugin(std::string path, IsolationOptions options);
   Result<std::string> first_line();
+  tl::expected<const lockstep_leaf_type*, ElementRefusal> describe(
+      std::string_view id, std::span<const FixedText> fixed) override;
 
   std::string path_;
   IsolationOptions options_;
@@ -45,6 +50,7 @@ class ProgramPlugin final : public RemotePlugin {
   bool is_file_stale_ = false, is_file_older_ = false;
 
   Mutex mutex_;
+  std::deque<OwnedDescriptors> described_ LOCKSTEP_GUARDED_BY(mutex_);
   std::unique_ptr<Conversation> first_ LOCKSTEP_GUARDED_BY(mutex_);  // until a run takes it
 };
 

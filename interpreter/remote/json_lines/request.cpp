@@ -72,4 +72,18 @@ Request& Request::unbound(const lockstep_caller& caller) {
   return *this;
 }
 
+Request& Request::fixed(const lockstep_caller& caller) {
+  const char* before = ",\"fixed\":{";
+  for (std::uint32_t port = 0; port < caller.ports.size(); ++port) {
+    if (!caller.ports[port]->parameter->constant) continue;
+    text_ += before;
+    append_json(text_, caller.ports[port]->name());
+    text_ += ':';
+    append_json_value(text_, port_value(caller, port));
+    before = ",";
+  }
+  if (*before == ',' && before[1] == '\0') text_ += '}';
+  return *this;
+}
+
 }  // namespace lockstep::host

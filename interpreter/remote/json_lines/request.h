@@ -24,6 +24,8 @@ class Request {
   Request& ports(const lockstep_caller& caller, std::vector<Value>& sent);
   // "unbound": the outputs and inouts that the tree binds to no entry, if there are any.
   Request& unbound(const lockstep_caller& caller);
+  // "fixed": the constants that may have decided which ports the leaf has, if there are any.
+  Request& fixed(const lockstep_caller& caller);
   void end() { text_ += "}\n"; }
 
   std::string_view text() const { return text_; }

@@ -45,12 +45,6 @@ void keep_functions(lockstep_leaf_type& leaf, std::uint8_t present) {
   if ((present & 32) == 0) leaf.start_unreset = nullptr;
 }
 
-// Stands for a function of the other process, which LeafDescriber asks for.
-const lockstep_leaf_type* describe_elsewhere(const lockstep_fixed* /*fixed*/,
-                                             std::uint32_t /*count*/, lockstep_refusal* /*why*/) {
-  return nullptr;
-}
-
 }  // namespace
 
 void write_fixed(std::span<const FixedText> fixed, MessageWriter& message) {
@@ -155,8 +149,7 @@ bool ReadDescriptors::read_leaf(MessageReader& message) {
     const std::string word(message.text());
     tables_.add_behavior(word, message.text());
   }
-  leaf.more_ports = text(message);
-  if (leaf.more_ports != nullptr) leaf.describe = describe_elsewhere;
+  if (message.has_text()) tables_.set_more_ports(message.text());
   return message.good();
 }
 

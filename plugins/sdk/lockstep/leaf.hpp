@@ -14,6 +14,7 @@
 
 #include "cpp/action.hpp"           // IWYU pragma: export
 #include "cpp/control.hpp"          // IWYU pragma: export
+#include "cpp/element.hpp"          // IWYU pragma: export
 #include "cpp/plugin.hpp"           // IWYU pragma: export
 #include "cpp/port.hpp"             // IWYU pragma: export
 #include "cpp/threaded_action.hpp"  // IWYU pragma: export

@@ -30,7 +30,7 @@ import sys
 import threading
 import traceback
 
-__all__ = ["Action", "Condition", "InOut", "Output", "Port", "Skipped", "say", "serve"]
+__all__ = ["Action", "Condition", "Fixed", "InOut", "Output", "Port", "Refused", "Skipped", "say", "serve"]
 
 PROTOCOL = 1
 _TYPES = {bool: "bool", int: "int", float: "double", str: "string", list[bool]: "list of bool",
@@ -51,18 +51,27 @@ class Port:
         self.facts = {"unit": unit, "doc": doc, "min": min, "max": max, "choices": choices}
 
 
-class _Directed:
-    "Output[float], InOut[float]"
+class Refused(Exception):
+    "Why an element has no ports; `port` is the fixed port whose text is to blame. To be raised by `describe`."
 
-    def __init__(self, direction, type_=None):
-        self.direction, self.type = direction, type_
+    def __init__(self, message, port="", hint=""):
+        super().__init__(message)
+        self.port, self.hint = port, hint
+
+
+class _Directed:
+    "Output[float], InOut[float], Fixed[str]"
+
+    def __init__(self, direction, type_=None, fixed=False):
+        self.direction, self.type, self.fixed = direction, type_, fixed
 
     def __getitem__(self, type_):
-        return _Directed(self.direction, type_)
+        return _Directed(self.direction, type_, self.fixed)
 
 
 Output = _Directed("output")
 InOut = _Directed("inout")
+Fixed = _Directed("input", fixed=True)  # an input that a tree gives as a constant: `describe` gets it
 
 
 def _plain(value):
@@ -76,8 +85,8 @@ def _plain(value):
 
 
 # What a leaf has beside its ports.
-_TAKEN = {"behavior", "clock", "halt", "kind", "log", "name", "now", "path", "pause", "period", "progress", "random", "real_time",
-          "resume", "start", "tick"}
+_TAKEN = {"behavior", "clock", "describe", "halt", "log", "more_ports", "name", "now", "path", "pause",
+          "period", "progress", "random", "real_time", "resume", "start", "tick"}
 
 
 class _Attribute:
@@ -98,6 +107,8 @@ class _Attribute:
             self.fact["default"] = _plain(default) if isinstance(default, list) else default
         if port.optional:
             self.fact["optional"] = True
+        if directed.fixed:
+            self.fact["fixed"] = True
         self.fact.update({key: value for key, value in port.facts.items() if value not in (None, "")})
 
     def __get__(self, leaf, owner=None):
@@ -120,8 +131,9 @@ class _Attribute:
 
 
 class _Leaf:
-    kind = ""
+    _kind = ""
     real_time = False  # it works in real time, whether ticks come or not
+    more_ports = ()  # names that an element may have beside these: ["goal.*"]; `describe` says which
     behavior = {}  # what it does, for `lockstep verify`, in the words of a leaf file: {"ticks": "2..40"}
 
     # What lockstep says: of the run, and of this tick.
@@ -144,6 +156,30 @@ class _Leaf:
     def tick(self):
         raise NotImplementedError(f"{type(self).__name__} has no tick")
 
+    # Ports that `describe` has given to the element, by their names: self["goal.x"].
+    def __getitem__(self, name):
+        return self._port_named(name).__get__(self)
+
+    def __setitem__(self, name, value):
+        self._port_named(name).__set__(self, value)
+
+    def __contains__(self, name):
+        "Whether the port has a value."
+        return name in self._own_ports and self._values.get(name) is not None
+
+    def _port_named(self, name):
+        if name not in self._own_ports:
+            raise KeyError(f"there is no port '{name}'")
+        return self._own_ports[name]
+
+    @classmethod
+    def _described(cls, fixed):
+        "The ports that an element with these constants has beside those of the class, by their names."
+        if not cls.more_ports:
+            return {}
+        return {name: _Attribute(name, *(it if isinstance(it, tuple) else (it, None)))
+                for name, it in cls.describe(**fixed).items()}
+
     def log(self, text, level="info"):
         self._log(str(text), level)
 
@@ -156,8 +192,10 @@ class _Leaf:
 
     @classmethod
     def _fact(cls):
-        fact = {"id": cls.__name__, "kind": cls.kind, "doc": " ".join((cls.__doc__ or "").split()),
+        fact = {"id": cls.__name__, "kind": cls._kind, "doc": " ".join((cls.__doc__ or "").split()),
                 "ports": [port.fact for port in cls._ports.values()]}
+        if cls.more_ports:
+            fact["more_ports"] = [cls.more_ports] if isinstance(cls.more_ports, str) else list(cls.more_ports)
         flags = {"progress": hasattr(cls, "progress"), "real_time": cls.real_time,
                  "pause": cls._pauses(), "answers_pause": cls._pauses()}
         said = {"behavior": {word: str(value) for word, value in cls.behavior.items()}} if cls.behavior else {}
@@ -168,11 +206,11 @@ _classes = {}
 
 
 class Action(_Leaf):
-    kind = "action"
+    _kind = "action"
 
 
 class Condition(_Leaf):
-    kind = "condition"
+    _kind = "condition"
 
 
 _ANSWERS = {None: "running", True: "success", False: "failure", Skipped: "skipped",
@@ -197,9 +235,10 @@ def _progress(leaf):
     return float(done)
 
 
-def _new(cls, number, seed, **facts):
+def _new(cls, number, seed, fixed={}, **facts):
     "A leaf whose __init__ is still to be called: it may use what lockstep has said."
     leaf = cls.__new__(cls)
+    leaf._own_ports = cls._ports | cls._described(fixed)
     leaf._number, leaf._values, leaf._set, leaf._has_ports, leaf._has_started = number, {}, {}, False, False
     leaf._unbound = ()
     for name, value in facts.items():
@@ -216,7 +255,7 @@ class _Server:
         self.broken = set()  # those that had an error; the next start mends it
 
     def create(self, number, request):
-        leaf = _new(_classes[request["type"]], number, request["seed"],
+        leaf = _new(_classes[request["type"]], number, request["seed"], request.get("fixed", {}),
                     **{name: request[name] for name in ("name", "path", "clock", "period")})
         leaf._unbound = request.get("unbound", ())
         self.leaves[number] = leaf
@@ -267,7 +306,17 @@ class _Server:
         if "ports" in request:
             leaf._values.update(request["ports"])
 
+    @staticmethod
+    def describe(request):
+        try:
+            ports = _classes[request["type"]]._described(request["fixed"])
+            say(ports=[port.fact for port in ports.values()])
+        except Exception as error:
+            say(refused=_refusal(error), **{key: getattr(error, key, "") for key in ("port", "hint")})
+
     def answer(self, request):
+        if request["do"] == "describe":
+            return self.describe(request)
         do, number = request["do"], request["leaf"]
         try:
             if do == "create":
@@ -289,6 +338,10 @@ def _blame(error, folder=None):
             if frame.filename != __file__ and os.path.dirname(frame.filename) != folder]
     where = f" ({os.path.basename(mine[-1].filename)}:{mine[-1].lineno})" if mine else ""
     return f"{type(error).__name__}: {error}{where}"
+
+
+def _refusal(error):
+    return str(error) if isinstance(error, Refused) else _blame(error)
 
 
 _out = 1
@@ -351,27 +404,31 @@ class _Prompt:
     def start(self, words):
         if words and words[0] in _classes:
             self.cls, self.number = _classes[words.pop(0)], self.number + 1
+            given = self.values(words, self.cls._ports)
+            fixed = {name: given[name] for name, it in self.cls._ports.items() if "fixed" in it.fact and name in given}
             self.ask("create", type=self.cls.__name__, name=self.cls.__name__, path=self.cls.__name__,
-                     period=0.01, clock="virtual", seed=0)
+                     period=0.01, clock="virtual", seed=0, **({"fixed": fixed} if fixed else {}))
         if self.cls is None:
             return print("start what? one of:", ", ".join(_classes))
-        ports = {fact["name"]: fact["default"] for fact in self.facts() if "default" in fact}
+        if self.number in self.server.leaves:
+            self.ask("start", ports=self.values(words, self.server.leaves[self.number]._own_ports))
+
+    @staticmethod
+    def values(words, of):
+        ports = {name: port.fact["default"] for name, port in of.items() if "default" in port.fact}
         for word in words:
             name, _, value = word.partition("=")
             try:
                 ports[name] = json.loads(value)
             except ValueError:
                 ports[name] = value
-        self.ask("start", ports=ports)
-
-    def facts(self):
-        return self.cls._fact()["ports"]
+        return ports
 
     def obey(self, line):
         do, *words = line.split()
         if do == "start":
             self.start(words)
-        elif do in ("tick", "halt", "pause", "resume") and self.cls is not None:
+        elif do in ("tick", "halt", "pause", "resume") and self.number in self.server.leaves:
             for _ in range(int(words[0]) if words else 1):
                 self.ask(do)
                 self.now += 0.01
@@ -381,7 +438,7 @@ class _Prompt:
     def run(self):
         for cls in _classes.values():
             ports = " ".join(f"{port['name']}:{port['type']}" for port in cls._fact()["ports"])
-            print(f"{cls.__name__} ({cls.kind}) {ports}")
+            print(f"{cls.__name__} ({cls._kind}) {ports}")
         while True:
             print("> ", end="", flush=True)
             line = sys.stdin.readline()

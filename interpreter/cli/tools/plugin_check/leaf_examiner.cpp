@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/behavior.h"
+#include "core/element_types.h"
 #include "core/parameter_value.h"
 #include "core/random.h"
 #include "core/wording.h"
@@ -110,16 +111,14 @@ bool is_breach(const std::string& fault) {
 
 class Examiner {
  public:
-  Examiner(const NodeType& type, std::shared_ptr<PluginSet> plugins, const LeafReport& report)
-      : type_(type), plugins_(std::move(plugins)), report_(report) {
+  // `constants` are those of an element of this type.
+  Examiner(const NodeType& type, const ElementTexts& constants, std::shared_ptr<PluginSet> plugins,
+           const LeafReport& report)
+      : type_(type), constants_(to_text(constants)), plugins_(std::move(plugins)), report_(report) {
     for (const Parameter& port : type.parameters) samples_.push_back(sample_value(port));
   }
 
   void examine() {
-    if (make_catalog(*plugins_).find(type_.id) != &type_) {
-      note(true, "is not examined: lockstep's language has a node of that name");
-      return;
-    }
     std::vector<std::string> children{""};
     if (type_.arity.max > 0) {
       children = {"<AlwaysSuccess/>", "<AlwaysFailure/>", "<AlwaysRunning/>"};
@@ -151,9 +150,10 @@ class Examiner {
   };
 
   std::string text_of_leaf(const std::string& child, std::size_t number) const {
-    std::string text = fmt::format("<{} name=\"{}\"", type_.id, number);
+    std::string text = fmt::format("<{} name=\"{}\" {}", type_.id, number, constants_);
     for (std::size_t i = 0; i < type_.parameters.size(); ++i) {
       const Parameter& port = type_.parameters[i];
+      if (port.constant) continue;
       const bool is_constant = port.type == ValueType::Number;  // no entry has this type
       if (is_constant && !port.default_text) text += fmt::format(" {}=\"1\"", port.name);
       if (!is_constant) text += fmt::format(" {}=\"{{{}}}\"", port.name, key_of(i));
@@ -224,7 +224,8 @@ class Examiner {
   }
 
   bool note(bool is_good, const std::string& text) const {
-    report_.note(is_good, fmt::format("'{}'{} {}", type_.id, children_, text));
+    const std::string which = constants_.empty() ? "" : " with " + constants_;
+    report_.note(is_good, fmt::format("'{}'{}{} {}", type_.id, which, children_, text));
     return is_good;
   }
 
@@ -329,6 +330,7 @@ class Examiner {
   }
 
   const NodeType& type_;
+  const std::string constants_;
   const std::shared_ptr<PluginSet> plugins_;
   const LeafReport& report_;
   std::vector<Value> samples_;
@@ -339,7 +341,21 @@ class Examiner {
 
 void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugins,
                   const LeafReport& report) {
-  Examiner(type, plugins, report).examine();
+  const auto note = [&](std::string_view text) {
+    report.note(true, fmt::format("'{}' is not examined: {}", type.id, text));
+  };
+  if (make_catalog(*plugins).find(type.id) != &type) {
+    return note("lockstep's language has a node of that name");
+  }
+  if (type.element_types == nullptr) return Examiner(type, {}, plugins, report).examine();
+  for (const ElementTexts& constants : sample_elements(type)) {
+    const auto described = type.element_types->type_of(fixed_texts(constants));
+    if (described) {
+      Examiner(**described, constants, plugins, report).examine();
+    } else {
+      note(fmt::format("no element has {}: {}", to_text(constants), described.error().why.message));
+    }
+  }
 }
 
 }  // namespace lockstep::host

@@ -15,6 +15,7 @@ namespace detail {
 inline thread_local const Caller* creating = nullptr;
 
 struct LeafAccess;
+struct ElementAccess;
 
 }  // namespace detail
 
@@ -40,6 +41,7 @@ class Leaf : protected Services {
 
  private:
   friend struct detail::LeafAccess;
+  friend struct detail::ElementAccess;
 
   static const detail::Caller& creator() {
     if (!detail::creating) throw std::logic_error("a leaf can only be created by its host");

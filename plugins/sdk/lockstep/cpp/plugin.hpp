@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "control.hpp"
+#include "element.hpp"
 
 namespace lockstep {
 inline namespace sdk1 {
@@ -155,6 +156,9 @@ struct PluginParts {
   constexpr void add(const lockstep_leaf_type& leaf) {
     for (std::size_t i = 0; i < count; ++i) {
       if (std::string_view(leaves[i].id) == leaf.id) error_two_leaves_have_the_same_id();
+      if (leaf.describe != nullptr && leaves[i].describe == leaf.describe) {
+        error_a_class_that_describes_elements_is_one_leaf();
+      }
     }
     leaves[count++] = leaf;
   }
@@ -230,6 +234,7 @@ constexpr lockstep_leaf_type leaf_type(const char* id, const char* doc) {
   type.flags = (T::kRealTime ? LOCKSTEP_REAL_TIME : 0) | (T::kWakes ? LOCKSTEP_WAKES : 0);
   if constexpr (Functions::kIsAction) add_optional_functions<T>(type);
   BehaviorOf<T>::add(type);
+  DescribeOf<T>::add(type);
   if constexpr (std::is_base_of_v<ControlFunctions, T>) {
     type.min_children = T::kMinChildren;
     type.max_children = T::kMaxChildren;
@@ -286,6 +291,8 @@ constexpr detail::DeinitPart deinit() {
   extern "C" {                                                                                   \
   constexpr ::lockstep_plugin table = ::lockstep::detail::plugin(table##_parts, table##_leaves); \
   }                                                                                              \
+  [[maybe_unused]] static const bool table##_described =                                         \
+      ::lockstep::detail::remember_describing(table##_leaves);                                   \
   static_assert(table.leaf_type_count > 0, "a plugin has at least one leaf")
 
 // Exports the plugin from this shared object; once, outside of any namespace.

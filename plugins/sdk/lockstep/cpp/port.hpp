@@ -21,9 +21,13 @@ template <class T>
 class Output;
 template <class T>
 class InOut;
+template <class T>
+class Fixed;
 
 // In the place of a default: the tree must give this port.
 struct Required {};
+// In the place of a default: the tree may leave the port out, and then it has no value.
+struct Optional {};
 
 namespace detail {
 
@@ -52,7 +56,10 @@ class Ports {
   using Output = sdk1::Output<T>;
   template <class T>
   using InOut = sdk1::InOut<T>;
+  template <class T>
+  using Fixed = sdk1::Fixed<T>;
   static constexpr Required required{};
+  static constexpr Optional optional{};
 
   // The values that a port takes. Anything else is an error of the tree, or of the run when an
   // entry has it.
@@ -186,6 +193,11 @@ constexpr lockstep_port describe(lockstep_direction direction, const char* name,
   return port;
 }
 
+constexpr lockstep_port with_flags(lockstep_port port, std::uint64_t flags) {
+  port.flags = flags;
+  return port;
+}
+
 // Refuses what was meant as a default: a doc that is a value.
 template <class T>
 constexpr lockstep_port describe_output(const char* name, const char* doc, const char* unit,
@@ -266,6 +278,36 @@ class Input : public detail::ReadablePort<T> {
                                 detail::describe<T>(LOCKSTEP_INPUT, name, doc, unit, limits)) {}
   constexpr Input(Ports* owner, const char* name, Required, const char* doc, Limits limits)
       : Input(owner, name, Ports::required, doc, "", limits) {}
+  constexpr Input(Ports* owner, const char* name, Optional, const char* doc, const char* unit = "",
+                  Limits limits = {})
+      : detail::ReadablePort<T>(
+            owner, detail::with_flags(detail::describe<T>(LOCKSTEP_INPUT, name, doc, unit, limits),
+                                      LOCKSTEP_OPTIONAL)) {}
+  constexpr Input(Ports* owner, const char* name, Optional, const char* doc, Limits limits)
+      : Input(owner, name, Ports::optional, doc, "", limits) {}
+};
+
+// An input for which a tree gives a constant: it may decide which ports the element has, see
+// cpp/element.hpp.
+template <class T>
+class Fixed : public detail::ReadablePort<T> {
+ public:
+  constexpr Fixed(Ports* owner, const char* name, const char* default_value, const char* doc,
+                  const char* unit = "", Limits limits = {})
+      : detail::ReadablePort<T>(
+            owner, detail::with_flags(
+                       detail::describe<T>(LOCKSTEP_INPUT, name, default_value, doc, unit, limits),
+                       LOCKSTEP_FIXED)) {}
+  constexpr Fixed(Ports* owner, const char* name, const char* default_value, const char* doc,
+                  Limits limits)
+      : Fixed(owner, name, default_value, doc, "", limits) {}
+  constexpr Fixed(Ports* owner, const char* name, Required, const char* doc, const char* unit = "",
+                  Limits limits = {})
+      : detail::ReadablePort<T>(
+            owner, detail::with_flags(detail::describe<T>(LOCKSTEP_INPUT, name, doc, unit, limits),
+                                      LOCKSTEP_FIXED)) {}
+  constexpr Fixed(Ports* owner, const char* name, Required, const char* doc, Limits limits)
+      : Fixed(owner, name, Ports::required, doc, "", limits) {}
 };
 
 template <class T>

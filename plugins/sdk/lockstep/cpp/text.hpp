@@ -52,6 +52,9 @@ namespace detail {
 [[noreturn]] inline void error_two_leaves_have_the_same_id() {
   std::abort();
 }
+[[noreturn]] inline void error_a_class_that_describes_elements_is_one_leaf() {
+  std::abort();
+}
 [[noreturn]] inline void error_a_plugin_has_at_most_one_run_context_init_and_deinit() {
   std::abort();
 }

@@ -2,6 +2,7 @@
 import ctypes
 import itertools
 import os
+import re
 import sys
 import threading
 import types
@@ -13,7 +14,7 @@ from . import _native as native
 
 _KINDS = {"action": 1, "condition": 2}
 _DIRECTIONS = {"input": 1, "output": 2, "inout": 3}
-_MAY_RUN, _REAL_TIME, _OPTIONAL = 2, 1, 1
+_MAY_RUN, _REAL_TIME, _OPTIONAL, _FIXED = 2, 1, 1, 4
 _RESULTS = {word: number for number, word in enumerate(native.STATUSES)}
 
 # Whose leaves this thread makes: the state of a tree.
@@ -58,6 +59,19 @@ class _Host:
         return cls.known[address]
 
 
+class _Element:
+    "The ports of elements with the same constants."
+
+    def __init__(self, facts, fixed):
+        self.fixed = fixed
+        self.ports = {port["name"]: (index, native.TYPES[port["type"]]) for index, port in enumerate(facts)}
+        self.kept = [_port(port) for port in facts]
+        self.pointers = (POINTER(native.Port) * len(facts))(*map(pointer, self.kept))
+
+    def give_ports(self, table):
+        table.port_count, table.ports = len(self.kept), cast(self.pointers, POINTER(POINTER(native.Port)))
+
+
 class _Class:
     "A class of leaves: its table, and its leaves by their numbers."
 
@@ -66,14 +80,12 @@ class _Class:
     def __init__(self, cls):
         self.cls, self.leaves = cls, {}
         fact = cls._fact()
-        self.ports = {port["name"]: (index, native.TYPES[port["type"]]) for index, port in enumerate(fact["ports"])}
-        self.kept = [_port(port) for port in fact["ports"]]
-        pointers = (POINTER(native.Port) * len(self.kept))(*map(pointer, self.kept))
+        self.elements = [_Element(fact["ports"], {})]  # those that are described come after it, by their constants:
+        self.described, self.describing, self.refusal = {}, threading.Lock(), None
         kind = _KINDS[fact["kind"]]
         may_run = _MAY_RUN if fact["kind"] == "condition" else 0  # as of a program
         self.table = native.sized(
             native.LeafType, kind=kind, id=native.bytes_of(fact["id"]), doc=native.bytes_of(fact["doc"]),
-            port_count=len(self.kept), ports=cast(pointers, POINTER(POINTER(native.Port))),
             create=native.CREATE(self.create), destroy=native.CALL(self.destroy),
             start=native.CALL(self.caller_of(self.start)),
             tick=native.TICK(self.caller_of(self.tick, native.RUNNING)), flags=may_run | (_REAL_TIME if fact.get("real_time") else 0))
@@ -82,7 +94,36 @@ class _Class:
                 setattr(self.table, name, native.CALL(self.caller_of(_do(name))))
         if hasattr(cls, "progress"):
             self.table.progress = native.PROGRESS(self.caller_of(lockstep_leaf._progress, 0.0))
-        self.kept.append(pointers)
+        self.functions = native.LeafType.from_buffer_copy(self.table)
+        self.elements[0].give_ports(self.table)
+        if "more_ports" in fact:
+            self.table.more_ports = native.bytes_of(";".join(fact["more_ports"]))
+            self.table.describe = native.DESCRIBE(self.describe)
+
+    def describe(self, fixed, count, why):
+        try:
+            return self.address_of({fixed[i].port: fixed[i].text for i in range(count)})
+        except Exception as error:  # kept until the next one, as the texts of a refusal are
+            self.refusal = [native.bytes_of(it) for it in (
+                lockstep_leaf._refusal(error), getattr(error, "port", ""), getattr(error, "hint", ""))]
+            why.contents.message, why.contents.port, why.contents.hint = self.refusal
+            return None
+
+    def address_of(self, texts):
+        "That of the table of the elements with these constants."
+        key = tuple(texts.items())
+        with self.describing:
+            if key not in self.described:
+                fixed = {name.decode(): _typed(self.cls._ports[name.decode()].fact["type"], text.decode())
+                         for name, text in key}
+                more = [port.fact for port in self.cls._described(fixed).values()]
+                element = _Element([port.fact for port in self.cls._ports.values()] + more, fixed)
+                element.table = native.LeafType.from_buffer_copy(self.functions)
+                element.table.data = len(self.elements)
+                element.give_ports(element.table)
+                self.elements.append(element)
+                self.described[key] = element
+            return ctypes.addressof(self.described[key].table)
 
     def create(self, table, caller, _context):
         host, state = _Host.at(table), making.state
@@ -90,12 +131,13 @@ class _Class:
         leaf = None
         try:
             state.inside = True
+            element = self.elements[host.place.data(caller) or 0]
             leaf = lockstep_leaf._new(
-                self.cls, number, host.random_bits(caller) >> 11, name=native.text_of(host.place.name(caller)),
+                self.cls, number, host.random_bits(caller) >> 11, element.fixed, name=native.text_of(host.place.name(caller)),
                 path=native.text_of(host.place.path(caller)), period=host.tick_period(caller), clock=state.clock)
             leaf._host, leaf._caller, leaf._state = host, caller, state
-            leaf._values = _Ports(leaf, host, caller, self.ports, state)
-            leaf._unbound = [name for name, (index, _) in self.ports.items()
+            leaf._values = _Ports(leaf, host, caller, element.ports, state)
+            leaf._unbound = [name for name, (index, _) in element.ports.items()
                              if not _is_key(host.place.given(caller, index) or b"")]
             leaf._log = state.log_of(leaf.path)
             self.leaves[number] = leaf
@@ -142,7 +184,7 @@ class _Class:
         return result
 
     def set_port(self, leaf, name, value):
-        index, type_ = self.ports[name]
+        index, type_ = leaf._values.ports[name]
         try:
             done = type_.write(leaf._host.setters[type_.name], leaf._caller, index, value=value)
         except TypeError:
@@ -150,6 +192,15 @@ class _Class:
         # Of two errors the first counts: the host's.
         if not done:
             leaf._host.set_error(leaf._caller, f"set '{name}', which is not bound to an entry that takes it".encode())
+
+
+def _typed(type_, text):
+    "A constant of a tree, as a program gets it."
+    if type_.startswith("list of "):
+        items = text.split(";") if type_ == "list of string" else re.split(r"[;,\s]+", text)
+        return [_typed(type_[len("list of "):], it) for it in items if it]
+    read = {"bool": lambda it: it.strip() in ("true", "1"), "int": int, "double": float, "string": str}
+    return read[type_](text)
 
 
 def _is_key(given):
@@ -174,7 +225,7 @@ def _port(fact):
         default_value=None if default is None else native.bytes_of(lockstep_leaf._plain(default)),
         unit=native.bytes_of(fact.get("unit", "")), doc=native.bytes_of(fact.get("doc", "")),
         choices=native.bytes_of(";".join(choices)) if choices else None, min=least or 0, max=most or 0,
-        flags=_OPTIONAL if fact.get("optional") else 0)
+        flags=(_OPTIONAL if fact.get("optional") else 0) | (_FIXED if fact.get("fixed") else 0))
 
 
 def blame(error):
@@ -205,7 +256,7 @@ def _classes_of(given):
 
 
 def _is_leaf(it):
-    return isinstance(it, type) and issubclass(it, lockstep_leaf._Leaf) and it.kind != "" and (
+    return isinstance(it, type) and issubclass(it, lockstep_leaf._Leaf) and it._kind != "" and (
         it.__module__ != lockstep_leaf.__name__)
 
 
@@ -224,7 +275,7 @@ def plugins_of(given):
         modules.setdefault(_plugin_name(cls.__module__), []).append(_class_of(cls))
     for name, classes in modules.items():
         tables = (POINTER(native.LeafType) * len(classes))(*(pointer(it.table) for it in classes))
-        plugin = native.sized(native.Plugin, abi_major=1, abi_minor=1, name=native.bytes_of(name),
+        plugin = native.sized(native.Plugin, abi_major=1, abi_minor=4, name=native.bytes_of(name),
                               doc=b"Leaves in Python", leaf_type_count=len(classes),
                               leaf_types=cast(tables, POINTER(POINTER(native.LeafType))))
         plugin.kept = tables, classes

@@ -51,7 +51,10 @@ class Host(Structure):
 class Place(Structure):
     _fields_ = [("struct_size", c_uint32), ("name", CFUNCTYPE(c_char_p, c_void_p)),
                 ("path", CFUNCTYPE(c_char_p, c_void_p)), ("id", CFUNCTYPE(c_char_p, c_void_p)), ("child_id", c_void_p),
-                ("child_name", c_void_p), ("given", CFUNCTYPE(c_char_p, c_void_p, c_uint32))]  # and more
+                ("child_name", c_void_p), ("given", CFUNCTYPE(c_char_p, c_void_p, c_uint32)),
+                *((name, c_void_p) for name in ("value_type", "get_object", "set_object", "open", "unset", "ask_for_tick",
+                                                "wake")),
+                ("data", CFUNCTYPE(c_void_p, c_void_p))]
 
 
 CREATE = CFUNCTYPE(c_void_p, POINTER(Host), c_void_p, c_void_p)
@@ -60,12 +63,24 @@ TICK = CFUNCTYPE(c_int32, c_void_p)
 PROGRESS = CFUNCTYPE(c_double, c_void_p)
 
 
+class FixedText(Structure):
+    _fields_ = [("port", c_char_p), ("text", c_char_p)]
+
+
+class Refusal(Structure):
+    _fields_ = [("struct_size", c_uint32), ("port", c_char_p), ("message", c_char_p), ("hint", c_char_p)]
+
+
+DESCRIBE = CFUNCTYPE(c_void_p, POINTER(FixedText), c_uint32, POINTER(Refusal))
+
+
 class LeafType(Structure):
     _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("id", c_char_p), ("doc", c_char_p),
                 ("port_count", c_uint32), ("ports", POINTER(POINTER(Port))), ("create", CREATE), ("destroy", CALL),
                 ("start", CALL), ("tick", TICK), ("halt", CALL), ("pause", CALL), ("resume", CALL),
                 ("progress", PROGRESS), ("get_extension", c_void_p), ("flags", c_uint64), ("min_children", c_uint32),
-                ("max_children", c_uint32)]
+                ("max_children", c_uint32), ("start_unreset", c_void_p), ("behavior_count", c_uint32),
+                ("behavior", c_void_p), ("more_ports", c_char_p), ("describe", DESCRIBE), ("data", c_void_p)]
 
 
 class Plugin(Structure):
