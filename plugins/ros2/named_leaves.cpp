@@ -20,12 +20,14 @@ std::string trimmed(const std::string& text) {
                                     : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-// "  path = result.path" names a field, "  hold : cancel" gives a port a default.
+// "  path = result.path" names a field, "  is_recovery = nothing" an attribute that is not used, "
+// hold : cancel" gives a port a default.
 bool read_detail(const std::string& line, NamedLeaf& leaf) {
   const auto at = line.find_first_of("=:");
   if (at == std::string::npos) return false;
   const std::string name = trimmed(line.substr(0, at)), rest = trimmed(line.substr(at + 1));
   if (name.empty() || rest.empty()) return false;
+  if (line[at] == '=' && rest == "nothing") return leaf.ignored.insert(name).second;
   return (line[at] == '=' ? leaf.names : leaf.defaults).emplace(name, rest).second;
 }
 
@@ -34,7 +36,7 @@ std::unique_ptr<NamedLeaf> read_head(const std::string& line) {
   auto leaf = std::make_unique<NamedLeaf>();
   std::istringstream words(line);
   words >> leaf->id >> leaf->kind >> leaf->type >> leaf->name;
-  const bool is_kind = leaf->kind == "action" || leaf->kind == "service";
+  const bool is_kind = leaf->kind == "action" || leaf->kind == "service" || leaf->kind == "topic";
   return is_kind && !leaf->type.empty() ? std::move(leaf) : nullptr;
 }
 
@@ -53,7 +55,7 @@ std::string read_file(const std::string& path) {
       return place + "expected NAME = FIELD or PORT : DEFAULT, each name once";
     }
     auto leaf = read_head(text);
-    if (leaf == nullptr) return place + "expected TAG action|service TYPE [NAME]";
+    if (leaf == nullptr) return place + "expected TAG action|service|topic TYPE [NAME]";
     const std::string id = leaf->id;
     const auto [at, is_new] = all().emplace(id, std::move(leaf));
     if (!is_new) return place + "'" + id + "' is there twice";
@@ -80,6 +82,13 @@ void make_leaf(const lockstep_leaf_type& base, const char* name_port, NamedLeaf&
   tag.default_value = tag.choices = leaf.id.c_str();
   tag.flags = LOCKSTEP_FIXED;
   leaf.own.push_back(tag);
+  for (const std::string& name : leaf.ignored) {
+    lockstep_port& port = leaf.own.emplace_back(tag);
+    port.name = name.c_str();
+    port.doc = "Not used here.";
+    port.default_value = port.choices = nullptr;
+    port.flags = LOCKSTEP_OPTIONAL;
+  }
   for (const lockstep_port& port : leaf.own) leaf.ports.push_back(&port);
   leaf.more_ports = base.more_ports;
   for (const auto& [name, field] : leaf.names) leaf.more_ports += ";" + name;
@@ -104,7 +113,7 @@ const NamedLeaf* named_leaf(const std::string& tag) {
   return found == all().end() ? nullptr : found->second.get();
 }
 
-std::string read_named_leaves(const lockstep_leaf_type& action, const lockstep_leaf_type& service,
+std::string read_named_leaves(const std::map<std::string, const lockstep_leaf_type*>& bases,
                               std::vector<const lockstep_leaf_type*>& types) {
   const char* const given = std::getenv("LOCKSTEP_ROS_NODES");
   std::istringstream paths(given == nullptr ? "" : given);
@@ -113,8 +122,7 @@ std::string read_named_leaves(const lockstep_leaf_type& action, const lockstep_l
     if (std::string wrong = read_file(path); !wrong.empty()) return wrong;
   }
   for (const auto& [id, leaf] : all()) {
-    const bool is_action = leaf->kind == "action";
-    make_leaf(is_action ? action : service, is_action ? "action" : "service", *leaf);
+    make_leaf(*bases.at(leaf->kind), leaf->kind.c_str(), *leaf);
     types.push_back(&leaf->leaf);
   }
   return {};

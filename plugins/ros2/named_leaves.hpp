@@ -1,9 +1,10 @@
-// Short tags for actions and services, from a table: LOCKSTEP_ROS_NODES, docs/ros2.md.
+// Short tags for actions, services and topics, from a table: LOCKSTEP_ROS_NODES, docs/ros2.md.
 #pragma once
 
 #include <lockstep/leaf.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct NamedLeaf {
   std::string id, kind, type, name;
   std::map<std::string, std::string> names;     // an attribute, and the field or port that it means
   std::map<std::string, std::string> defaults;  // of ports
+  std::set<std::string> ignored;                // attributes
   // Made of these: the ports that each element has, and the leaf type.
   std::vector<lockstep_port> own;
   std::vector<const lockstep_port*> ports;
@@ -28,8 +30,9 @@ constexpr const char* kTagPort = "tag";
 // Null: `tag` is "".
 const NamedLeaf* named_leaf(const std::string& tag);
 
-// Reads the tables. Returns "" or what is wrong in them. `action` and `service` are the bases.
-std::string read_named_leaves(const lockstep_leaf_type& action, const lockstep_leaf_type& service,
+// Reads the tables. Returns "" or what is wrong in them. `bases` are by the words of a row, each of
+// which is also the port of the name.
+std::string read_named_leaves(const std::map<std::string, const lockstep_leaf_type*>& bases,
                               std::vector<const lockstep_leaf_type*>& types);
 
 }  // namespace ros2

@@ -65,8 +65,10 @@ const lockstep_plugin* describe(const char** why) {
   static std::vector<const lockstep_leaf_type*> types = {
       &ros2::ros_action(),  &ros2::ros_service(),   &ros2::ros_publish(),
       &ros2::ros_receive(), &ros2::ros_parameter(), &ros2::ros_lifecycle()};
-  static const std::string wrong =
-      ros2::read_named_leaves(ros2::ros_action(), ros2::ros_service(), types);
+  static const std::string wrong = ros2::read_named_leaves({{"action", &ros2::ros_action()},
+                                                            {"service", &ros2::ros_service()},
+                                                            {"topic", &ros2::ros_receive()}},
+                                                           types);
   if (!wrong.empty()) {
     *why = wrong.c_str();
     return nullptr;

@@ -1,15 +1,16 @@
 #include "ros_action.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "action_client.hpp"
 #include "elements.hpp"
+#include "expression.hpp"
 #include "hold.hpp"
 #include "leaf_base.hpp"
 #include "leaf_functions.hpp"
-#include "progress.hpp"
 #include "run_end.hpp"
 
 namespace ros2 {
@@ -57,7 +58,7 @@ struct ActionElement {
 
   const ActionType& type;
   std::string action;
-  Progress progress;
+  Expression progress;
   bool needs_feedback = false;
   Hold hold;
   bool faults = false;
@@ -187,9 +188,10 @@ class RosAction : public LeafBase {
   }
 
   void measure(const void* feedback) {
-    const Progress::Inputs inputs{&element_.type.goal, goal_->get(), &element_.type.feedback,
-                                  feedback, now() - began_};
-    progress_ = element_.progress.value(inputs, memory_).value_or(progress_);
+    const Expression::Inputs inputs{
+        {&element_.type.goal, goal_->get()}, {&element_.type.feedback, feedback}, now() - began_};
+    const auto value = element_.progress.value(inputs, memory_);
+    if (value) progress_ = std::clamp(*value, 0.0, 1.0);
   }
 
   // The first feedback after the goal was sent again.
@@ -215,7 +217,7 @@ class RosAction : public LeafBase {
   std::uint64_t activation_ = 0;
   unsigned sent_ = 0;
   double progress_ = 0, held_progress_ = 0, began_ = 0, held_since_ = 0;
-  Progress::Memory memory_;
+  Expression::Memory memory_;
   bool has_warned_ = false;
 };
 
@@ -261,7 +263,7 @@ std::unique_ptr<ActionElement> make_element(const FixedTexts& texts, Refusal& re
       return nullptr;
     }
     element->progress = std::move(*progress);
-    element->needs_feedback = element->progress.uses_feedback();
+    element->needs_feedback = element->progress.uses_second();
   }
   auto hold = read_hold(texts[kOwnPorts[kHold]], texts[kOwnPorts[kHoldType]]);
   if (!hold) {

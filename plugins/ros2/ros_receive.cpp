@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condition.hpp"
 #include "leaf_functions.hpp"
 #include "ros_topics.hpp"
 #include "topic_element.hpp"
@@ -9,7 +10,7 @@
 namespace ros2 {
 namespace {
 
-enum Own : std::uint32_t { kTake = kQos + 1, kMaxAge, kTimeout };
+enum Own : std::uint32_t { kTake = kQos + 1, kMaxAge, kTimeout, kCondition, kDefault };
 
 constexpr lockstep_port kPorts[] = {
     kTypePort,
@@ -25,11 +26,17 @@ constexpr lockstep_port kPorts[] = {
     {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "timeout", nullptr, "s",
      "After this time without a message the leaf fails; when left out, it waits.", nullptr, 0,
      HUGE_VAL, nullptr, LOCKSTEP_OPTIONAL},
+    condition_port("What the message must be, an expression over message.FIELD: "
+                   "message.percentage > 0.2. Others are passed over."),
+    input("default", LOCKSTEP_STRING, nullptr,
+          "What the texts of the message are when none has come in time: the leaf succeeds then.",
+          LOCKSTEP_OPTIONAL),
 };
 
 struct ReceiveElement : TopicElement {
   using TopicElement::TopicElement;
   bool takes_next = false;
+  Condition condition;
 };
 
 class RosReceive : public LeafBase {
@@ -53,6 +60,7 @@ class RosReceive : public LeafBase {
 
   void start() {
     began_ = Clock::now();
+    memory_ = element_.condition.memory();
     timeout_ = limit(kTimeout);
     max_age_ = limit(kMaxAge);
   }
@@ -65,7 +73,8 @@ class RosReceive : public LeafBase {
       write(fields_, subscription_->received().front().message);
       return LOCKSTEP_SUCCESS;
     }
-    return seconds(now - began_) >= timeout_ ? LOCKSTEP_FAILURE : LOCKSTEP_RUNNING;
+    if (seconds(now - began_) < timeout_) return LOCKSTEP_RUNNING;
+    return write_default() ? LOCKSTEP_SUCCESS : LOCKSTEP_FAILURE;
   }
 
  private:
@@ -79,9 +88,23 @@ class RosReceive : public LeafBase {
     return value;
   }
 
-  bool fits(const Subscription::Received& received, Clock::time_point now) const {
+  bool fits(const Subscription::Received& received, Clock::time_point now) {
     if (element_.takes_next && received.at < began_) return false;
-    return seconds(now - received.at) <= max_age_;
+    return seconds(now - received.at) <= max_age_ &&
+           element_.condition.holds(received.message.get(), seconds(now - began_), memory_);
+  }
+
+  // False: the tree gives none.
+  bool write_default() {
+    const char* text = nullptr;
+    std::size_t length = 0;
+    if (!is_given(host_, caller_, kDefault)) return false;
+    if (!host_.get_string(caller_, kDefault, &text, &length)) return false;
+    const std::string kept(text, length);  // setting a port ends the text of another
+    for (const auto& [port, field] : fields_) {
+      if (field->kind == Field::Kind::String) set_text(port, kept);
+    }
+    return true;
   }
 
   const ReceiveElement& element_;
@@ -90,18 +113,22 @@ class RosReceive : public LeafBase {
   bool has_some_ = false;
   Clock::time_point began_{};
   double timeout_ = 0, max_age_ = 0;
+  Expression::Memory memory_;
 };
+
+std::unique_ptr<ReceiveElement> make_element(const FixedTexts& texts, Refusal& refusal) {
+  auto element =
+      make_topic_element<ReceiveElement>(texts, refusal, kPorts, LOCKSTEP_OUTPUT, ros_receive());
+  if (element == nullptr) return nullptr;
+  element->takes_next = texts[kPorts[kTake]] == "next";
+  const bool is_good =
+      element->condition.read(texts, kPorts[kCondition], "message.", element->type.fields, refusal);
+  return is_good ? std::move(element) : nullptr;
+}
 
 const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t count,
                                    lockstep_refusal* why) {
-  return described<ReceiveElement>(fixed, count, why,
-                                   [](const FixedTexts& texts, Refusal& refusal) {
-                                     auto element = make_topic_element<ReceiveElement>(
-                                         texts, refusal, kPorts, LOCKSTEP_OUTPUT, ros_receive());
-                                     if (element != nullptr)
-                                       element->takes_next = texts[kPorts[kTake]] == "next";
-                                     return element;
-                                   });
+  return described<ReceiveElement>(fixed, count, why, make_element);
 }
 
 }  // namespace

@@ -4,13 +4,14 @@
 #include <memory>
 
 #include "calling_leaf.hpp"
+#include "condition.hpp"
 #include "elements.hpp"
 #include "leaf_functions.hpp"
 
 namespace ros2 {
 namespace {
 
-enum Own : std::uint32_t { kType, kService, kOnFailure, kTimeout, kError };
+enum Own : std::uint32_t { kType, kService, kOnFailure, kTimeout, kError, kCondition };
 
 constexpr lockstep_port kOwnPorts[] = {
     input("type", LOCKSTEP_STRING, nullptr, "The type: std_srvs/srv/Trigger.", LOCKSTEP_FIXED),
@@ -19,7 +20,9 @@ constexpr lockstep_port kOwnPorts[] = {
     {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "timeout", "5", "s",
      "How long to wait for the service and its answer.", nullptr, 0, HUGE_VAL, nullptr, 0},
     {sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "error", nullptr, nullptr,
-     "Why it failed: no service, no answer.", nullptr, 0, 0, nullptr, 0},
+     "Why it failed: no service, no answer, condition.", nullptr, 0, 0, nullptr, 0},
+    condition_port("What the answer must be, an expression over response.FIELD: "
+                   "response.success. Else the leaf fails."),
 };
 
 struct ServiceElement {
@@ -29,6 +32,7 @@ struct ServiceElement {
   const ServiceType& type;
   std::string service;
   bool faults = false;
+  Condition condition;
   PortList ports;
   FieldPorts request, response;
   lockstep_leaf_type leaf{};
@@ -41,6 +45,7 @@ class RosService : public CallingLeaf {
 
   void start() {
     auto request = make_request();
+    began_ = now();
     if (read(element_.request, *request)) call(std::move(request), number(kTimeout));
   }
 
@@ -49,12 +54,11 @@ class RosService : public CallingLeaf {
     if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
     if (outcome == ServiceClient::Outcome::Answered) {
       write(response_ports_, response());
-      return LOCKSTEP_SUCCESS;
+      auto memory = element_.condition.memory();
+      const bool holds = element_.condition.holds(response().get(), now() - began_, memory);
+      return holds ? LOCKSTEP_SUCCESS : end_without("condition");
     }
-    const std::string why = words_of(outcome);
-    set_text(kError, why);
-    if (element_.faults) fail(("the service '" + element_.service + "': " + why).c_str());
-    return LOCKSTEP_FAILURE;
+    return end_without(words_of(outcome));
   }
 
  private:
@@ -64,13 +68,21 @@ class RosService : public CallingLeaf {
         element_(element),
         response_ports_(given(element.response)) {}
 
+  lockstep_status end_without(const std::string& why) {
+    set_text(kError, why);
+    if (element_.faults) fail(("the service '" + element_.service + "': " + why).c_str());
+    return LOCKSTEP_FAILURE;
+  }
+
   const ServiceElement& element_;
   const FieldPorts response_ports_;
+  double began_ = 0;
 };
 
 constexpr const char* kDoc =
     "Calls a service of ROS 2, of any type, and succeeds when it has answered, whatever the answer "
-    "says. The attributes request.FIELD are the request; response.FIELD are put into entries.";
+    "says, unless it has a condition. The attributes request.FIELD are the request; response.FIELD "
+    "are put into entries.";
 
 lockstep_leaf_type base_type() {
   lockstep_leaf_type type = LeafFunctions<RosService>::type("RosService", kDoc);
@@ -88,6 +100,10 @@ std::unique_ptr<ServiceElement> make_element(const FixedTexts& texts, Refusal& r
   auto element = std::make_unique<ServiceElement>(**type, texts.named());
   element->service = texts[kOwnPorts[kService]];
   element->faults = texts[kOwnPorts[kOnFailure]] == "fault";
+  if (!element->condition.read(texts, kOwnPorts[kCondition], "response.", element->type.response,
+                               refusal)) {
+    return nullptr;
+  }
   element->request = element->ports.add("request.", element->type.request, LOCKSTEP_INPUT);
   element->response = element->ports.add("response.", element->type.response, LOCKSTEP_OUTPUT);
   element->leaf = base_type();

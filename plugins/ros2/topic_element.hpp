@@ -23,7 +23,8 @@ constexpr lockstep_port kQosPort =
 
 struct TopicElement {
   template <std::size_t Count>
-  TopicElement(const MessageType& of, const lockstep_port (&own)[Count]) : type(of), ports(own) {}
+  TopicElement(const MessageType& of, const lockstep_port (&own)[Count], const NamedLeaf* named)
+      : type(of), ports(own, named) {}
 
   const MessageType& type;
   std::string topic, qos;
@@ -43,7 +44,7 @@ std::unique_ptr<Element> make_topic_element(const FixedTexts& texts, Refusal& re
     refusal = {&kTypePort, type.problem()};
     return nullptr;
   }
-  auto element = std::make_unique<Element>(**type, own);
+  auto element = std::make_unique<Element>(**type, own, texts.named());
   element->topic = texts[kTopicPort];
   element->qos = texts[kQosPort];
   element->fields = element->ports.add("message.", element->type.fields, direction);
@@ -51,6 +52,7 @@ std::unique_ptr<Element> make_topic_element(const FixedTexts& texts, Refusal& re
   element->leaf.more_ports = nullptr;
   element->leaf.describe = nullptr;
   element->ports.give_to(element->leaf);
+  if (texts.named() != nullptr) element->leaf.id = texts.named()->id.c_str();
   return element;
 }
 

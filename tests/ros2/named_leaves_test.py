@@ -16,6 +16,17 @@ CountTo action example_interfaces/action/Fibonacci /count
 Lamp service example_interfaces/srv/SetBool
   service_name = service
   on = request.data
+  is_recovery = nothing
+
+LampWorks service example_interfaces/srv/SetBool /lamp
+  condition : not response.success
+
+Picked topic std_msgs/msg/String
+  topic_name = topic
+  default_pick = default
+  pick = message.data
+  qos : latched
+  timeout : 0
 """
 
 
@@ -45,7 +56,7 @@ class Named(World):
                 <CountTo server_name="/slow" order="4"/>
               </PipelineSequence>
               <RoundRobin name="help">
-                <Lamp service_name="/lamp" on="true"/>
+                <Lamp service_name="/lamp" on="true" is_recovery="true"/>
                 <CountTo order="1"/>
               </RoundRobin>
             </RecoveryNode>
@@ -75,6 +86,23 @@ class Named(World):
         fast, slow = self.progress("fast"), self.progress("slow")
         self.assertLess(max(abs(fast[at] - slow[at]) for at in fast.keys() & slow.keys()), 0.45)
 
+    def test_a_selector_takes_what_was_published_last_else_its_default(self):
+        run = self.run_tree("""<Sequence memory="true">
+          <Picked topic_name="/pick" default_pick="careful" pick="{first}"/>
+          <RosPublish type="std_msgs/msg/String" topic="/pick" qos="latched" message.data="fast"/>
+          <Wait seconds="0.7"/>
+          <Picked topic_name="/pick" default_pick="careful" pick="{second}"/>
+          <Check code="first == 'careful' &amp;&amp; second == 'fast'"/></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        run = self.run_tree('<Picked topic_name="/unpicked" pick="{p}"/>')
+        self.assertEqual(run.returncode, 1, run.err)
+
+    def test_a_condition_that_is_a_service(self):
+        self.server("--action", "/c", "--hold-service", "/lamp")
+        run = self.run_tree('<LampWorks request.data="true" error="{why}"/>')
+        self.assertEqual(run.returncode, 1, run.err)
+        self.assertIn('"condition"', self.recording.read_text())
+
     def test_mistakes_in_a_tree(self):
         run = self.check('<CountTo ordr="5"/>')
         self.assertIn("did you mean 'order'?", run.stderr)
@@ -90,8 +118,8 @@ class Named(World):
         self.assertIn("there is no package 'nav2_msgs'", run.stderr)
 
     def test_mistakes_in_a_table(self):
-        for text, what in (("CountTo topic a/b/C", "own.nodes:1: expected TAG action|service"),
-                           (TABLE + "\n  nothing", "own.nodes:13: expected NAME = FIELD"),
+        for text, what in (("CountTo parameter a/b/C", "own.nodes:1: expected TAG action|service|topic"),
+                           (TABLE + "\n  nothing", "own.nodes:24: expected NAME = FIELD"),
                            (TABLE + "\nCountTo action a/action/B", "'CountTo' is there twice")):
             self.use(text)
             run = self.check("<AlwaysSuccess/>")

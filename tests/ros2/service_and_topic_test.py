@@ -15,6 +15,14 @@ class Service(World):
         self.assertEqual(run.returncode, 0, run.err)
         self.assertIn("hold", server.lines)
 
+    def test_an_answer_that_is_not_as_it_should_be(self):
+        self.server("--action", "/c", "--hold-service", "/still")
+        for condition, code in (("response.success", 0), ("not response.success", 1), ("response.success == 0", 1),
+                                ("size(response.message) &lt; 100 and elapsed &lt; 60", 0)):
+            run = self.run_tree(f"""<RosService {SET_BOOL} service="/still" request.data="true"
+              condition="{condition}" error="{{why}}"/>""")
+            self.assertEqual(run.returncode, code, (condition, run.err))
+
     def test_no_service(self):
         run = self.run_tree(f"""<Sequence memory="true"><Inverter>
           <RosService {SET_BOOL} service="/nobody" timeout="0.3" error="{{why}}"/></Inverter>
@@ -40,6 +48,26 @@ class Topic(World):
           <RosPublish {BOOL} topic="/still" message.data="true"/></Sequence>""")
         self.assertEqual(run.returncode, 0, run.err)
         server.wait_for("hold")
+
+    def test_a_message_that_is_not_waited_for(self):
+        kind = 'type="std_msgs/msg/Float64" topic="/level" qos="latched"'
+        for condition, code in (
+                ("message.data &gt; 2", 0), ("message.data &lt;= 2", 1), ("message.data != 2.5", 1),
+                ("message.data == 5 / 2 and not (message.data &lt; 1 or message.data &gt;= 3)", 0),
+                ("message.data / 0 &gt; 1", 1), ("not message.data / 0 &gt; 1", 1)):
+            run = self.run_tree(f"""<Sequence memory="true">
+              <RosPublish {kind} message.data="2.5"/><RosReceive {kind} timeout="5"/>
+              <RosReceive {kind} condition="{condition}" timeout="1" message.data="{{d}}"/></Sequence>""")
+            self.assertEqual(run.returncode, code, (condition, run.err))
+
+    def test_mistakes_in_a_condition(self):
+        for condition, what in (
+                ("message.dato", "did you mean 'message.data'?"), ("message.data = 1", "expected one of &lt;"),
+                ("message.data and", "ends too early"), ("goal.x", "use message.FIELD, elapsed"),
+                ("not", "ends too early"), ("message.data 1", "expected an operator or the end")):
+            run = self.check(f'<RosReceive {BOOL} topic="/t" condition="{condition}"/>')
+            self.assertEqual(run.returncode, 3, run.stderr)
+            self.assertIn(what.replace("&lt;", "<"), run.stderr)
 
     def test_nothing_comes(self):
         run = self.run_tree(f'<RosReceive {BOOL} topic="/silent" timeout="0.3"/>')

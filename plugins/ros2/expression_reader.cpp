@@ -1,30 +1,98 @@
-// Reads the text of a progress expression: sums of products of terms.
+// Reads the text of an expression: from what is joined by `or` down to terms.
 #include <cctype>
 #include <cstdlib>
 #include <optional>
 
+#include "expression.hpp"
 #include "package_index.hpp"
-#include "progress.hpp"
 
 namespace ros2 {
 
-class ProgressReader {
- public:
-  ProgressReader(const std::string& text, const std::vector<Field>& goal,
-                 const std::vector<Field>& feedback)
-      : text_(text), goal_(goal), feedback_(feedback) {}
+// What the texts of an expression are about.
+struct Subject {
+  struct Part {
+    std::string prefix;
+    const std::vector<Field>& fields;
+  };
+  const char* what;  // "progress"
+  std::vector<Part> parts;
+};
 
-  Result<Progress> read() {
-    sum();
+class ExpressionReader {
+ public:
+  ExpressionReader(const std::string& text, const Subject& subject)
+      : text_(text), subject_(subject) {}
+
+  Result<Expression> read() {
+    either();
     if (!problem_ && at_ != text_.size()) unexpected("an operator or the end");
     if (problem_) return *problem_;
-    return std::move(progress_);
+    return std::move(expression_);
   }
 
  private:
-  using Step = Progress::Step;
+  using Step = Expression::Step;
   using What = Step::What;
-  static constexpr int kDeepest = 30;  // so that no stack of Progress::value is too small
+  static constexpr int kDeepest = 30;  // so that no stack of Expression::value is too small
+
+  void either() {
+    both();
+    while (takes("or")) {
+      both();
+      add({What::Or});
+    }
+  }
+
+  void both() {
+    negated();
+    while (takes("and")) {
+      negated();
+      add({What::And});
+    }
+  }
+
+  void negated() {
+    bool is_negated = false;
+    while (takes("not")) is_negated = !is_negated;
+    comparison();
+    if (is_negated) add({What::Not});
+  }
+
+  void comparison() {
+    sum();
+    const std::string sign = comparing_sign();
+    if (sign.empty()) return;
+    sum();
+    if (sign == "==" || sign == "!=") add({What::Equal});
+    // a > b is what is not true of a <= b, also when both are numbers only.
+    if (sign == "<" || sign == ">=") add({What::Less});
+    if (sign == "<=" || sign == ">") add({What::LessOrEqual});
+    if (sign == "!=" || sign == ">=" || sign == ">") add({What::Not});
+  }
+
+  // "" when there is none.
+  std::string comparing_sign() {
+    const char first = next();
+    if (problem_ || std::string("<>=!").find(first) == std::string::npos || first == '\0')
+      return {};
+    std::string sign(1, first);
+    if (at_ + 1 < text_.size() && text_[at_ + 1] == '=') sign += '=';
+    if (sign == "=" || sign == "!") {
+      unexpected("one of < <= > >= == !=");
+      return {};
+    }
+    at_ += sign.size();
+    return sign;
+  }
+
+  // Whether the next word is this one, which is read then.
+  bool takes(const char* expected) {
+    if (problem_) return false;
+    const std::size_t before = at_;
+    if (word() == expected) return true;
+    at_ = before;
+    return false;
+  }
 
   void sum() {
     product();
@@ -54,7 +122,7 @@ class ProgressReader {
       add({What::Negate});
     } else if (first == '(') {
       ++at_;
-      sum();
+      either();
       expect(')');
     } else if (std::isdigit(static_cast<unsigned char>(first)) != 0 || first == '.') {
       number();
@@ -80,7 +148,7 @@ class ProgressReader {
       expect('(');
       sum();
       expect(')');
-      return add({What::First, 0, progress_.firsts_++});
+      return add({What::First, 0, expression_.firsts_++});
     }
     if (name == "min" || name == "max") {
       expect('(');
@@ -101,15 +169,16 @@ class ProgressReader {
 
   void field(const std::string& name, What what) {
     if (problem_) return;
-    const bool is_of_goal = name.rfind("goal.", 0) == 0;
-    const bool is_of_feedback = name.rfind("feedback.", 0) == 0;
-    if (!is_of_goal && !is_of_feedback) {
+    std::size_t part = 0;
+    const auto begins = [&](const Subject::Part& it) { return name.rfind(it.prefix, 0) == 0; };
+    while (part < subject_.parts.size() && !begins(subject_.parts[part])) ++part;
+    if (part == subject_.parts.size()) {
+      std::string known;
+      for (const auto& it : subject_.parts) known += it.prefix + "FIELD, ";
       return fail("knows no '" + name + "'",
-                  "use goal.FIELD, feedback.FIELD, elapsed, first(…), size(…), min(…, …) and "
-                  "max(…, …)");
+                  "use " + known + "elapsed, first(…), size(…), min(…, …) and max(…, …)");
     }
-    const auto& fields = is_of_goal ? goal_ : feedback_;
-    const std::string prefix = is_of_goal ? "goal." : "feedback.";
+    const auto& [prefix, fields] = subject_.parts[part];
     const Field* const found = find_field(fields, name.substr(prefix.size()));
     if (found == nullptr) {
       std::vector<std::string> names;
@@ -126,7 +195,7 @@ class ProgressReader {
       return fail("'" + name + "' is no number",
                   has_size ? "size(" + name + ") is one" : "name one of its fields");
     }
-    add({what, 0, static_cast<std::size_t>(found - fields.data()), is_of_goal});
+    add({what, 0, static_cast<std::size_t>(found - fields.data()), part == 1});
   }
 
   std::string word() {
@@ -160,25 +229,30 @@ class ProgressReader {
   }
 
   void fail(const std::string& what, const std::string& hint) {
-    if (!problem_) problem_ = Problem{"the progress '" + text_ + "' " + what, hint};
+    if (!problem_)
+      problem_ = Problem{std::string("the ") + subject_.what + " '" + text_ + "' " + what, hint};
   }
 
   void add(const Step& step) {
-    if (!problem_) progress_.steps_.push_back(step);
+    if (!problem_) expression_.steps_.push_back(step);
   }
 
   const std::string& text_;
-  const std::vector<Field>& goal_;
-  const std::vector<Field>& feedback_;
+  const Subject& subject_;
   std::size_t at_ = 0;
   int depth_ = 0;
-  Progress progress_;
+  Expression expression_;
   std::optional<Problem> problem_;
 };
 
-Result<Progress> read_progress(const std::string& text, const std::vector<Field>& goal,
-                               const std::vector<Field>& feedback) {
-  return ProgressReader(text, goal, feedback).read();
+Result<Expression> read_progress(const std::string& text, const std::vector<Field>& goal,
+                                 const std::vector<Field>& feedback) {
+  return ExpressionReader(text, {"progress", {{"goal.", goal}, {"feedback.", feedback}}}).read();
+}
+
+Result<Expression> read_condition(const std::string& text, const std::string& prefix,
+                                  const std::vector<Field>& fields) {
+  return ExpressionReader(text, {"condition", {{prefix, fields}}}).read();
 }
 
 }  // namespace ros2
