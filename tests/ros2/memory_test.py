@@ -1,0 +1,68 @@
+"""What the plugin does with memory, by valgrind: neither a leak nor a value that nobody has set."""
+
+import shutil
+import subprocess
+import unittest
+
+from world import World, count
+
+# Of Cyclone DDS and of the loader.
+NOT_OURS = """{
+   cyclone
+   Memcheck:Cond
+   obj:*/libddsc.so*
+}
+{
+   loader
+   Memcheck:Leak
+   fun:malloc
+   ...
+   fun:_dl_map_object_deps
+}
+"""
+BOOL = 'type="example_interfaces/srv/SetBool"'
+POSES = 'type="geometry_msgs/msg/PoseArray" topic="/poses" qos="latched"'
+TREES = {
+    "an action that succeeds, one that is aborted and one that is canceled": f"""<Sequence memory="true">
+        {count("ok", "/ok", more='result.sequence="{s}" feedback.sequence="{f}"')}
+        <Inverter>{count("bad", "/bad", 9, 'error="{why}"')}</Inverter>
+        <Inverter><Timeout seconds="0.5">{count("slow", "/slow", 50)}</Timeout></Inverter></Sequence>""",
+    "actions that are held": f"""<ParallelAbsolute barriers="0.5">
+        {count("fast", "/ok", 20, 'hold="cancel"')}
+        {count("told", "/fast", 20, 'hold="service:/still" hold_type="example_interfaces/srv/SetBool"')}
+        {count("slow", "/slow", 20, 'hold="nothing"')}</ParallelAbsolute>""",
+    "services and topics": f"""<Sequence memory="true">
+        <RosService {BOOL} service="/still" request.data="false" condition="response.success"/>
+        <Inverter><RosService {BOOL} service="/nobody" timeout="0.3" error="{{why}}"/></Inverter>
+        <RosPublish {POSES} message.poses.position.x="1;2;3" message.header.frame_id="map"/>
+        <RosReceive {POSES} timeout="20" message="{{m}}" message.poses.position.x="{{x}}"
+                    condition="size(message.poses) == 3"/>
+        <RosPublish {POSES} message="{{m}}" message.header.stamp="now"/></Sequence>""",
+    "lifecycle and parameters": """<Sequence memory="true">
+        <RosLifecycle node="/camera" transition="configure"/>
+        <RosParameter node="/camera" parameter="use_sim_time" as="bool" value="{sim}"/>
+        <Inverter><RosParameter node="/camera" parameter="none" value="{none}"/></Inverter></Sequence>"""}
+
+
+@unittest.skipUnless(shutil.which("valgrind"), "there is no valgrind")
+class Memory(World):
+    def test_memory(self):
+        self.server("--action", "/ok", "--step", 20, "--keep")
+        self.server("--action", "/bad", "--step", 20, "--abort", 3)
+        self.server("--action", "/fast", "--step", 20, "--keep", "--hold-service", "/still")
+        self.server("--action", "/slow", "--step", 50, "--keep")
+        self.server("camera", program="lifecycle_server")
+        known = self.directory / "known.supp"
+        known.write_text(NOT_OURS)
+        for name, nodes in TREES.items():
+            with self.subTest(name):
+                run = subprocess.run(
+                    ["valgrind", "-q", "--error-exitcode=99", "--leak-check=full", "--show-leak-kinds=definite,indirect",
+                     "--errors-for-leak-kinds=definite,indirect", f"--suppressions={known}",
+                     *self.command("run", nodes, "--hang-limit", 0, "--view", "none", "--timeout", 60)],
+                    text=True, capture_output=True, timeout=200)
+                self.assertEqual(run.returncode, 0, run.stderr[-4000:])
+
+
+if __name__ == "__main__":
+    unittest.main()
