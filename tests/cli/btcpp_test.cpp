@@ -68,6 +68,26 @@ TEST_CASE("run --mock is for lockstep's own trees, too, and for leaves of plugin
   CHECK(run_mocked(tree, {"--mock-leaf", "Advance=failure"}).code == 1);
 }
 
+TEST_CASE(
+    "run --mock takes ports by pattern, of leaves that no plugin has and of those of plugins") {
+  const TemporaryDirectory directory;
+  for (const std::string root : {"lockstep=\"1\"", "BTCPP_format=\"4\""}) {
+    const auto tree = [&](const std::string& node) {
+      return directory.file("tree.xml", "<root " + root + "><BehaviorTree ID=\"T\">" + node +
+                                            "</BehaviorTree></root>");
+    };
+    const Outcome unknown = run_mocked(tree(R"(<Drive goal.x="1" result.path="{p}"/>)"),
+                                       {"--mock-leaf", "Drive=failure"});
+    INFO(unknown.err);
+    CHECK(unknown.code == 1);
+    const Outcome known =
+        run_mocked(tree(R"(<Shape kind="round" size.radius="1" out.area="{a}"/>)"),
+                   {"--plugin", abi_plugin("shapes_sdk"), "--mock-leaf", "Shape=failure"});
+    INFO(known.err);
+    CHECK(known.code == 1);
+  }
+}
+
 TEST_CASE("run --mock takes a port that no plugin declares as the tree uses it") {
   const TemporaryDirectory directory;
   const std::string ports = directory.file(

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "core/element_types.h"
 #include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
@@ -42,6 +43,14 @@ struct Use {
   std::uint32_t children = 0;                 // the most
   std::set<std::string_view> attributes = {};
 };
+
+// A plugin may have a port of this name, by pattern also one with dots: "goal.x".
+bool may_be_port(std::string_view name) {
+  if (name.ends_with('.')) return false;
+  std::string without_dots(name);
+  std::ranges::replace(without_dots, '.', '-');
+  return is_port_name(without_dots);
+}
 
 constexpr std::string_view kReserved[] = {"root",   "BehaviorTree",   "SubTree", "include",
                                           "plugin", "TreeNodesModel", "arg"};
@@ -123,7 +132,7 @@ class Builder {
     for (const Attribute& attribute : document.attributes(node)) {
       const bool is_own = attribute.name == "name" || attribute.name == "ID" ||
                           hook_named(attribute.name, *project_.rules).has_value();
-      if (!is_own && is_port_name(attribute.name)) use.attributes.insert(attribute.name);
+      if (!is_own && may_be_port(attribute.name)) use.attributes.insert(attribute.name);
     }
   }
 
@@ -135,7 +144,7 @@ class Builder {
     const NodeType* known = catalog_.find(id);
     if (known != nullptr) {
       type.category = known->category;
-      ports.assign(known->parameters.begin(), known->parameters.end());
+      ports = ports_of(*known, use);
     } else if (model != models_.nodes.end()) {
       type.category = model->second.category;
       ports = ports_of(model->second);
@@ -232,14 +241,25 @@ class Builder {
 
   std::vector<Parameter> ports_of(const Use& use) {
     std::vector<Parameter> ports;
+    for (const std::string_view name : use.attributes) ports.push_back(generic(name));
+    return ports;
+  }
+
+  // Those by pattern are not described for a leaf that does nothing.
+  std::vector<Parameter> ports_of(const NodeType& known, const Use& use) {
+    std::vector<Parameter> ports(known.parameters.begin(), known.parameters.end());
     for (const std::string_view name : use.attributes) {
-      ports.push_back({.name = made_->keep(name),
-                       .type = ValueType::String,
-                       .doc = {},
-                       .direction = Direction::InOut,
-                       .is_generic = true});
+      if (matches_any(known.more_parameters, name)) ports.push_back(generic(name));
     }
     return ports;
+  }
+
+  Parameter generic(std::string_view name) {
+    return {.name = made_->keep(name),
+            .type = ValueType::String,
+            .doc = {},
+            .direction = Direction::InOut,
+            .is_generic = true};
   }
 
   const Project& project_;
