@@ -63,6 +63,19 @@ class LeafBase {
   void set_text(std::uint32_t port, const std::string& text) {
     host_.set_string(caller_, port, text.data(), text.size());
   }
+  // The leaf fails. `why` goes into the entry of `error`, and to people where the tree has none;
+  // with `faults` it ends the run.
+  lockstep_status failed(std::uint32_t error, const std::string& of, const std::string& why,
+                         bool faults = false) {
+    const std::string line = of + ": " + why;
+    const bool is_kept = host_.set_string(caller_, error, why.data(), why.size());
+    if (faults) {
+      fail(line.c_str());
+    } else if (!is_kept) {
+      host_.log(caller_, LOCKSTEP_LOG_INFO, line.c_str());
+    }
+    return LOCKSTEP_FAILURE;
+  }
   // Lines of the leaf's own client, and of ROS itself.
   template <class Client>
   void log_lines(Client& client) {

@@ -139,10 +139,8 @@ class RosAction : public LeafBase {
                             outcome == Outcome::Canceled;
     if (has_result) write(result_ports_, client_->result());
     if (outcome == Outcome::Succeeded) return LOCKSTEP_SUCCESS;
-    const std::string why = words_of(outcome);
-    set_text(kError, why);
-    if (element_.faults) fail(("the action '" + element_.action + "': " + why).c_str());
-    return LOCKSTEP_FAILURE;
+    return failed(kError, "the action '" + element_.action + "'", words_of(outcome),
+                  element_.faults);
   }
 
   void halt() {

@@ -66,9 +66,7 @@ class RosLifecycle : public CallingLeaf {
     if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
     const std::string why = what_is_wrong(outcome);
     if (why.empty()) return LOCKSTEP_SUCCESS;
-    set_text(kError, why);
-    if (element_.faults) fail((element_.transition + " '" + element_.node + "': " + why).c_str());
-    return LOCKSTEP_FAILURE;
+    return failed(kError, element_.transition + " '" + element_.node + "'", why, element_.faults);
   }
 
  private:

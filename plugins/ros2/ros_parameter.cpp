@@ -85,8 +85,7 @@ class RosParameter : public CallingLeaf {
                             : outcome == ServiceClient::Outcome::NoService ? "no node"
                                                                            : words_of(outcome);
     if (why.empty()) return LOCKSTEP_SUCCESS;
-    set_text(kError, why);
-    return LOCKSTEP_FAILURE;
+    return failed(kError, "the parameter '" + element_.parameter + "'", why);
   }
 
  private:

@@ -56,7 +56,10 @@ class RosService : public CallingLeaf {
       write(response_ports_, response());
       auto memory = element_.condition.memory();
       const bool holds = element_.condition.holds(response().get(), now() - began_, memory);
-      return holds ? LOCKSTEP_SUCCESS : end_without("condition");
+      if (holds) return LOCKSTEP_SUCCESS;
+      if (element_.faults) return end_without("condition");
+      set_text(kError, "condition");  // that it is not true is nothing to tell people
+      return LOCKSTEP_FAILURE;
     }
     return end_without(words_of(outcome));
   }
@@ -69,9 +72,7 @@ class RosService : public CallingLeaf {
         response_ports_(given(element.response)) {}
 
   lockstep_status end_without(const std::string& why) {
-    set_text(kError, why);
-    if (element_.faults) fail(("the service '" + element_.service + "': " + why).c_str());
-    return LOCKSTEP_FAILURE;
+    return failed(kError, "the service '" + element_.service + "'", why, element_.faults);
   }
 
   const ServiceElement& element_;

@@ -45,6 +45,13 @@ class Action(World):
     def test_aborted(self):
         self.failure(["--abort", 2], "aborted")
 
+    def test_why_it_fails_is_said_where_no_entry_takes_it(self):
+        self.server("--action", "/count", "--abort", 2)
+        run = self.run_tree(count("c", "/count"))
+        self.assertIn("c: info: the action '/count': aborted", run.err)
+        run = self.run_tree(count("c", "/count", 5, 'error="{why}"'))
+        self.assertNotIn("info", run.err)
+
     def test_a_server_that_is_killed_is_noticed(self):
         self.failure(["--die", 2], "server lost")
 
