@@ -80,6 +80,31 @@ class Good : public lockstep::Action<GoodPorts> {
 #endif
 };
 
+class Shape : public lockstep::Action<GoodPorts> {
+ public:
+  static constexpr const char* more_ports = "size.*";
+#if MISTAKE == 27
+  static void describe() {}
+#elif MISTAKE == 28
+  static void describe(lockstep::Element& element) {
+    element.output<lockstep::Number>("size.x", "neither an int nor a double");
+  }
+#else
+  static void describe(lockstep::Element& element) {
+    element.input<double>("size.x", required, "how large", "m", at_least(0));
+  }
+#endif
+  Status tick() override {
+    return Status::Success;
+  }
+};
+
+#if MISTAKE == 26
+#define SHAPE_AGAIN lockstep::leaf<Shape>("Again", ""),
+#else
+#define SHAPE_AGAIN
+#endif
+
 #if MISTAKE == 10
 #define ID "Other"
 #elif MISTAKE == 11
@@ -88,4 +113,5 @@ class Good : public lockstep::Action<GoodPorts> {
 #define ID "Good"
 #endif
 
-LOCKSTEP_PLUGIN("good", "1", "", lockstep::leaf<Good>("Other", ""), lockstep::leaf<Good>(ID, ""));
+LOCKSTEP_PLUGIN("good", "1", "", lockstep::leaf<Good>("Other", ""),
+                SHAPE_AGAIN lockstep::leaf<Shape>("Shape", ""), lockstep::leaf<Good>(ID, ""));
