@@ -354,8 +354,9 @@ std::vector<PluginSet::Info> PluginSet::list() const {
   std::vector<Info> list;
   for (const auto& plugin : plugins_) {
     const lockstep_plugin& it = plugin->descriptors.plugin;
-    list.push_back(
-        {text(it.name), text(it.version), text(it.doc), plugin->origin, plugin->remote != nullptr});
+    const bool is_remote = plugin->remote != nullptr;
+    list.push_back({text(it.name), text(it.version), text(it.doc), plugin->origin, is_remote,
+                    is_remote ? plugin->remote->descriptions() : ""});
   }
   return list;
 }

@@ -85,6 +85,7 @@ class PluginSet {
   struct Info {
     std::string name, version, doc, path;
     bool isolated = false;
+    std::string descriptions = {};  // of elements, by a program: RemotePlugin
   };
   std::vector<Info> list() const;
 

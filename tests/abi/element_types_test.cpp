@@ -109,8 +109,11 @@ TEST_CASE("an element that its plugin refuses is an error at the text to blame")
 TEST_CASE("a command that runs no programs says so at an element whose ports one knows") {
   const Link saved{"hulls", "hulls.py"};  // with hulls.leaves.json
   CHECK(Shapes(R"(<Hull kind="round"/>)", saved, false).errors() ==
-        Strings{"2:1: 'Hull' has ports that its program knows, which this command does not run | "
-                "give --run-programs"});
+        Strings{
+            "2:1: 'Hull' cannot be described: its program is not run by this command, and its file "
+            "does not have this element | give --run-programs, or let 'lockstep plugin check "
+            "--save --tree TREE' write it to '" LOCKSTEP_SOURCE_DIR
+            "/tests/programs/hulls.leaves.json'"});
 }
 
 TEST_CASE("a program that does not answer describe as it should is an error of the element") {

@@ -1,4 +1,6 @@
 // `lockstep plugin check` of shared objects.
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 #include "support/paths.h"
@@ -116,4 +118,35 @@ TEST_CASE("plugin check: elements whose ports depend on a choice are tried with 
   CHECK(hostile.code == 4);
   CHECK(contains(hostile.out,
                  "wrong 'Hull' with kind=\"1\" count=\"1\" is not tried: 'Hull' cannot"));
+}
+
+TEST_CASE(
+    "plugin check --save --tree writes what elements have, for commands that run no program") {
+  const TemporaryDirectory directory;
+  const std::string program =
+      directory.file("shapes.py", read_file(LOCKSTEP_SOURCE_DIR "/tests/programs/shapes_class.py"));
+  chmod(program.c_str(), 0755);
+  const auto tree = [&](const std::string& nodes) {
+    return directory.file("tree.xml",
+                          "<root lockstep=\"1\"><plugin name=\"shapes\" program=\"shapes.py\"/>"
+                          "<BehaviorTree ID=\"T\"><Sequence>" +
+                              nodes + "</Sequence></BehaviorTree></root>");
+  };
+  const std::string shape = R"(<Shape kind="round" size.radius="1"/>)";
+  const Outcome saved = check_plugin(program, {"--save", "--tree", tree(shape)});
+  INFO(saved.out << saved.err);
+  CHECK(saved.code == 0);
+  const auto check = [&](const std::string& nodes) {
+    return run_lockstep({"check", tree(nodes), "--plugin-path", directory.path("")});
+  };
+  CHECK(check(shape).code == 0);
+  const Outcome wrong = check(R"(<Shape kind="round" size.radios="1" size.radius="1"/>)");
+  CHECK(wrong.code == 3);
+  CHECK(contains(wrong.err, "did you mean 'size.radius'?"));
+  const Outcome unknown = check(R"(<Shape kind="square" size.side="1"/>)");
+  CHECK(unknown.code == 3);
+  CHECK(contains(unknown.err, "--save --tree TREE"));
+  const Outcome bad = check_plugin(program, {"--save", "--tree", tree(R"(<Shape kind="oval"/>)")});
+  CHECK(bad.code == 3);
+  CHECK(contains(bad.err, "there is no such shape"));
 }

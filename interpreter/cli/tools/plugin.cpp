@@ -10,6 +10,7 @@
 #include "cli/exit_code.h"
 #include "cli/tools/plugin_check/object_check.h"
 #include "core/diagnostics.h"
+#include "loading/load.h"
 #include "loading/plugin_directories.h"
 #include "plugin/open/plugin_path.h"
 #include "remote/json_lines/conformance.h"
@@ -24,14 +25,44 @@ struct PluginCheckOptions {
   std::string file;
   PluginOptions plugins;
   bool save = false;
+  std::vector<std::string> trees;  // whose elements are saved, too
   bool only_leaves = false;
   std::optional<std::size_t> from_leaf;  // in the child that examines a shared object
 };
 
-int save_leaves(const std::string& program, const std::string& line) {
+// What the program says of the elements of the trees, after its first line; nothing after errors.
+std::optional<std::string> describe_elements(const PluginCheckOptions& options,
+                                             const std::string& program) {
+  LoadOptions load_options;
+  load_options.plugins = options.plugins;
+  load_options.plugins.run_programs = true;
+  const auto folder = std::filesystem::path(program).parent_path();
+  load_options.plugins.directories.insert(load_options.plugins.directories.begin(),
+                                          folder.empty() ? "." : folder.string());
+  const auto plugins = std::make_shared<PluginSet>();
+  bool is_good = true;
+  for (const std::string& tree : options.trees) {
+    Diagnostics diagnostics;
+    is_good &= load(tree, load_options, diagnostics, plugins).has_value();
+    print_diagnostics(diagnostics, Severity::Error);
+  }
+  if (!is_good) return std::nullopt;
+  std::string all;
+  for (const PluginSet::Info& it : plugins->list()) {
+    std::error_code error;
+    if (std::filesystem::equivalent(it.path, program, error)) all += it.descriptions;
+  }
+  return all;
+}
+
+int save_leaves(const PluginCheckOptions& options, const std::string& program,
+                const std::string& line) {
+  const auto described = describe_elements(options, program);
+  if (!described) return kExitInvalidTree;
   const std::string path = leaves_file_of(program);
   OutputFile out(path);
-  const bool is_written = out.descriptor() >= 0 && write_all(out.descriptor(), line + "\n");
+  const bool is_written =
+      out.descriptor() >= 0 && write_all(out.descriptor(), line + "\n" + *described);
   if (is_written && out.take_name()) return kExitSuccess;
   print_error(out.error().empty() ? fmt::format("cannot write '{}'", path)
                                   : printable(out.error()));
@@ -96,8 +127,9 @@ int check_plugin(const PluginCheckOptions& options) {
   const Conformance found = check_conformance(program, isolation_options(options.plugins), part);
   const std::string text = text_of(found, program, "the protocol (docs/programs.md)");
   const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
-  const int saved =
-      options.save && found.is_good() ? save_leaves(program, found.first_line) : kExitSuccess;
+  const int saved = options.save && found.is_good()
+                        ? save_leaves(options, program, found.first_line)
+                        : kExitSuccess;
   return first_failure(first_failure(write_results(text), saved), code);
 }
 
@@ -115,6 +147,14 @@ std::function<int()> define_plugin(CLI::App& app) {
       "--save", options->save,
       "Write what leaves a program has to a file beside it, grip.leaves.json for grip.py, "
       "which commands read that run no programs");
+  check
+      ->add_option(
+          "--tree", options->trees,
+          "With --save, also what ports the program gives to the elements of this tree, of leaf "
+          "types with ports by pattern; may be repeated")
+      ->type_name("FILE")
+      ->needs("--save")
+      ->allow_extra_args(false);
   check->add_flag(
       "--list", options->only_leaves,
       "Only ask a program what leaves it has: none of them is started, so nothing moves");
@@ -135,15 +175,16 @@ std::function<int()> define_plugin(CLI::App& app) {
 
 }  // namespace
 
-extern const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a program",
-                                    "Exit code: 0 it keeps the contract, 4 it does not, 2 usage.\n"
-                                    "\n"
-                                    "Examples:\n"
-                                    "  lockstep plugin check build/grip.so\n"
-                                    "  lockstep plugin check ./grip.py\n"
-                                    "  lockstep plugin check grip --plugin-path leaves\n"
-                                    "  lockstep plugin check ./grip.py --save\n"
-                                    "  lockstep plugin check ./grip.py --list --save",
-                                    define_plugin};
+extern const Command kPluginCommand{
+    "plugin", "Check a plugin, a shared object or a program",
+    "Exit code: 0 it keeps the contract, 4 it does not, 3 a tree of --tree is wrong, 2 usage.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep plugin check build/grip.so\n"
+    "  lockstep plugin check ./grip.py\n"
+    "  lockstep plugin check grip --plugin-path leaves\n"
+    "  lockstep plugin check ./grip.py --save\n"
+    "  lockstep plugin check ./grip.py --list --save",
+    define_plugin};
 
 }  // namespace lockstep::host

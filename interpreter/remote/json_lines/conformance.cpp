@@ -88,7 +88,16 @@ class Describer final : public LeafDescriber {
       : conversation_(conversation), hello_(hello) {}
   tl::expected<const lockstep_leaf_type*, ElementRefusal> describe(
       std::string_view id, std::span<const FixedText> fixed) override {
-    return describe_element(conversation_, *hello_, id, fixed, described_.emplace_back());
+    const lockstep_leaf_type& base = *hello_->type_named(id);
+    auto answer = ask_to_describe(conversation_, describe_request(base, fixed));
+    if (!answer) return tl::unexpected(undescribed(id, answer.error()));
+    try {
+      return read_described(*answer, base, described_.emplace_back());
+    } catch (const JsonError& error) {
+      conversation_.give_up("was killed, since it answers describe wrongly");
+      return tl::unexpected(
+          undescribed(id, {fmt::format("answers describe wrongly: {}", error.what()), {}}));
+    }
   }
 
  private:

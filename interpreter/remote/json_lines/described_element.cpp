@@ -20,7 +20,8 @@ ValueType type_of_port(const lockstep_leaf_type& type, std::string_view name) {
   return it == ports.end() ? ValueType::String : static_cast<ValueType>((*it)->type);
 }
 
-// {"do":"describe","type":"Shape","fixed":{"kind":"round"}}
+}  // namespace
+
 std::string describe_request(const lockstep_leaf_type& type, std::span<const FixedText> fixed) {
   std::string text = R"({"do":"describe","type":)";
   append_json(text, type.id);
@@ -33,10 +34,9 @@ std::string describe_request(const lockstep_leaf_type& type, std::span<const Fix
     append_json_value(text, parse_value(type_of_port(type, parameter), given).value_or(Value()));
     between = ",";
   }
-  return text + "}}\n";
+  return text + "}}";
 }
 
-// Throws a JsonError.
 tl::expected<const lockstep_leaf_type*, ElementRefusal> read_described(
     std::string& answer, const lockstep_leaf_type& base, OwnedDescriptors& tables) {
   lockstep_leaf_type& type = tables.add_leaf();
@@ -71,25 +71,14 @@ tl::expected<const lockstep_leaf_type*, ElementRefusal> read_described(
   return &type;
 }
 
-}  // namespace
+Result<std::string> ask_to_describe(Conversation& conversation, std::string_view request) {
+  auto answer = conversation.ask(std::string(request) + '\n', "describe");
+  if (!answer) conversation.give_up("was killed, since it describes no element");
+  return answer;
+}
 
-tl::expected<const lockstep_leaf_type*, ElementRefusal> describe_element(
-    Conversation& conversation, const Hello& hello, std::string_view id,
-    std::span<const FixedText> fixed, OwnedDescriptors& tables) {
-  const auto refused = [&](const Problem& why) {
-    conversation.give_up("was killed, since it describes no element: " + why.message);
-    return tl::unexpected(ElementRefusal{
-        {}, {fmt::format("'{}' cannot be described: its program {}", id, why.message), why.hint}});
-  };
-  const lockstep_leaf_type& base = *hello.type_named(id);
-  auto answer = conversation.ask(describe_request(base, fixed), "describe");
-  if (!answer) return refused(answer.error());
-  try {
-    return read_described(*answer, base, tables);
-  } catch (const JsonError& error) {
-    return refused({fmt::format("answers describe wrongly: {}", error.what()),
-                    "docs/programs.md has the answers to describe"});
-  }
+ElementRefusal undescribed(std::string_view id, const Problem& why) {
+  return {{}, {fmt::format("'{}' cannot be described: its program {}", id, why.message), why.hint}};
 }
 
 }  // namespace lockstep::host

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/element_types.h"
@@ -13,10 +14,17 @@
 
 namespace lockstep::host {
 
-// Asks the program, which has no leaf yet. The type is that of `id` with the ports of the element,
-// and `tables` keep it. A program that does not answer as it should is gone then.
-tl::expected<const lockstep_leaf_type*, ElementRefusal> describe_element(
-    Conversation& conversation, const Hello& hello, std::string_view id,
-    std::span<const FixedText> fixed, OwnedDescriptors& tables);
+// What the program is asked, as a line without its end; `type` is its leaf type.
+std::string describe_request(const lockstep_leaf_type& type, std::span<const FixedText> fixed);
+// The type of the element: `base` with the ports of the answer, which `tables` keep. Throws a
+// JsonError.
+tl::expected<const lockstep_leaf_type*, ElementRefusal> read_described(
+    std::string& answer, const lockstep_leaf_type& base, OwnedDescriptors& tables);
+
+// Asks the program, which has no leaf yet. One that does not answer as it should is gone then.
+Result<std::string> ask_to_describe(Conversation& conversation, std::string_view request);
+
+// An element that cannot be described, since its program is as `why` says.
+ElementRefusal undescribed(std::string_view id, const Problem& why);
 
 }  // namespace lockstep::host

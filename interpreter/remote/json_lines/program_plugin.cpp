@@ -42,23 +42,47 @@ Result<std::string> ProgramPlugin::first_line() {
   return line;
 }
 
-// A process that waits for its run answers, else one that was started for it and waits then.
 tl::expected<const lockstep_leaf_type*, ElementRefusal> ProgramPlugin::describe(
     std::string_view id, std::span<const FixedText> fixed) {
-  const auto refused = [&](std::string_view why, const char* hint) {
-    return tl::unexpected(ElementRefusal{{}, {fmt::format("'{}' {}", id, why), hint}});
-  };
-  if (!options_.run_programs) {
-    return refused("has ports that its program knows, which this command does not run",
-                   "give --run-programs");
+  const lockstep_leaf_type& base = *hello_->type_named(id);
+  const std::string request = describe_request(base, fixed);
+  auto answer = options_.run_programs ? ask(request) : read_answer(request);
+  if (!answer) return tl::unexpected(undescribed(id, answer.error()));
+  const Lock lock(mutex_);
+  try {
+    auto described = read_described(*answer, base, described_.emplace_back());
+    if (described) descriptions_ += fmt::format("{}\n{}\n", request, *answer);
+    return described;
+  } catch (const JsonError& error) {
+    return tl::unexpected(
+        undescribed(id, {fmt::format("answers describe wrongly: {}", error.what()),
+                         "docs/programs.md has the answers to describe"}));
   }
+}
+
+// A process that waits for its run, else one that is started for this and waits then.
+Result<std::string> ProgramPlugin::ask(std::string_view request) {
   std::string failure;
   auto conversation = acquire(failure);
-  if (conversation == nullptr) return refused("cannot be described: " + failure, "");
+  if (conversation == nullptr) return problem(failure);
+  auto answer = ask_to_describe(*conversation, request);
   const Lock lock(mutex_);
-  auto described = describe_element(*conversation, *hello_, id, fixed, described_.emplace_back());
-  if (first_ == nullptr && !conversation->is_gone()) first_ = std::move(conversation);
-  return described;
+  if (answer && first_ == nullptr) first_ = std::move(conversation);
+  return answer;
+}
+
+Result<std::string> ProgramPlugin::read_answer(std::string_view request) const {
+  if (auto answer = read_description(path_, request)) return *std::move(answer);
+  return problem(
+      "is not run by this command, and its file does not have this element",
+      fmt::format("give --run-programs, or let 'lockstep plugin check --save --tree TREE' "
+                  "write it to '{}'",
+                  leaves_file_of(path_)));
+}
+
+std::string ProgramPlugin::descriptions() {
+  const Lock lock(mutex_);
+  return descriptions_;
 }
 
 std::unique_ptr<RemoteRun> ProgramPlugin::begin_run(const lockstep_caller& caller) {
@@ -73,11 +97,11 @@ std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {
   auto conversation = std::make_unique<Conversation>(options_);
   const auto line = conversation->start(path_);
   if (!line) {
-    failure = fmt::format("its program {}", line.error().message);
+    failure = line.error().message;
   } else if (*line != hello_->line()) {
     failure =
-        "its program says now that it has other leaves than when it was loaded: let 'lockstep "
-        "plugin check --save' write them down";
+        "says now that it has other leaves than when it was loaded: let 'lockstep plugin check "
+        "--save' write them down";
   } else {
     return conversation;
   }

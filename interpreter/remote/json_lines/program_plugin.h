@@ -28,19 +28,23 @@ class ProgramPlugin final : public RemotePlugin, private LeafDescriber {
 
   const lockstep_plugin& entry() const override { return hello_->plugin(); }
   LeafDescriber* describer() override { return this; }
+  std::string descriptions() override;
   std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
   const Hello& hello() const { return *hello_; }
   // The file beside it says something else; or was read, and may do so.
   bool is_file_stale() const { return is_file_stale_; }
   bool is_file_older() const { return is_file_older_; }
 
-  // A process that has said the same as the first; null on failure, with the reason in `failure`.
+  // A process that has said the same as the first; null on failure, with the reason in `failure`,
+  // which continues "its program ".
   // May be called from any thread.
   std::unique_ptr<Conversation> acquire(std::string& failure);
 
  private:
   ProgramPlugin(std::string path, IsolationOptions options);
   Result<std::string> first_line();
+  Result<std::string> ask(std::string_view request);
+  Result<std::string> read_answer(std::string_view request) const;
   tl::expected<const lockstep_leaf_type*, ElementRefusal> describe(
       std::string_view id, std::span<const FixedText> fixed) override;
 
@@ -51,6 +55,7 @@ class ProgramPlugin final : public RemotePlugin, private LeafDescriber {
 
   Mutex mutex_;
   std::deque<OwnedDescriptors> described_ LOCKSTEP_GUARDED_BY(mutex_);
+  std::string descriptions_ LOCKSTEP_GUARDED_BY(mutex_);
   std::unique_ptr<Conversation> first_ LOCKSTEP_GUARDED_BY(mutex_);  // until a run takes it
 };
 

@@ -92,7 +92,7 @@ class ProgramRun final : public RemoteRun {
     std::string failure;
     auto conversation = plugin_.acquire(failure);
     if (conversation == nullptr) {
-      host_table().set_error(&caller, failure.c_str());
+      host_table().set_error(&caller, ("its program " + failure).c_str());
       return nullptr;
     }
     conversation->begin(caller_);
