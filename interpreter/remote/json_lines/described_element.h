@@ -9,7 +9,6 @@
 #include "core/element_types.h"
 #include "lockstep/leaf.h"
 #include "remote/json_lines/conversation.h"
-#include "remote/json_lines/hello.h"
 #include "remote/owned_descriptors.h"
 
 namespace lockstep::host {
