@@ -106,16 +106,15 @@ class Certainties {
   }
 
   void add_endless() {
-    const auto some = [&](std::size_t first, std::size_t count) {
-      return [this, first, count](const Edge& edge) {
-        for (std::size_t i = 0; i < count; ++i) {
-          if (graph_.has(edge, first + i)) return true;
-        }
-        return false;
-      };
-    };
-    const bool goes_on = recurs(graph_, some(graph_.shape.ended_bit(0), graph_.shape.leaves));
-    const bool holds = recurs(graph_, some(graph_.shape.held_bit(0), graph_.shape.held));
+    const LabelShape& shape = graph_.shape;
+    const bool goes_on =
+        recurs(graph_, [&](const Edge& edge) { return graph_.has(edge, shape.begun_bit()); });
+    const bool holds = recurs(graph_, [&](const Edge& edge) {
+      for (std::size_t i = 0; i < shape.held; ++i) {
+        if (graph_.has(edge, shape.held_bit(i))) return true;
+      }
+      return false;
+    });
     if (goes_on || !holds) {
       certainties_.push_back(
           {0, Severity::Note, "this tree never ends, whatever its leaves do", ""});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "verify/packed_numbers.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -26,24 +28,18 @@ void EdgeRows::add(std::span<const Edge> edges) {
     const Edge& edge = edges[i + (row == 0 ? 0 : row - 1)];
     const std::uint64_t distance = edge.to - before.to;
     if (row > 0) {
-      put(row * 4 + kRow);
+      put_number(packed_, row * 4 + kRow);
     } else if (edge.label == before.label) {
-      put(distance * 4 + kSameLabel);
+      put_number(packed_, distance * 4 + kSameLabel);
     } else {
-      put(distance * 2 + kOtherLabel);
-      put(edge.label);
+      put_number(packed_, distance * 2 + kOtherLabel);
+      put_number(packed_, edge.label);
     }
     before = edge;
     i += std::max<std::size_t>(1, row);
   }
   rows_.add(packed_);
   size_ += edges.size();
-}
-
-// Seven bits in each byte, the lowest first.
-void EdgeRows::put(std::uint64_t number) {
-  for (; number >= 128; number >>= 7u) packed_.push_back(static_cast<std::byte>(number | 128u));
-  packed_.push_back(static_cast<std::byte>(number));
 }
 
 EdgeRow::Iterator& EdgeRow::Iterator::operator++() {
@@ -54,10 +50,10 @@ EdgeRow::Iterator& EdgeRow::Iterator::operator++() {
   }
   is_over_ = bytes_.empty();
   if (is_over_) return *this;
-  const std::uint64_t head = number();
+  const std::uint64_t head = take_number(bytes_);
   if ((head & kOtherLabel) != 0) {
     edge_.to += static_cast<StateId>(head / 2);
-    edge_.label = static_cast<std::uint32_t>(number());
+    edge_.label = static_cast<std::uint32_t>(take_number(bytes_));
   } else if ((head & kRow) != 0) {
     row_ = static_cast<std::uint32_t>(head / 4 - 1);
     ++edge_.to;
@@ -65,18 +61,6 @@ EdgeRow::Iterator& EdgeRow::Iterator::operator++() {
     edge_.to += static_cast<StateId>(head / 4);
   }
   return *this;
-}
-
-std::uint64_t EdgeRow::Iterator::number() {
-  std::uint64_t number = 0;
-  std::size_t count = 0;
-  for (bool more = true; more; ++count) {
-    const auto part = std::to_integer<std::uint64_t>(bytes_[count]);
-    number |= (part & 127u) << 7 * count;
-    more = part >= 128;
-  }
-  bytes_ = bytes_.subspan(count);
-  return number;
 }
 
 }  // namespace lockstep::host

@@ -32,8 +32,6 @@ class EdgeRow {
     bool operator==(std::default_sentinel_t) const { return is_over_; }
 
    private:
-    std::uint64_t number();
-
     std::span<const std::byte> bytes_;
     Edge edge_;
     std::uint32_t row_ = 0;  // so many more like this one, each to the next state
@@ -59,8 +57,6 @@ class EdgeRows {
   std::size_t memory() const { return rows_.memory(); }
 
  private:
-  void put(std::uint64_t number);
-
   ByteRows rows_;
   std::uint64_t size_ = 0;
   std::vector<std::byte> packed_;

@@ -54,6 +54,7 @@ void Expander::expand(StateId state, Chunk& into) {
   stepper_.load((*known_)[state], state == 0);
   const std::size_t first_edge = into.edges.size();
   Chunk::State& at = into.states.emplace_back();
+  if (!labeller_.shape().moving_leaves.empty()) at.equals = labels_.add(labeller_.equals(stepper_));
   next_look_ = kTicksBetweenLooks;
   std::size_t most_edges = first_edge + 10 * kTicksBetweenLooks;
   Step step{state, 0};

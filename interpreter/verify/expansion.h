@@ -37,6 +37,7 @@ struct Chunk {
   struct State {
     std::uint64_t transitions = 0;
     std::size_t edges = 0, fresh = 0, news = 0;  // where those of the next state begin
+    std::uint32_t equals = 0;                    // a label, if leaves may change places
     bool ends = false;                           // some tick ends the run
     std::optional<SearchEnd> cut = {};           // why not all of its ticks were made
     int signal = 0;
@@ -66,7 +67,7 @@ class Expander {
   void expand(const StateStore& known, StateId first, StateId last, Nanoseconds began, Chunk& into);
 
   const LabelTable& labels() const { return labels_; }
-  LabelShape label_shape() const { return labeller_.shape(); }
+  const LabelShape& label_shape() const { return labeller_.shape(); }
   const SearchCoverage& coverage() const { return coverage_; }
 
  private:

@@ -67,12 +67,18 @@ class FairCycle {
     return graph_.has(edge, graph_.shape.ended_bit(leaf));
   }
 
+  std::size_t leaf_after(const Edge& edge, std::size_t moving) const {
+    Label label;
+    graph_.read(edge, label);
+    return label.after[moving];
+  }
+
   bool uses(StateId from, const Edge& edge, const Leaves& without) const {
     if (filter_ && !filter_(edge)) return false;
     if (std::ranges::any_of(without, [&](std::size_t leaf) { return works(edge, leaf); })) {
       return false;
     }
-    for (std::size_t i = 0; i < moving_.size(); ++i) {
+    for (std::size_t i = 0; some_only_work_ && i < moving_.size(); ++i) {
       if (only_works_[from * moving_.size() + i] && works(edge, moving_[i])) return false;
     }
     return true;
@@ -120,15 +126,14 @@ class FairCycle {
 
   template <class Within>
   bool leave_out_staying(const Component& component, const Within& within, Leaves& without) const {
-    std::vector<std::byte> all(graph_.shape.bytes());
-    for_each_edge(component, within, [&](StateId, const Edge& edge) {
-      const auto bits = graph_.labels[edge.label];
-      for (std::size_t i = 0; i < all.size(); ++i) all[i] |= bits[i];
-    });
+    Label all;
+    graph_.shape.clear(all);
+    for_each_edge(component, within,
+                  [&](StateId, const Edge& edge) { graph_.labels.read(edge.label, all); });
     const std::size_t before = without.size();
     for (const std::size_t leaf : staying_) {
-      const bool only_works = LabelTable::has(all, graph_.shape.worked_bit(leaf)) &&
-                              !LabelTable::has(all, graph_.shape.ended_bit(leaf));
+      const bool only_works =
+          all.has(graph_.shape.worked_bit(leaf)) && !all.has(graph_.shape.ended_bit(leaf));
       if (only_works) without.push_back(leaf);
     }
     return without.size() != before;
@@ -140,17 +145,24 @@ class FairCycle {
     for (StateId i = 0; i < component.size(); ++i) number_[component[i]] = i;
     const auto place = [&](StateId state, std::size_t i) { return number_[state] * count + i; };
     UnionFind leaves(component.size() * count);
+    Label label;
+    for (const StateId state : component) {
+      graph_.read_equals(state, label);
+      for (std::size_t i = 0; i < count; ++i)
+        leaves.unite(place(state, i), place(state, label.after[i]));
+    }
     for_each_edge(component, within, [&](StateId from, const Edge& edge) {
-      for (std::size_t i = 0; i < count; ++i) {
-        leaves.unite(place(from, i), place(edge.to, graph_.leaf_after(edge, i)));
-        leaves.unite(place(from, i), place(from, graph_.leaf_before(edge, i)));
-      }
+      graph_.read(edge, label);
+      for (std::size_t i = 0; i < count; ++i)
+        leaves.unite(place(from, i), place(edge.to, label.after[i]));
     });
     std::vector<bool> work(component.size() * count), end(component.size() * count);
     for_each_edge(component, within, [&](StateId from, const Edge& edge) {
+      graph_.read(edge, label);
       for (std::size_t i = 0; i < count; ++i) {
-        if (works(edge, moving_[i])) work[leaves.find(place(from, i))] = true;
-        if (ends(edge, moving_[i])) end[leaves.find(place(from, i))] = true;
+        if (label.has(graph_.shape.worked_bit(moving_[i])))
+          work[leaves.find(place(from, i))] = true;
+        if (label.has(graph_.shape.ended_bit(moving_[i]))) end[leaves.find(place(from, i))] = true;
       }
     });
     bool is_more = false;
@@ -161,6 +173,7 @@ class FairCycle {
         only_works_[state * count + i] = is_more = true;
       }
     }
+    some_only_work_ |= is_more;
     return is_more;
   }
 
@@ -172,9 +185,13 @@ class FairCycle {
     const Way following(
         graph_, within,
         {.places = moving_.size(),
-         .choices = [&](const Edge& edge, std::size_t i,
-                        const FollowedLeaf::Take& take) { graph_.for_each_equal(edge, i, take); },
-         .next = [&](const Edge& edge, std::size_t i) { return graph_.leaf_after(edge, i); }});
+         .choices =
+             [&](StateId from, const Edge&, std::size_t i, const FollowedLeaf::Take& take) {
+               Label equals;
+               graph_.read_equals(from, equals);
+               for_each_equal(equals, i, moving_.size(), take);
+             },
+         .next = [&](const Edge& edge, std::size_t i) { return leaf_after(edge, i); }});
     const auto is_start = [&](StateId, const Edge& edge, std::size_t) { return edge.to == start; };
     std::vector<CycleStep> cycle = way.find(start, is_start);
     const auto take = [&](const std::vector<CycleStep>& steps) {
@@ -219,7 +236,7 @@ class FairCycle {
         place = it.swaps[0](place);
         work |= works(it.edge, moving_[place]);
         end |= ends(it.edge, moving_[place]);
-        place = graph_.leaf_after(it.edge, place);
+        place = leaf_after(it.edge, place);
       }
       if (work && !end) return place;
     }
@@ -235,7 +252,8 @@ class FairCycle {
   std::vector<std::uint32_t> set_;  // of each state: the last set in which it was looked at
   std::uint32_t sets_ = 0;
   std::vector<bool> only_works_;  // of each state and each leaf that may move
-  std::vector<StateId> number_;   // of each state: in the component
+  bool some_only_work_ = false;
+  std::vector<StateId> number_;  // of each state: in the component
 };
 
 }  // namespace

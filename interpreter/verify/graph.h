@@ -19,41 +19,35 @@ struct Graph {
   std::vector<bool> ends;  // of each state: some tick from it ends the run
   LabelTable labels;
   LabelShape shape;
+  // Of each state that was looked at, if some leaves may change places: see read_equals.
+  std::vector<std::uint32_t> equals = {};
 
   std::size_t states() const { return ends.size(); }
   // States that were looked at: their edges are known. Others may do anything.
   std::size_t expanded() const { return edges.states(); }
   EdgeRow edges_of(StateId state) const { return state < expanded() ? edges[state] : EdgeRow(); }
-  bool has(const Edge& edge, std::size_t bit) const {
-    return LabelTable::has(labels[edge.label], bit);
+  bool has(const Edge& edge, std::size_t bit) const { return labels.has(edge.label, bit); }
+  void read(const Edge& edge, Label& into) const {
+    shape.clear(into);
+    labels.read(edge.label, into);
   }
-  // Where an edge takes a leaf or a child, by its place among those that may move.
-  std::size_t leaf_after(const Edge& edge, std::size_t moving) const {
-    return shape.place_after(labels[edge.label], moving);
-  }
-  std::size_t held_after(const Edge& edge, std::size_t moving) const {
-    const std::size_t leaves = shape.moving_leaves.size();
-    return shape.place_after(labels[edge.label], leaves + moving) - leaves;
-  }
-  // The one before it that is in an equal state before the edge, or itself.
-  std::size_t leaf_before(const Edge& edge, std::size_t moving) const {
-    return shape.equal_before(labels[edge.label], moving);
-  }
-  // Calls it for each of the leaves that may move whose places this one may have before the edge:
-  // itself, and those in equal states.
-  template <class F>
-  void for_each_equal(const Edge& edge, std::size_t moving, const F& call) const {
-    const auto label = labels[edge.label];
-    call(moving);
-    if (!shape.has_equal(label)) return;
-    for (std::size_t i = moving; shape.equal_before(label, i) != i;) {
-      call(i = shape.equal_before(label, i));
-    }
-    for (std::size_t i = moving + 1, last = moving; i < shape.moving_leaves.size(); ++i) {
-      if (shape.equal_before(label, i) == last) call(last = i);
-    }
+  // Of each leaf that may move: the one before it that is in an equal state, or itself.
+  void read_equals(StateId state, Label& into) const {
+    shape.clear(into);
+    if (state < equals.size()) labels.read(equals[state], into);
   }
 };
+
+// Calls it for each of the leaves whose places this one may have: itself, and those in equal
+// states.
+template <class F>
+void for_each_equal(const Label& equals, std::size_t moving, std::size_t count, const F& call) {
+  call(moving);
+  for (std::size_t i = moving; equals.after[i] != i;) call(i = equals.after[i]);
+  for (std::size_t i = moving + 1, last = moving; i < count; ++i) {
+    if (equals.after[i] == last) call(last = i);
+  }
+}
 
 // Two leaves in equal states that change places, by their places among those that may move.
 struct Swap {
@@ -70,6 +64,7 @@ struct CycleStep {
   StateId from;
   Edge edge;
   Swaps swaps = {};  // before the edge
+  Swap after = {};   // behind it
 };
 // The edges that it may use.
 using EdgeFilter = std::function<bool(const Edge&)>;

@@ -1,6 +1,7 @@
 // For how long a child may be held. A child that may move is followed from place to place.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -9,20 +10,36 @@
 namespace lockstep::host {
 
 // Children that may come to each other's places, followed: a state for each state and each of them,
-// and the edges that hold it.
+// and the edges that hold it. Of those that are leaves in equal states, the first stands for all.
 class FollowedChildren {
  public:
   // Both must outlive this.
   FollowedChildren(const Graph& graph, const std::vector<std::size_t>& children);
 
-  Graph graph() const;
+  // Whether the edges say more than where they go: only labels make a cycle fair.
+  enum class Labels : bool { None, All };
+  // Those of its edges that are wanted, by their ends.
+  using Wanted = std::function<bool(StateId from, StateId to)>;
+  Graph graph(Labels labels, const Wanted& is_wanted) const;
   // The step of the graph that is followed for one of that.
   CycleStep step(const Graph& followed, const CycleStep& step) const;
 
  private:
-  template <class F>
-  void for_each(const Edge& edge, std::size_t child, const F& call) const;
-  std::vector<std::byte> label(const Edge& edge, std::size_t child, Swap swap) const;
+  // The child is held in a tick at the place of one of its equals, `before` the tick, and behind it
+  // changes places with the first of its equals.
+  struct Choice {
+    std::size_t child;  // then
+    Swap before, after;
+  };
+  // What a tick does, and which leaves are equal before and after it.
+  struct Tick {
+    Label label, before, after;
+  };
+  void read_after(const Edge& edge, Tick& tick) const;
+  void choose(const Tick& tick, std::size_t child, std::vector<Choice>& choices) const;
+  Label label(const Tick& tick, const Choice& choice) const;
+  Label others(const Label& equals, std::size_t child) const;
+  bool is_first(const Label& equals, std::size_t child) const;
 
   const Graph& graph_;
   const std::vector<std::size_t>& children_;
@@ -52,7 +69,7 @@ class Holds {
   const Graph& graph_;
   const std::vector<std::size_t> children_;
   const FollowedChildren following_;
-  Graph followed_;  // with several children
+  Graph followed_;  // with several children; without labels
 };
 
 }  // namespace lockstep::host

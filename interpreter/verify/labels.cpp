@@ -1,8 +1,5 @@
 #include "verify/labels.h"
 
-#include <algorithm>
-#include <cstring>
-
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
@@ -28,101 +25,95 @@ Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t prope
     : tree_(tree),
       models_(models),
       held_(holdable(tree)),
-      properties_(properties),
+      shape_{tree.leaves.size(), held_.size(), properties},
       number_of_leaf_(tree.nodes.size(), kStays),
-      number_of_held_(tree.nodes.size(), kStays),
-      bits_(LabelShape{tree.leaves.size(), held_.size(), properties}.bytes()) {
+      number_of_held_(tree.nodes.size(), kStays) {
   for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
     const NodeIndex node = tree.leaves[i].node;
     if (!symmetry.moves(node)) continue;
-    number_of_leaf_[node] = static_cast<std::uint32_t>(moving_leaves_.size());
-    moving_leaves_.push_back(i);
+    number_of_leaf_[node] = static_cast<std::uint32_t>(shape_.moving_leaves.size());
+    shape_.moving_leaves.push_back(i);
   }
   for (std::uint32_t i = 0; i < held_.size(); ++i) {
     if (!symmetry.moves(held_[i].child)) continue;
-    number_of_held_[held_[i].child] = static_cast<std::uint32_t>(moving_held_.size());
-    moving_held_.push_back(i);
+    number_of_held_[held_[i].child] = static_cast<std::uint32_t>(shape_.moving_held.size());
+    shape_.moving_held.push_back(i);
   }
-  for (const std::uint32_t leaf : moving_leaves_) {
+  for (const std::uint32_t leaf : shape_.moving_leaves) {
     const std::uint32_t held = number_of_held_[tree.leaves[leaf].node];
-    held_of_leaf_.push_back(held == kStays ? LabelShape::kNowhere
-                                           : static_cast<LabelShape::Place>(held));
+    shape_.held_of_leaf.push_back(held == kStays ? LabelShape::kNowhere
+                                                 : static_cast<MovingPlace>(held));
   }
+  shape_.clear(label_);
 }
 
-LabelShape Labeller::shape() const {
-  return {tree_.leaves.size(), held_.size(), properties_,
-          moving_leaves_,      moving_held_, held_of_leaf_};
-}
-
-const LabelTable::Bits& Labeller::of(Stepper& stepper) {
+const Label& Labeller::of(Stepper& stepper) {
   const Ticker& ticker = stepper.ticker();
   const auto marks = stepper.leaves().marks();
-  std::ranges::fill(bits_, std::byte{0});
+  shape_.clear(label_);
   for (const std::uint32_t leaf : stepper.leaves().touched()) {
     if (!models_.leaves[leaf].ends) continue;
-    if (marks[leaf].ended) {
-      LabelTable::set(bits_, marks.size() + leaf);
+    if (!stepper.ran(leaf)) {
+      label_.set(shape_.begun_bit());
+    } else if (marks[leaf].ended) {
+      label_.set(shape_.ended_bit(leaf));
     } else if (marks[leaf].ticked) {
-      LabelTable::set(bits_, leaf);
+      label_.set(shape_.worked_bit(leaf));
     }
   }
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    if (is_held(ticker, held_[i])) LabelTable::set(bits_, 2 * marks.size() + i);
+    if (is_held(ticker, held_[i])) label_.set(shape_.held_bit(i));
   }
-  for (std::size_t i = 0; i < properties_; ++i) {
-    if (stepper.owes(i)) LabelTable::set(bits_, 2 * marks.size() + held_.size() + i);
+  for (std::size_t i = 0; i < shape_.properties; ++i) {
+    if (stepper.owes(i)) label_.set(shape_.owed_bit(i));
   }
-  return bits_;
+  return label_;
 }
 
-const LabelTable::Bits& Labeller::with_moves(const Stepper& stepper) {
+const Label& Labeller::with_moves(const Stepper& stepper) {
   const std::span<const NodeIndex> origins = stepper.origins();
-  const TickAnswers& answers = stepper.answers();
-  if (origins.empty() && !answers.has_equal()) return bits_;
-  const std::size_t leaves = moving_leaves_.size(), moves = leaves + moving_held_.size();
-  with_moves_.resize(bits_.size() +
-                     (moves + (answers.has_equal() ? leaves : 0)) * sizeof(LabelShape::Place));
-  std::ranges::copy(bits_, with_moves_.begin());
-  const auto put = [&](std::size_t number, std::size_t value) {
-    const auto place = static_cast<LabelShape::Place>(value);
-    std::memcpy(with_moves_.data() + bits_.size() + number * sizeof place, &place, sizeof place);
-  };
-  const auto origin = [&](NodeIndex node) { return origins.empty() ? node : origins[node]; };
+  if (origins.empty()) return label_;
+  const std::size_t leaves = shape_.moving_leaves.size();
   for (std::size_t to = 0; to < leaves; ++to) {
-    put(number_of_leaf_[origin(tree_.leaves[moving_leaves_[to]].node)], to);
+    const NodeIndex node = tree_.leaves[shape_.moving_leaves[to]].node;
+    label_.after[number_of_leaf_[origins[node]]] = static_cast<MovingPlace>(to);
   }
-  for (std::size_t to = 0; to < moving_held_.size(); ++to) {
-    put(leaves + number_of_held_[origin(held_[moving_held_[to]].child)], leaves + to);
+  for (std::size_t to = 0; to < shape_.moving_held.size(); ++to) {
+    const NodeIndex node = held_[shape_.moving_held[to]].child;
+    label_.after[leaves + number_of_held_[origins[node]]] = static_cast<MovingPlace>(leaves + to);
   }
-  for (std::size_t i = 0; i < leaves && answers.has_equal(); ++i) {
-    const std::uint32_t before = answers.equal_before(moving_leaves_[i]);
-    put(moves + i, before == TickAnswers::kNone ? i : number_of_leaf_[tree_.leaves[before].node]);
-  }
-  return with_moves_;
+  return label_;
 }
 
-LabelTable::Bits Labeller::moved(const LabelTable::Bits& bits,
-                                 std::span<const NodeIndex> places) const {
-  const LabelShape shape = this->shape();
-  LabelTable::Bits moved = bits;
+Label Labeller::equals(const Stepper& stepper) const {
+  Label label;
+  shape_.clear(label);
+  for (std::size_t i = 0; i < shape_.moving_leaves.size(); ++i) {
+    const std::uint32_t before = stepper.answers().equal_before(shape_.moving_leaves[i]);
+    if (before == TickAnswers::kNone) continue;
+    label.after[i] = static_cast<MovingPlace>(number_of_leaf_[tree_.leaves[before].node]);
+  }
+  return label;
+}
+
+Label Labeller::moved(const Label& label, std::span<const NodeIndex> places) const {
+  Label moved = label;
   const auto move = [&](std::size_t from, std::size_t to) {
-    if (LabelTable::has(bits, from)) LabelTable::set(moved, to);
+    if (label.has(from)) moved.set(to);
   };
-  const auto clear = [&](std::size_t bit) { moved[bit / 8] &= ~(std::byte{1} << bit % 8); };
-  for (const std::uint32_t leaf : moving_leaves_) {
-    clear(shape.worked_bit(leaf));
-    clear(shape.ended_bit(leaf));
+  for (const std::uint32_t leaf : shape_.moving_leaves) {
+    moved.clear(shape_.worked_bit(leaf));
+    moved.clear(shape_.ended_bit(leaf));
   }
-  for (const std::uint32_t child : moving_held_) clear(shape.held_bit(child));
-  for (const std::uint32_t leaf : moving_leaves_) {
-    const std::size_t to = moving_leaves_[number_of_leaf_[places[tree_.leaves[leaf].node]]];
-    move(shape.worked_bit(leaf), shape.worked_bit(to));
-    move(shape.ended_bit(leaf), shape.ended_bit(to));
+  for (const std::uint32_t child : shape_.moving_held) moved.clear(shape_.held_bit(child));
+  for (const std::uint32_t leaf : shape_.moving_leaves) {
+    const std::size_t to = shape_.moving_leaves[number_of_leaf_[places[tree_.leaves[leaf].node]]];
+    move(shape_.worked_bit(leaf), shape_.worked_bit(to));
+    move(shape_.ended_bit(leaf), shape_.ended_bit(to));
   }
-  for (const std::uint32_t child : moving_held_) {
-    const std::size_t to = moving_held_[number_of_held_[places[held_[child].child]]];
-    move(shape.held_bit(child), shape.held_bit(to));
+  for (const std::uint32_t child : shape_.moving_held) {
+    const std::size_t to = shape_.moving_held[number_of_held_[places[held_[child].child]]];
+    move(shape_.held_bit(child), shape_.held_bit(to));
   }
   return moved;
 }

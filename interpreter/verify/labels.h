@@ -18,14 +18,16 @@ class Labeller {
   Labeller(const Tree& tree, const LeafModels& models, std::size_t properties,
            const Symmetry& symmetry);
 
-  // The shape of these labels, for the graph that has them.
-  LabelShape shape() const;
+  const LabelShape& shape() const { return shape_; }
   // After a tick, before its state is folded. Valid until the next call.
-  const LabelTable::Bits& of(Stepper& stepper);
+  const Label& of(Stepper& stepper);
   // The same once the state is folded, with where everything went.
-  const LabelTable::Bits& with_moves(const Stepper& stepper);
+  const Label& with_moves(const Stepper& stepper);
   // A label without moves, of the same tick in a run where each node is at one of these places.
-  LabelTable::Bits moved(const LabelTable::Bits& bits, std::span<const NodeIndex> places) const;
+  Label moved(const Label& label, std::span<const NodeIndex> places) const;
+  // Not of a tick: each of the leaves that may move is after it where the one before it is that is
+  // in an equal state. Of the state that was loaded.
+  Label equals(const Stepper& stepper) const;
 
  private:
   bool is_held(const Ticker& ticker, const Holdable& it) const;
@@ -33,11 +35,9 @@ class Labeller {
   const Tree& tree_;
   const LeafModels& models_;
   const std::vector<Holdable> held_;
-  const std::size_t properties_;
-  std::vector<std::uint32_t> moving_leaves_, moving_held_;
-  std::vector<LabelShape::Place> held_of_leaf_;
+  LabelShape shape_;
   std::vector<std::uint32_t> number_of_leaf_, number_of_held_;  // of nodes: among those that move
-  LabelTable::Bits bits_, with_moves_;
+  Label label_;
 };
 
 }  // namespace lockstep::host

@@ -112,6 +112,9 @@ class Searcher {
         return false;
       }
       add_edges(chunk, begin.edges, it.edges);
+      if (!result_.graph.shape.moving_leaves.empty()) {
+        result_.graph.equals.push_back(label_of(chunk, it.equals));
+      }
       begin = it;
     }
     return true;
@@ -127,17 +130,21 @@ class Searcher {
     // By the bits, since each thread has its own numbers of labels.
     std::ranges::sort(edges_, [&](const Edge& a, const Edge& b) {
       if (a.to != b.to) return a.to < b.to;
-      return a.label != b.label && std::ranges::lexicographical_compare(own[a.label], own[b.label]);
+      return a.label != b.label &&
+             std::ranges::lexicographical_compare(own.packed(a.label), own.packed(b.label));
     });
+    for (Edge& it : edges_) it.label = label_of(chunk, it.label);
+    result_.graph.edges.add(edges_);
+  }
+
+  // The number that a label of a thread has in the graph.
+  std::uint32_t label_of(const Chunk& chunk, std::uint32_t own_number) {
+    const LabelTable& own = expanders_[chunk.thread]->labels();
     std::vector<std::uint32_t>& numbers = labels_[chunk.thread];
-    numbers.resize(own.size(), kNoState);
-    Graph& graph = result_.graph;
-    for (Edge& it : edges_) {
-      std::uint32_t& label = numbers[it.label];
-      if (label == kNoState) label = graph.labels.add(own[it.label]);
-      it.label = label;
-    }
-    graph.edges.add(edges_);
+    if (numbers.size() < own.size()) numbers.resize(own.size(), kNoState);
+    std::uint32_t& label = numbers[own_number];
+    if (label == kNoState) label = result_.graph.labels.add(own.packed(own_number));
+    return label;
   }
 
   StateId add(std::span<const std::byte> state, Step step) {
@@ -246,7 +253,7 @@ std::vector<Step> SearchResult::way_to(StateId state) const {
 
 std::size_t SearchResult::memory() const {
   return store.memory() + before.size() * sizeof(Step) + graph.edges.memory() +
-         graph.labels.memory();
+         graph.labels.memory() + graph.equals.size() * sizeof graph.equals[0];
 }
 
 SearchResult search(const Tree& tree, const LeafModels& models,

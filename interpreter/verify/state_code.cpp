@@ -5,6 +5,7 @@
 
 #include "core/value_types.h"
 #include "engine/blackboard.h"
+#include "verify/packed_numbers.h"
 
 namespace lockstep::host {
 
@@ -44,13 +45,7 @@ class StateCode::Writer {
     }
     to_.resize(static_cast<std::size_t>(to - to_.data()));
   }
-  void number(std::uint32_t value) {
-    while (value >= 128) {
-      to_.push_back(static_cast<std::byte>(value | 128u));
-      value >>= 7u;
-    }
-    to_.push_back(static_cast<std::byte>(value));
-  }
+  void number(std::uint32_t value) { put_number(to_, value); }
   void operator()(const NoValue&) {}
   void operator()(bool value) { plain(value); }
   void operator()(std::int64_t value) { plain(value); }
@@ -101,14 +96,7 @@ class StateCode::ByteReader {
       at += count;
     }
   }
-  std::uint32_t number() {
-    std::uint32_t value = 0;
-    for (unsigned shift = 0;; shift += 7) {
-      const auto part = std::to_integer<std::uint32_t>(plain<std::byte>());
-      value |= (part & 127u) << shift;
-      if (part < 128) return value;
-    }
-  }
+  std::uint32_t number() { return static_cast<std::uint32_t>(take_number(from_)); }
   Value value(unsigned alternative) {
     return with_alternative(alternative, [&](auto of) { return Value(read(of)); });
   }

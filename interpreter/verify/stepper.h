@@ -44,6 +44,8 @@ class Stepper {
   const TickAnswers& answers() const { return answers_; }
   // The state that was loaded.
   const SavedRun& before() const { return from_; }
+  // Whether the leaf ran in it, or was held.
+  bool ran(std::uint32_t leaf) const { return from_leaves_[leaf].phase != Phase::Idle; }
   Ticker& ticker() { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
   // The properties that the tick, or the end in it, has violated, by their place.

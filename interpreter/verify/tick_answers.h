@@ -40,8 +40,6 @@ class TickAnswers final : public Answers {
   // The leaf before this one among those that are equal and in equal states; kNone: none.
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t equal_before(std::uint32_t leaf) const { return equal_before_[leaf]; }
-  // Whether some leaves are.
-  bool has_equal() const { return has_equal_; }
 
  private:
   struct Digit {

@@ -12,7 +12,7 @@ struct Tracer::Outcome {
   std::optional<NodeIndex> fault;
   bool is_broken;
   std::vector<std::size_t> violated;
-  LabelTable::Bits label;
+  Label label;
   StateBytes state = {};     // empty: the run has ended
   StateBytes searched = {};  // the same with equal children in one order
 
@@ -42,7 +42,8 @@ StateBytes Tracer::state_of(StateId state) {
 }
 
 Step Tracer::step_of(const CycleStep& wanted) {
-  const auto label = found_.graph.labels[wanted.edge.label];
+  Label label;
+  found_.graph.read(wanted.edge, label);
   stepper_.load(state_of(wanted.from), wanted.from == 0);
   Step step{wanted.from, 0};
   do {
@@ -50,9 +51,7 @@ Step Tracer::step_of(const CycleStep& wanted) {
     if (status == Status::Running && !stepper_.ticker().faulted()) {
       labeller_.of(stepper_);
       const bool is_there = found_.store.is(wanted.edge.to, stepper_.fold());
-      if (is_there && std::ranges::equal(labeller_.with_moves(stepper_), label)) {
-        return step;
-      }
+      if (is_there && labeller_.with_moves(stepper_) == label) return step;
     }
     ++step.combination;
   } while (stepper_.next());
@@ -61,7 +60,7 @@ Step Tracer::step_of(const CycleStep& wanted) {
 
 std::vector<GuidedStep> Tracer::steps_of(std::span<const CycleStep> edges) {
   std::vector<GuidedStep> steps;
-  for (const CycleStep& it : edges) steps.push_back({step_of(it), it.swaps});
+  for (const CycleStep& it : edges) steps.push_back({step_of(it), it.swaps, it.after});
   return steps;
 }
 
@@ -129,6 +128,7 @@ void Tracer::go(Trail& trail, const GuidedStep& step) {
     next.answers = moved(std::move(next.answers), nodes);
     if (outcome(tick(next)) != wanted) fail("children that change places are not equal");
   }
+  swap(trail.nodes, step.after);
   trail.now = wanted.state;
   trail.run.push_back(std::move(next));
 }

@@ -18,10 +18,11 @@ struct TracedTick {
 };
 using TracedRun = std::vector<TracedTick>;
 
-// A step of a search, before which leaves in equal states change places.
+// A step of a search, before and after which leaves in equal states change places.
 struct GuidedStep {
   Step step;
   Swaps swaps = {};
+  Swap after = {};
 };
 
 // A run along steps of a search, as far as it has come. Where equal children have changed places in

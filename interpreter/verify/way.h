@@ -15,7 +15,7 @@ namespace lockstep::host {
 struct FollowedLeaf {
   std::size_t places = 1;
   using Take = std::function<void(std::size_t place)>;
-  std::function<void(const Edge&, std::size_t place, const Take&)> choices = {};
+  std::function<void(StateId from, const Edge&, std::size_t place, const Take&)> choices = {};
   std::function<std::size_t(const Edge&, std::size_t place)> next = {};
 };
 
@@ -51,7 +51,7 @@ class Way {
         const auto take_from = [&](std::size_t chosen) {
           goal = goal || take({state, edge, {Swap{here, chosen}}}, chosen, came_by);
         };
-        followed_.choices ? followed_.choices(edge, here, take_from) : take_from(here);
+        followed_.choices ? followed_.choices(state, edge, here, take_from) : take_from(here);
         if (goal) return true;
       }
       return false;

@@ -1,7 +1,6 @@
 // What a search leaves out where leaves are equal, a verdict still knows: small graphs in which it
 // matters who has given which answer, and a tick that only one child has shown.
 #include <catch2/catch.hpp>
-#include <initializer_list>
 
 #include "verify/fair_cycle.h"
 #include "verify/holds.h"
@@ -20,30 +19,28 @@ const LabelShape kShape{.leaves = 2,
 
 enum class Equal : bool { No, Yes };
 
-// All stay where they are.
-LabelTable::Bits label(std::initializer_list<std::size_t> bits, Equal equal) {
-  LabelTable::Bits label(kShape.bytes());
-  for (const std::size_t bit : bits) LabelTable::set(label, bit);
-  std::vector<LabelShape::Place> places{0, 1, 2, 3};
-  if (equal == Equal::Yes) places.insert(places.end(), {0, 0});
-  const auto* const first = reinterpret_cast<const std::byte*>(places.data());
-  label.insert(label.end(), first, first + places.size() * sizeof places[0]);
-  return label;
-}
-
+// All stay where they are. Equal: the leaves are in equal states before the tick.
 struct Tick {
   StateId from, to;
-  LabelTable::Bits label;
+  std::vector<std::size_t> bits;
+  Equal equal;
 };
 
 Graph graph_of(StateId states, const std::vector<Tick>& ticks) {
   Graph graph{.edges = {}, .ends = std::vector<bool>(states), .labels = {}, .shape = kShape};
   for (StateId state = 0; state < states; ++state) {
     std::vector<Edge> edges;
+    Label label, equals;
+    kShape.clear(equals);
     for (const Tick& it : ticks) {
-      if (it.from == state) edges.push_back({it.to, graph.labels.add(it.label)});
+      if (it.from != state) continue;
+      kShape.clear(label);
+      for (const std::size_t bit : it.bits) label.set(bit);
+      edges.push_back({it.to, graph.labels.add(label)});
+      if (it.equal == Equal::Yes) equals.after[1] = 0;
     }
     graph.edges.add(edges);
+    graph.equals.push_back(graph.labels.add(equals));
   }
   return graph;
 }
@@ -54,8 +51,7 @@ constexpr std::size_t kLeft = 0, kRight = 1;
 
 TEST_CASE("equal leaves: a cycle is fair if each of them may be the one that ends") {
   const auto ticks = [](Equal equal) {
-    return std::vector<Tick>{
-        {0, 0, label({kShape.worked_bit(kLeft), kShape.ended_bit(kRight)}, equal)}};
+    return std::vector<Tick>{{0, 0, {kShape.worked_bit(kLeft), kShape.ended_bit(kRight)}, equal}};
   };
   CHECK(fair_cycle(graph_of(1, ticks(Equal::No))).empty());
   const std::vector<CycleStep> cycle = fair_cycle(graph_of(1, ticks(Equal::Yes)));
@@ -72,8 +68,8 @@ TEST_CASE("equal leaves: a cycle is fair if each of them may be the one that end
 
 TEST_CASE("equal leaves: one that is held goes on to be held where its equal is") {
   const auto longest = [](Equal equal) {
-    const Graph graph = graph_of(3, {{1, 0, label({kShape.held_bit(kLeft)}, Equal::No)},
-                                     {0, 2, label({kShape.held_bit(kRight)}, equal)}});
+    const Graph graph = graph_of(
+        3, {{1, 0, {kShape.held_bit(kLeft)}, Equal::No}, {0, 2, {kShape.held_bit(kRight)}, equal}});
     return Holds(graph, {kLeft, kRight}).longest();
   };
   CHECK(longest(Equal::No) == 1u);
@@ -81,23 +77,25 @@ TEST_CASE("equal leaves: one that is held goes on to be held where its equal is"
 }
 
 TEST_CASE("equal leaves: the one that is held for ever is not the one that works for ever") {
-  const Graph graph = graph_of(
-      1, {{0, 0,
-           label({kShape.worked_bit(kLeft), kShape.ended_bit(kRight), kShape.held_bit(kRight)},
-                 Equal::Yes)}});
+  const Graph graph =
+      graph_of(1, {{0,
+                    0,
+                    {kShape.worked_bit(kLeft), kShape.ended_bit(kRight), kShape.held_bit(kRight)},
+                    Equal::Yes}});
   CHECK_FALSE(Holds(graph, {kLeft, kRight}).longest());
   CHECK_FALSE(Holds(graph, {kLeft, kRight}).for_ever());
 }
 
 TEST_CASE("equal leaves: a starving one is shown in the places that it has in turn") {
-  const Graph graph = graph_of(2, {{0, 1, label({kShape.held_bit(kRight)}, Equal::Yes)},
-                                   {1, 0, label({kShape.held_bit(kLeft)}, Equal::Yes)}});
+  const Graph graph = graph_of(2, {{0, 1, {kShape.held_bit(kRight)}, Equal::Yes},
+                                   {1, 0, {kShape.held_bit(kLeft)}, Equal::Yes}});
   const auto endless = Holds(graph, {kLeft, kRight}).for_ever();
   REQUIRE(endless);
   std::size_t place = endless->child;
   for (const CycleStep& it : endless->cycle) {
     for (const Swap& swap : it.swaps) place = swap(place);
     CHECK(graph.has(it.edge, kShape.held_bit(place)));
+    place = it.after(place);
   }
   CHECK(place == endless->child);
 }

@@ -122,7 +122,7 @@ void check_same(const SearchResult& a, const SearchResult& b) {
   CHECK(a.graph.ends == b.graph.ends);
   REQUIRE(a.graph.labels.size() == b.graph.labels.size());
   for (std::uint32_t i = 0; i < a.graph.labels.size(); ++i) {
-    CHECK(std::ranges::equal(a.graph.labels[i], b.graph.labels[i]));
+    CHECK(std::ranges::equal(a.graph.labels.packed(i), b.graph.labels.packed(i)));
   }
   for (StateId i = 1; i < a.before.size(); ++i) {
     if (a.before[i].from != b.before[i].from ||
@@ -194,14 +194,16 @@ TEST_CASE(
   std::size_t lost = 0;
   for (const unsigned bits : {8u, 10u, 12u, 16u, 32u, 64u}) {
     INFO(bits);
-    const Verified hashes(absolute(4, 4), kFull, {.hash_bits = bits, .symmetry = false});
-    const double states_found = static_cast<double>(hashes.found.store.size());
-    const double loss = hashes.found.store.probability_of_loss();
+    // Without a verdict: two states that are one can make a cycle that no run has, and it says so.
+    const SearchResult hashes = search(states.tree, states.models, {}, from_seconds(0.1),
+                                       {.hash_bits = bits, .symmetry = false});
+    const double states_found = static_cast<double>(hashes.store.size());
+    const double loss = hashes.store.probability_of_loss();
     CHECK(loss == Approx(std::min(1.0, states_found * (states_found + 1) / 2 / std::exp2(bits))));
-    CHECK_FALSE(hashes.found.is_proof());
-    if (hashes.found.store.size() == states.found.store.size()) continue;
+    CHECK_FALSE(hashes.is_proof());
+    if (hashes.store.size() == states.found.store.size()) continue;
     ++lost;
-    CHECK(hashes.found.store.size() < states.found.store.size());
+    CHECK(hashes.store.size() < states.found.store.size());
     CHECK(loss > 0.5);
   }
   CHECK(lost >= 3);
