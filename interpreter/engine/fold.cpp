@@ -45,6 +45,7 @@ void Ticker::forget_below_ended() {
 // a few nodes. An entry that may be removed begins at 0 again, so the counts of those are kept as
 // they are.
 void Ticker::fold_entries() {
+  if (board_.entries.empty()) return parameters_.reset();
   std::vector<std::pair<std::uint32_t, std::uint32_t>> kept;  // slots, and their counts
   for (const Node& node : tree_.nodes) {
     if (!node.kind->counts_writes) continue;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "engine/blackboard.h"
 #include "engine/node_context.h"
@@ -36,7 +37,7 @@ class LeafCall {
   LeafCall& operator=(const LeafCall&) = delete;
 
   // A call with nothing around it but a mark and its time, for a leaf while can_be_in_line. After
-  // an exception, which is a fault then, it returns -1.
+  // an exception, which is a fault then, it returns -1, if anything.
   template <PluginFunction kFunction, class Result>
   [[gnu::always_inline]] static Result in_line(NodeContext& context, NodeIndex node,
                                                const LeafSlot& leaf, Result (*function)(void*)) {
@@ -76,9 +77,14 @@ inline Result LeafCall::marked(NodeContext& context, CallMark& mark, NodeIndex n
                                std::uint32_t place, const LeafSlot& leaf,
                                Result (*function)(void*)) {
   mark.enter_alone(*leaf.site, kFunction);
-  Result result = -1;
+  constexpr bool kHasResult = !std::is_void_v<Result>;
+  [[maybe_unused]] std::conditional_t<kHasResult, Result, int> result = -1;
   try {
-    result = function(leaf.self);
+    if constexpr (kHasResult) {
+      result = function(leaf.self);
+    } else {
+      function(leaf.self);
+    }
   } catch (...) {
     note_exception(context, node);
   }
@@ -86,7 +92,7 @@ inline Result LeafCall::marked(NodeContext& context, CallMark& mark, NodeIndex n
   if constexpr (kTimed) {
     context.timer_->note(place, node, kFunction, mark);
   }
-  return result;
+  if constexpr (kHasResult) return result;
 }
 
 }  // namespace lockstep::host

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "blackboard/entry.h"
 #include "engine/call_mark.h"
@@ -59,10 +60,10 @@ ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Write write
       facts_(models.facts.size(), FactState::Unknown),
       asked_(models.facts.size()),
       progress_(tree.leaves.size()),
-      marks_(tree.leaves.size()),
-      is_touched_(tree.leaves.size()) {
+      marks_(tree.leaves.size()) {
   static const CallSite kSite;
   for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
+    rules_.emplace_back(models.leaves[i]);
     selves_.push_back({this, i});
     if (models.leaves[i].drifts()) drifting_.push_back(i);
   }
@@ -89,17 +90,16 @@ void ModelLeaves::restore_again(const std::vector<LeafState>& states,
 }
 
 void ModelLeaves::restore_progress(std::uint32_t leaf) {
-  progress_[leaf] = models_.leaves[leaf].levels[states_[leaf].level];
+  progress_[leaf] = rules_[leaf].levels[states_[leaf].level];
   slots_[leaf].error = nullptr;
 }
 
 void ModelLeaves::begin_tick() {
   for (const std::uint32_t leaf : touched_) {
     LeafMark& mark = marks_[leaf];
-    mark.ticked = mark.ended = mark.faulted = mark.drifted = false;
+    mark.touched = mark.ticked = mark.ended = mark.faulted = mark.drifted = false;
     mark.result = Status::Idle;
-    mark.written.clear();
-    is_touched_[leaf] = false;
+    if (!mark.written.empty()) mark.written.clear();
   }
   touched_.clear();
   std::fill(asked_.begin(), asked_.end(), false);
@@ -112,7 +112,7 @@ void ModelLeaves::begin_tick() {
     const std::int64_t last = std::clamp<std::int64_t>(now + model.most_drift, 0, top);
     const std::int64_t to =
         first + answers_.choose(static_cast<std::uint32_t>(last - first + 1), leaf);
-    set_level(leaf, to);
+    set_level(leaf, static_cast<std::int32_t>(to));
     mark(leaf).drifted = true;
     mark(leaf).held_progress = progress_[leaf];
   }
@@ -143,17 +143,12 @@ void ModelLeaves::tell_broken(std::uint32_t leaf, const char* what) {
   }
 }
 
-void ModelLeaves::set_level(std::uint32_t leaf, std::int64_t level) {
-  states_[leaf].level = static_cast<std::uint16_t>(level);
-  progress_[leaf] = models_.leaves[leaf].levels[static_cast<std::size_t>(level)];
-}
-
 void ModelLeaves::start(std::uint32_t leaf) {
   is(leaf, states_[leaf].phase == Phase::Idle, "start, and it runs");
   states_[leaf] = {.phase = Phase::Running};
   mark(leaf);
   set_level(leaf, 0);
-  if (models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
+  if (!rules_[leaf].is_plain && models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
 }
 
 bool ModelLeaves::ask(std::uint32_t fact) {
@@ -178,45 +173,66 @@ void ModelLeaves::write(std::uint32_t leaf) {
   }
 }
 
+ModelLeaves::Rule::Rule(const LeafModel& model)
+    : levels(model.levels.data()),
+      can_run(model.can_run),
+      must_finish(model.finishes_full && model.has_progress),
+      has_one_level(model.levels.size() == 1),
+      is_plain(model.fact == kNoFact && model.sets.empty() && model.outputs.empty()),
+      results(model.results) {
+  const auto count = [](std::int64_t ticks) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ticks, 0, kMost));
+  };
+  // No leaf has as many levels.
+  const auto step = [](std::int64_t levels_of_step) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(levels_of_step, -100'000, 100'000));
+  };
+  least_ticks = count(model.least_ticks);
+  most_ticks = count(model.most_ticks);
+  least_step = step(model.least_step);
+  most_step = step(model.most_step);
+  const auto all = static_cast<std::int32_t>(model.levels.size());
+  goal = model.levels.back() >= 1 ? all - 1 : all;
+  last = model.finishes_full ? std::max(goal - 1, 0) : all - 1;
+}
+
 Status ModelLeaves::tick(std::uint32_t leaf) {
   LeafState& state = states_[leaf];
+  const Rule& rule = rules_[leaf];
   const LeafModel& model = models_.leaves[leaf];
   LeafMark& mark = this->mark(leaf);
   is(leaf, state.phase == Phase::Running, "tick without start, or while it is held");
   mark.ticked = true;
   ++state.ticks;
-  if (model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
+  if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
 
-  const auto levels = static_cast<std::int64_t>(model.levels.size());
-  // Where it is done: at 1, which is behind all levels unless the last one is 1.
-  const std::int64_t goal = model.levels.back() >= 1 ? levels - 1 : levels;
-  const std::int64_t last = model.finishes_full ? std::max<std::int64_t>(goal - 1, 0) : levels - 1;
-  const std::int64_t from = std::clamp<std::int64_t>(state.level + model.least_step, 0, last);
-  const std::int64_t to = std::clamp<std::int64_t>(state.level + model.most_step, from, last);
-  const bool reaches = state.level + model.most_step >= goal;
-  const bool must_reach = state.level + model.least_step >= goal;
-  const bool may_end = state.ticks >= model.least_ticks;
-  const bool may_succeed = may_end && (!model.finishes_full || !model.has_progress || reaches);
-  const bool is_last = model.most_ticks != 0 && state.ticks >= model.most_ticks;
-  bool may_run = model.can_run && !is_last;
-  if (may_run && model.finishes_full && model.has_progress && must_reach && may_end &&
-      model.results.success) {
-    may_run = false;
+  const std::int32_t level = state.level;
+  std::int32_t from = 0, to = 0;
+  if (!rule.has_one_level) {
+    from = std::clamp(level + rule.least_step, 0, rule.last);
+    to = std::clamp(level + rule.most_step, from, rule.last);
   }
+  const bool may_end = state.ticks >= rule.least_ticks;
+  const bool may_succeed = !rule.must_finish || level + rule.most_step >= rule.goal;
+  const bool must_succeed =
+      rule.must_finish && level + rule.least_step >= rule.goal && may_end && rule.results.success;
+  const bool is_last = rule.most_ticks != 0 && state.ticks >= rule.most_ticks;
+  bool may_run = rule.can_run && !is_last && !must_succeed;
 
   Status ends[3];
   std::uint32_t count = 0;
   bool may_fault = false;
-  if (model.fact != kNoFact && may_end) {
+  if (may_end && !rule.is_plain && model.fact != kNoFact) {
     ends[count++] = ask(model.fact) ? Status::Success : Status::Failure;
   } else if (may_end) {
-    if (may_succeed && model.results.success) ends[count++] = Status::Success;
-    if (model.results.failure) ends[count++] = Status::Failure;
-    if (model.results.skipped) ends[count++] = Status::Skipped;
-    may_fault = model.results.fault;
+    if (may_succeed && rule.results.success) ends[count++] = Status::Success;
+    if (rule.results.failure) ends[count++] = Status::Failure;
+    if (rule.results.skipped) ends[count++] = Status::Skipped;
+    may_fault = rule.results.fault;
   }
   if (count == 0 && !may_fault && !may_run) {
-    model.can_run ? void(may_run = true) : void(ends[count++] = Status::Success);
+    rule.can_run ? void(may_run = true) : void(ends[count++] = Status::Success);
   }
   const auto running = may_run ? static_cast<std::uint32_t>(to - from + 1) : 0;
   std::uint32_t choice = answers_.choose(count + (may_fault ? 1 : 0) + running, leaf);
@@ -224,13 +240,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
     mark.result = ends[choice];
     mark.ended = true;
     mark.progress = 0;
-    if (mark.result == Status::Success) {
-      for (const LeafModel::Set& set : model.sets) {
-        facts_[set.fact] = set.value ? FactState::True : FactState::False;
-        asked_[set.fact] = true;
-      }
-      if (model.writes == Writes::OnSuccess && !model.outputs.empty()) write(leaf);
-    }
+    if (!rule.is_plain && mark.result == Status::Success) succeed(leaf);
     state = {};
     return mark.result;
   }
@@ -241,10 +251,19 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
     slots_[leaf].error = "fails as a program, which the leaf file allows";
     return Status::Failure;
   }
-  set_level(leaf, from + choice);
+  set_level(leaf, from + static_cast<std::int32_t>(choice));
   mark.result = Status::Running;
   mark.progress = progress_[leaf];
   return Status::Running;
+}
+
+void ModelLeaves::succeed(std::uint32_t leaf) {
+  const LeafModel& model = models_.leaves[leaf];
+  for (const LeafModel::Set& set : model.sets) {
+    facts_[set.fact] = set.value ? FactState::True : FactState::False;
+    asked_[set.fact] = true;
+  }
+  if (model.writes == Writes::OnSuccess && !model.outputs.empty()) write(leaf);
 }
 
 void ModelLeaves::halt(std::uint32_t leaf) {

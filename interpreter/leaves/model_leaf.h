@@ -30,12 +30,13 @@ enum class FactState : std::uint8_t { False, True, Unknown };
 
 // A mark says what a leaf did in a tick of the tree.
 struct LeafMark {
+  bool touched = false;  // it has a mark at all
   bool ticked = false, ended = false;
-  Status result = Status::Idle;  // of its tick
   bool faulted = false;
-  double progress = 0;                      // after it
   bool drifted = false;                     // it was held before it, and may drift
-  double held_progress = 0;                 // then
+  Status result = Status::Idle;             // of its tick
+  double progress = 0;                      // after it
+  double held_progress = 0;                 // before it, if it has drifted
   std::vector<std::uint32_t> written = {};  // of each output, in order: which value
 };
 
@@ -85,11 +86,12 @@ class ModelLeaves {
   friend struct Functions;
 
   LeafMark& mark(std::uint32_t leaf) {
-    if (!is_touched_[leaf]) {
-      is_touched_[leaf] = true;
+    LeafMark& mark = marks_[leaf];
+    if (!mark.touched) {
+      mark.touched = true;
       touched_.push_back(leaf);
     }
-    return marks_[leaf];
+    return mark;
   }
   void restore_progress(std::uint32_t leaf);
   bool is(std::uint32_t leaf, bool expected, const char* what) {
@@ -100,12 +102,33 @@ class ModelLeaves {
   void tell_broken(std::uint32_t leaf, const char* what);
   bool ask(std::uint32_t fact);
   void write(std::uint32_t leaf);
-  void set_level(std::uint32_t leaf, std::int64_t level);
+  void succeed(std::uint32_t leaf);
+  void set_level(std::uint32_t leaf, std::int32_t level) {
+    states_[leaf].level = static_cast<std::uint16_t>(level);
+    progress_[leaf] = rules_[leaf].levels[level];
+  }
+
+  // All that most ticks read of a model.
+  struct Rule {
+    explicit Rule(const LeafModel& model);
+
+    const double* levels;
+    std::uint32_t least_ticks, most_ticks;
+    std::int32_t least_step, most_step;
+    std::int32_t goal;  // the level at which it is done: at 1, or behind all of them
+    std::int32_t last;  // to which it may come
+    bool can_run;
+    bool must_finish;    // it succeeds only at its goal
+    bool has_one_level;  // it stays at it
+    bool is_plain;       // it has to do with no fact and no entry
+    ResultSet results;
+  };
 
   const Tree& tree_;
   const LeafModels& models_;
   const Write write_;
   Answers& answers_;
+  std::vector<Rule> rules_;
   std::vector<Self> selves_;
   std::vector<LeafSlot> slots_;
   std::vector<LeafState> states_;
@@ -114,7 +137,6 @@ class ModelLeaves {
   std::vector<double> progress_;  // of each leaf
   std::vector<LeafMark> marks_;
   std::vector<std::uint32_t> touched_;
-  std::vector<bool> is_touched_;
   std::vector<std::uint32_t> drifting_;  // the leaves that may
   std::string broken_;
 };

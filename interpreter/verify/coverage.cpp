@@ -1,6 +1,7 @@
 #include "verify/coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/synchronized.h"
@@ -15,11 +16,22 @@ SearchCoverage::SearchCoverage(const Tree& tree) : tree_(tree), seen_(tree.nodes
 }
 
 void SearchCoverage::after_tick(Ticker& ticker) {
+  // Of all nodes in each tick, so it has no branches.
+  static constexpr auto kBits = [] {
+    std::array<std::uint8_t, kWithheld> bits{};
+    for (unsigned status = 0; status < bits.size(); ++status) {
+      bits[status] = static_cast<std::uint8_t>(kTicked | 1u << status);
+    }
+    return bits;
+  }();
   const RunState& state = ticker.run_state();
-  for (NodeIndex node = 0; node < seen_.size(); ++node) {
-    if (state.last_tick[node] != state.tick_number) continue;
-    seen_[node] |= static_cast<std::uint8_t>(
-        kTicked | 1u << static_cast<unsigned>(status_of(state.activity[node])));
+  const Activity* const activity = state.activity.data();
+  const std::uint32_t* const last_tick = state.last_tick.data();
+  std::uint8_t* const seen = seen_.data();
+  for (std::size_t node = 0; node < seen_.size(); ++node) {
+    const bool is_ticked = last_tick[node] == state.tick_number;
+    const std::uint8_t bits = kBits[static_cast<std::uint8_t>(activity[node]) % kWithheld];
+    seen[node] = static_cast<std::uint8_t>(seen[node] | (is_ticked ? bits : 0u));
   }
   for (const NodeIndex node : timeouts_) {
     const bool fired = ticker.ticked(node) && ticker.status(node) == Status::Failure &&

@@ -102,6 +102,9 @@ Status out(NodeContext& context, NodeIndex self) {
   leaf.started = false;
   if (std::exchange(leaf.unreset, false)) {
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
+  } else if (LeafCall::can_be_in_line(context) && context.end_of(self) == self + 1) {
+    LeafCall::in_line<PluginFunction::Start>(context, self, leaf, leaf.type->start);
+    if (leaf.error != nullptr) take_error(context, self, leaf);
   } else {
     call<PluginFunction::Start>(context, self, leaf.type->start);
   }
