@@ -3,27 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/diagnostics.h"
+#include "core/shell_word.h"
 #include "core/wording.h"
 #include "terminal/style.h"
 
 namespace lockstep::host {
 namespace {
-
-// For a shell.
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      out += "'\\''";
-    } else {
-      out += c;
-    }
-  }
-  return out + "'";
-}
 
 std::string sign_of(std::string_view outcome, bool color) {
   if (outcome == "passed") return styled("ok  ", Style::Good, color);

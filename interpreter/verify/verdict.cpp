@@ -229,21 +229,44 @@ class VerdictMaker {
     tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
       const std::size_t round = (finding.run.size() - *finding.repeats) / 2;
       if (tick < *finding.repeats || tick >= *finding.repeats + round) return;
-      const auto marks = stepper.leaves().marks();
-      for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
-        const std::string path = tree_.path(tree_.leaves[leaf].node);
-        std::string event;
-        if (marks[leaf].ended && !marks[leaf].ticked) {
-          event = path + " is halted";
-        } else if (marks[leaf].ended) {
-          event = path + ' ' + std::string(row_of(marks[leaf].result).counted);
-        }
-        if (!event.empty() && std::ranges::find(events, event) == events.end()) {
-          events.push_back(event);
-        }
+      for (std::string& event : ends_in(stepper)) {
+        if (std::ranges::find(events, event) == events.end()) events.push_back(std::move(event));
       }
     });
     return events.empty() ? who_is_ticked(finding) : "in it: " + some_of(events);
+  }
+
+  // The leaves that a tick ends, and how.
+  std::vector<std::string> ends_in(const Stepper& stepper) const {
+    std::vector<std::string> events;
+    const auto marks = stepper.leaves().marks();
+    for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
+      if (!marks[leaf].ended) continue;
+      const std::string path = tree_.path(tree_.leaves[leaf].node);
+      events.push_back(has_ended(marks[leaf].result)
+                           ? path + ' ' + std::string(row_of(marks[leaf].result).counted)
+                           : path + " is halted");
+    }
+    return events;
+  }
+
+  // What a run does in its last tick, in which something is found.
+  std::string last_tick_of(const Finding& finding) {
+    std::vector<std::string> events;
+    bool is_end = false;
+    tracer_.play(finding.run, [&](Stepper& stepper, Status status, std::size_t tick) {
+      if (tick + 1 != finding.run.size()) return;
+      events = ends_in(stepper);
+      const auto marks = stepper.leaves().marks();
+      for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
+        if (!marks[leaf].ticked || marks[leaf].ended) continue;
+        events.push_back(tree_.path(tree_.leaves[leaf].node) + " runs");
+      }
+      is_end = status != Status::Running;
+    });
+    if (events.empty()) events.emplace_back("no leaf gets ticks");
+    return fmt::format("in tick {}{}: {}", finding.run.size() - 1,
+                       is_end ? ", in which the run ends" : "", some_of(events));
   }
 
   // --- who is held -------------------------------------------------------------------------------
@@ -357,6 +380,7 @@ class VerdictMaker {
       finding.run = run_to(it->second);
       finding.message = fmt::format("property '{}' is violated after {}", name,
                                     counted(it->second.ticks, "tick"));
+      finding.more.push_back(last_tick_of(finding));
     } else {
       const std::size_t bit = graph_.shape.owed_bit(number);
       const auto cycle =
@@ -419,10 +443,18 @@ class VerdictMaker {
   // --- the words of a verdict --------------------------------------------------------------------
 
   void accept() {
-    for (Finding& finding : verdict_.findings) {
-      for (const AcceptedFinding& it : models_.accepted) {
-        if (matches(it.finding, finding.name)) finding.accepted = it.because;
+    std::vector<std::string> unused;
+    for (const AcceptedFinding& it : models_.accepted) {
+      bool is_used = false;
+      for (Finding& finding : verdict_.findings) {
+        if (!matches(it.finding, finding.name)) continue;
+        finding.accepted = it.because;
+        is_used = true;
       }
+      if (!is_used) unused.push_back(it.finding);
+    }
+    if (found_.is_complete() && !unused.empty()) {
+      say("accepted, but not found", some_of(unused));
     }
   }
 

@@ -64,6 +64,7 @@ TEST_CASE("what verify has found comes again with run --leaves") {
     REQUIRE(verified.code == 1);
     CHECK(contains(verified.out, "finding " + std::string(it.finding)));
     const std::string stem = out + "/t." + std::string(it.finding), again = directory.path("again");
+    CHECK(contains(verified.out, "\n       lockstep replay " + stem + ".jsonl\n"));
     const Outcome played = run_lockstep({"run", tree, "--leaves", stem + ".leaves", "--clock",
                                          "virtual", "--view", "none", "--record", again});
     INFO(played.err);

@@ -48,6 +48,9 @@ constexpr Row kRows[] = {
    R"(<leaf path="*" finish="full" result="success" step="1"/>)",
    "trap, never-ticked/Main/Parallel/Sequence/SyncProgress#2"},
   {"a leaf is begun again and again", "Repeat(a)", R"(<leaf path="*" result="success"/>)", "trap"},
+  {"also one that works for a while before it ends", "Repeat(a)", R"(<leaf path="*" ticks="3"/>)", "cycle"},
+  {"but not one that need not end before the tree does", "Sequence[memory=true](a b)",
+   R"(<leaf path="*" ticks="3..inf"/>)", ""},
   {"a condition that comes and goes halts an action again and again",
    "Fallback(Sequence(c? a) b)", R"(<leaf path="*" result="success"/><leaf path="*/c"
     result="success;failure"/><leaf path="*/b" ticks="2..inf"/>)", "cycle"},
@@ -122,6 +125,25 @@ TEST_CASE("a Timeout that never fires, and one that may") {
   constexpr auto kTree = "Timeout[seconds=.5](a)";
   CHECK(Verified(kTree, R"(<leaf path="*" ticks="1..3"/>)").said(kName) != "");
   CHECK(Verified(kTree).said(kName).empty());
+}
+
+TEST_CASE("a property that is violated comes with what the last tick of its run does") {
+  const Verified it("Parallel(a b)",
+                    R"(<leaf path="*/a" ticks="5"/><leaf path="*/b" result="failure" ticks="2"/>)",
+                    {}, 10, {"never a.running", "a.running leads to a.success"});
+  REQUIRE(it.verdict.findings.size() == 2);
+  CHECK(it.verdict.findings[0].more.at(0) ==
+        "in tick 0: Test/Parallel/a runs, Test/Parallel/b runs");
+  CHECK(it.verdict.findings[1].more.at(0) ==
+        "in tick 1, in which the run ends: Test/Parallel/a is halted, Test/Parallel/b failed");
+}
+
+TEST_CASE("what is accepted and not found is said") {
+  constexpr auto kAccepts = R"(<accept finding="never-ticked/*/a" because="not yet"/>
+                               <accept finding="trap" because="it was there"/>)";
+  const Verified it("Fallback(AlwaysSuccess a)", kAccepts);
+  CHECK_FALSE(it.verdict.has_findings());
+  CHECK(it.said("accepted, but not found") == "trap");
 }
 
 TEST_CASE("a finding may be accepted, with a reason") {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "core/shell_word.h"
 #include "core/wording.h"
 #include "json/json.h"
 
@@ -66,6 +68,7 @@ std::string to_text(const VerifyReport& report) {
   if (report.found.end == SearchEnd::Values) {
     text += fmt::format("  the entry '{}' takes more and more values\n", report.found.note);
   }
+  bool says_how = true;  // to look at the first recording
   for (const Finding& it : report.verdict.findings) {
     text += fmt::format("{} {}: {}\n", it.accepted.empty() ? "finding" : "accepted", it.name,
                         it.message);
@@ -73,6 +76,9 @@ std::string to_text(const VerifyReport& report) {
     if (!it.accepted.empty()) text += fmt::format("    accepted: {}\n", it.accepted);
     if (const auto files = report.files.find(it.name); files != report.files.end()) {
       text += fmt::format("    -> {}, {}\n", files->second.recording, files->second.leaves);
+      if (std::exchange(says_how, false)) {
+        text += fmt::format("       lockstep replay {}\n", shell_word(files->second.recording));
+      }
     }
   }
   text += fmt::format("  assumed: {}\n", joined(report.verdict.assumed, "; "));
