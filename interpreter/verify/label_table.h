@@ -32,7 +32,8 @@ struct Label {
 struct LabelShape {
   std::size_t leaves = 0, held = 0, properties = 0;
   std::vector<std::uint32_t> moving_leaves = {}, moving_held = {};  // those that may move
-  // Of each leaf that may move: its place among the children that are held, or kNowhere.
+  // Of each leaf that may move: the place among the children that are held of the one that moves
+  // with it, which may be the leaf itself; or kNowhere.
   std::vector<MovingPlace> held_of_leaf = {};
 
   std::size_t worked_bit(std::size_t leaf) const { return leaf; }

@@ -40,7 +40,8 @@ Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t prope
     shape_.moving_held.push_back(i);
   }
   for (const std::uint32_t leaf : shape_.moving_leaves) {
-    const std::uint32_t held = number_of_held_[tree.leaves[leaf].node];
+    const auto moved = symmetry.moved_with(tree.leaves[leaf].node);
+    const std::uint32_t held = moved ? number_of_held_[moved->child] : kStays;
     shape_.held_of_leaf.push_back(held == kStays ? LabelShape::kNowhere
                                                  : static_cast<MovingPlace>(held));
   }

@@ -45,7 +45,7 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   parameters_.give(from_);
   leaves_.restore(from_leaves_, from_facts_);
   time_ = is_first ? Nanoseconds(0) : period_;
-  answers_.begin_state(from_.run.activity, from_leaves_);
+  answers_.begin_state(from_.run, from_leaves_);
 }
 
 Status Stepper::tick() {

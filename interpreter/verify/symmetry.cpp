@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "engine/nodes/kinds.h"
+#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {
@@ -105,9 +106,22 @@ class EqualChildrenFinder {
   EqualChildren class_of(const std::vector<NodeIndex>& children) const {
     const EqualChildren::Place first = place_of(children.front());
     const EqualChildren::Place last = place_of(tree_.nodes[children.front()].end);
-    EqualChildren found{last.node - first.node, last.leaf - first.leaf, last.word - first.word, {}};
+    EqualChildren found{.nodes = last.node - first.node,
+                        .leaves = last.leaf - first.leaf,
+                        .words = last.word - first.word,
+                        .places = {}};
     for (const NodeIndex child : children) found.places.push_back(place_of(child));
+    found.has_one_leaf = found.leaves == 1 && !has_own_order(children.front());
     return found;
+  }
+
+  // Somebody in it is held by somebody in it, or keeps the number of a child.
+  bool has_own_order(NodeIndex child) const {
+    for (NodeIndex node = child; node < tree_.nodes[child].end; ++node) {
+      const Node& it = tree_.nodes[node];
+      if (compares_progress(synchronization(it)) || keeps_child(it.kind)) return true;
+    }
+    return false;
   }
 
   EqualChildren::Place place_of(NodeIndex node) const {
@@ -170,7 +184,8 @@ class EqualChildrenFinder {
 Symmetry::Symmetry(const Tree& tree, const LeafModels& models, const std::vector<bool>& watched)
     : classes_(EqualChildrenFinder(tree, models, watched).find()),
       first_like_(tree.nodes.size()),
-      moves_(tree.nodes.size()) {
+      moves_(tree.nodes.size()),
+      moved_(tree.nodes.size()) {
   std::iota(first_like_.begin(), first_like_.end(), NodeIndex{0});
   std::size_t moving = 0;
   for (const EqualChildren& it : classes_) moving += it.places.size() * it.nodes;
@@ -179,6 +194,7 @@ Symmetry::Symmetry(const Tree& tree, const LeafModels& models, const std::vector
     for (const EqualChildren::Place& place : it.places) {
       for (NodeIndex i = 0; i < it.nodes; ++i) {
         moves_[place.node + i] = true;
+        if (it.has_one_leaf) moved_[place.node + i] = {place.node, it.nodes};
         first_like_[place.node + i] = first_like_[it.places.front().node + i];
       }
     }

@@ -8,25 +8,31 @@ namespace lockstep::host {
 TickAnswers::TickAnswers(const Symmetry& symmetry, std::size_t askers)
     : equal_before_(askers, kNone), first_(askers, kNone) {
   for (const EqualChildren& it : symmetry.classes()) {
-    for (std::size_t i = 1; i < it.places.size() && it.are_leaves(); ++i) {
-      neighbors_.push_back({it.places[i - 1], it.places[i]});
+    for (std::size_t i = 1; i < it.places.size() && it.has_one_leaf; ++i) {
+      neighbors_.push_back({it.places[i - 1], it.places[i], it.nodes, it.words});
     }
   }
 }
 
 // States have equal children in one order, so those in equal states are beside each other.
-void TickAnswers::begin_state(const std::vector<Activity>& activity,
-                              const std::vector<LeafState>& leaves) {
+void TickAnswers::begin_state(const RunState& run, const std::vector<LeafState>& leaves) {
   forget_first();
   digits_.clear();
   at_ = 0;
   is_given_ = has_equal_ = false;
-  for (const auto& [before, here] : neighbors_) {
-    const bool is_equal =
-        activity[before.node] == activity[here.node] && leaves[before.leaf] == leaves[here.leaf];
-    equal_before_[here.leaf] = is_equal ? before.leaf : kNone;
+  for (const Neighbors& it : neighbors_) {
+    const bool is_equal = leaves[it.before.leaf] == leaves[it.here.leaf] && are_equal(it, run);
+    equal_before_[it.here.leaf] = is_equal ? it.before.leaf : kNone;
     has_equal_ |= is_equal;
   }
+}
+
+bool TickAnswers::are_equal(const Neighbors& it, const RunState& run) {
+  const auto equal = [](const auto& all, std::size_t one, std::size_t other, std::size_t count) {
+    return std::equal(all.begin() + one, all.begin() + one + count, all.begin() + other);
+  };
+  return equal(run.activity, it.before.node, it.here.node, it.nodes) &&
+         equal(run.bytes, it.before.word, it.here.word, it.words);
 }
 
 void TickAnswers::give(std::span<const LeafAnswer> answers) {

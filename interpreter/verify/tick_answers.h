@@ -1,6 +1,6 @@
 // The answers of the leaves in one tick: all combinations in turn, or given ones. Equal leaves in
-// equal states give theirs in rising order: with two answers exchanged, the tick leads to the same
-// state, but for who is who.
+// equal states give theirs in rising order, also where each is in an equal child that has no other:
+// with two answers exchanged, the tick leads to the same state, but for who is who.
 #pragma once
 
 #include <limits>
@@ -25,7 +25,7 @@ class TickAnswers final : public Answers {
   TickAnswers(const Symmetry& symmetry, std::size_t askers);
 
   // All combinations of a state, from the first on.
-  void begin_state(const std::vector<Activity>& activity, const std::vector<LeafState>& leaves);
+  void begin_state(const RunState& run, const std::vector<LeafState>& leaves);
   // In place of combinations: those of each asker in their order.
   void give(std::span<const LeafAnswer> answers);
 
@@ -51,8 +51,10 @@ class TickAnswers final : public Answers {
 
   struct Neighbors {
     EqualChildren::Place before, here;
+    std::uint32_t nodes, words;  // of each
   };
-  std::vector<Neighbors> neighbors_;         // equal leaves
+  static bool are_equal(const Neighbors& it, const RunState& run);
+  std::vector<Neighbors> neighbors_;         // equal children with one leaf each
   std::vector<std::uint32_t> equal_before_;  // of each asker
   std::vector<std::uint32_t> first_;         // of each asker: its first answer in this tick
   bool has_equal_ = false;

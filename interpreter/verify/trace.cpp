@@ -135,9 +135,13 @@ void Tracer::go(Trail& trail, const GuidedStep& step) {
 
 void Tracer::swap(std::vector<NodeIndex>& nodes, const Swap& swap) const {
   if (swap.one == swap.other) return;
-  const auto& leaves = found_.graph.shape.moving_leaves;
-  std::swap(nodes[tree_.leaves[leaves[swap.one]].node],
-            nodes[tree_.leaves[leaves[swap.other]].node]);
+  const auto child_of = [&](std::size_t leaf) {
+    const std::uint32_t number = found_.graph.shape.moving_leaves[leaf];
+    return found_.symmetry.moved_with(tree_.leaves[number].node).value();
+  };
+  const Symmetry::Moved one = child_of(swap.one), other = child_of(swap.other);
+  std::swap_ranges(nodes.begin() + one.child, nodes.begin() + one.child + one.nodes,
+                   nodes.begin() + other.child);
 }
 
 // The answers of the leaves that have the places of these. Those of facts are the same.

@@ -76,6 +76,25 @@ TEST_CASE("equal leaves: one that is held goes on to be held where its equal is"
   CHECK(longest(Equal::Yes) == 2u);
 }
 
+TEST_CASE("equal leaves: of two that are held, the one counts that is held again") {
+  const Graph graph =
+      graph_of(3, {{0, 1, {kShape.held_bit(kLeft), kShape.held_bit(kRight)}, Equal::Yes},
+                   {1, 2, {kShape.held_bit(kRight)}, Equal::No}});
+  CHECK(Holds(graph, {kLeft, kRight}).longest() == 2u);
+}
+
+TEST_CASE("equal leaves: where a run says so, they change places behind a tick") {
+  const Verified it("Parallel(a b)", R"(<leaf path="*" ticks="2"/>)");
+  Tracer tracer(it.tree, it.models, {}, from_seconds(0.1), it.found);
+  Trail trail = tracer.begin();
+  const std::vector<GuidedStep> steps{
+      {.step = it.found.before[1], .swaps = {}, .after = {kLeft, kRight}}};
+  tracer.go(trail, steps);
+  const NodeIndex left = it.tree.leaves[0].node, right = it.tree.leaves[1].node;
+  CHECK(trail.nodes[left] == right);
+  CHECK(trail.nodes[right] == left);
+}
+
 TEST_CASE("equal leaves: the one that is held for ever is not the one that works for ever") {
   const Graph graph =
       graph_of(1, {{0,
