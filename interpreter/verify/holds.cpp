@@ -157,8 +157,12 @@ Holds::Holds(const Graph& graph, std::vector<std::size_t> children)
 
 EdgeFilter Holds::filter() const {
   if (children_.size() > 1) return [](const Edge&) { return true; };
-  const std::size_t bit = graph_.shape.held_bit(children_.front());
-  return [this, bit](const Edge& edge) { return graph_.has(edge, bit); };
+  // Many edges have one label.
+  std::vector<bool> holds;
+  for (std::uint32_t label = 0; label < graph_.labels.size(); ++label) {
+    holds.push_back(graph_.labels.has(label, graph_.shape.held_bit(children_.front())));
+  }
+  return [holds = std::move(holds)](const Edge& edge) { return bool(holds[edge.label]); };
 }
 
 std::optional<std::uint64_t> Holds::longest() const {

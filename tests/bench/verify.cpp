@@ -1,4 +1,5 @@
-// What a search over all behaviors costs: ticks in a second, and bytes for each state.
+// What a search over all behaviors costs, and what is asked after it: ticks in a second, and bytes
+// for each state.
 #include <benchmark/benchmark.h>
 
 #include "bench/bench_tree.h"
@@ -61,7 +62,9 @@ void verify(benchmark::State& state, const std::string& text, const std::string&
   state.counters["nodes"] = static_cast<double>(tree.nodes.size());
   state.counters["states"] = states;
   state.counters["bytes/state"] = memory / states;
+  state.counters["ticks"] = ticks / static_cast<double>(state.iterations());
   state.counters["ticks/s"] = ticks / seconds;
+  state.counters["search_ms"] = seconds * 1000 / static_cast<double>(state.iterations());
 }
 
 void add(const char* name, const std::string& tree, const std::string& rows = "",
@@ -84,6 +87,12 @@ int main(int argc, char** argv) {
   add("equal/4/8", absolute(4, 8), kFull, Equal::Once);
   add("equal/6/4", absolute(6, 4), kFull, Equal::Once);
   add("equal/6/8", absolute(6, 8), kFull, Equal::Once);
+  add("equal/40/1", absolute(40, 1), "", Equal::Once);
+  add("retry/12",
+      "<Parallel>" +
+          BenchTree::repeated("<Retry attempts=\"2\">" + std::string(kLeaf) + "</Retry>", 12) +
+          "</Parallel>",
+      "", Equal::Once);
   add("sequence/400",
       "<Sequence memory=\"true\">" + BenchTree::repeated(kLeaf, 400) + "</Sequence>");
   benchmark::Initialize(&argc, argv);
