@@ -207,6 +207,44 @@ TEST_CASE("run checks the properties of the tree file, and then those of the opt
   CHECK(contains(outcome.err, ": base.held at most 1 tick\n"));  // on one line
 }
 
+TEST_CASE("log check without options checks the properties of the tree file") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", tree_with("<property name=\"slow\">never base.progress &gt; 0.5</property>"
+                            "<property name=\"ends\">sometimes pull.success</property>"));
+  const std::string recording = directory.path("run.jsonl");
+  REQUIRE(run_tree(tree, {"--record", recording}).code == 0);
+  const Outcome declared = check(recording, {});
+  CHECK(declared.code == 1);
+  CHECK(declared.out ==
+        "verdict   tick  property\n"
+        "violated  2     slow: never base.progress > 0.5\n"
+        "holds     9     ends: sometimes pull.success\n");
+
+  const Outcome given = check(recording, {"sometimes arm.success"});  // this alone
+  CHECK(given.code == 0);
+  CHECK_FALSE(contains(given.out, "slow"));
+  const Outcome both = check(recording, {"sometimes arm.success"}, {"--tree-file", tree});
+  CHECK(both.code == 1);
+  CHECK((contains(both.out, "slow") && contains(both.out, "arm.success")));
+}
+
+TEST_CASE("log check says where the properties of a tree file do not come from, or do not fit") {
+  const TemporaryDirectory directory;
+  const std::string recording = record(directory);
+  const Outcome none = check(recording, {});
+  CHECK(none.code == 2);
+  CHECK(contains(none.err, "tree.xml has no <property>: give a --property"));
+  const std::string other = directory.file(
+      "other.xml",
+      "<root lockstep=\"1\"><property name=\"it\">sometimes new.success</property>"
+      "<BehaviorTree ID=\"Main\"><AlwaysSuccess name=\"new\"/></BehaviorTree></root>");
+  const Outcome changed = check(recording, {}, {"--tree-file", other});
+  CHECK(changed.code == 2);
+  CHECK(contains(changed.err, "property 'it' of "));
+  CHECK(contains(changed.err, "does not fit the recording"));
+}
+
 TEST_CASE("check reports a mistake in a property at its place in the tree file") {
   const TemporaryDirectory directory;
   const auto refused = [&](const std::string& property) {

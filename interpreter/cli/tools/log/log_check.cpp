@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <iterator>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -23,6 +26,10 @@ struct LogCheckOptions {
   bool json = false;
   std::string leaves, tree;  // files; "": none, and as the recording names it
   PluginOptions plugins;
+
+  bool has_properties() const { return !properties.texts.empty() || !properties.files.empty(); }
+  // Those of the tree file are checked, too.
+  bool asks_tree() const { return leaves.empty() && (!tree.empty() || !has_properties()); }
 };
 
 int exit_code_of(const PropertyChecks& checks) {
@@ -30,10 +37,40 @@ int exit_code_of(const PropertyChecks& checks) {
   return checks.any(PropertyVerdict::Open) ? kExitLimit : kExitSuccess;
 }
 
+// Adds those of the tree file, for the nodes that the recording has. The exit code of a failure,
+// which is reported.
+int add_declared(const LogCheckOptions& options, const RecordingHeader& header,
+                 const PropertyNames& names, std::vector<Property>& properties) {
+  const RecordedTree recorded(header, options.tree, options.plugins);
+  if (recorded.code() != kExitSuccess) return recorded.code();
+  for (const Property& it : recorded.properties()) {
+    auto again = Property::parse(it.text(), names);
+    if (!again) {
+      print_error(fmt::format("property '{}' of {} does not fit the recording: {}", it.name(),
+                              recorded.file(), again.error().message),
+                  "the tree file was changed since: give the one that was run, as --tree-file");
+      return kExitUsage;
+    }
+    again->set_name(it.name());
+    properties.push_back(std::move(*again));
+  }
+  if (!recorded.properties().empty() || options.has_properties()) return kExitSuccess;
+  return usage_error(recorded.file() +
+                     " has no <property>: give a --property, a --property-file or --leaves");
+}
+
 int check_properties(const LogCheckOptions& options) {
   return with_recording(options.file, [&](RecordingReader& reader) -> int {
-    auto properties = read_properties(options.properties, property_names(reader.header()));
+    const PropertyNames names = property_names(reader.header());
+    std::vector<Property> declared;
+    if (options.asks_tree()) {
+      const int code = add_declared(options, reader.header(), names, declared);
+      if (code != kExitSuccess) return code;
+    }
+    auto properties = read_properties(options.properties, names);
     if (!properties) return kExitUsage;
+    properties->insert(properties->begin(), std::make_move_iterator(declared.begin()),
+                       std::make_move_iterator(declared.end()));
     PropertyChecks checks(std::move(*properties));
     check_recording(reader, checks);
     if (!reader.error().empty()) return report_end(reader);
@@ -71,15 +108,9 @@ int check_leaves(const LogCheckOptions& options) {
 }
 
 int check(const LogCheckOptions& options) {
-  const bool has_properties =
-      !options.properties.texts.empty() || !options.properties.files.empty();
-  if (!has_properties && options.leaves.empty()) {
-    return usage_error("log check needs a --property, a --property-file or --leaves");
-  }
   const int leaves = options.leaves.empty() ? kExitSuccess : check_leaves(options);
-  if (!has_properties) return leaves;
-  const int properties = check_properties(options);
-  return first_failure(leaves, properties);
+  if (!options.has_properties() && !options.asks_tree()) return leaves;
+  return first_failure(leaves, check_properties(options));
 }
 
 }  // namespace
@@ -93,17 +124,21 @@ LogSubcommand define_log_check(CLI::App& log) {
                   "A leaf file: where did leaves what it does not allow?")
       ->type_name("FILE");
   app->add_option("--tree-file", options->tree,
-                  "With --leaves: the tree file (default: as the recording names it)")
+                  "The tree file, whose properties are checked too, or whose leaves are with "
+                  "--leaves (default: "
+                  "as the recording names it)")
       ->type_name("TREE.xml");
   add_plugin_options(*app, options->plugins);
   app->add_flag("--json", options->json, "Print one line of JSON");
   app->footer(
+      "Without a property and --leaves it checks the properties of the tree file.\n"
       "holds: whatever comes; violated; open: the run was ended before it was decided.\n"
       "Exit code: 0 all hold, 1 one is violated, or a leaf broke the leaf file, 2 usage or a "
       "mistake in a property, 3 not a\n"
       "recording or a damaged one, 124 none is violated, one is open.\n"
       "\n"
-      "Example:\n"
+      "Examples:\n"
+      "  lockstep log check run.jsonl\n"
       "  lockstep log check run.jsonl --property 'never base.progress > 0.9 and arm.idle'");
   return {app, [options] { return check(*options); }};
 }

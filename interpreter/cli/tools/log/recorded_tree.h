@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "leaves/play/played_leaves.h"
 #include "loading/load.h"
@@ -21,6 +22,7 @@ class RecordedTree {
   int code() const { return code_; }
   const std::string& file() const { return file_; }
   const Tree& tree() const { return runnable_.tree; }
+  const std::vector<Property>& properties() const { return runnable_.properties; }
 
  private:
   std::string file_;
