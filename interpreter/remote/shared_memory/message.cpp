@@ -30,7 +30,7 @@ class ValueWriter {
  public:
   explicit ValueWriter(MessageWriter& message) : message_(message) {}
 
-  void operator()(NoValue) const {}
+  void operator()(const NoValue& /*none*/) const {}
   void operator()(const Object& object) const {
     const PackedObject& packed = PackedType::get(object);
     message_.put_text(packed.bytes);
