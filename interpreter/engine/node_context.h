@@ -41,7 +41,7 @@ class NodeContext : public RunView {
   // Ticks a node and keeps its status. At most once per node and tick. After a fault it does
   // nothing, and the control nodes that are in their tick do not complete: all of them stay
   // Running.
-  Status tick(NodeIndex node) {
+  [[gnu::always_inline]] Status tick(NodeIndex node) {
     if (state_.interrupted) [[unlikely]] {
       if (const auto status = tick_interrupted(node)) return *status;
     }
