@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "engine/call_mark.h"
 #include "support/tree_text.h"
 
 namespace lockstep::host::test {
@@ -21,6 +22,8 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
   return scripts;
 }
 
+const CallSite kSite;  // of each leaf
+
 }  // namespace
 
 ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPolicy policy,
@@ -30,7 +33,7 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
 ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy)
     : tree_(std::move(tree)),
       board_(tree_),
-      slots_(tree_.leaves.size()),
+      slots_(tree_.leaves.size(), {.site = &kSite}),
       plugin_nodes_(tree_, board_, slots_),
       ticker_(tree_, slots_, board_, policy) {
   plugin_nodes_.set_node_context(ticker_);
