@@ -71,6 +71,16 @@ class Slow : public lockstep::Action<> {
   static inline std::string told;
 };
 
+// Does what the test says in its tick, and runs.
+class DoesAsTold : public lockstep::Action<> {
+ public:
+  Status tick() override {
+    in_tick();
+    return Status::Running;
+  }
+  static inline std::function<void()> in_tick;
+};
+
 // Is done when a thread of its own has said so.
 class Asks : public lockstep::Action<> {
  public:
@@ -1023,6 +1033,28 @@ TEST_CASE("a node that is watched is told before and after each tick, and gets a
   CHECK(seen.calls.empty());
   const std::uint32_t none = 99;
   CHECK_FALSE(lockstep_run_watch_nodes(run.get(), &none, 1, watch, &seen));
+}
+
+TEST_CASE("a node that a leaf before it begins to watch is told of in the same tick") {
+  runtime::Project project;
+  project.add_leaf<DoesAsTold>("DoesAsTold", "Does what the test says");
+  project.add_leaf<Step>("Step", "Makes a step");
+  project.load_text(tree("<Parallel><DoesAsTold/><Step step=\"0.1\"/></Parallel>"));
+  std::vector<std::uint32_t> told;  // outlives the run, whose end halts the node
+  runtime::Run run(project);
+  const auto watch = [](void* user, lockstep_run*, std::uint32_t node, std::int32_t,
+                        lockstep_status) -> lockstep_status {
+    static_cast<std::vector<std::uint32_t>*>(user)->push_back(node);
+    return LOCKSTEP_IDLE;
+  };
+  DoesAsTold::in_tick = [] {};
+  CHECK(run.tick(0) == Status::Running);
+  const std::uint32_t step = 2;
+  DoesAsTold::in_tick = [&] {
+    if (told.empty()) REQUIRE(lockstep_run_watch_nodes(run.get(), &step, 1, watch, &told));
+  };
+  CHECK(run.tick(0.01) == Status::Running);
+  CHECK(told == std::vector<std::uint32_t>{2, 2});  // before its tick and after it
 }
 
 TEST_CASE("a run of a program is recorded and has a monitor, from its first tick to its end") {
