@@ -117,9 +117,11 @@ class Adviser {
 
   void add_restart(std::uint32_t node, std::uint32_t earlier, std::uint32_t later) const {
     const NodeType& type = *at(node).type;
+    const bool is_namesake = at(earlier).name == at(later).name;
     add(earlier, Severity::Warning,
-        fmt::format("'{}' is started again in every tick in which '{}' runs",
-                    brief(at(earlier).name), brief(at(later).name)),
+        fmt::format("'{}' is started again in every tick in which {}'{}'{} runs",
+                    brief(at(earlier).name), is_namesake ? "the " : "", brief(at(later).name),
+                    is_namesake ? " after it" : ""),
         fmt::format("without memory a {} begins with its first child in every tick: give it "
                     "memory=\"true\", or {}",
                     type.id,
