@@ -316,6 +316,29 @@ TEST_CASE("layers: a room of the page imports only from those below it") {
   CHECK(seen > 100);
 }
 
+// Also not for types alone: who reads one of them has to read all.
+TEST_CASE("layers: no files of the page import each other in a circle") {
+  const auto root = fs::path(LOCKSTEP_SOURCE_DIR) / "interpreter/web/page/src";
+  std::map<std::string, std::set<std::string>> open;  // what a file imports, not left out yet
+  for (const auto& file : fs::recursive_directory_iterator(root)) {
+    if (!file.path().extension().string().starts_with(".ts")) continue;
+    auto& imported = open[fs::path(file.path()).replace_extension().generic_string()];
+    for (const Include& import : imports_of(file.path())) {
+      if (!import.path.starts_with(".")) continue;
+      imported.insert(
+          (file.path().parent_path() / import.path).lexically_normal().generic_string());
+    }
+  }
+  CHECK(open.size() > 40);
+  // Those that import nothing that is left are left out, until none is.
+  const auto is_free = [&](const auto& file) {
+    return std::ranges::none_of(file.second, [&](const auto& it) { return open.contains(it); });
+  };
+  while (std::erase_if(open, is_free) != 0) {
+  }
+  for (const auto& [file, imported] : open) FAIL_CHECK(file << " is in a circle, or imports one");
+}
+
 // What is known of a tree after the check is data. So whatever a document is written in, the check
 // is the last stage that reads it, and a place needs only its text.
 TEST_CASE("layers: no stage after the check sees a document") {

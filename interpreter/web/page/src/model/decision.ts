@@ -16,8 +16,7 @@ function decidingChild(moment: Moment, children: number[], status: number): numb
     (children.length === 1 || moment.status[child] === status));
 }
 
-// From the root down, after the last tick of a run whose root has completed; else empty.
-export function decidingPath(moment: Moment): Deciding[] {
+function pathOf(moment: Moment): Deciding[] {
   if (!moment.isLastOfEnded() || moment.run.end?.reason !== "completed") return [];
   const path: Deciding[] = [];
   for (let node: number | undefined = 0; node !== undefined; ) {
@@ -26,6 +25,15 @@ export function decidingPath(moment: Moment): Deciding[] {
     path.push({ node, children: children.length, agreeing: children.filter((child) => moment.status[child] === status).length });
     node = decidingChild(moment, children, status);
   }
+  return path;
+}
+
+const known = new WeakMap<Moment, Deciding[]>();
+
+// From the root down, after the last tick of a run whose root has completed; else empty.
+export function decidingPath(moment: Moment): Deciding[] {
+  let path = known.get(moment);
+  if (!path) known.set(moment, (path = pathOf(moment)));
   return path;
 }
 

@@ -1,7 +1,7 @@
 // The events of a run, in order: for the log, and for going from one event to the next.
 import { HELD, STATUS } from "./columns";
-import { FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, type End, type LogLine } from "./recording";
-import type { Run } from "./run";
+import { FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, type End, type Header, type LogLine } from "./recording";
+import type { Shape } from "./shape";
 
 export type EventKind =
   | "start" | "success" | "failure" | "skipped" | "halt" | "hold" | "release"
@@ -21,63 +21,74 @@ const LANDMARKS: ReadonlySet<EventKind> = new Set<EventKind>([
   "success", "failure", "hold", "release", "fault", "entry", "overrun", "lost", "end",
 ]);
 
+// The run of the events, at the moment in which they happen.
+interface Happening {
+  readonly header: Header | null;
+  readonly shape: Shape;
+  readonly ticks: number[]; // of each line
+  readonly times: number[];
+  readonly last: number; // line
+  readonly period: number;
+}
+
 export class Events {
   all: RunEvent[] = [];
 
-  private add(run: Run, kind: EventKind, node: number | null, text: string, level?: string) {
-    this.all.push({ line: Math.max(0, run.last), kind, node, text, level });
+  constructor(private readonly run: Happening) {}
+
+  private add(kind: EventKind, node: number | null, text: string, level?: string) {
+    this.all.push({ line: Math.max(0, this.run.last), kind, node, text, level });
   }
 
-  change(run: Run, node: number, before: number, after: number) {
+  change(node: number, before: number, after: number) {
     const was = before & STATUS, is = after & STATUS;
-    if (is !== was) this.statusChange(run, node, was, is);
+    if (is !== was) this.statusChange(node, was, is);
     if ((before & HELD) === (after & HELD)) return;
-    if (run.shape.nodes[node].keeper === null) return; // what is below a held node
-    if (after & HELD) this.add(run, "hold", node, "is held");
-    else if (is === RUNNING) this.add(run, "release", node, "goes on");
+    if (this.run.shape.nodes[node].keeper === null) return; // what is below a held node
+    if (after & HELD) this.add("hold", node, "is held");
+    else if (is === RUNNING) this.add("release", node, "goes on");
   }
 
-  private statusChange(run: Run, node: number, was: number, is: number) {
-    const { children, isGroup } = run.shape.nodes[node];
+  private statusChange(node: number, was: number, is: number) {
+    const { children, isGroup } = this.run.shape.nodes[node];
     if (isGroup) return; // it runs as long as it has members
     const isLeaf = children.length === 0;
-    if (is === SUCCESS) this.add(run, "success", node, "succeeded");
-    else if (is === FAILURE) this.add(run, "failure", node, "failed");
-    else if (is === SKIPPED) this.add(run, "skipped", node, "skipped");
-    else if (is === RUNNING && isLeaf) this.add(run, "start", node, "started");
-    else if (is === IDLE && was === RUNNING && isLeaf) this.add(run, "halt", node, "halted");
+    if (is === SUCCESS) this.add("success", node, "succeeded");
+    else if (is === FAILURE) this.add("failure", node, "failed");
+    else if (is === SKIPPED) this.add("skipped", node, "skipped");
+    else if (is === RUNNING && isLeaf) this.add("start", node, "started");
+    else if (is === IDLE && was === RUNNING && isLeaf) this.add("halt", node, "halted");
   }
 
-  fault(run: Run, node: number, message: string) {
-    this.add(run, "fault", node, message);
+  fault(node: number, message: string) {
+    this.add("fault", node, message);
   }
-  entry(run: Run, entry: number, value: string | null) {
-    const key = run.header?.entries?.[entry]?.key ?? "?";
-    this.add(run, "entry", null, `${key} = ${value ?? "(too long to be recorded)"}`);
+  entry(entry: number, value: string | null) {
+    const key = this.run.header?.entries?.[entry]?.key ?? "?";
+    this.add("entry", null, `${key} = ${value ?? "(too long to be recorded)"}`);
   }
-  log(run: Run, [who, level, text]: LogLine) {
-    this.add(run, "log", null, `${who}: ${text}`, level);
+  log([who, level, text]: LogLine) {
+    this.add("log", null, `${who}: ${text}`, level);
   }
-  lost(run: Run, ticks: number, from: number) {
-    this.add(run, "lost", null, `${ticks} ticks from tick ${from} on are not here: there was no room for them`);
+  lost(ticks: number, from: number) {
+    this.add("lost", null, `${ticks} ticks from tick ${from} on are not here: there was no room for them`);
   }
-  missed(run: Run, what: string) {
-    this.add(run, "lost", null, `this page was too slow to be told of each: ${what}`);
+  missed(what: string) {
+    this.add("lost", null, `this page was too slow to be told of each: ${what}`);
   }
-  end(run: Run, end: End) {
+  end(end: End) {
     const fault = end.fault ? `: ${end.fault}` : "";
-    this.add(run, "end", null, `run ended: ${end.result} (${end.reason}) after ${end.ticks} ticks${fault}`);
-    for (const note of end.notes ?? []) this.add(run, "end", null, note);
+    this.add("end", null, `run ended: ${end.result} (${end.reason}) after ${end.ticks} ticks${fault}`);
+    for (const note of end.notes ?? []) this.add("end", null, note);
   }
 
   // On the wall clock a tick begins later than the rate says if the one before it took too long.
-  lateness(run: Run) {
-    const line = run.last;
-    if (run.header?.clock !== "wall" || line < 1 || run.ticks[line] !== run.ticks[line - 1] + 1) return;
-    const took = run.times[line] - run.times[line - 1];
-    if (took < 1.5 * run.period) return;
-    this.add(run, "overrun", null,
-      `tick ${run.ticks[line - 1]} overran: the next began ${ms(took)} after it, not ${ms(run.period)}`);
+  lateness() {
+    const { header, last, ticks, times, period } = this.run;
+    if (header?.clock !== "wall" || last < 1 || ticks[last] !== ticks[last - 1] + 1) return;
+    const took = times[last] - times[last - 1];
+    if (took < 1.5 * period) return;
+    this.add("overrun", null, `tick ${ticks[last - 1]} overran: the next began ${ms(took)} after it, not ${ms(period)}`);
   }
 
   // The place of the first event after `line`.

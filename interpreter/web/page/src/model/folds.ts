@@ -1,5 +1,6 @@
 // Which subtrees are open: what the user has chosen, else what runs in a large tree, or has decided its result, all of a
 // small one.
+import { decidingPath } from "./decision";
 import type { Moment } from "./moment";
 import { RUNNING } from "./recording";
 
@@ -10,7 +11,7 @@ export type Folds = ReadonlyMap<number, boolean>; // node: open?
 export function isOpen(moment: Moment, folds: Folds, onlyActive: boolean, node: number): boolean {
   const chosen = folds.get(node);
   if (chosen !== undefined) return chosen;
-  if (onlyActive && moment.decision.some((it) => it.node === node)) return true;
+  if (onlyActive && decidingPath(moment).some((it) => it.node === node)) return true;
   return !onlyActive || moment.status[node] === RUNNING || moment.run.shape.nodes[node].parent === null;
 }
 

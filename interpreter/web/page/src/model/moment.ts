@@ -1,6 +1,5 @@
 // The state of all nodes in one line of the run.
 import { HELD, STATUS, TICKED } from "./columns";
-import { decidingPath, type Deciding } from "./decision";
 import { IDLE, SUCCESS } from "./recording";
 import type { Run } from "./run";
 
@@ -17,7 +16,6 @@ export class Moment {
   readonly ticked: Uint8Array;
   readonly held: Uint8Array;
 
-  private decided: Deciding[] | null = null;
   readonly spans = new Map<number, Span>(); // of synchronized nodes, once they were asked for
 
   constructor(readonly run: Run, readonly line: number) {
@@ -55,10 +53,6 @@ export class Moment {
     if (!round || number === 0) return "";
     const of = round.of.at(this.line) ?? 0;
     return of === 0 ? `${number}` : `${number}/${of}`;
-  }
-  // At the end: from the root to the node that decided.
-  get decision(): Deciding[] {
-    return (this.decided ??= decidingPath(this));
   }
   isLastOfEnded(): boolean {
     return this.run.end !== null && this.line === this.run.last;

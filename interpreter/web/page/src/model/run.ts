@@ -23,7 +23,7 @@ export class Run {
   limits = new Map<number, NumberColumn>();
   rounds = new Map<number, { number: NumberColumn; of: NumberColumn }>();
   entries: EntryChange[][] = [];
-  events = new Events();
+  events = new Events(this);
   private counts = new Counts(0, 0);
   end: End | null = null;
   lost = 0; // ticks without a line
@@ -73,7 +73,7 @@ export class Run {
     if (this.lines > 0 && line.tick <= this.ticks[this.last]) return; // known already
     this.ticks.push(line.tick);
     this.times.push(line.time_s);
-    this.events.lateness(this);
+    this.events.lateness();
     this.joins = line.full === true && this.lines === 1 && line.tick > 0;
     if (line.full) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
@@ -89,12 +89,12 @@ export class Run {
       round.of.push(this.last, of);
     }
     for (const [node, message] of line.faults ?? []) {
-      this.events.fault(this, node, message);
+      this.events.fault(node, message);
       this.counts.fault(node);
     }
     for (const [entry, value] of line.entries ?? []) this.changeEntry(entry, value);
     const missing = this.counts.correct(line);
-    if (missing && !this.joins) this.events.missed(this, missing);
+    if (missing && !this.joins) this.events.missed(missing);
     this.takeLogs(line.logs);
     this.thinner.events(this.events);
   }
@@ -115,7 +115,7 @@ export class Run {
     changes.push(this.last, progress, flags);
     if (before !== flags) this.counts.change(node, flags, this.ticks[this.last]);
     this.thinner.count(this.nodes);
-    if (!this.joins) this.events.change(this, node, before, flags);
+    if (!this.joins) this.events.change(node, before, flags);
   }
 
   private changeEntry(entry: number, value: string | null) {
@@ -124,23 +124,23 @@ export class Run {
     if (before && before.value === value) return;
     history.push({ line: this.last, value });
     this.counts.entry(entry);
-    if (!this.joins) this.events.entry(this, entry, value);
+    if (!this.joins) this.events.entry(entry, value);
   }
 
   private takeLogs(logs: LogLine[] | undefined) {
-    for (const log of logs ?? []) this.events.log(this, log);
+    for (const log of logs ?? []) this.events.log(log);
   }
 
   private lose(lost: { ticks: number; from: number }) {
     this.lost += lost.ticks;
-    this.events.lost(this, lost.ticks, lost.from);
+    this.events.lost(lost.ticks, lost.from);
   }
 
   private finish(end: End) {
     if (this.end) return;
     this.end = end;
     this.takeLogs(end.logs);
-    this.events.end(this, end);
+    this.events.end(end);
   }
 
   // The counts of the whole run, also of ticks that this page has no line of.

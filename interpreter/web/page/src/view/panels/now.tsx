@@ -1,4 +1,5 @@
 // In words: what runs, who waits for whom, what happened last.
+import { decidingPath } from "../../model/decision";
 import type { EventKind, RunEvent } from "../../model/events";
 import type { Moment } from "../../model/moment";
 import { RUNNING, STATUSES, SUCCESS } from "../../model/recording";
@@ -87,7 +88,7 @@ function Waiting({ store, moment, node }: { store: Store; moment: Moment; node: 
 
 // Why it was no success. Of a deep tree the last nodes: above them a result is mostly passed on.
 function Decision({ store, moment }: { store: Store; moment: Moment }) {
-  const { decision } = moment;
+  const decision = decidingPath(moment);
   if (decision.length === 0 || moment.status[0] === SUCCESS) return null;
   const { nodes } = moment.run.shape;
   const shown = decision.slice(-MOST);

@@ -1,5 +1,6 @@
 // The tree: only what is in sight is drawn; what runs, or has decided, is kept in sight.
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import { decidingPath } from "../../model/decision";
 import { isOpen, shownNodes } from "../../model/folds";
 import type { Moment } from "../../model/moment";
 import { RUNNING } from "../../model/recording";
@@ -30,7 +31,7 @@ function innermostRunning(moment: Moment, layout: Layout): number[] {
 
 // At the end: the node that decided.
 function followedNodes(moment: Moment, layout: Layout): number[] {
-  const { decision } = moment;
+  const decision = decidingPath(moment);
   return decision.length > 0 ? [decision[decision.length - 1].node] : innermostRunning(moment, layout);
 }
 
