@@ -191,11 +191,14 @@ struct Definition {
     return keep != nullptr && *keep == Value(true);
   }
 
-  // A control node with memory="false".
+  // A control node with memory="false". To one of a plugin, and so to a stand-in, a port of that
+  // name means something else.
   bool forgets(const DefinitionNode& node) const {
-    if (node.type->category != NodeCategory::Control) return false;
-    for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
-      if (node.type->parameters[i].name == "memory") return *constant(node, i) == Value(false);
+    const NodeType& type = *node.type;
+    const bool is_built_in = type.plugin.empty() && type.mock == nullptr;
+    if (!is_built_in || type.category != NodeCategory::Control) return false;
+    for (std::size_t i = 0; i < type.parameters.size(); ++i) {
+      if (type.parameters[i].name == "memory") return *constant(node, i) == Value(false);
     }
     return false;
   }

@@ -340,6 +340,15 @@ std::string tower(int levels, int width, std::string_view ground = "<AlwaysSucce
   return xml + "</root>";
 }
 
+TEST_CASE("a port of a plugin's node may have the name of a parameter of a built-in node") {
+  constexpr ClaimRow kRows[] = {
+      {"memory, of a control node",
+       R"(<Sequence memory="true"><Script code="m := true"/>
+       <Either memory="{m}"><Say text="first"/><Say text="second"/></Either></Sequence>)",
+       "success 1: second"}};
+  check_runs(kRows);
+}
+
 TEST_CASE("limits are named, and nothing breaks at them") {
   CHECK(Pipeline(nested(999)).run() == "failure 1");  // with the leaf: 1000
   CHECK(Pipeline(nested(1000)).told() ==

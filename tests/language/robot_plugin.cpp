@@ -262,6 +262,16 @@ class IsOpen : public lockstep::Condition<IsOpenPorts> {
   bool check() override { return open.get(); }
 };
 
+// Ports with the names of parameters of built-in nodes.
+struct EitherPorts : lockstep::Ports {
+  Input<bool> memory{this, "memory", "false", "whether it is the second child"};
+};
+
+class Either : public lockstep::Control<EitherPorts> {
+ public:
+  Status tick() override { return tick_child(memory.get() ? 1 : 0); }
+};
+
 }  // namespace
 
 LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what it does",
@@ -278,7 +288,8 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                       lockstep::leaf<Plan>("Plan", "Plans a route."),
                       lockstep::leaf<Follow>("Follow", "Follows a route."),
                       lockstep::leaf<Measure>("Measure", "Shows a number."),
-                      lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."));
+                      lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."),
+                      lockstep::leaf<Either>("Either", "One of its children."));
 
 namespace lockstep::host::test {
 
