@@ -384,6 +384,22 @@ TEST_CASE("layers: nobody asks in which language a tree is written") {
   }
 }
 
+// What matters of a kind is in its row (core/node_type.h), so that a new one needs no other file.
+TEST_CASE("layers: nobody asks a node kind for its name") {
+  const Names know{"interpreter/dialect/", "interpreter/authoring/convert/"};
+  const std::regex asks{R"re(\b(id|kind) [!=]= ")re"};
+  for (const std::string& file : sources_under("interpreter")) {
+    if (starts_with_any(file, know)) continue;
+    std::ifstream stream(fs::path(LOCKSTEP_SOURCE_DIR) / file);
+    int number = 0;
+    for (std::string line; std::getline(stream, line);) {
+      ++number;
+      INFO(file << ':' << number << ": " << line);
+      CHECK(!std::regex_search(line, asks));
+    }
+  }
+}
+
 // A node kind has its run as a NodeContext. The ticker is for the owner of the run.
 TEST_CASE("layers: a node kind does not see the ticker") {
   for (const std::string& file : sources_under("interpreter/engine/nodes")) {

@@ -32,6 +32,17 @@ constexpr bool compares_progress(Synchronization synchronization) {
          synchronization == Synchronization::Relative;
 }
 
+// What a tick of a node does that has completed once in the run.
+enum class Again : std::uint8_t { Acts, ReturnsResult, IsSkipped };
+
+// How the progress of a node consists of that of its children, where their places decide it.
+enum class ProgressShare : std::uint8_t {
+  NotByPlace,
+  EachChild,    // the children come one after the other, each with the same share
+  EachButLast,  // likewise, but the last child is apart: while it runs, its progress is the node's
+  EachRound,    // the child begins as often as the first parameter says, each with the same share
+};
+
 // Numbers that a parameter may take. The ends belong to it unless said otherwise.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -107,13 +118,15 @@ struct NodeType {
   std::optional<RuleBreak> (*rule)(const ParameterValues& parameters) = nullptr;
   // The rest is for advice and drawings.
   std::string_view sign = {};  // as papers draw it, "→"; "": by its id
+  Again again = Again::Acts;
+  ProgressShare progress_share = ProgressShare::NotByPlace;
   Synchronization synchronization = Synchronization::None;
   Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result
   bool latches = false;                 // a parallel: a child with actions is not ticked again
   bool begins_child_once = false;       // no child begins again, but for the first of several
   bool inverts = false;                 // a decorator that swaps Success and Failure
   bool can_run = false;                 // Running is its own result, not only a child's
-  bool acts_again = true;               // false: after it completed once, a tick of it does nothing
+  bool limits_time = false;             // a decorator that fails, and halts its child, after a time
   bool real_time = false;               // an action that continues to work between ticks
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
   bool opens_entries = false;           // a leaf that uses entries that no port names

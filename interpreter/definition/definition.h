@@ -9,6 +9,7 @@
 #include <limits>
 #include <list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -135,6 +136,14 @@ struct Definition {
       return port.entry != Port::kNone || port.value != Port::kNone;
     }
     return false;
+  }
+
+  // How often such a node begins its child (ProgressShare::EachRound); at most 0: for ever;
+  // nothing: an entry says it.
+  std::optional<std::int64_t> rounds(const DefinitionNode& node) const {
+    if (!has(node, node.type->parameters[0].name)) return 0;
+    const Value* times = constant(node, std::size_t{0});
+    return times == nullptr ? std::nullopt : std::optional(std::get<std::int64_t>(*times));
   }
 
   // A group whose members use its resources.

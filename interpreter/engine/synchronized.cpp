@@ -39,6 +39,12 @@ double snapshot_of(NodeContext& context, NodeIndex child) {
   return context.progress(child);
 }
 
+const Member* barrier_member(const Tree& tree, NodeIndex node) {
+  const auto it = std::ranges::find(tree.members, node, &Member::node);
+  if (it == tree.members.end()) return nullptr;
+  return compares_progress(synchronization(tree.nodes[it->group])) ? &*it : nullptr;
+}
+
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Absolute)) return std::nullopt;
   const Cell& cell = cell_of(tree, node, "barriers");

@@ -94,6 +94,8 @@ inline bool is_left_out(double progress) {
   return std::isnan(progress);
 }
 
+// The membership of a node that holds its child at a barrier beside the tree; null: it does not.
+const Member* barrier_member(const Tree& tree, NodeIndex node);
 // Whether a member of a barrier beside the tree is held in this tick.
 bool is_held_at_barrier(NodeContext& context, NodeIndex member);
 

@@ -43,34 +43,40 @@ class CutFinder {
     pull(above, parent, node, here.values);
     const Synchronization way = synchronization(tree_.nodes[parent]);
     if (compares_progress(way) && !tree_.is_group(parent)) add_own(parent, here);
-    if (const Member* member = member_of(parent)) add_own(member->group, here);
+    if (const Member* member = barrier_member(tree_, parent)) add_own(member->group, here);
     add_compared(node);
     if (here.values.size() > kMostCuts) here.is_unknown = true;
     if (here.is_unknown) here.values.clear();
   }
 
   void pull(const Cuts& above, NodeIndex parent, NodeIndex node, std::vector<double>& values) {
-    const NodeType& type = *tree_.labels[parent].type;
     const auto children = static_cast<double>(tree_.nodes[parent].children);
     const double place = place_of(parent, node);
-    if (type.id == "TryCatch") {  // its last child is apart
-      const bool is_last = place + 1 == children;
-      for (const double cut : above.values) {
-        add(values, is_last ? cut : (children - 1) * cut - place);
-      }
-      return;
+    switch (tree_.labels[parent].type->progress_share) {
+      case ProgressShare::EachChild:
+        return add_part(above, children, place, values);
+      case ProgressShare::EachButLast:
+        if (place + 1 < children) return add_part(above, children - 1, place, values);
+        break;
+      case ProgressShare::EachRound:
+        return add_rounds(above, parent, node, values);
+      case ProgressShare::NotByPlace:
+        break;
     }
-    if (type.category == NodeCategory::Control && type.goes_on_after == Status::Success) {
-      for (const double cut : above.values) add(values, children * cut - place);
-      return;
-    }
-    const double rounds = rounds_of(parent);
-    if (rounds < 0 && !above.values.empty()) cuts_[node].is_unknown = true;
+    add_part(above, 1, 0, values);
+  }
+
+  static void add_part(const Cuts& above, double parts, double part, std::vector<double>& values) {
+    for (const double cut : above.values) add(values, parts * cut - part);
+  }
+
+  void add_rounds(const Cuts& above, NodeIndex repeat, NodeIndex node,
+                  std::vector<double>& values) {
+    if (is_bound(repeat) && !above.values.empty()) cuts_[node].is_unknown = true;
+    const double rounds = is_bound(repeat) ? 1 : rounds_of(repeat);
     for (const double cut : above.values) {
-      for (double round = 0; round < std::max(rounds, 1.0); ++round) {
-        add(values, std::max(rounds, 1.0) * cut - round);
-        if (values.size() > kMostCuts) return;
-      }
+      const double done = rounds * cut;
+      add(values, done - (std::ceil(done - kRounding) - 1));
     }
   }
 
@@ -87,23 +93,12 @@ class CutFinder {
     return place;
   }
 
-  // The rounds that a node counts in its progress; 1: it counts none; negative: not known.
-  double rounds_of(NodeIndex node) const {
-    const NodeType& type = *tree_.labels[node].type;
-    if (type.id != "Repeat") return 1;
-    if (is_bound(node)) return -1;
-    const double times = static_cast<double>(tree_.cells[tree_.nodes[node].params].integer);
-    return times > 0 ? times : 1;
+  double rounds_of(NodeIndex repeat) const {
+    return std::max(1.0, static_cast<double>(tree_.cells[tree_.nodes[repeat].params].integer));
   }
 
   bool is_bound(NodeIndex node) const {
     return std::ranges::find(tree_.bound, node, &BoundNode::node) != tree_.bound.end();
-  }
-
-  const Member* member_of(NodeIndex node) const {
-    const auto it = std::ranges::find(tree_.members, node, &Member::node);
-    if (it == tree_.members.end()) return nullptr;
-    return compares_progress(synchronization(tree_.nodes[it->group])) ? &*it : nullptr;
   }
 
   void add_own(NodeIndex node, Cuts& cuts) {

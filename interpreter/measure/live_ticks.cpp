@@ -25,8 +25,8 @@ MeasuredTree measured_tree(const Tree& tree) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const NodeLabel& label = tree.labels[node];
     measured.paths.push_back(tree.path(node));
-    measured.nodes.push_back(
-        {label.parent, synchronization(tree.nodes[node]), label.type->id, children_of(tree, node)});
+    measured.nodes.push_back({label.parent, synchronization(tree.nodes[node]), label.type->latches,
+                              children_of(tree, node)});
   }
   for (const Slot& slot : tree.slots) {
     measured.entries.push_back(slot.name);

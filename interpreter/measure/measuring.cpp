@@ -9,7 +9,7 @@ namespace lockstep::host {
 namespace {
 
 bool is_parallel(const MeasuredTree::Node& node) {
-  return compares_progress(node.synchronization) || node.kind == "Parallel";
+  return compares_progress(node.synchronization) || node.latches;
 }
 
 // The name of a type whose values are numbers; those of a bool are 1 and 0.

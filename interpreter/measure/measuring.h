@@ -20,7 +20,7 @@ struct MeasuredTree {
   struct Node {
     NodeIndex parent = 0;  // the root is its own, and so is a group
     Synchronization synchronization = Synchronization::None;
-    std::string_view kind = {};
+    bool latches = false;                  // a parallel, also one that compares no progress
     std::vector<NodeIndex> children = {};  // that it holds or ticks
   };
   std::string id;

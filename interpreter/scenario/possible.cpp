@@ -45,7 +45,7 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
 
 AspectSet usual_aspects(const Tree& tree, NodeIndex node) {
   AspectSet aspects;
-  // What a built-in action does is its own.
+  // The author of a tree cannot decide what a built-in action does.
   const NodeType& type = *tree.labels[node].type;
   if (type.category == NodeCategory::Action && type.leaf == nullptr) {
     aspects.add(Aspect::Ticked);
@@ -53,7 +53,7 @@ AspectSet usual_aspects(const Tree& tree, NodeIndex node) {
   }
   for (const Aspect it : {Aspect::Ticked, Aspect::Success, Aspect::Failure}) aspects.add(it);
   const NodeIndex parent = tree.labels[node].parent;
-  const bool is_member_child = tree.labels[parent].type->id == "SyncProgress";
+  const bool is_member_child = barrier_member(tree, parent) != nullptr;
   const bool is_synchronized = node != 0 && compares_progress(synchronization(tree.nodes[parent]));
   if (is_synchronized || is_member_child) aspects.add(Aspect::Held);
   return aspects;

@@ -403,7 +403,7 @@ class VerdictMaker {
     std::vector<std::string> no_success, no_failure, no_timeout;
     for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
       if (!found_.coverage.was_ticked(node)) continue;
-      const bool is_timeout = tree_.labels[node].type->id == "Timeout";
+      const bool is_timeout = tree_.labels[node].type->limits_time;
       if (is_timeout && !found_.coverage.has_fired(node)) no_timeout.push_back(at(node));
       if (!found_.coverage.has_been(node, Status::Success)) no_success.push_back(tree_.path(node));
       if (!found_.coverage.has_been(node, Status::Failure)) no_failure.push_back(tree_.path(node));

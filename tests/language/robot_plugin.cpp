@@ -272,6 +272,16 @@ class Either : public lockstep::Control<EitherPorts> {
   Status tick() override { return tick_child(memory.get() ? 1 : 0); }
 };
 
+struct AtPorts : lockstep::Ports {
+  Input<std::string> times{this, "times", required, "said before its child"};
+};
+
+class At : public lockstep::Decorator<AtPorts> {
+ public:
+  void start() override { said.push_back(times.get()); }
+  Status tick() override { return tick_child(); }
+};
+
 }  // namespace
 
 LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what it does",
@@ -289,7 +299,8 @@ LOCKSTEP_PLUGIN_TABLE(robot_table, "robot", "1.0", "A robot that only says what 
                       lockstep::leaf<Follow>("Follow", "Follows a route."),
                       lockstep::leaf<Measure>("Measure", "Shows a number."),
                       lockstep::leaf<IsOpen>("IsOpen", "Whether a door is open."),
-                      lockstep::leaf<Either>("Either", "One of its children."));
+                      lockstep::leaf<Either>("Either", "One of its children."),
+                      lockstep::leaf<At>("At", "Says when."));
 
 namespace lockstep::host::test {
 

@@ -97,7 +97,7 @@ class Adviser {
       it.again_after_success = children.again_after_failure;
       it.again_after_failure = children.again_after_success;
     }
-    if (!type.acts_again) it.again_after_success = it.again_after_failure = false;
+    if (type.again != Again::Acts) it.again_after_success = it.again_after_failure = false;
     return it;
   }
 

@@ -103,9 +103,9 @@ class DryTreeBuilder {
   // How often a Repeat runs its child; 1 for other nodes and one that repeats for ever, of which
   // only the first round matters; negative: an entry says it.
   std::int64_t times(std::uint32_t node) const {
-    if (!definition_.has(at(node), "times")) return 1;
-    const Value* given = definition_.constant(at(node), "times");
-    return given == nullptr ? -1 : std::get<std::int64_t>(*given);
+    if (at(node).type->progress_share != ProgressShare::EachRound) return 1;
+    const std::optional<std::int64_t> rounds = definition_.rounds(at(node));
+    return rounds ? std::max(*rounds, std::int64_t{1}) : -1;
   }
 
   Kind kind(std::uint32_t node) const {

@@ -57,7 +57,8 @@ class IdleMemberAdviser {
     }
     if (is_branch(node)) return {around, "a branch runs only if it is chosen"};
     const NodeType& type = *at(node).type;
-    if (repeats && type.category == NodeCategory::Decorator && !type.acts_again && !skips(type)) {
+    const bool is_decorator = type.category == NodeCategory::Decorator;
+    if (repeats && is_decorator && type.again == Again::ReturnsResult) {
       return {node, "when what is around begins again, it may return the last result instead"};
     }
     return {};
@@ -79,16 +80,13 @@ class IdleMemberAdviser {
     return node != at(node).parent + 1 || definition_.has(around, "cases");
   }
 
-  // A Cooldown is skipped instead.
-  static bool skips(const NodeType& type) { return type.id == "Cooldown"; }
-
   // Whether that node may begin again in the run: something around it ticks it after its success.
   bool may_repeat(std::uint32_t node) const {
     while (node != at(node).parent) {
       node = at(node).parent;
       const NodeType& type = *at(node).type;
       const bool is_decorator = type.category == NodeCategory::Decorator;
-      if (is_decorator && (type.can_run || !type.acts_again)) return true;
+      if (is_decorator && (type.can_run || type.again != Again::Acts)) return true;
       if (definition_.forgets(at(node))) return true;
     }
     return false;

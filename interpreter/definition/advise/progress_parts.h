@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/pre_order.h"
@@ -29,21 +30,21 @@ class ProgressParts {
     ProgressPart part;
     for (; node != top; node = definition_.nodes[node].parent) {
       const DefinitionNode& around = definition_.nodes[definition_.nodes[node].parent];
-      if (around.type->goes_on_after == Status::Success) {
+      if (around.type->progress_share == ProgressShare::EachChild) {
         const double place = places_[node], children = around.children;
         part = {(place + part.begin) / children, (place + part.end) / children};
-      } else if (definition_.has(around, "times")) {
-        part = in_rounds(part, around);
+      } else if (around.type->progress_share == ProgressShare::EachRound) {
+        part = in_rounds(part, definition_.rounds(around));
       }
     }
     return part;
   }
 
  private:
-  ProgressPart in_rounds(ProgressPart part, const DefinitionNode& repeat) const {
-    const Value* times = definition_.constant(repeat, "times");
-    if (times == nullptr) return {0, 1};
-    const auto rounds = static_cast<double>(std::get<std::int64_t>(*times));
+  static ProgressPart in_rounds(ProgressPart part, std::optional<std::int64_t> times) {
+    if (!times) return {0, 1};
+    if (*times <= 0) return part;
+    const auto rounds = static_cast<double>(*times);
     return {part.begin / rounds, (rounds - 1 + part.end) / rounds};
   }
 

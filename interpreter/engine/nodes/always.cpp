@@ -16,7 +16,7 @@ const NodeKind kAlwaysSuccess{.type = {.id = "AlwaysSuccess",
                                        .category = NodeCategory::Action,
                                        .doc = "Success at once.",
                                        .arity = {0, 0},
-                                       .acts_again = false},
+                                       .again = Again::ReturnsResult},
                               .tick = tick_always<Status::Success>,
                               .progress = no_progress};
 
@@ -24,7 +24,7 @@ const NodeKind kAlwaysFailure{.type = {.id = "AlwaysFailure",
                                        .category = NodeCategory::Action,
                                        .doc = "Failure at once.",
                                        .arity = {0, 0},
-                                       .acts_again = false},
+                                       .again = Again::ReturnsResult},
                               .tick = tick_always<Status::Failure>,
                               .progress = no_progress};
 
@@ -32,8 +32,8 @@ const NodeKind kAlwaysRunning{.type = {.id = "AlwaysRunning",
                                        .category = NodeCategory::Action,
                                        .doc = "Running until it is halted; its progress is 0.",
                                        .arity = {0, 0},
+                                       .again = Again::ReturnsResult,
                                        .can_run = true,
-                                       .acts_again = false,
                                        .has_progress = false},
                               .tick = tick_always<Status::Running>,
                               .progress = no_progress};

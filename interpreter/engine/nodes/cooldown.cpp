@@ -43,7 +43,7 @@ const NodeKind kCooldown{
              .doc = "Ticks its child; when that has completed, the node is skipped for a time.",
              .arity = {1, 1},
              .parameters = kCooldownParameters,
-             .acts_again = false},
+             .again = Again::IsSkipped},
     .tick = tick_cooldown,
     .progress = decorator::child_progress,
     .state_size = sizeof(CooldownState),

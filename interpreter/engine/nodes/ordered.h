@@ -92,11 +92,13 @@ inline double progress_of_fallback(NodeContext& context, NodeIndex self) {
 template <Status kGoOn, Memory kMemory>
 constexpr NodeKind kind(std::string_view id, std::string_view doc) {
   constexpr bool kIsSequence = kGoOn == Status::Success;
+  constexpr auto kShare = kIsSequence ? ProgressShare::EachChild : ProgressShare::NotByPlace;
   NodeKind kind{.type = {.id = id,
                          .category = NodeCategory::Control,
                          .doc = doc,
                          .arity = {1},
                          .sign = kIsSequence ? "→" : "?",
+                         .progress_share = kShare,
                          .goes_on_after = kGoOn},
                 .tick = tick<kGoOn, kMemory>,
                 .progress = kIsSequence ? progress_of_sequence : progress_of_fallback,

@@ -44,7 +44,7 @@ const NodeKind kRate{
                     "without ticking it. A child that runs is ticked in every tick.",
              .arity = {1, 1},
              .parameters = kRateParameters,
-             .acts_again = false},
+             .again = Again::ReturnsResult},
     .tick = tick_rate,
     .progress = decorator::child_progress,
     .state_size = sizeof(RateState),

@@ -11,8 +11,8 @@ const NodeKind kRunOnce{
              .doc = "Ticks its child until it has completed once in this run; from then on returns "
                     "that result without ticking it.",
              .arity = {1, 1},
-             .begins_child_once = true,
-             .acts_again = false},
+             .again = Again::ReturnsResult,
+             .begins_child_once = true},
     .tick = run_once::tick,
     .progress = decorator::child_progress,
     .state_size = sizeof(run_once::State),

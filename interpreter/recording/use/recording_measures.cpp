@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
+#include "core/language.h"
 #include "core/value.h"
 #include "json/json.h"
 #include "measure/measure_spec.h"
@@ -22,6 +23,15 @@ std::string text_of(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
 }
 
+// A recording names kinds, and does not say in which language.
+bool latches(const RecordedNode& node) {
+  return std::ranges::any_of(languages(), [&](const LanguageRules* rules) {
+    return std::ranges::any_of(rules->kinds, [&](const NodeKind* it) {
+      return it->type.latches && it->type.id == node.kind;
+    });
+  });
+}
+
 MeasuredTree measured_tree(const RecordingHeader& header) {
   MeasuredTree tree{.id = header.tree, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
   auto children = children_of(header);
@@ -30,8 +40,8 @@ MeasuredTree measured_tree(const RecordingHeader& header) {
   for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
     const RecordedNode& node = header.nodes[index];
     tree.paths.push_back(node.path);
-    tree.nodes.push_back(
-        {node.parent.value_or(index), node.synchronization, node.kind, std::move(children[index])});
+    tree.nodes.push_back({node.parent.value_or(index), node.synchronization, latches(node),
+                          std::move(children[index])});
   }
   for (const RecordedKey& entry : header.entries) {
     tree.entries.push_back(entry.key);

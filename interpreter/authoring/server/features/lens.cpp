@@ -102,23 +102,23 @@ class Hints {
     const TolerantElement* const parent = tree_.parent_of(element);
     if (parent == nullptr || !element.is_tag_closed) return;
     if (tree_around(tree_, element) == nullptr || parent->tag == "BehaviorTree") return;
-    std::uint64_t parts = 0;
-    if (is_in_order(*parent)) {
-      parts = children_of(*parent);
-    } else if (parent->tag == "Repeat") {
-      const std::string_view times = tree_.value_of(*parent, "times");
-      std::from_chars(times.data(), times.data() + times.size(), parts);
-    }
+    const std::uint64_t parts = parts_of(*parent);
     if (parts < 2) return;
     const std::size_t behind_tag = tree_.offset_of(element.tag) + element.tag.size();
     add(behind_tag, fmt::format("1/{}", parts), "its share of the progress of what is around it",
         true);
   }
 
-  // Its children are done one after the other, each once.
-  bool is_in_order(const TolerantElement& element) const {
+  // The number of equal parts of its progress; 0: there are none.
+  std::uint64_t parts_of(const TolerantElement& element) const {
     const NodeType* const type = type_of(tree_, element, question_.file.analysis->catalog);
-    return type != nullptr && type->id == "Sequence";
+    if (type == nullptr) return 0;
+    if (type->progress_share == ProgressShare::EachChild) return children_of(element);
+    if (type->progress_share != ProgressShare::EachRound) return 0;
+    std::uint64_t rounds = 0;
+    const std::string_view text = tree_.value_of(element, type->parameters[0].name);
+    std::from_chars(text.data(), text.data() + text.size(), rounds);
+    return rounds;
   }
 
   std::uint64_t children_of(const TolerantElement& element) const {

@@ -88,6 +88,7 @@ const NodeKind kRepeat{
                     "it fails.",
              .arity = {1, 1},
              .parameters = kRepeatParameters,
+             .progress_share = ProgressShare::EachRound,
              .can_run = true},
     .tick = tick_repeat<Status::Success>,
     .progress = progress_of_repeat,

@@ -30,7 +30,7 @@ const NodeKind kRunOnce{
                     "skipped, or returns that result again.",
              .arity = {1, 1},
              .parameters = kRunOnceParameters,
-             .acts_again = false},
+             .again = Again::IsSkipped},
     .tick = tick_or_skip,
     .progress = decorator::child_progress,
     .state_size = sizeof(run_once::State),

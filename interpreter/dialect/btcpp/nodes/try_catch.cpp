@@ -75,7 +75,8 @@ const NodeKind kTryCatch{
              .doc = "Ticks all children but the last as a Sequence. When one fails, ticks the last "
                     "until it completes, and is a Failure.",
              .arity = {2},
-             .parameters = kTryCatchParameters},
+             .parameters = kTryCatchParameters,
+             .progress_share = ProgressShare::EachButLast},
     .tick = tick_try_catch,
     .progress = progress_of_try_catch,
     .state_size = sizeof(TryCatchState),
