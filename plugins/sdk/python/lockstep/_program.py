@@ -14,7 +14,7 @@ _LIBRARY = "liblockstep-runtime.so"
 
 def program():
     "The path of the program lockstep."
-    beside = [parent / "bin" / "lockstep" for parent in pathlib.Path(SOURCES).parents[:4]]
+    beside = [parent / "bin" / "lockstep" for parent in list(pathlib.Path(SOURCES).parents)[:4]]
     found = os.environ.get("LOCKSTEP") or next((str(it) for it in beside if it.is_file()), None)
     found = found or shutil.which("lockstep")
     if found is None:
