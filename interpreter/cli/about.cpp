@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <filesystem>
 #include <string_view>
 
 #include "cli/command.h"
@@ -59,7 +60,11 @@ std::string about_text() {
   line("system", fmt::format("{} {} {}", system.sysname, system.release, system.machine));
   line("program", program_directory(defaults).string());
   line("lockstep-leafhost", isolation_options(defaults).leafhost);
-  for (const std::string& directory : plugin_directories(defaults)) line("plugins", directory);
+  for (const std::string& directory : plugin_directories(defaults)) {
+    std::error_code error;
+    const bool is_there = std::filesystem::is_directory(directory, error);
+    line("plugins", is_there ? directory : directory + " (not there)");
+  }
   text.pop_back();
   return text;
 }

@@ -41,6 +41,11 @@ if os.geteuid() == 0:
         done = subprocess.run(limited + more, capture_output=True, text=True, cwd="/")
         grades = [it["grade"] for it in json.loads(done.stdout)["findings"] if it["subject"] == "--realtime"]
         assert grades == [grade, grade], done
+        advice = "docker run --ulimit rtprio=90 --ulimit memlock=-1"
+        if not any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv"))) and "container" not in os.environ:
+            assert advice not in done.stdout
+        boxed = subprocess.run(limited + more, capture_output=True, text=True, cwd="/", env={**os.environ, "container": "podman"})
+        assert [it["grade"] for it in json.loads(boxed.stdout)["findings"] if it["remedy"] == advice] == [grade], boxed
 text = run("doctor", "--rate", "0.05").stdout
 assert all(re.match(r"(ok|note|trouble) +\S|  +-> ", line) for line in text.splitlines()), text
 assert run("doctor", "--rate", "0").returncode == 2
@@ -49,4 +54,5 @@ about = run("--version", "--verbose")
 assert about.returncode == 0 and about.stdout.startswith(run("--version").stdout.strip() + "\nparts "), about
 for row in ("plugin contract   1.", "law  ", "recordings  ", "compiler  ", "program  ", "lockstep-leafhost ", "plugins  "):
     assert "\n" + row in about.stdout, row
+assert "plugins           /nowhere (not there)" in run("--version", "--verbose", LOCKSTEP_PLUGIN_PATH="/nowhere").stdout
 assert run("--verbose").returncode == 2

@@ -66,12 +66,21 @@ Symptom look_at_resolution() {
           "use a kernel with CONFIG_HIGH_RES_TIMERS"};
 }
 
+// As Debian calls it.
+#ifdef __aarch64__
+constexpr const char* kArchitecture = "arm64";
+#else
+constexpr const char* kArchitecture = "amd64";
+#endif
+
 Symptom look_at_kernel(const Patient& patient) {
   if (first_line("/sys/kernel/realtime") == "1") return {"kernel", Grade::Good, "PREEMPT_RT"};
   return {"kernel", patient.realtime ? Grade::Note : Grade::Good,
           "not PREEMPT_RT: usually on time, without a promise",
-          patient.realtime ? "sudo apt-get install linux-image-rt-amd64, if a late tick is a danger"
-                           : ""};
+          patient.realtime
+              ? fmt::format("sudo apt-get install linux-image-rt-{}, if a late tick is a danger",
+                            kArchitecture)
+              : ""};
 }
 
 Symptom look_at_load() {
