@@ -15,7 +15,7 @@ soname=${upstream%%.*}
 architecture=${DEB_HOST_ARCH:-$(dpkg --print-architecture)}
 library=liblockstep-runtime$soname
 # dependencies FILE…: substvars. dpkg-shlibdeps finds libraries of this machine only: those of another processor are in a
-# sysroot, whose packages are needed in their version there, or later.
+# sysroot, whose packages are needed in their version there, or later; a later revision of Debian is the same library.
 dependencies() {
   if [ -z "${LOCKSTEP_SYSROOT:-}" ]; then
     printf -- '-e%s\n' "$@" | xargs dpkg-shlibdeps --ignore-missing-info -Tsubstvars
@@ -24,7 +24,8 @@ dependencies() {
   local query=(dpkg-query "--admindir=$LOCKSTEP_SYSROOT/var/lib/dpkg") library package
   readelf --dynamic "$@" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | sort -u | while read -r library; do
     package=$("${query[@]}" --search "*/$library" 2>/dev/null | sed -n '1s/:.*//p')
-    [ -z "$package" ] || echo "$package (>= $("${query[@]}" --show --showformat='${Version}' "$package:$architecture"))"
+    [ -z "$package" ] ||
+      echo "$package (>= $("${query[@]}" --show --showformat='${Version}' "$package:$architecture" | sed 's/-[^-]*$//'))"
   done | sort -u | paste -sd, | sed 's/^/shlibs:Depends=/; s/,/, /g' >substvars
 }
 # Package and the components that CMake installs in it.
@@ -33,12 +34,16 @@ packages=("lockstep lockstep" "lockstep-dev sdk runtime_dev" "$library runtime" 
 rm -rf "$work" "$out"
 mkdir -p "$work/debian" "$out"
 sed "s/@SONAME@/$soname/; s/@VERSION@/$version/; s/@UPSTREAM@/$upstream/" "$here/control" >"$work/debian/control"
+# The maintainer, from the variables that Debian's tools read.
+if [ -n "${DEBEMAIL:-}" ]; then
+  sed -i "s|^Maintainer: .*|Maintainer: ${DEBFULLNAME:-The lockstep authors} <$DEBEMAIL>|" "$work/debian/control"
+fi
 cat >"$work/debian/changelog" <<TEXT
 lockstep ($version) unstable; urgency=medium
 
   * Release $upstream; lockstep-doc has its CHANGELOG.md.
 
- -- $(sed -n 's/^Maintainer: //p' "$here/control")  $(LC_ALL=C date -u -R -d "@$SOURCE_DATE_EPOCH")
+ -- $(sed -n 's/^Maintainer: //p' "$work/debian/control")  $(LC_ALL=C date -u -R -d "@$SOURCE_DATE_EPOCH")
 TEXT
 
 strip_files() {

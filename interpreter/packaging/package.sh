@@ -16,9 +16,11 @@ done
 [ "$architecture" != "$(dpkg --print-architecture)" ] || architecture=""
 [ -z "$architecture" ] || [ -z "$trial" ] || { echo "package: packages of another processor cannot be tried here" >&2 && exit 2; }
 
+has_git=""
+if [ -e .git ] && command -v git >/dev/null; then has_git=yes; fi
 if [ -z "${SOURCE_DATE_EPOCH:-}" ]; then
-  # Of the last commit; in an archive without git, of the change log.
-  SOURCE_DATE_EPOCH=$(git log -1 --format=%ct 2>/dev/null || stat -c %Y CHANGELOG.md)
+  # Of the last commit; in an archive without git, of the change log. A repository around that is another project's.
+  if [ -n "$has_git" ]; then SOURCE_DATE_EPOCH=$(git log -1 --format=%ct); else SOURCE_DATE_EPOCH=$(stat -c %Y CHANGELOG.md); fi
 fi
 export SOURCE_DATE_EPOCH
 build=build/package options=()
@@ -37,17 +39,22 @@ for flags in CFLAGS CXXFLAGS LDFLAGS; do
 done
 CFLAGS+=" $(dpkg-buildflags --get CPPFLAGS)"
 CXXFLAGS+=" $(dpkg-buildflags --get CPPFLAGS)"
+# The flags are given each time: a build tree would keep those of its first time.
+options+=("-DCMAKE_C_FLAGS=$CFLAGS" "-DCMAKE_CXX_FLAGS=$CXXFLAGS")
+for kind in EXE SHARED MODULE; do options+=("-DCMAKE_${kind}_LINKER_FLAGS=$LDFLAGS"); done
 cmake --preset package -B "$build" "${options[@]}" >/dev/null
 cmake --build "$build" -j "$(nproc)"
 $here/build.sh "$build"
 
 out=$build/packages
 name=lockstep-$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")
-if git rev-parse HEAD >/dev/null 2>&1; then
-  git archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$out/$name.tar.gz"
+if [ -n "$has_git" ]; then
+  [ -z "$(git status --porcelain)" ] ||
+    echo "package: warning: $name.tar.gz has the last commit, and the packages also what is not committed" >&2
+  git -c tar.umask=0022 archive --format=tar --prefix="$name/" HEAD | gzip -9n >"$out/$name.tar.gz"
 else
-  tar --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" --exclude=./build \
-    --transform "s,^\.,$name," -cf - . | gzip -9n >"$out/$name.tar.gz"
+  tar --sort=name --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX --mtime="@$SOURCE_DATE_EPOCH" --exclude=./build \
+    --exclude=./.git --exclude=node_modules --exclude=__pycache__ --transform "s,^\.,$name," -cf - . | gzip -9n >"$out/$name.tar.gz"
 fi
 (cd "$out" && sha256sum ./*.deb ./*.tar.gz | sed 's, \./, ,' >SHA256SUMS)
 lintian --allow-root --fail-on error,warning "$out"/*.deb

@@ -34,6 +34,7 @@ bash -c 'source /usr/share/bash-completion/completions/lockstep && complete -p l
 [ ! -x /usr/bin/systemd-analyze ] || {
   cp /usr/share/doc/lockstep/examples/lockstep@.service lockstep@door.service
   systemd-analyze verify ./lockstep@door.service
+  systemd-analyze security --offline=true --threshold=25 ./lockstep@door.service >/dev/null
 }
 step "a plugin in C++, one in Python, a program with the library"
 lockstep new plugin sweep >/dev/null 2>&1
