@@ -5,10 +5,14 @@ set -euo pipefail
 packages=$(realpath "$1")
 sources=$(realpath "$(dirname "$0")/../..")
 if [ "${2:-}" != inside ]; then
-  exec unshare --mount --pid --fork --mount-proc "$0" "$packages" inside
+  [ "$(id -u)" = 0 ] || { echo "try: it mounts, and installs packages: as root" >&2 && exit 1; }
+  top=$(mktemp -d)
+  trap 'rmdir "$top"' EXIT
+  unshare --mount --pid --fork --mount-proc "$0" "$packages" inside "$top"
+  exit
 fi
+top=$3
 mount --make-rprivate /
-top=$(mktemp -d)
 mount -t tmpfs lockstep-try "$top"
 for folder in usr etc var; do
   mkdir -p "$top/$folder/upper" "$top/$folder/work"
