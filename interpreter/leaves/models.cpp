@@ -433,7 +433,7 @@ std::vector<bool> entries_of_engine(const Tree& tree) {
   }
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const NodeType& type = *tree.labels[node].type;
-    if (type.reads_ports && type.leaf == nullptr) {
+    if (type.reads_ports && type.leaf == nullptr && type.mock == nullptr) {
       add_ports(tree.nodes[node].params, type.parameters.size());
     }
   }

@@ -31,7 +31,7 @@ class Unknowns {
     if (type.opens_entries && reads_entries_) {
       add(node, fmt::format("'{}' may write any entry, and the tree reads some", type.id));
     }
-    if (type.leaf != nullptr) return;
+    if (type.leaf != nullptr || type.mock != nullptr) return;  // a stand-in looks at no port
     if (type.reads_ports) {
       look_at_ports(node, tree_.nodes[node].params, type.parameters.size());
     }
