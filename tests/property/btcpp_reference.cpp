@@ -724,7 +724,7 @@ class Node {
 
   // Over the items 1, 2 and 3.
   Status loop() {
-    if (status_ != Status::Running) rounds_ = 0;
+    if (status_ == Status::Idle) rounds_ = 0;  // one that has completed goes on
     if (children_[0]->status_ != Status::Running) {
       if (rounds_ == 3) return word(text("if_empty"));
       Entry& entry = board_->make(*key_in(text("value")));

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <string_view>
+
+#include "engine/node_kind.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -58,12 +60,18 @@ class AttributeList {
 
   void add_others() {
     if (plan_.times >= 0) add(plan_.kind == "Retry" ? "attempts" : "times", plan_.times);
-    constexpr std::array kTimed{"Wait", "Delay", "Timeout", "Cooldown", "Rate"};
-    if (std::ranges::find(kTimed, plan_.kind) != kTimed.end()) add("seconds", plan_.seconds);
+    if (has_parameter("seconds")) add("seconds", plan_.seconds);
     if (plan_.wall_clock) add("clock", "wall");
     const bool is_switch = plan_.kind == "Switch";
     if (!plan_.code.empty()) add(is_switch ? "on" : "code", plan_.code);
     if (is_switch) add("cases", fmt::format("{}", fmt::join(plan_.cases, ";")));
+  }
+
+  bool has_parameter(std::string_view name) const {
+    return std::ranges::any_of(built_in_kinds(), [&](const NodeKind* it) {
+      return it->type.id == plan_.kind &&
+             std::ranges::count(it->type.parameters, name, &Parameter::name) == 1;
+    });
   }
 
   const Plan& plan_;
