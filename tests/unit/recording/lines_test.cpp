@@ -176,12 +176,40 @@ std::string with_tables(std::string text) {
 
 // --- a recording that has everything -----------------------------------------------------------
 
+void fill(std::string& text) {
+  text = "T";
+}
+void fill(std::uint64_t& number) {
+  number = 1;
+}
+void fill(std::optional<std::uint64_t>& number) {
+  number = 2;
+}
+void fill(double& number) {
+  number = 0.5;
+}
+void fill(std::vector<std::string>& texts) {
+  texts = {"note"};
+}
+void fill(std::vector<LeafLine>& logs) {
+  logs = {{"T/a", "info", "text"}};
+}
+void fill(std::map<std::string, std::string, std::less<>>& texts) {
+  texts["x"] = "1";
+}
+void fill(std::vector<RecordedNode>&) {}  // sample_header
+void fill(std::vector<RecordedKey>&) {}
+
+template <class Record>
+Record filled(const Object& object) {
+  Record record;
+  lines::each_member(object, record, [](const Field&, auto& value) { fill(value); });
+  return record;
+}
+
 std::string sample_header(std::uint64_t first_tick) {
-  RecordingHeader header;
-  header.tree = header.file = header.version = "T";
+  auto header = filled<RecordingHeader>(lines::kHeader);
   header.clock = "virtual";
-  header.arguments["x"] = "1";
-  header.verify = "trap";
   header.first_tick = first_tick;
   header.entries = {{.key = "k", .type = "number", .writers = {2}}};
   const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> RecordedNode& {
@@ -240,14 +268,8 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
 
 std::vector<ordered_json> sample() {
   char room[LineFormat::kMostAtOnce];
-  const RecordedEnd end{.result = "success",
-                        .reason = "completed",
-                        .fault = "a: threw",
-                        .signal = 2,
-                        .ticks = 8,
-                        .lost = 1,
-                        .notes = {"note"},
-                        .logs = {{"T/a", "info", "text"}}};
+  auto end = filled<RecordedEnd>(lines::kEnd);
+  end.ticks = 8;
   const std::string text = sample_header(5) + sample_tick(5, false) +
                            std::string(room, json_lines().put_lost(room, 1, 6)) +
                            sample_tick(7, true) + json_lines().part_end(8) +
