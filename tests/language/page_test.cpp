@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -23,6 +24,7 @@
 #include "language/pipeline.h"
 #include "runtime/run.h"
 #include "support/generated_file.h"
+#include "support/paths.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -314,6 +316,31 @@ inline const std::set<std::string>& node_ids() {{
 }}  // namespace BT::lockstep_detail
 )",
           joined(ids, ",\n" + indent)));
+}
+
+// Each header in the folders of the library's nodes is a class that every program may use, but for
+// those that are templates over a queue.
+TEST_CASE("what is generated: the headers of the classes of nodes, for the SDK") {
+  const std::string sdk = "plugins/sdk/btcpp/include/";
+  const std::set<std::string> templates{"consume_queue.h", "pop_from_queue.hpp"};
+  std::set<std::string> headers;
+  for (const char* folder : {"actions", "controls", "decorators"}) {
+    const std::string path = fmt::format("behaviortree_cpp/{}", folder);
+    for (const auto& it :
+         std::filesystem::directory_iterator(LOCKSTEP_SOURCE_DIR "/" + sdk + path)) {
+      const std::string name = it.path().filename().string();
+      if (!templates.contains(name)) headers.insert(fmt::format("\"{}/{}\"", path, name));
+    }
+  }
+  std::size_t width = 0;
+  for (const std::string& it : headers) width = std::max(width, it.size());
+  std::string text =
+      "// The classes of the nodes that every tree has, as the library names them. Generated from\n"
+      "// the headers that there are: ./dev generate.\n#pragma once\n\n";
+  for (const std::string& it : headers) {
+    text += fmt::format("#include {:{}}  // IWYU pragma: export\n", it, width);
+  }
+  check_generated(sdk + "behaviortree_cpp/lockstep/nodes.h", text);
 }
 
 std::string cpp_text(std::string_view text) {

@@ -1,4 +1,5 @@
-// The classes of the nodes that every tree has, as the library names them.
+// The classes of the nodes that every tree has, as the library names them. Generated from
+// the headers that there are: ./dev generate.
 #pragma once
 
 #include "behaviortree_cpp/actions/always_failure_node.h"                 // IWYU pragma: export
