@@ -1,4 +1,4 @@
-// Who plays what: the rows of a scenario found in its tree.
+// The cast: the rows of a scenario found in its tree.
 #pragma once
 
 #include <set>
@@ -25,7 +25,7 @@ std::vector<NodeIndex> find_leaves(const Tree& tree, const std::string& of,
 // What to write instead of one that no leaf has.
 Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string& path);
 
-// Of rows for which the tree has no leaf.
+// Rows for which the tree has no leaf.
 enum class MissingLeaves : bool { AreErrors, AreLeftOut };
 
 // `given` are the nodes before the stage has taken them over.

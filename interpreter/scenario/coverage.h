@@ -39,7 +39,7 @@ struct CoveredTree {
 // Collects from one thread.
 class Coverage {
  public:
-  // Of a scenario that was played; its leaf file must outlive this.
+  // The scenario was played; its leaf file must outlive this.
   void add(const ScenarioReport& report);
   // Searches for what is possible, once for each stage, on so many threads.
   std::vector<CoveredTree> trees(unsigned jobs);

@@ -12,7 +12,7 @@ struct Mutation {
   std::string text;   // the whole file, changed
 };
 
-// Of the nodes that are in this file, in its order. Nothing if it is no tree file.
+// Those of the nodes in this file, in its order. Nothing if it is no tree file.
 std::vector<Mutation> mutations_of(const std::string& path, const std::string& text);
 
 }  // namespace lockstep::host

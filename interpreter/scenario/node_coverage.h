@@ -1,5 +1,5 @@
-// What ticks have shown of each node of a tree. The ticks may be those of scenarios, or of a search
-// over all behaviors.
+// The aspects of each node of a tree that ticks have shown. The ticks may be those of scenarios, or
+// of a search over all behaviors.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace lockstep::host {
 
-// What may be seen of a node.
+// An aspect may be seen of a node.
 enum class Aspect : std::uint8_t { Ticked, Success, Failure, Skipped, Halted, Held };
 inline constexpr std::array<std::string_view, 6> kAspects{"ticked",  "success", "failure",
                                                           "skipped", "halted",  "held"};
@@ -33,13 +33,13 @@ class NodeCoverage {
  public:
   explicit NodeCoverage(const Tree& tree);
 
-  // What the nodes were before a tick, and the ticker after it.
+  // `before` is the activity of the nodes before a tick; the ticker is after it.
   void add(std::span<const Activity> before, const Ticker& ticker);
   void add(const NodeCoverage& other);
 
   AspectSet seen(NodeIndex node) const { return seen_[node]; }
   std::uint64_t ticks(NodeIndex node) const { return ticks_[node]; }  // that reached it
-  // Of each node with constant barriers, whether somebody has waited at each.
+  // Each node with constant barriers, and whether somebody has waited at each of them.
   const std::map<NodeIndex, std::map<double, bool>>& barriers() const { return barriers_; }
 
  private:

@@ -1,5 +1,5 @@
-// What can be seen of the nodes of a tree at all: proved by a search over all behaviors of leaves
-// that keep their contract, where one is short enough.
+// The coverage that the nodes of a tree can have at all: proved by a search over all behaviors of
+// leaves that keep their contract, where one is short enough.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,12 @@
 
 namespace lockstep::host {
 
-// Of leaves that do what a leaf file allows, or, if it is null, any that keep their contract.
-// Nothing if it is not known: the search has a limit, and cannot look into nodes of plugins.
+// The leaves do what a leaf file allows, or, if it is null, anything that keeps their contract.
+// Nothing if the coverage is not known: the search has a limit, and cannot look into nodes of
+// plugins.
 std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* file, double rate);
 
-// What to expect of a node where nothing is proved.
+// The aspects to expect of a node where nothing is proved.
 AspectSet usual_aspects(const Tree& tree, NodeIndex node);
 
 }  // namespace lockstep::host

@@ -43,7 +43,7 @@ std::optional<LimitText> split_limit(std::string_view text) {
                    trimmed(text.substr(at + size))};
 }
 
-// Of an entry without a declared type: a number or a truth value, if it reads as one.
+// An entry without a declared type gets a number or a truth value, if the text reads as one.
 Value value_of_any_type(const std::string& text) {
   if (const auto whole = parse_int(text)) return *whole;
   if (const auto real = parse_double(text)) return *real;

@@ -13,7 +13,7 @@ using leaf_words::Word;
 inline constexpr std::string_view kRate = R"([0-9]*\.?[0-9]+)", kCount = "[0-9]+",
                                   kRange = R"([0-9]*\.?[0-9]+(\.\.([0-9]*\.?[0-9]+|inf))?)";
 
-// Of the file: what all of its scenarios have that do not say otherwise.
+// The attributes of the file hold for all of its scenarios that do not say otherwise.
 inline constexpr Word kScenarios[] = {
     {"lockstep", "1", "The version of scenarios.", true},
     {"tree", "", "The tree file, from the directory of this file."},
@@ -86,7 +86,7 @@ inline constexpr Tag kTags[] = {
      "What is to come of it. As text: a property, as 'never arm.failure' or 'finally {n} == 3', or "
      "a measure with its limit, as 'spread < 0.1'."},
 };
-// Of expect, also "in.PORT".
+// An expect may also have "in.PORT".
 inline constexpr std::string_view kInput = "in.";
 // Only in a scenario: a run for each row, whose attributes stand for ${NAME} in it.
 inline constexpr std::string_view kRow = "row";

@@ -17,7 +17,7 @@ std::string xsd_element(const scenario_words::Tag& tag) {
       fmt::format("  <xs:element name=\"{}\">\n    {}\n    <xs:complexType{}>\n", tag.name,
                   xsd_documented(tag.doc), has_text ? " mixed=\"true\"" : "");
   for (const auto& word : tag.words) text += xsd_attribute(word, kOfRow);
-  // Of a leaf, out.PORT, and of what is expected, in.PORT: XSD cannot say how a name begins.
+  // A leaf has out.PORT, and an expectation has in.PORT: XSD cannot say how a name begins.
   if (tag.name == "leaf" || tag.name == "expect") {
     text += "      <xs:anyAttribute namespace=\"##local\" processContents=\"skip\"/>\n";
   }

@@ -26,7 +26,7 @@ struct ScenarioReport {
   std::string recording = {};                  // of that run; "": there is none
   bool was_stopped = false;                    // by a signal
   std::uint64_t written = 0;                   // recordings, by --update
-  // Of all runs; null: nobody asks for it, or it has none.
+  // The coverage is of all runs; null: nobody asks for it, or it has none.
   std::shared_ptr<const Stage> stage = {};
   std::shared_ptr<const NodeCoverage> coverage = {};
   const LeafFile* leaves = nullptr;

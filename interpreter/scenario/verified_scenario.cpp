@@ -22,7 +22,7 @@ Observed observed_by(const std::vector<Property>& properties) {
   return observed;
 }
 
-// Of the property that it is about, if it is one of the scenario.
+// The place of the property that it is about, if it is one of the scenario.
 Place place_of(const Finding& finding, const Rehearsal& rehearsal) {
   for (const PreparedProperty& it : rehearsal.properties) {
     if (finding.name == "property/" + it.property.name()) return it.of->place;

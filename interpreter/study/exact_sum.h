@@ -13,7 +13,7 @@ namespace lockstep::host {
 
 class ExactSum {
  public:
-  // Of a finite number.
+  // The number is finite.
   void add(double value);
   void add(const ExactSum& other);
 

@@ -28,7 +28,7 @@ void QuantileSketch::add(double value) {
 }
 
 bool QuantileSketch::add(const Bucket& bucket) {
-  // Of the two zeros, the sketch knows one.
+  // The sketch knows one of the two zeros.
   const double low = bucket.low + 0.0, high = bucket.high + 0.0;
   const std::int64_t place = place_of(low);
   if (!(low <= high) || place != place_of(high) || bucket.count < (low < high ? 2u : 1u))

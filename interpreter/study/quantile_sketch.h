@@ -23,7 +23,7 @@ class QuantileSketch {
     std::uint64_t count = 0;
   };
 
-  // Of a finite number.
+  // The number is finite.
   void add(double value);
   void add(const QuantileSketch& other);
   // False if this bucket cannot be one: it has more than one bucket's numbers.

@@ -12,7 +12,7 @@ double middle(double low, double high) {
   return low + (high - low) / 2;
 }
 
-// Of the `count` values from the rank `first`, where `at` gives the value of a rank.
+// The median of `count` values from the rank `first` on; `at` gives the value of a rank.
 template <class At>
 double median_of(const At& at, std::uint64_t first, std::uint64_t count) {
   const std::uint64_t half = first + count / 2;

@@ -42,7 +42,7 @@ Diagnostics without_missing_nodes(const Diagnostics& diagnostics) {
   return rest;
 }
 
-// Of a text that is not readable: the root, its includes, arguments and plugins, as far as they are
+// The root of a text that is not readable, its includes, arguments and plugins, as far as they are
 // written.
 std::string declarations_of(std::string_view text) {
   constexpr std::string_view kDeclarations[] = {"arg", "include", "plugin"};

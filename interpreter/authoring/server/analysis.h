@@ -39,7 +39,7 @@ struct Analysis {
   std::vector<Diagnostic> diagnostics;               // sorted
   std::vector<std::shared_ptr<const Source>> texts;  // that were read, the file first
   std::vector<TolerantTree> included;                // the elements of the other texts
-  // Of a text that is not readable: only the declarations that can be recognized in it.
+  // A text that is not readable has only the declarations that can be recognized in it.
   std::shared_ptr<const Project> project;
   std::shared_ptr<PluginSet> plugins;  // to which the catalog points
   Catalog catalog;

@@ -36,7 +36,7 @@ class ServiceNotice final : public Observer {
   std::atomic<std::int64_t> period_{0};  // ns; 0: the run has not begun
   std::atomic<std::uint64_t> ticks_{0};
   std::atomic<bool> stands_{false};  // paused: no tick is to come
-  // Of the thread that tells.
+  // These belong to the thread that tells.
   std::uint64_t seen_ = 0;
   Nanoseconds unchanged_{0};
   Mutex mutex_;

@@ -102,7 +102,7 @@ class TreeTest {
     return status_.value_or(Status::Running);
   }
 
-  // Of the root; Running also before the first tick and after a fault.
+  // The status of the root; Running also before the first tick and after a fault.
   Status status() const { return status_.value_or(Status::Running); }
   bool is_over() const { return fault_ || (status_ && *status_ != Status::Running); }
   std::uint64_t ticks() const { return ticks_; }

@@ -57,7 +57,7 @@ std::size_t RecordingParts::read() {
 
 bool RecordingParts::knows_next() {
   if (at_ + 1 < paths_.size()) return true;
-  // Of a run that goes on, the first ones may be deleted.
+  // The first parts of a run that goes on may be deleted.
   for (std::string& it : parts_that_exist(recording_)) {
     const bool is_later = it.size() > paths_.back().size() ||
                           (it.size() == paths_.back().size() && it > paths_.back());

@@ -52,7 +52,7 @@ std::optional<std::uint64_t> RecordingReader::end_of_ticks(std::uint64_t first, 
   return std::min(size, high + 1);
 }
 
-// Of the lines that begin in this range.
+// The last one of the lines that begin in this range.
 std::optional<RecordingReader::Whole> RecordingReader::last_whole(std::uint64_t from,
                                                                   std::uint64_t to,
                                                                   std::uint64_t tick) {

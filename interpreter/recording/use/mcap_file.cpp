@@ -8,7 +8,7 @@
 namespace lockstep::host {
 namespace {
 
-// Of the specification, section "Opcodes".
+// The section "Opcodes" of the specification has them.
 enum class Opcode : std::uint8_t {
   Header = 0x01,
   Footer = 0x02,

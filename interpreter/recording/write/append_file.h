@@ -64,7 +64,7 @@ class AppendFile {
   void set_patience(Nanoseconds patience);
   bool ran_out_of_patience() const { return failed() && patience_.is_over; }
 
-  // Of the part that is being written: its number, from 1 on, and how much is on the disk.
+  // The part that is being written: its number, from 1 on, and how much of it is on the disk.
   std::uint64_t part() const { return part_.load(std::memory_order_acquire); }
   std::uint64_t part_size() const { return part_size_.load(std::memory_order_relaxed); }
 

@@ -100,7 +100,7 @@ class ElementItems {
     return text + (is_empty ? std::string("/>$0") : fmt::format(">\n  $0\n</{}>", type.id));
   }
 
-  // Of a tag that has attributes already, or its end, only the name is written.
+  // Only the name is written of a tag that has attributes already, or its end.
   void set_text(CompletionItem item, std::string snippet) {
     const TolerantElement* const own = is_new_ ? nullptr : at_.site.element;
     const bool is_begun = own != nullptr && (own->attribute_count > 0 || own->is_tag_closed);

@@ -13,7 +13,7 @@ struct EntryFacts {
   std::string_view name;
   std::vector<const NamePlace*> places;
 
-  // Of the first port that says one; null: nobody does.
+  // The first port that says a type; null: nobody does.
   const Parameter* typed() const;
   std::string type_text() const;  // "double", or "entry" where nobody says a type
   // Whether a value of it fits; null: nobody knows what is expected.

@@ -1,4 +1,4 @@
-// What messages of the client bring, as far as the server reads it.
+// The params of the client's messages, as far as the server reads them.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct TextChange {
   std::string text;
 };
 
-// Of all methods about a file; each sends some of these.
+// Each method about a file sends some of these.
 struct FileParams {
   std::string uri;
   std::int64_t version = 0;
@@ -34,7 +34,8 @@ struct FileParams {
 };
 FileParams read_file_params(JsonReader& reader, Message& message);
 
-// Of `initialize`, and of workspace/didChangeConfiguration: what is not there stays as it was.
+// `initialize` and workspace/didChangeConfiguration send these; a member that is not there stays as
+// it was.
 struct ClientParams {
   std::string root;  // a path, or ""
   bool has_related_information = false;

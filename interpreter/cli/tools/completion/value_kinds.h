@@ -8,7 +8,7 @@
 
 namespace lockstep::host {
 
-// Of an option of the command that the line names.
+// The values that fit an option of the command that the line names.
 Candidates values_of(const CLI::Option& option, const CommandWalk& walk);
 
 std::string first_sentence(const std::string& text);

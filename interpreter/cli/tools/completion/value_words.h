@@ -21,7 +21,7 @@ struct RecordingWords {
 };
 RecordingWords recording_words(const std::string& file);
 
-// Of the plugins that are installed, or in LOCKSTEP_PLUGIN_PATH.
+// The plugins that are installed, or in LOCKSTEP_PLUGIN_PATH.
 std::vector<std::string> plugin_names();
 
 }  // namespace lockstep::host

@@ -68,7 +68,7 @@ int follow(std::istream& in, const LogCatOptions& options) {
   if (written != kExitSuccess) return written;
   while (true) {
     if (const int code = print_lines(in, rest, ending); code != kExitSuccess) return code;
-    // Of all parts, the next one comes.
+    // Where all parts are read, the next one comes.
     std::error_code none;
     const bool is_one = ending.is_of_part && std::filesystem::exists(options.file, none);
     if (!options.follows || ending.is_there || is_one) break;

@@ -16,7 +16,8 @@
 namespace lockstep::host {
 namespace {
 
-// Of the release that is built, if SOURCE_DATE_EPOCH says so, so that two builds are the same.
+// The date of the release that is built, if SOURCE_DATE_EPOCH says it, so that two builds are the
+// same.
 std::string date_of_pages() {
   std::time_t seconds = std::time(nullptr);
   if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))

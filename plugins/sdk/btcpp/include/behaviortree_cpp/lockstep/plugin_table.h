@@ -224,7 +224,7 @@ class PluginTable {
   lockstep_plugin plugin_{};
 };
 
-// Whose nodes are being made in this thread: those of a program. Null: of this plugin.
+// The program whose nodes are being made in this thread. Null: they are those of this plugin.
 [[gnu::visibility("hidden")]] inline thread_local PluginTable* making = nullptr;
 
 class Making {
