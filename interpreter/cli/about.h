@@ -1,4 +1,4 @@
-// What `lockstep --version --verbose` says, for reports of bugs.
+// The text of `lockstep --version --verbose`, for reports of bugs.
 #pragma once
 
 #include <string>

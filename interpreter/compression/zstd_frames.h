@@ -25,7 +25,7 @@ class ZstdFrames {
   std::string_view add(std::string_view piece);
   // The bytes that end the frame; "" if none is open. More may be added, in another frame.
   std::string_view end();
-  // What belongs behind the last frame: where each begins. Allocates; "" if not all are known.
+  // Belongs behind the last frame, and says where each begins. Allocates; "" if not all are known.
   std::string table() const;
   // Makes room for the next frames in the table. Allocates. Without it, there is no table.
   void make_room();

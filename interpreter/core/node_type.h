@@ -32,7 +32,7 @@ constexpr bool compares_progress(Synchronization synchronization) {
          synchronization == Synchronization::Relative;
 }
 
-// What a tick of a node does that has completed once in the run.
+// The effect of a tick of a node that has completed once in the run.
 enum class Again : std::uint8_t { Acts, ReturnsResult, IsSkipped };
 
 // How the progress of a node consists of that of its children, where their places decide it.

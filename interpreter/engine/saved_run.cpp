@@ -45,7 +45,7 @@ void take_state(RunState& to, const RunState& from) {
 
 }  // namespace
 
-// What is compiled of scripts in entries follows from their texts, so it needs no restoring.
+// The compiled scripts of entries follow from their texts, so they need no restoring.
 void Ticker::restore(const SavedRun& from) {
   take_state(state_, from.run);
   board_.entries = from.entries;  // each stays where it is

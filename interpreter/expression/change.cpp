@@ -10,7 +10,7 @@ std::optional<double> constant(const Instruction& it) {
   return is_exact ? std::optional(number) : std::nullopt;
 }
 
-// What is added to a whole number, where that is all.
+// The number that is added to a whole number, where nothing else happens.
 std::optional<std::int64_t> step_of(Operation operation, double by) {
   if (!(std::fabs(by) <= static_cast<double>(kLargestExact))) return std::nullopt;
   const auto whole = static_cast<std::int64_t>(by);

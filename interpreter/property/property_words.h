@@ -6,7 +6,7 @@
 
 namespace lockstep::host {
 
-// What a node has: arm.running.
+// The fields of a node: arm.running.
 inline constexpr auto kPropertyFields = std::to_array<std::string_view>(
     {"running", "success", "failure", "idle", "skipped", "done", "ticked", "held", "progress"});
 inline constexpr auto kPropertyWords = std::to_array<std::string_view>(

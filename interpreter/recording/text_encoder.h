@@ -1,4 +1,4 @@
-// What a file gets in place of the text of a recording, in a format that is made of it. Only the
+// Makes the bytes of a file of the text of a recording, for a format that is made of it. Only the
 // writing thread calls it, never a crash handler.
 #pragma once
 
@@ -15,7 +15,7 @@ class TextEncoder {
   // The bytes for the next text: what a file may end with. "" while it collects more; also called
   // with "" when there is no text for a while. Throws a std::runtime_error if there are none.
   virtual std::string add(std::string_view text) = 0;
-  // What completes the file.
+  // The bytes that complete the file.
   virtual std::string end() = 0;
 };
 

@@ -59,7 +59,7 @@ class RemotePlugin {
   virtual PluginWords script_words() const { return {}; }
   // Describes the elements of its leaf types; null: there are none.
   virtual LeafDescriber* describer() { return nullptr; }
-  // What a program was asked to describe and has, each question with its answer, as lines.
+  // The questions that a program was asked to describe elements, each with its answer, as lines.
   virtual std::string descriptions() { return {}; }
   // Null after a failure, which is the caller's error.
   virtual std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) = 0;

@@ -22,7 +22,7 @@ struct Cast {
 // The leaves of a type, or with a path or this end of it; one of both is "".
 std::vector<NodeIndex> find_leaves(const Tree& tree, const std::string& of,
                                    const std::string& path);
-// What to write instead of one that no leaf has.
+// The error for a type or a path that no leaf has, with the nearest one as the hint.
 Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string& path);
 
 // Rows for which the tree has no leaf.

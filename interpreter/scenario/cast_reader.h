@@ -27,7 +27,7 @@ class CastReader {
 
   void read_leaf(std::uint32_t element, Scenario& into) const;
 
-  // What is none is reported, and the least is returned.
+  // A text that is no number is reported, and the least is returned.
   std::uint64_t count(const Attribute& it, std::uint64_t least) const;
   double number(const Attribute& it, double least, double most) const;
   NumberRange range(const Attribute& it, std::string_view as) const;

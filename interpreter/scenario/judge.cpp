@@ -99,7 +99,7 @@ std::vector<Surprise> Judge::verdict(const RunEnd& end, const RunMeasures* measu
   return std::move(surprises_);
 }
 
-// What is to happen behind the end never happens: the scenario is about something else.
+// A moment behind the end never comes: the scenario is about something else.
 void Judge::judge_moments(const RunEnd& end) {
   const Scenario& scenario = *rehearsal_.scenario;
   const auto missed = [&](Place place, const std::string& moment) {

@@ -11,7 +11,7 @@
 
 namespace lockstep::host {
 
-// What was not as expected.
+// Something was not as expected.
 struct Surprise {
   Place place = {};                    // of what was expected
   std::string message;                 // "expected success, came failure"

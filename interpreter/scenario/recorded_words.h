@@ -1,4 +1,4 @@
-// What each leaf did in a recording, as words that it can do again.
+// The deeds of each leaf in a recording, as words that it can do again.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct RecordedWords : LeafScripts {
   std::string result;     // of the run; "": it is cut
   std::string tree_file;  // as its user named it
   std::map<std::string, std::string, std::less<>> arguments;
-  // What came into entries from outside: nobody in the tree writes them.
+  // A change that came into an entry from outside: nobody in the tree writes it.
   struct Change {
     std::string key, value;
     std::uint64_t tick;

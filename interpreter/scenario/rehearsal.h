@@ -34,7 +34,7 @@ struct PreparedLimit {
   const Expectation* of;
 };
 
-// What leaves get at a port whenever they begin.
+// The value that leaves get at a port whenever they begin.
 struct PreparedInput {
   std::vector<NodeIndex> leaves;  // in order
   std::string port, text;         // as a value of the port's type is written

@@ -25,7 +25,7 @@ struct TestCounts {
 // "12 scenarios: 11 passed, 1 failed, 0.02 s".
 std::string to_text(const TestCounts& counts);
 
-// What a report says, in one form for all programs.
+// The content of a report, in one form for all programs.
 struct ReportedScenario {
   std::string file, name, place;  // of its name: "a.test.xml:3:5"
   std::string outcome;            // "passed", "failed", "invalid", "stopped"

@@ -37,7 +37,7 @@ struct LateTick {
   Place place = {};
 };
 
-// What the leaves of a type, or with a path, do.
+// The part that the leaves of a type, or with a path, play.
 struct CastRow {
   enum class From : std::uint8_t { Words, Plugin, Recording } from = From::Words;
   std::string of, path;  // one of both

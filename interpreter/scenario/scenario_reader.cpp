@@ -144,7 +144,7 @@ class Reader {
                      fmt::format("the first is at {}", to_text(file_.sources.locate(same->place))));
   }
 
-  // What a file and a scenario may both say.
+  // A file and a scenario may both have these attributes.
   void read_head(std::uint32_t at, Scenario& into) {
     for (const Attribute& it : document_.attributes(at)) {
       if (it.name == "tree") {

@@ -8,7 +8,7 @@
 namespace lockstep::host {
 namespace {
 
-// What a row gives to a value.
+// A value may contain what a row gives: ${NAME}.
 constexpr std::string_view kOfRow = R"(.*[$]\{.*)";
 
 std::string xsd_element(const scenario_words::Tag& tag) {

@@ -20,7 +20,7 @@ void count_lines(const Sources& sources);
 
 class Stage {
  public:
-  // What a tree is loaded with; equal keys have the same stage.
+  // The file and the values that a tree is loaded with; equal keys have the same stage.
   struct Key {
     std::string tree, main;
     Arguments arguments;

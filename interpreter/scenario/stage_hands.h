@@ -1,4 +1,4 @@
-// What happens around the ticks of a scenario: entries that change, ticks that take long.
+// The events around the ticks of a scenario: entries that change, ticks that take long.
 #pragma once
 
 #include <vector>

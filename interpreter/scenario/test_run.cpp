@@ -91,7 +91,7 @@ void TestRun::load_stage(Part& part) {
   part.stage = loaded.stage;
   part.errors = loaded.errors;
   part.failure = loaded.failure;
-  // What has no place in the tree is about what the scenario asks of it.
+  // An error without a place in the tree is about what the scenario asks of it.
   const Scenario& scenario = *part.scenario;
   for (Diagnostic& error : part.errors) {
     if (!error.location.file.empty()) continue;

@@ -1,4 +1,4 @@
-// What is kept of the runs of one cell without their rows (--rows none): counts, sums, sketches.
+// The totals of the runs of one cell without their rows (--rows none): counts, sums, sketches.
 // Totals of parts add up to the totals of the whole, bit for bit.
 #pragma once
 

@@ -52,7 +52,7 @@ struct Precision {
   friend bool operator==(const Precision&, const Precision&) = default;
 };
 
-// What is kept of each run: a row of runs.csv, the same compressed, or only totals of its cell.
+// Each run leaves a row of runs.csv, the same compressed, or only a part of the totals of its cell.
 enum class StudyRows : std::uint8_t { Csv, Zst, None };
 constexpr std::array<std::string_view, 3> kStudyRows{"csv", "zst", "none"};
 

@@ -16,7 +16,7 @@
 
 namespace lockstep::host {
 
-// What is the same for the results of all kinds.
+// The parts that results of all kinds share.
 struct ResultPlace {
   const StudyPlan& plan;
   std::string directory;

@@ -75,7 +75,7 @@ class CompressedRows final : public PlainRows {
     return written;
   }
 
-  // What is in the last frame so far.
+  // Saves the last frame as it is so far.
   Result<void> save() override { return text_.size() == text_in_file_ ? Done() : write_frame(); }
 
  private:

@@ -1,4 +1,4 @@
-// What is known of a file after it was checked: the messages of `lockstep check`, and what they
+// The knowledge about a file after it was checked: the messages of `lockstep check`, and what they
 // were found with.
 #pragma once
 
@@ -48,11 +48,11 @@ struct Analysis {
   bool is_whole = true;                    // false: more messages may come
 };
 
-// What the name of a file says about its content.
+// The name of a file decides what its content is.
 enum class FileKind : unsigned char { Tree, Scenarios, Leaves };
 FileKind kind_of_file(std::string_view path);
 
-// What takes little time: its `is_whole` is false if complete() has more to say.
+// Takes little time: its `is_whole` is false if complete() has more to say.
 Analysis analyze(const AnalysisJob& job, PluginCache& cache);
 // Adds what a search over all behaviors is sure of, unless `stop_signal` returns something else
 // than 0 before.

@@ -6,7 +6,7 @@
 
 namespace lockstep::host {
 
-// What is no file, such as untitled:Untitled-1, stays as it is.
+// A URI of no file, such as untitled:Untitled-1, stays as it is.
 std::string path_of_uri(std::string_view uri);
 std::string uri_of_path(std::string_view path);
 

@@ -1,4 +1,5 @@
-// What `lockstep doctor` looks at, and what it finds. Each source beside this is a part of it.
+// `lockstep doctor` looks at causes and reports symptoms. Each source beside this has a part of
+// them.
 #pragma once
 
 #include <string>

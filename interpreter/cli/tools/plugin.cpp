@@ -30,7 +30,7 @@ struct PluginCheckOptions {
   std::optional<std::size_t> from_leaf;  // in the child that examines a shared object
 };
 
-// What the program says of the elements of the trees, after its first line; nothing after errors.
+// The program's answers about elements of the trees, after its first line; nothing after errors.
 std::optional<std::string> describe_elements(const PluginCheckOptions& options,
                                              const std::string& program) {
   LoadOptions load_options;

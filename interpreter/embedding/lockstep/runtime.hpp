@@ -380,7 +380,7 @@ class Run {
   }
   // Those of the tree file.
   void check_properties_of_file() { detail::require(lockstep_run_check(it_.get(), nullptr)); }
-  // What is violated so far, and when.
+  // The properties that are violated so far, and when.
   std::vector<std::string> violations() const {
     std::vector<std::string> list;
     for (std::uint32_t i = 0;; ++i) {

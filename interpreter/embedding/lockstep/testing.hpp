@@ -49,7 +49,7 @@ class TreeTest {
     return TreeTest(settings, text);
   }
 
-  // What a leaf does, tick by tick: R.25 (running, with its progress), S, F, K (skipped), X (a
+  // The results of a leaf, tick by tick: R.25 (running, with its progress), S, F, K (skipped), X (a
   // fault), S[port=value]. The last word stays. `path` is the path of the leaf or the end of it;
   // * stands for any part. Leaves without a call succeed at once. Before the first tick.
   TreeTest& leaf(const std::string& path, const std::string& words) {

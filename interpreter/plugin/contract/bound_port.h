@@ -92,7 +92,7 @@ class PortBinder {
   const Tree& tree_;
   Blackboard& blackboard_;
   PortTable& ports_;
-  // What was bound last, at a place that its constant and parameter give, or its type.
+  // The port that was bound last, at a place that its constant and parameter give, or its type.
   struct KnownPort {
     std::uint32_t constant;
     BoundPort* port = nullptr;

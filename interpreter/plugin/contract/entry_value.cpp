@@ -11,7 +11,7 @@ namespace {
 
 static_assert(sizeof(Flag) == sizeof(bool));
 
-// What a value is in the contract. The texts of a list are put together in `texts`.
+// Describes a value as the contract does. The texts of a list are put together in `texts`.
 struct Describer {
   lockstep_entry_value& value;
   std::vector<lockstep_text>& texts;

@@ -1,4 +1,4 @@
-// What a leaf may read without a call as long as it is there: lockstep_lasting.
+// The table that a leaf may read without a call as long as it exists: lockstep_lasting.
 #include "plugin/contract/host.h"
 
 namespace lockstep::host {
@@ -26,7 +26,7 @@ const void* constant(const lockstep_caller* caller, std::uint32_t port, lockstep
   }
 }
 
-// What is out of a port's limits is an error also where no entry is bound to it.
+// A value out of a port's limits is an error also where no entry is bound to it.
 bool is_set(const lockstep_caller* caller, std::uint32_t port) {
   const BoundPort* const it = port_of(*caller, port);
   return it == nullptr || it->write != nullptr || it->has_limits;

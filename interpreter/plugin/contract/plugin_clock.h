@@ -19,7 +19,7 @@ class PluginClock final : public Clock {
  public:
   explicit PluginClock(const lockstep_clock& clock) : clock_(clock) {}
 
-  // What is wrong.
+  // The reason why it cannot; nothing: it is open.
   std::optional<std::string> open();
   bool has_time() const { return clock_.now() >= 0; }
 

@@ -20,7 +20,7 @@ constexpr std::size_t kRead = 64u << 10;  // bytes
 RecordingParts::RecordingParts(std::string recording)
     : recording_(std::move(recording)), paths_(parts_that_exist(recording_)), text_(kRead) {}
 
-// What is wrong is in the part.
+// An error names the part that has it.
 template <class Use>
 auto RecordingParts::in_part(Use use) {
   try {

@@ -157,7 +157,7 @@ std::string McapFile::statistics() const {
   return record(Opcode::Statistics, content);
 }
 
-// What a reader reads first, and `offsets`, where its groups are.
+// A reader reads this first; `offsets` say where its groups are.
 std::string McapFile::summary(std::string& offsets) const {
   std::string text;
   const auto add_group = [&](Opcode opcode, const std::string& records) {

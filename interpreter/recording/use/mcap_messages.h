@@ -20,7 +20,7 @@ class McapMessages {
 
   // False: no more is wanted.
   bool take(const RecordedTick& tick);
-  // What was taken is written now.
+  // The messages that were taken are written now.
   void flush() { file_.end_chunk(); }
   bool finish(const std::optional<RecordedEnd>& end);
 

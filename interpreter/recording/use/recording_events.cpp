@@ -58,7 +58,7 @@ class Events {
     const bool is_group = !it.members.empty() || !it.resources.empty();
     if (is_group) return;  // it runs as long as it has members
     const RecordedState &before = before_[node], &state = now[node];
-    // What is below a held node is held with it.
+    // A node below a held one is held with it.
     const bool is_below = it.parent && now[*it.parent].held;
     const bool was_below = it.parent && before_[*it.parent].held;
     const bool goes_on = before.held && !state.held && state.status != Status::Idle;
@@ -90,7 +90,7 @@ class Events {
 
 void each_event(RecordingReader& reader, TickRange range, const EventSink& take) {
   Events events(reader.header(), range, take);
-  // What changed with a tick is known by the one before it.
+  // The tick before it tells what changed with a tick.
   if (range.from > 1) reader.skip_to(range.from - 1);
   bool is_wanted = true;
   while (is_wanted) {

@@ -1,4 +1,4 @@
-// What happened in a recording, one event after the other: who began, completed, was halted, held
+// The events of a recording, one after the other: which node began, completed, was halted, held
 // or let go on, which entries changed, what leaves logged, which ticks are lost.
 #pragma once
 

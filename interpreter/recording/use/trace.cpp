@@ -22,7 +22,7 @@ std::string in_trace(double seconds) {
   return fmt::format("{}.{:03}", time / 1000, time % 1000);
 }
 
-// What a node does in a tick: what its slice is called; "": it has none.
+// The name of the slice of what a node does in a tick; "": it has none.
 std::string_view activity(const RecordedState& state) {
   const bool is_active =
       state.status == Status::Running || (state.ticked && state.status != Status::Idle);

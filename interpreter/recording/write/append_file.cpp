@@ -177,7 +177,7 @@ void AppendFile::begin_part(const PacketHead& head) {
   }
 }
 
-// What is not in the ring.
+// Writes a text that is not in the ring.
 void AppendFile::add_text(std::string_view text) {
   std::uint64_t written = 0;
   for (; !text.empty(); text.remove_prefix(std::min(text.size(), GrowingFile::kText))) {

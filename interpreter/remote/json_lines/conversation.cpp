@@ -50,7 +50,7 @@ Result<std::string> Conversation::ask(std::string_view line, std::string_view wh
   return answer;
 }
 
-// What is wrong before it has done `what`, or a line.
+// A line, or the problem that it has before it has done `what`.
 Result<std::string> Conversation::next_line(std::string_view what) {
   const auto end = monotonic_now() + options_.hang_limit;
   const bool is_first = what == "said what leaves it has";

@@ -13,7 +13,7 @@
 
 namespace lockstep::host {
 
-// What the program is asked, as a line without its end; `type` is its leaf type.
+// The question to the program, as a line without its end; `type` is its leaf type.
 std::string describe_request(const lockstep_leaf_type& type, std::span<const FixedText> fixed);
 // The type of the element: `base` with the ports of the answer, which `tables` keep. Throws a
 // JsonError.

@@ -1,4 +1,4 @@
-// What a program says of its leaf types and their ports: the fields of docs/programs.md, as
+// The facts that a program says of its leaf types and ports: the fields of docs/programs.md, as
 // descriptors.
 #pragma once
 

@@ -29,7 +29,7 @@ std::vector<std::string_view> quoted_words(std::string_view message) {
   }
 }
 
-// What stands behind `sign` in a text, up to the quote that closes it; "" when it is not there.
+// The word behind `sign` in a text, up to the quote that closes it; "" when it is not there.
 std::string_view word_behind(std::string_view text, std::string_view sign) {
   const auto at = text.find(sign);
   if (at == text.npos) return {};

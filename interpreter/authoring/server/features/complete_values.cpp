@@ -60,7 +60,7 @@ class ValueItems {
     return true;
   }
 
-  // What is replaced ends behind the name that is begun, and its brace.
+  // The replaced text ends behind the name that is begun, and its brace.
   void cut_behind_name() {
     std::size_t end = at_.byte;
     while (end < at_.site.word.end && is_part_of_name(at_.tree.text[end])) ++end;

@@ -1,4 +1,4 @@
-// What the server answers about a position in an open file: a feature is a function in a separate
+// The server's answers about a position in an open file: a feature is a function in a separate
 // file and a row in features.cpp.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Feature {
 };
 
 std::span<const Feature> features();
-// What `initialize` says of them.
+// The answer of `initialize` about them.
 Json capabilities();
 
 }  // namespace lockstep::host

@@ -1,4 +1,4 @@
-// What is known of what is under the pointer.
+// The text about the element, attribute or value under the pointer.
 #pragma once
 
 #include "authoring/server/features/feature.h"

@@ -1,4 +1,4 @@
-// What an editor draws into the text: commands above trees, and values behind attributes and nodes.
+// An editor draws these into the text: commands above trees, values behind attributes and nodes.
 #pragma once
 
 #include "authoring/server/features/feature.h"

@@ -1,4 +1,4 @@
-// What is at a position of a text, also of a broken one.
+// The element, attribute or value at a position of a text, also of a broken one.
 #pragma once
 
 #include <string_view>

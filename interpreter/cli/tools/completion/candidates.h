@@ -1,4 +1,4 @@
-// What could stand at the end of a command line: from the options that the commands have, and from
+// The words that could end a command line: from the options that the commands have, and from
 // the tree or the recording that the line names. No plugin is loaded, and no program started.
 #pragma once
 

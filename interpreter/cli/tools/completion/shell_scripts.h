@@ -1,4 +1,4 @@
-// What each shell runs to complete a line of lockstep: it asks `lockstep completion words`.
+// The script that each shell runs to complete a line: it asks `lockstep completion words`.
 #pragma once
 
 namespace lockstep::host {

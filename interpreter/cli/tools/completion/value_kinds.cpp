@@ -52,7 +52,7 @@ std::vector<Candidate> recorded_entries(const std::string& file) {
   return result;
 }
 
-// What a value can be, by the name of its type in --help.
+// The values that an option can have, by the name of its type in --help.
 struct ValueKind {
   std::string_view type;
   std::string_view files;  // as in Candidates

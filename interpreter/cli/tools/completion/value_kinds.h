@@ -1,4 +1,4 @@
-// What the value of an option could be: by the name of its type in --help.
+// The values that an option could have, by the name of its type in --help.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ void add_once(std::vector<std::string>& words, std::string_view word) {
   if (!word.empty() && std::ranges::find(words, word) == words.end()) words.emplace_back(word);
 }
 
-// What stands for a leaf in a tree, by the attribute ID.
+// These stand for a leaf in a tree, which the attribute ID names.
 constexpr std::array<std::string_view, 2> kCompactForms{"Action", "Condition"};
 // Elements that are no nodes.
 constexpr std::array<std::string_view, 10> kFrame{"root",    "BehaviorTree",   "include", "arg",

@@ -15,7 +15,7 @@ std::vector<std::string> paragraphs_of(const std::string& text) {
   return result;
 }
 
-// What stands behind its first word or line.
+// The text behind the paragraph's first word or line.
 std::string examples_of(const std::string& paragraph) {
   const std::size_t end = paragraph.find('\n');
   const std::size_t begin = end != std::string::npos ? end : paragraph.find(' ');

@@ -58,7 +58,7 @@ struct Describing;
 // One element, to which `describe` gives ports. The words are those of the members of Ports.
 class Element {
  public:
-  // What the element gives to a Fixed port, or the port's default; "" without both.
+  // The text that the element gives to a Fixed port, or the port's default; "" without both.
   std::string operator[](std::string_view fixed_port) const {
     for (const auto& [port, text] : fixed_) {
       if (port == fixed_port) return text;
@@ -94,7 +94,7 @@ class Element {
     add<T>(LOCKSTEP_INOUT, name, nullptr, doc, unit, limits, LOCKSTEP_OPTIONAL);
   }
 
-  // What the leaves of such elements find with kept<T>(): a type that was looked up, a plan.
+  // The leaves of such elements find it with kept<T>(): a type that was looked up, a plan.
   template <class T>
   void keep(T value) {
     made_.kept = std::make_shared<const T>(std::move(value));
@@ -169,7 +169,7 @@ class MorePort {
   std::string name_;
 };
 
-// What `describe` has kept for the leaf's element.
+// The value that `describe` has kept for the leaf's element.
 template <class T>
 const T& kept(const Leaf& leaf) {
   const detail::DescribedElement& element = detail::ElementAccess::element(leaf);
