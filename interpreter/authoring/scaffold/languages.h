@@ -11,8 +11,6 @@
 namespace lockstep::host {
 
 enum class NewNodeKind { Action, Condition, Threaded, Control, Decorator };
-inline constexpr NewNodeKind kLeafKinds[] = {NewNodeKind::Action, NewNodeKind::Condition,
-                                             NewNodeKind::Threaded};
 std::string_view to_string(NewNodeKind kind);  // "action"
 
 // How a language writes a type of ports.
