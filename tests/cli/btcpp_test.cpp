@@ -241,3 +241,16 @@ TEST_CASE("a start value of a SubTree counts as written, once") {
       "</Sequence></BehaviorTree></root>");
   CHECK(run_mocked(tree, {}).code == 0);
 }
+
+TEST_CASE("a ParallelAll is measured as each parallel is, in a recording too") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root BTCPP_format=\"4\"><plugin name=\"motion\"/><BehaviorTree ID=\"Main\"><ParallelAll "
+      "name=\"both\"><Advance step=\"0.1\"/><Advance step=\"0.3\"/></ParallelAll></BehaviorTree>"
+      "</root>");
+  const std::string file = directory.path("run.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--record", file}).code == 0);
+  const Outcome measured = run_lockstep({"log", "measure", file});
+  CHECK(contains(measured.out, "Main/both  progress-distance  3.3"));
+}

@@ -315,6 +315,13 @@ class Features(unittest.TestCase):
         hints = self.client.about("textDocument/inlayHint", self.path, range=Client.range((0, 0), (99, 0)))
         self.assertEqual({"= 0.5", "1/2"}, {it["label"] for it in hints})
 
+    def test_shares_in_the_other_language(self):
+        self.put("""<root BTCPP_format="4"><BehaviorTree ID="Main"><ReactiveSequence>
+          <Repeat num_cycles="3"><AlwaysSuccess/></Repeat><AlwaysSuccess/>
+          </ReactiveSequence></BehaviorTree></root>""")
+        hints = self.client.about("textDocument/inlayHint", self.path, range=Client.range((0, 0), (99, 0)))
+        self.assertEqual(["1/2", "1/2", "1/3"], sorted(it["label"] for it in hints))
+
     def test_tokens(self):
         self.put(HEAD + "<Wait seconds=\"${pace}\"/>" + TAIL)
         data = self.client.about("textDocument/semanticTokens/full", self.path)["data"]
