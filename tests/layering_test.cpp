@@ -384,7 +384,7 @@ TEST_CASE("layers: nobody asks in which language a tree is written") {
   }
 }
 
-// What matters of a kind is in its row (core/node_type.h), so that a new one needs no other file.
+// The row of a kind has what others ask (core/node_type.h), so that a new kind needs no edit there.
 TEST_CASE("layers: nobody asks a node kind for its name") {
   const Names know{"interpreter/dialect/", "interpreter/authoring/convert/"};
   const std::regex asks{R"re(\b(id|kind) [!=]= ")re"};
