@@ -115,6 +115,20 @@ TEST_CASE("an object that is not set again is read as the same") {
   }
 }
 
+TEST_CASE("a port of any type sees whether the object is another one, and not what it is") {
+  const std::string watch = R"(<WatchThere seen="{seen}"/>)", again = R"(<Repeat times="2">)";
+  for (const Strings& isolated : {Strings{}, kHere, kThere, kBoth}) {
+    const auto ran = [&](int ticks, const std::string& nodes) {
+      return Delivery(isolated, nodes).run(ticks);
+    };
+    CHECK(ran(1, send("Here", "tea") + watch) == "parcel=[tea] seen=true");
+    CHECK(ran(2, send("Here", "tea") + again + watch + "</Repeat>") == "parcel=[tea] seen=false");
+    CHECK(ran(2, again + R"(<Sequence memory="true">)" + watch + send("Here", "tea") +
+                     "</Sequence></Repeat>") == "parcel=[tea] seen=true");
+    CHECK(ran(2, again + watch + "</Repeat>") == "parcel= seen=false");
+  }
+}
+
 // The plugin that destroys its run context first has set an object that the other one still has.
 TEST_CASE("objects that crossed are released before the run contexts") {
   const std::string nodes = R"(<SendThere content="" parcel="{other}"/>)" + send("Here", "tea") +

@@ -2,7 +2,9 @@
 // plugin that is out there. New members go to the end; then a line and a size change here.
 #include <cstddef>
 
+#include "lockstep/changes.h"
 #include "lockstep/leaf.h"
+#include "lockstep/ticks.h"
 
 #if defined(__LP64__)
 
@@ -173,6 +175,14 @@ MEMBER_AT(lockstep_children, pause, 32);
 MEMBER_AT(lockstep_children, status, 40);
 MEMBER_AT(lockstep_children, progress, 48);
 MEMBER_AT(lockstep_children, tick_unreset, 56);
+
+SIZE_IS(lockstep_changes, 16);
+MEMBER_AT(lockstep_changes, struct_size, 0);
+MEMBER_AT(lockstep_changes, changed, 8);
+
+SIZE_IS(lockstep_ticks, 16);
+MEMBER_AT(lockstep_ticks, struct_size, 0);
+MEMBER_AT(lockstep_ticks, number, 8);
 
 SIZE_IS(lockstep_place, 120);
 MEMBER_AT(lockstep_place, struct_size, 0);

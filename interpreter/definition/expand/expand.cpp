@@ -264,13 +264,17 @@ class Expander {
     return found.entry;
   }
 
-  // The entry of a stand-in for a node that no plugin has gets the type that others give it.
+  // The entry of a stand-in for a node that no plugin has, and of an input of any type, gets the
+  // type that others give it.
   bool is_guessed(const NodeType& type, const Parameter& parameter) const {
-    return is_strict() && type.mock != nullptr && parameter.is_generic;
+    const bool takes_any = type.mock != nullptr || parameter.direction == Direction::Input;
+    return is_strict() && takes_any && parameter.is_generic;
   }
 
   std::uint32_t use_guessed(const CheckedPort& port, Scope& scope) {
     guessed_.push_back(find(port.key, scope));
+    BlackboardEntry& entry = definition_.entries[guessed_.back()];
+    if (!entry.is_present) entry.first_use = port.place;
     return guessed_.back();
   }
 

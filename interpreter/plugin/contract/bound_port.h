@@ -23,6 +23,7 @@ struct PortMemory {
   // The value of the entry, in the port's type: in trees that say so, the entry may have another.
   Value converted = {};
   std::string given = {};  // for lockstep_place's `given`
+  Value seen = {};         // at the last call of lockstep_changes
 };
 
 struct BoundPort {
@@ -40,6 +41,11 @@ struct BoundPort {
 
   std::string_view name() const { return parameter != nullptr ? parameter->name : entry; }
   const ObjectType* object() const { return parameter != nullptr ? parameter->object : nullptr; }
+  // What it has now, of any type. Null: nothing.
+  const Value* value() const {
+    const bool is_empty = read == nullptr || std::holds_alternative<NoValue>(*read);
+    return is_empty ? fallback : read;
+  }
   // The tree binds it to no entry: what the leaf sets is discarded.
   bool is_unbound() const {
     return parameter != nullptr && parameter->direction != Direction::Input && write == nullptr;

@@ -424,6 +424,8 @@ const void* get_extension(const char* id) {
   if (wanted == LOCKSTEP_PLACE) return &place_table();
   if (wanted == LOCKSTEP_BOARDS) return &boards_table();
   if (wanted == LOCKSTEP_LASTING) return &lasting_table();
+  if (wanted == LOCKSTEP_CHANGES) return &changes_table();
+  if (wanted == LOCKSTEP_TICKS) return &ticks_table();
   return nullptr;
 }
 

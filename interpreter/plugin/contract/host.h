@@ -15,7 +15,9 @@
 #include "core/value.h"
 #include "engine/call_mark.h"
 #include "engine/leaf_slot.h"
+#include "lockstep/changes.h"
 #include "lockstep/leaf.h"
+#include "lockstep/ticks.h"
 #include "plugin/contract/bound_port.h"
 #include "plugin/contract/leaf_set.h"
 
@@ -131,5 +133,7 @@ const lockstep_children& children_table();
 // For all nodes of plugins.
 const lockstep_place& place_table();
 const lockstep_lasting& lasting_table();
+const lockstep_changes& changes_table();
+const lockstep_ticks& ticks_table();
 
 }  // namespace lockstep::host

@@ -185,7 +185,9 @@ void LeafSet::Implementation::destroy_all() {
   }
   for (lockstep_caller& caller : callers_) {
     for (const BoundPort* const port : caller.ports) {
-      if (port->memory != nullptr) port->memory->packed = port->memory->unpacked = Object();
+      if (port->memory == nullptr) continue;
+      port->memory->packed = port->memory->unpacked = Object();
+      port->memory->seen = Value();
     }
   }
   for (std::size_t index = contexts_.size(); index-- > 0;) {

@@ -70,17 +70,11 @@ const char* given(const lockstep_caller* caller, std::uint32_t port) {
   }
 }
 
-// The value that the port has now; null: none.
-const Value* value_of(const BoundPort* port) {
-  if (port == nullptr || port->read == nullptr) return nullptr;
-  const bool is_empty = std::holds_alternative<NoValue>(*port->read);
-  return is_empty ? port->fallback : port->read;
-}
-
 // The types of the contract have the numbers of the alternatives.
 lockstep_type value_type(const lockstep_caller* caller, std::uint32_t port) {
   const InEngine scope(caller->run->lock);
-  const Value* const value = value_of(port_of(*caller, port));
+  const BoundPort* const it = port_of(*caller, port);
+  const Value* const value = it == nullptr ? nullptr : it->value();
   return value == nullptr ? 0 : static_cast<lockstep_type>(value->index());
 }
 
@@ -94,7 +88,8 @@ const ObjectType* object_type_of(const lockstep_caller* caller,
 bool get_object(const lockstep_caller* caller, std::uint32_t port,
                 const lockstep_object_type* declared, void** object) {
   const InEngine scope(caller->run->lock);
-  const Value* const value = value_of(port_of(*caller, port));
+  const BoundPort* const it = port_of(*caller, port);
+  const Value* const value = it == nullptr ? nullptr : it->value();
   const auto* const found = value == nullptr ? nullptr : std::get_if<Object>(value);
   if (found == nullptr || declared == nullptr || found->type()->is_packed()) return false;
   if (found->type()->name() != declared->name) return false;

@@ -19,12 +19,31 @@ std::string put_packed(const Value& value, MessageWriter& message) {
   return packed ? "" : packed.error().message;
 }
 
+// A port of any type cannot read an object. The other side gets one without content, so that it
+// sees another object there.
+void put_generic(const Value& value, MessageWriter& message) {
+  const auto* const object = std::get_if<Object>(&value);
+  if (object == nullptr) {
+    message.put_value(value);
+  } else {
+    message.put_value(Value(PackedType::of(object->type()->name()).make({})));
+  }
+}
+
 // The value as a port of that type can read it; no value if it cannot.
 Value readable_value(const Value& value, ValueType type, const ObjectType* object) {
   auto converted = convert_value(value, type, object);
   const auto* number = converted ? std::get_if<double>(&*converted) : nullptr;
   if (!converted || (number != nullptr && !std::isfinite(*number))) return {};
   return std::move(*converted);
+}
+
+// The bytes are those of the object that is there, which the other side has sent before.
+bool is_same_object(const Value& there, const Value& sent) {
+  const auto* const one = std::get_if<Object>(&there);
+  const auto* const other = std::get_if<Object>(&sent);
+  return one != nullptr && other != nullptr && one->type() == other->type() &&
+         one->type()->is_packed() && PackedType::get(*one).bytes == PackedType::get(*other).bytes;
 }
 
 // As a port of type LOCKSTEP_ANY sets it.
@@ -70,15 +89,17 @@ std::string RemoteEntries::write(std::span<const std::uint32_t> ports, MessageWr
     if (number == kNone) continue;
     Entry& entry = entries_[number];
     Value converted;
-    if (entry.is_generic) {
-      if (!std::holds_alternative<Object>(*entry.read)) converted = *entry.read;
-    } else if (!entry.is_strict) {
-      converted = readable_value(*entry.read, entry.type, entry.object);
-    }
-    const Value& value = entry.is_strict && !entry.is_generic ? *entry.read : converted;
+    const bool is_as_it_is = entry.is_strict || entry.is_generic;
+    if (!is_as_it_is) converted = readable_value(*entry.read, entry.type, entry.object);
+    const Value& value = is_as_it_is ? *entry.read : converted;
     if (entry.known && entry.last == value) continue;
     message.put(number);
-    std::string reason = put_packed(value, message);
+    std::string reason;
+    if (entry.is_generic) {
+      put_generic(value, message);
+    } else {
+      reason = put_packed(value, message);
+    }
     entry.known = reason.empty();
     entry.last = entry.known ? value : Value();
     if (failure.empty()) failure = std::move(reason);
@@ -94,6 +115,8 @@ bool RemoteEntries::read(MessageReader& message, bool& refused) {
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last, entry.objects)) return false;
     if (entry.is_generic ? !entry.last.index() : !holds(entry.last, entry.type)) return false;
+    // Who looks whether the entry has changed sees that it has not.
+    if (is_same_object(entry.write->value, entry.last)) entry.last = entry.write->value;
     entry.known = true;
     if (entry.is_generic) {
       refused |= !write_generic(*entry.write, entry.last);

@@ -7,6 +7,7 @@
 #include "core/plugin_exception.h"
 #include "remote/shared_memory/answer.h"
 #include "remote/shared_memory/channel.h"
+#include "remote/shared_memory/descriptor_message.h"
 #include "remote/shared_memory/remote_entries.h"
 
 namespace lockstep::host {
@@ -64,7 +65,10 @@ bool ServedRun::bind(BoundPort& port, std::uint32_t number, bool is_writable) {
   if (port.object() != nullptr) bound->objects = &PackedType::of(port.object()->name());
   port.read = &bound->value;
   if (is_writable) port.write = bound;
-  if (port.is_generic) bound->typing = Typing::Any;
+  if (port.is_generic) {
+    bound->typing = Typing::Any;
+    bound->objects = &PackedType::of("object");
+  }
   return true;
 }
 

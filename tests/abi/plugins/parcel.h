@@ -97,4 +97,17 @@ class Receive : public lockstep::Action<ReceivePorts> {
   std::shared_ptr<const Parcel> last_;
 };
 
+struct WatchPorts : lockstep::Ports {
+  Input<lockstep::Any> parcel{this, "parcel", "{parcel}", "the parcel, or anything else"};
+  Output<bool> seen{this, "seen", "whether it is another one than before"};
+};
+
+class Watch : public lockstep::Action<WatchPorts> {
+ public:
+  Status tick() override {
+    seen.set(parcel.changed());
+    return Status::Success;
+  }
+};
+
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "../leaf.h"
+#include "../ticks.h"
 
 namespace lockstep {
 inline namespace sdk1 {
@@ -96,6 +97,13 @@ class Services {
   double now() const { return host().now(caller_.id); }
   // Seconds between two ticks.
   double tick_period() const { return host().tick_period(caller_.id); }
+  // Of the tick that goes on. The next tick has the next number, also if it is late and some were
+  // left out for it. An older host does not tell: the periods since the run began.
+  std::uint64_t tick_number() const {
+    const auto* const ticks = host_extension<lockstep_ticks>(LOCKSTEP_TICKS);
+    if (ticks != nullptr) return ticks->number(caller_.id);
+    return static_cast<std::uint64_t>(now() / tick_period() + 0.5);
+  }
 
   // The caller's own stream of random numbers: 64 bits, or uniform in [0, 1) or [low, high). The
   // same seed, tree and run give the same numbers.

@@ -181,6 +181,10 @@ constexpr lockstep_port describe(lockstep_direction direction, const char* name,
                                  Limits limits) {
   lockstep_port port = describe<T>(direction, name, doc, unit, limits);
   port.default_value = default_value;
+  if (is_entry(default_value)) {
+    port.flags = LOCKSTEP_DEFAULT_ENTRY;
+    return port;
+  }
   if (!is_for_constant()) return port;
   if (!PortTraits<T>::accepts(default_value)) error_default_is_not_a_value_of_the_port_type();
   if (port.choices && index_of(default_value, port.choices) >= count_words(port.choices)) {
@@ -264,7 +268,7 @@ class ReadablePort : public Port {
 template <class T>
 class Input : public detail::ReadablePort<T> {
  public:
-  // `default_value` as a tree would write it.
+  // `default_value` as a tree would write it: a constant, or "{key}".
   constexpr Input(Ports* owner, const char* name, const char* default_value, const char* doc,
                   const char* unit = "", Limits limits = {})
       : detail::ReadablePort<T>(

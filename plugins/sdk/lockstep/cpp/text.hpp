@@ -31,6 +31,9 @@ namespace detail {
 [[noreturn]] inline void error_default_is_not_a_value_of_the_port_type() {
   std::abort();
 }
+[[noreturn]] inline void error_default_of_any_type_is_an_entry() {
+  std::abort();
+}
 [[noreturn]] inline void error_choices_are_different_words_separated_by_semicolons() {
   std::abort();
 }
@@ -90,6 +93,11 @@ constexpr bool is_plugin_name(std::string_view text) {
     if (!is_letter(c) && !is_digit(c) && c != '_' && c != '-') return false;
   }
   return !text.empty();
+}
+
+// "{key}", an entry of the tree; "{=}" is the one of the port's name.
+constexpr bool is_entry(std::string_view text) {
+  return text.size() > 2 && text.front() == '{' && text.back() == '}';
 }
 
 constexpr std::string_view trim(std::string_view text) {
