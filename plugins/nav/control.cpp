@@ -65,24 +65,4 @@ bool RoundRobin::is_exhausted() const {
   return current_ >= child_count() || passed_ >= child_count();
 }
 
-// The period goes on when the child has completed, also into the next activation, so that a
-// PipelineSequence above starts its child again at this rate. It ends with a halt, or with a gap in
-// the ticks.
-Status RateController::tick() {
-  const double period = 1 / hz.get();
-  if (now() - ticked_ > 1.5 * tick_period()) is_first_ = true;
-  ticked_ = now();
-  if (is_first_) began_ = now();
-  if (!is_due(period)) return Status::Running;
-  is_first_ = false;
-  const Status status = tick_child();
-  if (status == Status::Success) began_ = now();
-  return status;
-}
-
-bool RateController::is_due(double period) const {
-  constexpr double kRounding = 1e-9;  // of a sum of ticks
-  return is_first_ || child_status() == Status::Running || now() - began_ >= period - kRounding;
-}
-
 }  // namespace nav

@@ -63,21 +63,4 @@ class RoundRobin : public lockstep::Control<RoundRobinPorts> {
   std::uint32_t skipped_ = 0;  // of those
 };
 
-struct RatePorts : lockstep::Ports {
-  Input<double> hz{this, "hz", "10", "how often the child is started", "1/s", at_least(0.001)};
-};
-
-class RateController : public lockstep::Decorator<RatePorts> {
- public:
-  Status tick() override;
-  void halt() override { is_first_ = true; }
-
- private:
-  bool is_due(double period) const;
-
-  bool is_first_ = true;
-  double began_ = 0;   // when the current period did
-  double ticked_ = 0;  // when this node was ticked last
-};
-
 }  // namespace nav

@@ -5,6 +5,8 @@
 LOCKSTEP_PLUGIN(
     "nav", "1.0", "Control nodes for navigation, as those of Nav2, and a simulated robot",
     nav::kRecoveryNode, nav::kPipelineSequence, nav::kRoundRobin, nav::kRateController,
+    nav::kSpeedController, nav::kDistanceController, nav::kGoalUpdatedController, nav::kGoalUpdated,
+    nav::kGlobalUpdatedGoal, nav::kPathExpiringTimer,
     lockstep::leaf<nav::ComputePathToPose>("ComputePathToPose",
                                            "Simulated: plans a path to the goal, in one tick."),
     lockstep::leaf<nav::DrivePath>("DrivePath",

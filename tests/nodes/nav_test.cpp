@@ -1,8 +1,9 @@
-// The control nodes of the plugin nav.
+// The control nodes and conditions of the plugin nav.
 #include <catch2/catch.hpp>
 
 #include "lockstep/leaf.h"
 #include "support/plugin_nodes.h"
+#include "support/scripted_run.h"
 #include "support/tick_table.h"
 
 namespace lockstep::host::test {
@@ -106,6 +107,109 @@ constexpr TickRow kRateController[] = {
   {"that is no rate is a fault",
    "RateController[hz=0](a)", "a=S", "X[]=RateController"},
 };
+
+constexpr TickRow kSpeedController[] = {
+  {"ticks its child in its first tick, and at max_rate at max_speed",
+   "SpeedController[min_rate=2 max_rate=5 max_speed=1 speed=1](a)", "a=S", "S[a] R[] S[a] R[]"},
+  {"at max_rate above it",
+   "SpeedController[min_rate=2 max_rate=5 max_speed=1 speed=3](a)", "a=S", "S[a] R[] S[a]"},
+  {"at min_rate at min_speed, and below",
+   "SpeedController[min_rate=2.5 max_rate=10 min_speed=.5 max_speed=1 speed=.2](a)", "a=S", "S[a] R[] R[] R[] S[a]"},
+  {"at a rate in between at a speed in between",
+   "SpeedController[min_rate=1 max_rate=4 max_speed=1 speed=.5](a)", "a=S", "S[a] R[] R[] R[] S[a]"},
+  {"backward as forward",
+   "SpeedController[min_rate=1 max_rate=5 max_speed=1 speed=-1](a)", "a=S", "S[a] R[] S[a]"},
+  {"at max_rate from the one speed on that is least and greatest",
+   "SpeedController[min_rate=1 max_rate=5 min_speed=1 max_speed=1 speed=1](a)", "a=S", "S[a] R[] S[a]"},
+  {"takes the speed from the entry 'speed'",
+   "SpeedController[min_rate=1 max_rate=5 max_speed=1](a)", "a=S", "speed:=0.0 S[a] R[] R[] speed:=1.0 S[a] R[]"},
+  {"without a speed is a fault",
+   "SpeedController(a)", "a=S", "X[]=SpeedController"},
+  {"ticks its child at once for another goal",
+   "SpeedController[min_rate=1 max_rate=1 speed=1](a)", "a=S", "S[a] R[] goal:=2 S[a] R[] goals:=2 S[a]"},
+  {"ticks a child that runs in every tick",
+   "SpeedController[min_rate=1 max_rate=1 speed=1](a)", "a=RRS", "R[a] R[a] S[a] R[]"},
+  {"ticks its child at once after a halt",
+   "Sequence(c? SpeedController[min_rate=1 max_rate=1 speed=1](a))", "c=SSFS a=SS", "S[c a] R[c] F[c] S[c a]"},
+};
+
+constexpr TickRow kDistanceController[] = {
+  {"ticks its child in its first tick, and again after the distance",
+   "DistanceController(a)", "a=S", "x:=3.0 y:=0.0 S[a] x:=3.9 R[] x:=4.0 S[a] x:=4.5 R[]"},
+  {"measures from where its child succeeded, as the crow flies",
+   "DistanceController(a)", "a=RRS", "x:=0.0 y:=0.0 R[a] x:=5.0 R[a] S[a] x:=5.6 R[] y:=0.8 S[a]"},
+  {"does not count the way there and back",
+   "DistanceController[distance=.5](a)", "a=S", "x:=0.0 y:=0.0 S[a] x:=0.4 R[] x:=0.0 R[] x:=-0.4 R[] x:=-0.5 S[a]"},
+  {"starts a child that has failed again",
+   "DistanceController(a)", "a=FS", "x:=0.0 y:=0.0 F[a] S[a] R[]"},
+  {"ticks its child at once after a halt",
+   "Sequence(c? DistanceController(a))", "c=SSFS a=SS", "x:=0.0 y:=0.0 S[c a] R[c] F[c] S[c a]"},
+  {"ticks its child at once when it was not ticked for a while",
+   "Fallback(c? DistanceController(a))", "c=FSFF a=SS", "x:=0.0 y:=0.0 S[c a] S[c] S[c a] R[c]"},
+  {"without a position is a fault",
+   "DistanceController(a)", "a=S", "x:=0.0 X[]=DistanceController"},
+};
+
+constexpr TickRow kGoalUpdatedController[] = {
+  {"ticks its child in its first tick, and then once for each goal",
+   "GoalUpdatedController(a)", "a=S", "S[a] R[] goal:=1 S[a] R[] R[] goal:=2 S[a] R[]"},
+  {"an entry that is set to the value that it has has not changed",
+   "GoalUpdatedController(a)", "a=S", "goal:=1 S[a] goal:=1 R[]"},
+  {"for several goals, too",
+   "GoalUpdatedController(a)", "a=S", "S[a] goals:=1 S[a] R[] goal:=1 goals:=2 S[a] R[]"},
+  {"for a goal of another entry",
+   "GoalUpdatedController[goal={place}](a)", "a=S", "S[a] place:=1 S[a] R[]"},
+  {"ticks a child that runs in every tick",
+   "GoalUpdatedController(a)", "a=RRS", "R[a] R[a] S[a] R[]"},
+  {"halts a child that runs, and starts it for the other goal",
+   "GoalUpdatedController(a)", "a=RRS", "R[a] goal:=2 R[a] halt[a] S[a] R[]"},
+  {"starts a child that has failed again",
+   "GoalUpdatedController(a)", "a=FS", "F[a] S[a] R[]"},
+  {"ticks its child at once after a halt",
+   "Sequence(c? GoalUpdatedController(a))", "c=SSFS a=SS", "S[c a] R[c] F[c] S[c a]"},
+  {"ticks its child at once when it was not ticked in the tick before",
+   "Fallback(c? GoalUpdatedController(a))", "c=FSFF a=SS", "S[c a] S[c] S[c a] R[c]"},
+  {"lets a PipelineSequence plan for each goal",
+   "PipelineSequence(GoalUpdatedController(a) b)", "a=S b=R", "R[a b] R[b] goal:=1 R[a b] R[b]"},
+};
+
+constexpr TickRow kGoalUpdated[] = {
+  {"fails in its first tick, and as long as the goal stays",
+   "GoalUpdated", "", "goal:=1 F[] F[] goal:=1 F[]"},
+  {"succeeds once for each goal",
+   "GoalUpdated", "", "F[] goal:=1 S[] F[] goal:=2 S[] goal:=3 S[] F[]"},
+  {"for several goals, too, and once for both",
+   "GoalUpdated", "", "F[] goals:=1 S[] F[] goal:=1 goals:=2 S[] F[]"},
+  {"for a goal of another entry",
+   "GoalUpdated[goal={place}]", "", "F[] place:=1 S[] F[]"},
+  {"begins again when it was not ticked in the tick before",
+   "Fallback(c? Sequence(GoalUpdated a))", "c=FSFF a=S", "F[c] goal:=1 S[c] F[c] goal:=2 S[c a]"},
+  {"ends what is behind it for another goal",
+   "Fallback(GoalUpdated a)", "a=R", "R[a] R[a] goal:=2 S[] halt[a]"},
+};
+
+constexpr TickRow kGlobalUpdatedGoal[] = {
+  {"succeeds in its first tick, and then once for each goal",
+   "GlobalUpdatedGoal", "", "S[] F[] goal:=1 S[] F[] goals:=1 S[] F[]"},
+  {"sees a goal that came however long ago",
+   "Fallback(c? Sequence(GlobalUpdatedGoal a))", "c=FSSSSSSF a=S",
+   "S[c a] goal:=1 S[c] S[c] S[c] S[c] S[c] S[c] S[c a]"},
+  {"does not begin again when it was not ticked for a while",
+   "Fallback(c? Sequence(GlobalUpdatedGoal a))", "c=FSSSSSSF a=S",
+   "S[c a] S[c] S[c] S[c] S[c] S[c] S[c] F[c]"},
+};
+
+constexpr TickRow kPathExpiringTimer[] = {
+  {"succeeds when the time is over, and begins it again",
+   "PathExpiringTimer[seconds=.3]", "", "F[] F[] F[] S[] F[] F[] S[]"},
+  {"another path begins the time again",
+   "PathExpiringTimer[seconds=.2]", "", "path:=1 F[] F[] path:=2 F[] F[] S[] path:=2 F[] path:=3 F[] F[] S[]"},
+  {"counts the time in which it was not ticked",
+   "Fallback(c? Sequence(PathExpiringTimer[seconds=1] a))", "c=FSSSSSSSSSF a=S",
+   "F[c] S[c] S[c] S[c] S[c] S[c] S[c] S[c] S[c] S[c] S[c a]"},
+  {"its first tick begins the time",
+   "PathExpiringTimer[seconds=0]", "", "F[] S[] path:=1 F[] S[]"},
+};
 // clang-format on
 
 }  // namespace
@@ -121,6 +225,41 @@ TEST_CASE("RoundRobin") {
 }
 TEST_CASE("RateController") {
   check_rows(kRateController);
+}
+TEST_CASE("SpeedController") {
+  check_rows(kSpeedController);
+}
+TEST_CASE("DistanceController") {
+  check_rows(kDistanceController);
+}
+TEST_CASE("GoalUpdatedController") {
+  check_rows(kGoalUpdatedController);
+}
+TEST_CASE("GoalUpdated") {
+  check_rows(kGoalUpdated);
+}
+TEST_CASE("GlobalUpdatedGoal") {
+  check_rows(kGlobalUpdatedGoal);
+}
+// On a machine that is busy, ticks are left out. The nodes were ticked in the tick before all the
+// same.
+TEST_CASE("a late tick is no gap in the ticks") {
+  using namespace std::chrono_literals;
+  for (const char* const decorator :
+       {"RateController[hz=1](a)", "SpeedController[speed=1](a)", "DistanceController[x=0 y=0](a)",
+        "GoalUpdatedController(a)"}) {
+    INFO(decorator);
+    ScriptedRun run(decorator, "a=S");
+    CHECK(run.tick(0s) == Status::Success);
+    CHECK(run.tick(700ms) == Status::Running);
+  }
+  ScriptedRun run("GoalUpdated", "");
+  CHECK(run.tick(0s) == Status::Failure);
+  run.set("goal", std::int64_t{1});
+  CHECK(run.tick(700ms) == Status::Success);
+}
+TEST_CASE("PathExpiringTimer") {
+  check_rows(kPathExpiringTimer);
 }
 
 }  // namespace lockstep::host::test

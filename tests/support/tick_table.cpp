@@ -16,6 +16,7 @@ struct Step {
   std::string calls;   // without what follows
   std::string suffix;  // what stands after '=': a progress, or the leaf at fault
   std::string faults;  // what stands after '!': the leaves at fault, "a,b"
+  std::vector<std::pair<std::string, std::string>> entries;  // what is set before it: name, value
   bool every_call = false;
 };
 
@@ -53,12 +54,18 @@ std::string line(const std::string& calls, const std::string& suffix, const std:
 
 std::vector<Step> parse_expected(std::string_view text) {
   std::vector<Step> steps;
+  decltype(Step::entries) entries;
   for (std::string& word : words(text)) {
+    if (const auto at = word.find(":="); at != std::string::npos) {
+      entries.emplace_back(word.substr(0, at), word.substr(at + 2));
+      continue;
+    }
     if (std::islower(static_cast<unsigned char>(word[0])) != 0 && !word.starts_with("stop")) {
       steps.back().calls += " " + word;
       continue;
     }
     Step& step = steps.emplace_back();
+    step.entries = std::exchange(entries, {});
     step.every_call = word.find('{') != std::string::npos;
     step.faults = cut_off(word, '!');
     step.suffix = cut_off(word, '=');
@@ -119,6 +126,10 @@ class Row {
     if (step.calls.starts_with("stop")) {
       run_.ticker().halt_all();
       return line("stop" + summary(run_, ' ').substr(3), "", faults());
+    }
+    for (const auto& [name, text] : step.entries) {
+      const bool is_double = text.find('.') != std::string::npos;
+      run_.set(name, *parse_value(is_double ? ValueType::Double : ValueType::Int, text));
     }
     const Status status = run_.tick(tick_++ * from_seconds(row_.period));
     const Fault* fault = run_.ticker().fault();

@@ -8,6 +8,7 @@
 //   R{start a, tick a}     a tick with everything that its leaves were told, in order.
 //   R[a]=.5                the progress of the root after the tick is .5.
 //   X[a]=a                 a tick that ends in a fault of leaf a (and halts what still runs).
+//   goal:=2 S[]            the entry 'goal' is set to 2 before the tick; 2.0 is a double.
 //   F[a]!a                 leaf a was at fault in the tick, and the run goes on; stop!a: in its
 //   halt. stop                   not a tick: the owner halts the run.
 #pragma once

@@ -222,7 +222,7 @@ class Builder {
           text = attribute.value;
         } else if (attribute.value.starts_with('{')) {
           names_at_run_time_ |= parameter.is_key;
-          port.entry = entry(key_in(attribute.value), parameter.type);
+          port.entry = entry(key_in(attribute.value), type_of(parameter));
           all.from_entry |= std::uint64_t{1} << values.size();
         } else if (parameter.names_entry || parameter.is_key) {
           text = attribute.value;
@@ -231,6 +231,11 @@ class Builder {
         } else {
           text = attribute.value;
         }
+      }
+      const bool is_left_out = port.entry == Port::kNone && text == parameter.default_text;
+      if (is_left_out && !parameter.default_key.empty()) {
+        port.entry = entry(parameter.default_key, type_of(parameter));
+        all.from_entry |= std::uint64_t{1} << values.size();
       }
       if (parameter.required && !text && port.entry == Port::kNone) {
         fail("missing " + std::string(parameter.name));
@@ -253,6 +258,10 @@ class Builder {
     }
     definition_.values.insert(definition_.values.end(), values.begin(), values.end());
     return first;
+  }
+
+  static std::optional<ValueType> type_of(const Parameter& parameter) {
+    return parameter.is_generic ? std::nullopt : std::optional(parameter.type);
   }
 
   // Without a type: one that is not there until it is written.

@@ -51,7 +51,6 @@ constexpr std::string_view kTry =
 constexpr std::string_view kNav = "the plugin nav has it: add <plugin name=\"nav\"/>";
 constexpr std::string_view kAsk = "put a <Check> before it, in a Sequence";
 constexpr std::string_view kAskNot = "put a condition before it, in a Fallback";
-constexpr std::string_view kOften = "<Rate seconds=\"…\"> starts its child at most so often";
 constexpr std::string_view kCompare = "write <Check code=\"key == 'value'\"/>";
 constexpr std::string_view kNoQueues = "there are no queues: let a leaf take the next item";
 constexpr std::string_view kStart =
@@ -144,6 +143,12 @@ constexpr NodePair kSimilar[] = {
     {.theirs = "PipelineSequence", .remark = kNav},
     {.theirs = "RoundRobin", .remark = kNav},
     {.theirs = "RateController", .remark = kNav},
+    {.theirs = "SpeedController", .remark = kNav},
+    {.theirs = "DistanceController", .remark = kNav},
+    {.theirs = "GoalUpdatedController", .remark = kNav},
+    {.theirs = "GoalUpdated", .remark = kNav},
+    {.theirs = "GlobalUpdatedGoal", .remark = kNav},
+    {.theirs = "PathExpiringTimer", .remark = kNav},
     {.theirs = "NonblockingSequence",
      .ours = "Parallel",
      .remark = "actions that succeeded are not ticked again"},
@@ -152,9 +157,6 @@ constexpr NodePair kSimilar[] = {
      .in_ours = kRemembers,
      .remark = "its place is not on the blackboard"},
     {.theirs = "SingleTrigger", .ours = "RunOnce", .remark = kFirstResult},
-    {.theirs = "SpeedController", .remark = kOften},
-    {.theirs = "DistanceController", .remark = kOften},
-    {.theirs = "GoalUpdatedController", .remark = kAskNot},
     {.theirs = "PathLongerOnApproach", .remark = kAskNot},
     {.theirs = "Wait", .ours = "Wait", .words = kWaitDuration},
 };
