@@ -36,6 +36,7 @@ SourceLocation Source::locate(Place place) const {
 
 SourceLocation Source::locate_value(Place attribute, std::size_t byte) const {
   const std::size_t place = attribute.byte - first_.byte;
+  if (text_[place] == '<') return at(place);  // an element, which leaves the attribute out
   if (place > 0 && (text_[place - 1] == '>' || text_[place - 1] == '[')) {  // it is a text
     return at(place + raw_offset(text().substr(place), byte));
   }

@@ -176,16 +176,22 @@ class Adviser {
     });
     std::vector<bool> told = valued;  // one warning an entry
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
-      if (told[entry]) return;
+      const std::string& name = definition_.entries[entry].name;
+      if (told[entry] || may_be_empty(parameter, name)) return;
       told[entry] = true;
       if (report_.counted_only(Severity::Warning)) return;
-      const std::string& name = definition_.entries[entry].name;
       report_.at_value(definition_.entries[entry].first_use,
                        fmt::format("nothing writes '{{{}}}'", brief(name)),
                        unwritten_hint(&parameter, name, definition_.entries[entry].typing, valued),
                        Severity::Warning);
     });
     if (definition_.rules->strict_types) unwritten_in_scripts(valued, told);
+  }
+
+  // The entry of a port of any type, which the tree leaves out: it looks whether there is a value.
+  static bool may_be_empty(const Parameter& parameter, std::string_view entry) {
+    const std::string_view key = parameter.default_key;
+    return parameter.is_generic && !key.empty() && entry.substr(entry.rfind('/') + 1) == key;
   }
 
   // Entries that a script reads.
