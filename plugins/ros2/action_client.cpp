@@ -70,6 +70,21 @@ void ActionClient::send(Goal goal) {
   next_ = std::move(goal);
 }
 
+// The server is not asked to cancel the one before: it ends it for the new one.
+void ActionClient::replace(Goal goal) {
+  if (next_ && next_->activation == goal.activation) {
+    next_ = std::move(goal);
+    return;
+  }
+  if (!is_open(goal.activation)) return;
+  // What is on its way to be sent again is sent as the new one.
+  std::memcpy(goal.request->get(), goal_.request->get(), kIdSize);
+  std::swap(goal_, goal);
+  if (state_ != State::IsSent && state_ != State::IsAccepted) return;
+  replaced_ = std::move(goal.request);
+  if (wish_ == Wish::None) send_goal();
+}
+
 void ActionClient::begin(Goal goal) {
   goal_ = std::move(goal);
   sent_ = 0;
@@ -78,6 +93,7 @@ void ActionClient::begin(Goal goal) {
 
 void ActionClient::send_again() {
   state_ = State::WaitsForServer;
+  replaced_.reset();
   wish_ = Wish::None;
   is_canceling_ = is_resumed_ = false;
   deadline_ = Clock::now() + seconds(goal_.server_timeout);
@@ -200,11 +216,21 @@ void ActionClient::ask_to_cancel() {
   cancel_until_ = Clock::now() + kCancelLimit;
   if (is_canceling_) return;
   is_canceling_ = true;
+  if (send_cancel(goal_.request->get(), cancel_call_)) return;
+  fail("the goal could not be canceled: " + last_ros_error());
+}
+
+bool ActionClient::send_cancel(const void* id, std::int64_t& call) {
   rcl_action_cancel_request_t request = rcl_action_get_zero_initialized_cancel_request();
-  std::memcpy(&request.goal_info.goal_id, goal_.request->get(), kIdSize);
-  if (rcl_action_send_cancel_request(&client_, &request, &cancel_call_) != RCL_RET_OK) {
-    fail("the goal could not be canceled: " + last_ros_error());
-  }
+  std::memcpy(&request.goal_info.goal_id, id, kIdSize);
+  return rcl_action_send_cancel_request(&client_, &request, &call) == RCL_RET_OK;
+}
+
+// A goal before it, which it was to replace, does not stay at work.
+void ActionClient::reject() {
+  std::int64_t call = 0;
+  if (replaced_ != nullptr && !send_cancel(replaced_->get(), call)) rcl_reset_error();
+  end(wish_ == Wish::Cancel ? Outcome::Canceled : Outcome::Rejected);
 }
 
 void ActionClient::fail(const std::string& what) {
@@ -255,9 +281,8 @@ void ActionClient::take_goal_response() {
     return;
   }
   if (state_ != State::IsSent || id.sequence_number != goal_call_) return;
-  if (!*goal_response_.at<bool>(type_.accepted)) {
-    return end(wish_ == Wish::Cancel ? Outcome::Canceled : Outcome::Rejected);
-  }
+  if (!*goal_response_.at<bool>(type_.accepted)) return reject();
+  replaced_.reset();
   state_ = State::IsAccepted;
   ask_for_result();
   if (state_ == State::IsAccepted && wish_ != Wish::None) ask_to_cancel();
@@ -318,6 +343,7 @@ void ActionClient::take_cancel_response() {
   lines_.add("the server of '" + action_ + "' refuses to cancel the goal: the robot goes on");
   if (wish_ == Wish::Cancel) return end(Outcome::Canceled);
   wish_ = Wish::None;
+  if (replaced_ != nullptr) send_goal();
 }
 
 // Nothing of it is needed, but it would wake the thread again.

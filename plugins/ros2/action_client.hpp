@@ -52,6 +52,8 @@ class ActionClient final : public Waitable {
   // By the thread of ROS.
   void open();
   void send(Goal goal);
+  // Another goal of the same activation, which comes in the place of the one that is at work.
+  void replace(Goal goal);
   void cancel(std::uint64_t activation);
   // The goal is canceled and kept, and sent again by resume.
   void hold(std::uint64_t activation);
@@ -79,6 +81,8 @@ class ActionClient final : public Waitable {
   void send_goal();
   void ask_for_result();
   void ask_to_cancel();
+  bool send_cancel(const void* id, std::int64_t& call);
+  void reject();
   void take_goal_response();
   void take_result();
   void take_feedback();
@@ -97,7 +101,8 @@ class ActionClient final : public Waitable {
   Wish wish_ = Wish::None;
   bool is_canceling_ = false, is_resumed_ = false;
   Goal goal_;
-  std::optional<Goal> next_;  // waits until the one before has ended
+  std::optional<Goal> next_;           // waits until the one before has ended
+  std::shared_ptr<Message> replaced_;  // by the goal that the server has not accepted yet
   unsigned sent_ = 0;
   std::int64_t goal_call_ = 0, result_call_ = 0, cancel_call_ = 0;
   Clock::time_point deadline_, next_look_, cancel_until_;

@@ -350,7 +350,7 @@ void write_port(const PortOf& to, const Field& field, const void* message) {
       return;
     }
     case Kind::Object: {
-      void* const object = make_object(*field.message, address_in(field, message));
+      void* const object = object_in(field, message);
       if (object == nullptr) return;
       host->set_object(caller, port, object);
       release_object(object);
@@ -360,6 +360,10 @@ void write_port(const PortOf& to, const Field& field, const void* message) {
     case Kind::Messages:
       return;
   }
+}
+
+void* object_in(const Field& field, const void* message) {
+  return make_object(*field.message, address_in(field, message));
 }
 
 std::string text_of(const Members& members, const void* message) {

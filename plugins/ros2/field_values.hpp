@@ -33,6 +33,8 @@ std::string size_rows(const lockstep_host& host, const lockstep_caller* caller,
 std::string read_port(const PortOf& from, const Field& field, void* message);
 // Sets the entry that the port is bound to, if any.
 void write_port(const PortOf& to, const Field& field, const void* message);
+// The part of a message that is an Object: a new one with one reference, or null.
+void* object_in(const Field& field, const void* message);
 
 // "header.frame_id: map, pose.position.x: 1": what is not 0 or empty.
 std::string text_of(const Members& members, const void* message);

@@ -1,5 +1,7 @@
 #include "ros_action.hpp"
 
+#include <lockstep/changes.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +26,8 @@ enum Own : std::uint32_t {
   kHoldType,
   kOnFailure,
   kServerTimeout,
-  kError
+  kError,
+  kPreempt
 };
 
 constexpr std::uint64_t kFixedOptional = LOCKSTEP_FIXED | LOCKSTEP_OPTIONAL;
@@ -50,6 +53,10 @@ constexpr lockstep_port kOwnPorts[] = {
     {sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "error", nullptr, nullptr,
      "Why it failed: rejected, aborted, canceled, no server, server lost.", nullptr, 0, 0, nullptr,
      0},
+    input("preempt", LOCKSTEP_BOOL, "false",
+          "While the goal is at work and an entry of it changes, the new goal is sent. For servers "
+          "that end the one before, as those of Nav2 do.",
+          LOCKSTEP_FIXED),
 };
 
 // One element's: what its constants say, and the ports that follow from that.
@@ -61,7 +68,7 @@ struct ActionElement {
   Expression progress;
   bool needs_feedback = false;
   Hold hold;
-  bool faults = false;
+  bool faults = false, preempts = false;
   PortList ports;
   FieldPorts goal, feedback, result;
   lockstep_leaf_type leaf{};
@@ -93,7 +100,8 @@ class RosAction : public LeafBase {
         client_(std::make_shared<ActionClient>(element_.type, element_.action)),
         signal_(make_hold_signal(element_.hold)),
         feedback_ports_(given(element_.feedback)),
-        result_ports_(given(element_.result)) {
+        result_ports_(given(element_.result)),
+        watched_(element_.preempts ? given(element_.goal) : FieldPorts()) {
     Middleware::get().post([client = client_, signal = signal_] {
       client->open();
       Middleware::get().add(client);
@@ -118,15 +126,13 @@ class RosAction : public LeafBase {
   RosAction& operator=(const RosAction&) = delete;
 
   void start() {
-    goal_ = std::make_shared<Message>(*element_.type.send_goal);
-    if (!read(element_.goal, *goal_)) return;
+    if (!read_goal()) return;
     ++activation_;
     progress_ = held_progress_ = 0;
     began_ = now();
     memory_ = element_.progress.memory();
     sent_ = 0;
-    const ActionClient::Goal goal{activation_, goal_, number(kServerTimeout)};
-    Middleware::get().post([client = client_, goal] { client->send(goal); });
+    Middleware::get().post([client = client_, goal = goal()] { client->send(goal); });
   }
 
   lockstep_status tick() {
@@ -134,7 +140,10 @@ class RosAction : public LeafBase {
     // The result first: all feedback came before it.
     const Outcome outcome = client_->outcome(activation_);
     take_feedback();
-    if (outcome == Outcome::Open) return LOCKSTEP_RUNNING;
+    if (outcome == Outcome::Open) {
+      if (has_another_goal()) preempt();
+      return LOCKSTEP_RUNNING;
+    }
     const bool has_result = outcome == Outcome::Succeeded || outcome == Outcome::Aborted ||
                             outcome == Outcome::Canceled;
     if (has_result) write(result_ports_, client_->result());
@@ -170,6 +179,26 @@ class RosAction : public LeafBase {
   }
 
  private:
+  bool read_goal() {
+    has_another_goal();
+    goal_ = std::make_shared<Message>(*element_.type.send_goal);
+    return read(element_.goal, *goal_);
+  }
+  ActionClient::Goal goal() const { return {activation_, goal_, number(kServerTimeout)}; }
+
+  // Whether an entry of the goal has changed since the last call.
+  bool has_another_goal() {
+    bool has_changed = false;
+    for (const auto& [port, field] : watched_) has_changed |= changes_->changed(caller_, port);
+    return has_changed;
+  }
+
+  void preempt() {
+    if (!read_goal()) return;
+    held_progress_ = 0;  // the new goal may be farther away
+    Middleware::get().post([client = client_, goal = goal()] { client->replace(goal); });
+  }
+
   static void tell(ActionClient& client, HoldSignal& signal, bool held) {
     const std::string wrong = signal.tell(held);
     if (!wrong.empty()) client.lines().add(wrong);
@@ -210,6 +239,9 @@ class RosAction : public LeafBase {
   std::shared_ptr<ActionClient> client_;
   std::shared_ptr<HoldSignal> signal_;
   const FieldPorts feedback_ports_, result_ports_;  // that the tree binds
+  const FieldPorts watched_;                        // of the goal; empty: it stays as it was sent
+  const lockstep_changes* const changes_ =
+      static_cast<const lockstep_changes*>(host_.get_extension(LOCKSTEP_CHANGES));
 
   std::shared_ptr<Message> goal_;
   std::uint64_t activation_ = 0;
@@ -254,6 +286,7 @@ std::unique_ptr<ActionElement> make_element(const FixedTexts& texts, Refusal& re
   auto element = std::make_unique<ActionElement>(**type, texts.named());
   element->action = texts[kOwnPorts[kAction]];
   element->faults = texts[kOwnPorts[kOnFailure]] == "fault";
+  element->preempts = texts[kOwnPorts[kPreempt]] == "true";
   if (const std::string text = texts[kOwnPorts[kProgress]]; !text.empty()) {
     auto progress = read_progress(text, element->type.goal, element->type.feedback);
     if (!progress) {

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "condition.hpp"
+#include "kept_objects.hpp"
 #include "leaf_functions.hpp"
 #include "ros_topics.hpp"
 #include "topic_element.hpp"
@@ -67,10 +68,13 @@ class RosReceive : public LeafBase {
 
   lockstep_status tick() {
     log_lines(*subscription_);
-    has_some_ |= subscription_->received().update();
+    if (subscription_->received().update()) {
+      has_some_ = true;
+      objects_.forget();
+    }
     const auto now = Clock::now();
     if (has_some_ && fits(subscription_->received().front(), now)) {
-      write(fields_, subscription_->received().front().message);
+      objects_.write(host_, caller_, fields_, subscription_->received().front().message);
       return LOCKSTEP_SUCCESS;
     }
     if (seconds(now - began_) < timeout_) return LOCKSTEP_RUNNING;
@@ -110,6 +114,7 @@ class RosReceive : public LeafBase {
   const ReceiveElement& element_;
   std::shared_ptr<Subscription> subscription_;
   const FieldPorts fields_;
+  KeptObjects objects_;  // of the newest message
   bool has_some_ = false;
   Clock::time_point began_{};
   double timeout_ = 0, max_age_ = 0;

@@ -113,6 +113,55 @@ class Action(World):
         run.communicate(timeout=20)
         self.assertLess(time.monotonic() - began, 3)
 
+    def changing(self, more, step=20, reject=None, then="3"):
+        """A run whose goal is 1000, and another one after half a second."""
+        server = self.server("--action", "/count", "--step", step, "--preempt",
+                             *(("--reject-order", reject) if reject else ()))
+        leaf = count("c", "/count", "{n}", "preempt=" + f'"{more}" error="{{why}}"')
+        run = self.run_tree(f"""<Sequence memory="true"><Script code="n := 1000; why := ''"/>
+          <Timeout seconds="4"><Parallel success_count="1" failure_count="1">{leaf}
+            <Sequence memory="true"><Wait seconds="0.5"/><Script code="n := {then}"/><Wait seconds="9"/></Sequence>
+          </Parallel></Timeout></Sequence>""")
+        return server, run
+
+    def test_a_goal_that_changes_takes_the_place_of_the_one_at_work(self):
+        server, run = self.changing("true")
+        self.assertEqual(run.returncode, 0, run.err)
+        goals = [line for line in server.lines if line.startswith("goal")]
+        self.assertEqual(goals, ["goal 1000", "goal 3"])
+        self.assertIn("succeeded 3", server.lines)
+        self.assertTrue(any(line.startswith("preempted") for line in server.lines), server.lines)
+        self.assertNotIn("cancel", server.lines)
+        self.assertNotIn("its progress fell", run.err)
+
+    def test_without_preempt_the_goal_stays(self):
+        server, run = self.changing("false")
+        self.assertEqual(run.returncode, 1, run.err)
+        self.assertEqual([line for line in server.lines if line.startswith("goal")], ["goal 1000"])
+
+    def test_an_entry_that_is_set_to_what_it_is_changes_no_goal(self):
+        server, run = self.changing("true", then="n + 0")
+        self.assertEqual([line for line in server.lines if line.startswith("goal")], ["goal 1000"])
+
+    def test_a_goal_that_is_rejected_leaves_none_at_work(self):
+        server, run = self.changing("true", reject=3)
+        self.assertEqual(run.returncode, 1, run.err)
+        self.assertIn('"rejected"', self.recording.read_text())
+        server.wait_for("cancel")
+
+    def test_a_goal_that_changes_while_it_is_held_is_sent_when_ticks_come_again(self):
+        server = self.server("--action", "/fast", "--step", 10, "--keep", "--preempt")
+        self.server("--action", "/slow", "--step", 60)
+        run = self.run_tree(f"""<Sequence memory="true"><Script code="n := 20"/>
+          <Parallel success_count="2"><ParallelAbsolute barriers="0.5">
+            {count("fast", "/fast", "{n}", 'hold="cancel" preempt="true"')}
+            {count("slow", "/slow", 20, 'hold="nothing"')}</ParallelAbsolute>
+            <Sequence memory="true"><Wait seconds="0.7"/><Script code="n := 30"/></Sequence>
+          </Parallel></Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertIn("goal 30", server.lines)
+        self.assertEqual(server.lines[-1], "succeeded 30")
+
     def test_two_leaves_at_one_action(self):
         server = self.server("--action", "/count", "--step", 10)
         pair = count("a", "/count", 10) + count("b", "/count", 20)

@@ -4,6 +4,8 @@
 //   --reject     takes no goal          --abort N   aborts at the step N
 //   --refuse     refuses to cancel      --die N     kills itself at the step N
 //   --quit N     lets somebody else cancel the goal at the step N
+//   --preempt    a goal aborts the one before it, as one of Nav2 does
+//   --reject-order N: takes no goal with this order
 //   --hold-service NAME, --hold-topic NAME: stands while it is true
 // It prints one line for each thing that happens to it.
 #include <algorithm>
@@ -31,8 +33,8 @@ using SetBool = example_interfaces::srv::SetBool;
 struct Options {
   std::string node = "counting_server_" + std::to_string(getpid());
   std::string action = "/count", hold_service, hold_topic;
-  int step = 20, abort_at = -1, die_at = -1, quit_at = -1;
-  bool keeps = false, rejects = false, refuses = false;
+  int step = 20, abort_at = -1, die_at = -1, quit_at = -1, reject_order = -1;
+  bool keeps = false, rejects = false, refuses = false, preempts = false;
 };
 
 Options read_options(int argc, char** argv) {
@@ -49,6 +51,8 @@ Options read_options(int argc, char** argv) {
     if (word == "--abort") options.abort_at = number();
     if (word == "--die") options.die_at = number();
     if (word == "--quit") options.quit_at = number();
+    if (word == "--reject-order") options.reject_order = number();
+    if (word == "--preempt") options.preempts = true;
     if (word == "--keep") options.keeps = true;
     if (word == "--reject") options.rejects = true;
     if (word == "--refuse") options.refuses = true;
@@ -68,8 +72,9 @@ class CountingServer : public rclcpp::Node {
         this, options_.action,
         [this](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
           say("goal " + std::to_string(goal->order));
-          return options_.rejects ? rclcpp_action::GoalResponse::REJECT
-                                  : rclcpp_action::GoalResponse::ACCEPT_AND_EXECUTE;
+          const bool is_rejected = options_.rejects || goal->order == options_.reject_order;
+          return is_rejected ? rclcpp_action::GoalResponse::REJECT
+                             : rclcpp_action::GoalResponse::ACCEPT_AND_EXECUTE;
         },
         [this](std::shared_ptr<GoalHandle>) {
           say("cancel");
@@ -111,6 +116,13 @@ class CountingServer : public rclcpp::Node {
   };
 
   void accept(std::shared_ptr<GoalHandle> handle) {
+    if (options_.preempts) {
+      for (const Goal& goal : goals_) {
+        goal.handle->abort(std::make_shared<Fibonacci::Result>());
+        end(goal, "preempted", goal.count);
+      }
+      goals_.clear();
+    }
     goals_.push_back({std::move(handle), options_.keeps ? kept_ : 0});
   }
 

@@ -19,6 +19,13 @@ NOT_OURS = """{
    ...
    fun:_dl_map_object_deps
 }
+{
+   scopes of the loader
+   Memcheck:Leak
+   fun:malloc
+   ...
+   fun:dl_open_worker_begin
+}
 """
 BOOL = 'type="example_interfaces/srv/SetBool"'
 POSES = 'type="geometry_msgs/msg/PoseArray" topic="/poses" qos="latched"'
@@ -38,6 +45,15 @@ TREES = {
         <RosReceive {POSES} timeout="20" message="{{m}}" message.poses.position.x="{{x}}"
                     condition="size(message.poses) == 3"/>
         <RosPublish {POSES} message="{{m}}" message.header.stamp="now"/></Sequence>""",
+    "a goal that changes, a message that is taken again, a topic of another type": f"""<Sequence memory="true">
+        <Script code="n := 1000"/>
+        <RosPublish {POSES} message.header.frame_id="map"/>
+        <Repeat times="3"><RosReceive {POSES} timeout="20" message="{{m}}"/></Repeat>
+        <Inverter><RosReceive type="std_msgs/msg/Bool" topic="/poses" timeout="3"/></Inverter>
+        <Parallel success_count="1">
+          {count("changes", "/nav", "{n}", 'preempt="true"')}
+          <Sequence memory="true"><Wait seconds="1"/><Script code="n := 3"/><Wait seconds="50"/></Sequence>
+        </Parallel></Sequence>""",
     "lifecycle and parameters": """<Sequence memory="true">
         <RosLifecycle node="/camera" transition="configure"/>
         <RosParameter node="/camera" parameter="use_sim_time" as="bool" value="{sim}"/>
@@ -51,6 +67,7 @@ class Memory(World):
         self.server("--action", "/bad", "--step", 20, "--abort", 3)
         self.server("--action", "/fast", "--step", 20, "--keep", "--hold-service", "/still")
         self.server("--action", "/slow", "--step", 50, "--keep")
+        self.server("--action", "/nav", "--step", 20, "--preempt")
         self.server("camera", program="lifecycle_server")
         known = self.directory / "known.supp"
         known.write_text(NOT_OURS)

@@ -69,6 +69,23 @@ class Named(World):
         self.assertEqual(run.returncode, 0, run.err)
         self.assertGreater(server.lines.count("succeeded 2"), 1)
 
+    def test_a_goal_that_is_received_again_is_the_same(self):
+        goal = 'type="geometry_msgs/msg/PoseStamped" topic="/goal" qos="latched"'
+        published = "".join(f'<RosPublish {goal} message.pose.position.x="{x}"/><Wait seconds="0.5"/>' for x in (1, 2))
+        for options in ((), ("--isolate",)):
+            with self.subTest(options):
+                run = self.run_tree(f"""<Sequence memory="true">
+                  <Script code="updates := 0"/>
+                  <Parallel success_count="1">
+                    <Sequence memory="true">{published}</Sequence>
+                    <Repeat><Sequence memory="true">
+                      <RosReceive {goal} message="{{goal}}"/>
+                      <ForceSuccess><GlobalUpdatedGoal on_success="updates += 1"/></ForceSuccess>
+                      </Sequence></Repeat>
+                  </Parallel>
+                  <Check code="updates == 2"/></Sequence>""", *options)
+                self.assertEqual(run.returncode, 0, (run.err, self.recording.read_text()[-1000:]))
+
     def test_in_the_language_of_lockstep(self):
         self.server("--action", "/count")
         run = self.run_tree('<CountTo name="c" order="5" counted="{all}"/>')
