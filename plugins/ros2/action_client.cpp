@@ -6,6 +6,8 @@
 #include <cstring>
 #include <random>
 
+#include "graph.hpp"
+
 namespace ros2 {
 namespace {
 
@@ -180,6 +182,9 @@ void ActionClient::poll_for_server(Clock::time_point now) {
   if (has_server()) {
     if (now - *server_since_ >= kSettling) send_goal();
   } else if (now >= deadline_) {
+    const std::string others = has_told_ ? "" : other_actions(action_, type_.name);
+    has_told_ |= !others.empty();
+    if (!others.empty()) lines_.add(others);
     end(Outcome::NoServer);
   }
 }

@@ -95,6 +95,7 @@ class ActionClient final : public Waitable {
   const std::string action_;
   rcl_action_client_t client_;
   bool is_made_ = false;
+  bool has_told_ = false;  // which other actions there are
   std::string why_not_made_;
 
   State state_ = State::Idle;

@@ -3,6 +3,8 @@
 #include <rcl/error_handling.h>
 #include <rcl/graph.h>
 
+#include "graph.hpp"
+
 namespace ros2 {
 
 ServiceClient::ServiceClient(const ServiceType& type, std::string service)
@@ -72,6 +74,9 @@ bool ServiceClient::poll(Clock::time_point now) {
       end(Outcome::Failed);
     }
   } else if (now >= deadline_) {
+    const std::string others = is_sent_ || has_told_ ? "" : other_services(service_, type_.name);
+    has_told_ |= !others.empty();
+    if (!others.empty()) lines_.add(others);
     end(is_sent_ ? Outcome::NoAnswer : Outcome::NoService);
   }
   return is_open_;

@@ -47,6 +47,7 @@ class ServiceClient final : public Waitable {
   const std::string service_;
   rcl_client_t client_;
   std::string why_not_made_;
+  bool has_told_ = false;  // which other services there are
   bool is_made_ = false, is_open_ = false, is_sent_ = false;
   Call call_;
   std::int64_t number_ = 0;

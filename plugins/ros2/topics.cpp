@@ -3,7 +3,13 @@
 #include <rcl/error_handling.h>
 #include <rmw/qos_profiles.h>
 
+#include "graph.hpp"
+
 namespace ros2 {
+namespace {
+// What others have is known some time after they are seen first.
+constexpr auto kBetweenLooks = std::chrono::seconds(1);
+}  // namespace
 
 rmw_qos_profile_t qos_named(const std::string& name) {
   if (name == "sensor_data") return rmw_qos_profile_sensor_data;
@@ -39,6 +45,19 @@ void Publisher::publish(const Message& message) {
   if (rcl_publish(&publisher_, message.get(), nullptr) != RCL_RET_OK) {
     lines_.add("nothing was published: " + last_ros_error());
   }
+  look_who_receives(Clock::now());
+}
+
+void Publisher::look_who_receives(Clock::time_point now) {
+  if (has_told_ || now < next_look_) return;
+  next_look_ = now + kBetweenLooks;
+  std::size_t count = 0;
+  if (rcl_publisher_get_subscription_count(&publisher_, &count) != RCL_RET_OK) rcl_reset_error();
+  if (count != 0) return;
+  const std::string why =
+      why_nobody_receives(rcl_publisher_get_topic_name(&publisher_), type_.name, qos_named(qos_));
+  has_told_ = !why.empty();
+  if (has_told_) lines_.add(why);
 }
 
 Subscription::Subscription(const MessageType& type, std::string topic, std::string qos)
@@ -61,6 +80,19 @@ void Subscription::open() {
                                    topic_.c_str(), &options) == RCL_RET_OK;
   if (!is_made_) lines_.add("there is no subscription of '" + topic_ + "': " + last_ros_error());
   if (rcl_subscription_options_fini(&options) != RCL_RET_OK) rcl_reset_error();
+  next_look_ = Clock::now() + kBetweenLooks;
+}
+
+bool Subscription::poll(Clock::time_point now) {
+  if (!is_made_ || is_settled_) return false;
+  if (now < next_look_) return !has_looked_;
+  has_looked_ = true;
+  next_look_ = now + kBetweenLooks;
+  const std::string why = why_nothing_comes(rcl_subscription_get_topic_name(&subscription_),
+                                            type_.name, qos_named(qos_));
+  is_settled_ = !why.empty();
+  if (is_settled_) lines_.add(why);
+  return false;
 }
 
 void Subscription::add_sizes(Sizes& sizes) const {
@@ -80,6 +112,7 @@ void Subscription::take(const rcl_wait_set_t& /*set*/) {
     if (rcl_take(&subscription_, next.message.get(), nullptr, nullptr) != RCL_RET_OK) break;
     next.at = Clock::now();
     received_.publish();
+    is_settled_ = true;
   }
   rcl_reset_error();
 }

@@ -27,10 +27,13 @@ class Publisher {
   Lines& lines() { return lines_; }
 
  private:
+  void look_who_receives(Clock::time_point now);
+
   const MessageType& type_;
   const std::string topic_, qos_;
   rcl_publisher_t publisher_;
-  bool is_made_ = false;
+  bool is_made_ = false, has_told_ = false;
+  Clock::time_point next_look_{};
   Lines lines_;
 };
 
@@ -52,13 +55,15 @@ class Subscription final : public Waitable {
   void add_sizes(Sizes& sizes) const override;
   void add_to(rcl_wait_set_t& set) override;
   void take(const rcl_wait_set_t& set) override;
-  bool poll(Clock::time_point /*now*/) override { return false; }
+  // Until the first message, looks whether one could come.
+  bool poll(Clock::time_point now) override;
 
  private:
   const MessageType& type_;
   const std::string topic_, qos_;
   rcl_subscription_t subscription_;
-  bool is_made_ = false;
+  bool is_made_ = false, is_settled_ = false, has_looked_ = false;
+  Clock::time_point next_look_{};
   TripleBuffer<Received> received_;
   Lines lines_;
 };

@@ -72,6 +72,18 @@ class Action(World):
         self.assertLess(time.monotonic() - began, 5)
         self.assertIn("the action '/nobody': no server", run.err)
 
+    def test_an_action_of_another_name(self):
+        self.server("--action", "/left/count")
+        run = self.run_tree(f"""<Retry attempts="2">{count("c", "/count", 5, 'server_timeout="0.7" error="{why}"')}</Retry>""")
+        said = "there is no action '/count'; of its type there is '/left/count'"
+        self.assertEqual(run.err.count(said), 1, run.err)
+
+    def test_an_action_of_another_type(self):
+        self.server("--action", "/count")
+        run = self.run_tree('<RosAction type="lockstep_ros/action/RunTree" action="/count" server_timeout="0.7"/>')
+        self.assertIn("the action '/count' is of the type example_interfaces/action/Fibonacci, not "
+                      "lockstep_ros/action/RunTree", run.err)
+
     def test_late(self):
         run = self.start(count("c", "/count"))
         time.sleep(0.5)

@@ -29,6 +29,17 @@ class Service(World):
           <Check code="why == 'no service'"/></Sequence>""")
         self.assertEqual(run.returncode, 0, run.err)
 
+    def test_a_service_of_another_name(self):
+        self.server("--action", "/c", "--hold-service", "/left/still")
+        run = self.run_tree(f'<RosService {SET_BOOL} service="/still" timeout="1"/>')
+        self.assertIn("there is no service '/still'; of its type there is '/left/still'", run.err)
+
+    def test_a_service_of_another_type(self):
+        self.server("--action", "/c", "--hold-service", "/still")
+        run = self.run_tree('<RosService type="rcl_interfaces/srv/GetParameters" service="/still" timeout="1"/>')
+        self.assertIn("the service '/still' is of the type example_interfaces/srv/SetBool, not "
+                      "rcl_interfaces/srv/GetParameters", run.err)
+
     def test_a_field_that_is_not_there(self):
         run = self.check(f'<RosService {SET_BOOL} service="/s" request.dato="true"/>')
         self.assertIn("did you mean 'request.data'?", run.stderr)
@@ -68,6 +79,30 @@ class Topic(World):
             run = self.check(f'<RosReceive {BOOL} topic="/t" condition="{condition}"/>')
             self.assertEqual(run.returncode, 3, run.stderr)
             self.assertIn(what.replace("&lt;", "<"), run.stderr)
+
+    def silence(self, publisher, receiver, *said):
+        """Nothing goes from one to the other, and both say why."""
+        run = self.run_tree(f"""<Parallel success_count="2">
+          <Repeat times="4"><Sequence memory="true">
+            <RosPublish topic="/t" {publisher}/><Wait seconds="0.5"/></Sequence></Repeat>
+          <RosReceive topic="/t" {receiver} timeout="1.8"/></Parallel>""")
+        self.assertEqual(run.returncode, 1, run.err)
+        for words in said:
+            self.assertIn(words, run.err)
+            self.assertEqual(run.err.count(words), 1)
+
+    def test_a_topic_of_another_type(self):
+        text = 'type="std_msgs/msg/String"'
+        self.silence(BOOL, text, "publishes std_msgs/msg/Bool, not std_msgs/msg/String",
+                     "receives std_msgs/msg/String, not std_msgs/msg/Bool")
+
+    def test_qualities_of_service_that_do_not_fit(self):
+        self.silence(f'{BOOL} qos="sensor_data"', BOOL, 'may lose messages: write qos="sensor_data"',
+                     'wants all messages: write qos="default"')
+
+    def test_a_publisher_that_keeps_nothing(self):
+        self.silence(BOOL, f'{BOOL} qos="latched"', 'keeps none for those who come late: write qos="default"',
+                     'wants the last one when it comes late: write qos="latched"')
 
     def test_nothing_comes(self):
         run = self.run_tree(f'<RosReceive {BOOL} topic="/silent" timeout="0.3"/>')

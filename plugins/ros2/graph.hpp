@@ -1,0 +1,21 @@
+// Whom a leaf that finds nobody could have meant: what there is of another type, of another quality
+// of service or under another name. By the thread of ROS.
+#pragma once
+
+#include <rmw/types.h>
+
+#include <string>
+
+namespace ros2 {
+
+// Of a topic with its whole name. "": one fits, or there is none.
+std::string why_nothing_comes(const char* topic, const std::string& type,
+                              const rmw_qos_profile_t& qos);
+std::string why_nobody_receives(const char* topic, const std::string& type,
+                                const rmw_qos_profile_t& qos);
+
+// As an element names it. "": there is none of this name, and none of this type.
+std::string other_actions(const std::string& name, const std::string& type);
+std::string other_services(const std::string& name, const std::string& type);
+
+}  // namespace ros2
