@@ -1,6 +1,7 @@
 """The action server run_tree, which RosAction uses here as any client does."""
 
 import signal
+import subprocess
 
 from world import PLUGINS, TREE_SERVER, World, count
 
@@ -129,6 +130,21 @@ class TreeServer(World):
                       'result.seconds="{seconds}"')
         real = max(float(row["time_s"]) for row in self.rows("run"))
         self.assertLess(real, 3.5)
+
+    def test_a_rate_without_a_point(self):
+        self.tree('<Wait seconds="0.1"/>')
+        self.serve("rate:=50", "feedback_period:=1")
+        self.run_goal("status == 'success'")
+
+    def test_parameters_that_are_none(self):
+        for given, said in (("rate:=0", "the parameter 'rate' is 0, expected a number above 0"),
+                            ("rate:=fast", "the parameter 'rate' is fast, expected a number above 0"),
+                            ("plugin_path:=here", "plugin_path")):
+            with self.subTest(given):
+                run = subprocess.run([TREE_SERVER, "--ros-args", "-p", given], text=True,
+                                     capture_output=True, timeout=20)
+                self.assertEqual(run.returncode, 2, run.stderr)
+                self.assertIn(said, run.stderr)
 
     def test_diagnostics(self):
         self.tree('<AlwaysFailure name="broken"/>')

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <memory>
 #include <thread>
 
@@ -19,6 +20,16 @@ void wait_for_signal(rclcpp::Executor& executor, const sigset_t& signals) {
   while (true) pause();
 }
 
+// Null after it has said what is wrong with a parameter.
+std::shared_ptr<lockstep_ros::TreeServer> make_server() {
+  try {
+    return std::make_shared<lockstep_ros::TreeServer>();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tree_server: %s\n", error.what());
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -29,7 +40,8 @@ int main(int argc, char** argv) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // also in all threads that follow
   rclcpp::init(argc, argv, rclcpp::InitOptions(), rclcpp::SignalHandlerOptions::None);
   {
-    const auto server = std::make_shared<lockstep_ros::TreeServer>();
+    const auto server = make_server();
+    if (server == nullptr) return 2;
     // The thread goes on until the process ends, so what it uses stays.
     static rclcpp::executors::SingleThreadedExecutor executor;
     std::thread([&] { wait_for_signal(executor, signals); }).detach();

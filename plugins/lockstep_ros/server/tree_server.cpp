@@ -1,8 +1,32 @@
 #include "tree_server.hpp"
 
 #include <chrono>
+#include <filesystem>
 
 namespace lockstep_ros {
+namespace {
+
+using rclcpp::ParameterType;
+
+// Of any type until it is read: people write 100 for 100.0.
+void declare_number(rclcpp::Node& node, const char* name, double value) {
+  rcl_interfaces::msg::ParameterDescriptor descriptor;
+  descriptor.dynamic_typing = true;
+  node.declare_parameter(name, rclcpp::ParameterValue(value), descriptor);
+}
+
+double number_above_0(const rclcpp::Parameter& parameter) {
+  const bool is_whole = parameter.get_type() == ParameterType::PARAMETER_INTEGER;
+  const bool is_double = parameter.get_type() == ParameterType::PARAMETER_DOUBLE;
+  const double value = is_whole    ? static_cast<double>(parameter.as_int())
+                       : is_double ? parameter.as_double()
+                                   : 0;
+  if (value > 0) return value;
+  throw lockstep::runtime::Error("the parameter '" + parameter.get_name() + "' is " +
+                                 parameter.value_to_string() + ", expected a number above 0");
+}
+
+}  // namespace
 
 using namespace std::chrono_literals;
 using diagnostic_msgs::msg::DiagnosticStatus;
@@ -10,8 +34,11 @@ using diagnostic_msgs::msg::DiagnosticStatus;
 TreeServer::TreeServer() : Node("tree_server") {
   declare_parameter("trees", ".");
   declare_parameter("plugin_path", std::vector<std::string>{});
-  declare_parameter("rate", 100.0);
-  declare_parameter("feedback_period", 0.1);
+  declare_number(*this, "rate", 100);
+  declare_number(*this, "feedback_period", 0.1);
+  if (const std::string trees = settings().trees; !std::filesystem::is_directory(trees)) {
+    RCLCPP_WARN(get_logger(), "the parameter 'trees': there is no directory '%s'", trees.c_str());
+  }
   states_ = create_publisher<msg::TreeState>("~/state", rclcpp::QoS(1).transient_local());
   diagnostics_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics", 1);
   timer_ = create_wall_timer(1s, [this] { diagnose(); });
@@ -33,8 +60,8 @@ TreeSettings TreeServer::settings() {
   TreeSettings settings;
   settings.trees = get_parameter("trees").as_string();
   settings.plugin_path = get_parameter("plugin_path").as_string_array();
-  settings.period = 1 / get_parameter("rate").as_double();
-  settings.told_each = get_parameter("feedback_period").as_double();
+  settings.period = 1 / number_above_0(get_parameter("rate"));
+  settings.told_each = number_above_0(get_parameter("feedback_period"));
   settings.log = [logger = get_logger()](const std::string& who, lockstep::LogLevel level,
                                          const std::string& text) {
     if (level == lockstep::LogLevel::Warning) {
