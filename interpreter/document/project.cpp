@@ -99,8 +99,9 @@ bool Loader::add(const Reading& file, std::string text) {
   }
   if (!is_root(document)) {
     const Element& first = document.elements()[0];
-    report_.at(first.place,
-               fmt::format("the first element must be 'root', not '{}'", brief(first.tag)));
+    report_.at(
+        first.place, fmt::format("the first element must be 'root', not '{}'", brief(first.tag)),
+        first.tag == "scenarios" ? "it has scenarios of a tree: `lockstep test` reads it" : "");
     return true;
   }
   open_.push_back(file);

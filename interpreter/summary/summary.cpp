@@ -28,7 +28,7 @@ std::string why(const Summary& summary) {
     case StopReason::Timeout:
       return "the time limit (--timeout) was reached";
     case StopReason::MaxTicks:
-      return "the tick limit (--max-ticks) was reached";
+      return fmt::format("the tick limit ({}) was reached", printable(summary.tick_limit));
     case StopReason::Signal:
       return fmt::format("signal: {}", strsignal(summary.signal));
     case StopReason::Overrun:

@@ -310,6 +310,33 @@ TEST_CASE("run --leaves with a leaf file does what that allows, as the seed choo
   CHECK(runs(R"(<leaf of="Lft"/>)", "1").code == 2);
 }
 
+TEST_CASE("a run that the script ends names the script's limit") {
+  const TemporaryDirectory directory;
+  const auto run = [&](std::vector<std::string> more) {
+    const std::string tree = directory.file(
+        "t.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><Hold/></BehaviorTree></root>");
+    std::vector<std::string> words{
+        "run",     tree,      "--leaves", directory.file("s.leaves", "@ticks 3\nT/Hold = R\n"),
+        "--clock", "virtual", "--view",   "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_lockstep(words);
+  };
+  CHECK(contains(run({}).out, "the tick limit (@ticks of " + directory.path("s.leaves") +
+                                  ") was reached after 3 ticks"));
+  CHECK(contains(run({"--max-ticks", "2"}).out, "the tick limit (--max-ticks) was reached"));
+}
+
+TEST_CASE("a file of scenarios is no tree, and the command for it is named") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.file("a.test.xml", "<scenarios tree=\"a.xml\"/>");
+  for (const char* const command : {"verify", "run"}) {
+    const Outcome refused = run_lockstep({command, file});
+    CHECK(refused.code == 3);
+    CHECK(contains(refused.err, "the first element must be 'root', not 'scenarios'"));
+    CHECK(contains(refused.err, "`lockstep test` reads it"));
+  }
+}
+
 TEST_CASE("a script of another tree is refused") {
   const TemporaryDirectory directory;
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";

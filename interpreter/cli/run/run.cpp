@@ -303,6 +303,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   int print_summary() {
     Summary summary = statistics_.summary();
+    summary.tick_limit = options_.tick_limit;
     if (recorder_ && !recorder_->error().empty()) summary.notes.push_back(recorder_->error());
     if (recorder_ && recorder_->lost() != 0) {
       summary.notes.push_back(fmt::format("the recording lacks {}: the disk was too slow",
@@ -380,8 +381,9 @@ bool place_helpers(const RunCommandOptions& options) {
 void take_what_is_said(const GivenLeaves& leaves, RunCommandOptions& options) {
   options.load.unknown = MissingNodes::AreMocked;
   if (leaves.rate() && !options.is_rate_given) options.rate = *leaves.rate();
-  const bool is_limited = options.max_ticks || options.timeout;
-  if (!is_limited) options.max_ticks = leaves.ticks();
+  if (options.max_ticks || options.timeout || !leaves.ticks()) return;
+  options.max_ticks = leaves.ticks();
+  options.tick_limit = "@ticks of " + options.leaves;
 }
 
 // The chunks of an MCAP file are compressed.
