@@ -55,10 +55,13 @@ class Named(World):
                 <RateController hz="10"><CountTo order="2" counted="{path}"/></RateController>
                 <CountTo server_name="/slow" order="4"/>
               </PipelineSequence>
-              <RoundRobin name="help">
-                <Lamp service_name="/lamp" on="true" is_recovery="true"/>
-                <CountTo order="1"/>
-              </RoundRobin>
+              <ReactiveFallback name="recover">
+                <GoalUpdated/>
+                <RoundRobin name="help">
+                  <Lamp service_name="/lamp" on="true" is_recovery="true"/>
+                  <CountTo order="1"/>
+                </RoundRobin>
+              </ReactiveFallback>
             </RecoveryNode>
           </BehaviorTree></root>""")
         self.server("--action", "/slow", "--step", 100)

@@ -97,6 +97,18 @@ class TreeServer(World):
         self.assertEqual(run.returncode, 0, run.err)
         server.wait_for("cancel")
 
+    def test_a_cancel_while_a_leaf_is_held(self):
+        left = self.server("--action", "/left", "--step", 10, "--keep")
+        right = self.server("--action", "/right", "--step", 100)
+        self.tree(f"""<ParallelAbsolute barriers="0.5">{count("left", "/left", 20, 'hold="cancel"')}
+          {count("right", "/right", 100, 'hold="cancel"')}</ParallelAbsolute>""")
+        self.serve()
+        run = self.run_tree(f'<Timeout seconds="2">{self.goal()}</Timeout>')
+        self.assertEqual(run.returncode, 1, run.err)
+        right.wait_for("cancel")
+        self.assertEqual([line for line in left.lines if line.startswith("goal")], ["goal 20"])
+        self.assertEqual(left.lines.count("cancel"), 1)
+
     def test_a_server_that_is_stopped_halts_the_tree(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             robot = self.server("--action", "/count")
