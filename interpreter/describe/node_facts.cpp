@@ -58,7 +58,9 @@ std::string children_text(const NodeType& type) {
 }
 
 std::string facts_text(const Parameter& parameter) {
-  std::string text(parameter.is_script ? "script" : type_name(parameter.type, parameter.object));
+  std::string text(parameter.is_script    ? "script"
+                   : parameter.is_generic ? "any type"
+                                          : type_name(parameter.type, parameter.object));
   if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.name);
   if (!parameter.unit.empty()) text += fmt::format(" in {}", parameter.unit);
   if (parameter.direction != Direction::Input) {
@@ -70,6 +72,8 @@ std::string facts_text(const Parameter& parameter) {
   if (parameter.default_text) {
     text += fmt::format(", default {}",
                         parameter.default_text->empty() ? "empty" : *parameter.default_text);
+  } else if (!parameter.default_key.empty()) {
+    text += fmt::format(", default {{{}}}", parameter.default_key);
   } else {
     text += parameter.required ? ", required" : ", optional";
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/value.h"
+#include "fake_host.h"
 #include "lockstep/leaf.hpp"
 
 namespace {
@@ -226,4 +227,39 @@ TEST_CASE("the compiler looks whether a default is within the limits", "[sdk]") 
   CHECK_FALSE(may_be_within("+20.5", 0, 20));
   CHECK_FALSE(may_be_within("-1", 0, 20));
   CHECK(may_be_within("1e9", 0, 20));  // left to the host
+}
+
+namespace {
+
+struct EntryPorts : lockstep::Ports {
+  Input<double> speed{this, "speed", "{speed}", "how fast", "m/s", at_least(0)};
+  Input<lockstep::Any> goal{this, "goal", "{=}", "where to"};
+  Input<lockstep::Any> path{this, "path", required, "the way"};
+};
+
+class Watching : public lockstep::Condition<EntryPorts> {
+ public:
+  bool check() override { return goal.changed(); }
+};
+
+constexpr lockstep_leaf_type kWatching = lockstep::leaf<Watching>("Watching", "");
+
+}  // namespace
+
+TEST_CASE("a default may be an entry, and a port of any type", "[sdk]") {
+  const auto port = [](std::size_t index) { return *kWatching.ports[index]; };
+  CHECK(port(0).flags == LOCKSTEP_DEFAULT_ENTRY);
+  CHECK(describe(port(0)) == "31 speed={speed} [m/s] how fast");
+  CHECK(port(0).max == HUGE_VAL);
+  CHECK((port(1).type == LOCKSTEP_ANY && port(1).flags == LOCKSTEP_DEFAULT_ENTRY));
+  CHECK(std::string(port(1).default_value) == "{=}");
+  CHECK((port(2).type == LOCKSTEP_ANY && port(2).flags == 0 && port(2).default_value == nullptr));
+}
+
+TEST_CASE("a host that is too old to know whether a port has changed is an error", "[sdk]") {
+  sdk_test::FakeLeaf leaf(kWatching, {1.0, 1.0, 1.0});
+  leaf.tick();
+  CHECK(leaf.host.take_error() ==
+        "this lockstep does not say whether port 'goal' has changed: it is older than contract "
+        "1.4");
 }
