@@ -112,7 +112,7 @@ struct Summary {
   int signal = 0;                                // when reason is Signal
   std::string fault = {};                        // when reason is Fault: "Door/pull/arm: threw …"
   std::vector<DecidingSummary> why_failed = {};  // from the root down, when it failed
-  std::string tick_limit = "--max-ticks";        // who gave it, when reason is MaxTicks
+  std::string tick_limit = "--max-ticks";        // its giver, when reason is MaxTicks
   std::uint64_t ticks = 0;
   double seconds = 0;
   std::optional<PeriodSummary> period = {};      // real time only, and from two ticks on

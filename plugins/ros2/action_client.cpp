@@ -79,7 +79,7 @@ void ActionClient::replace(Goal goal) {
     return;
   }
   if (!is_open(goal.activation)) return;
-  // What is on its way to be sent again is sent as the new one.
+  // A goal that is on its way to be sent again is sent as the new one.
   std::memcpy(goal.request->get(), goal_.request->get(), kIdSize);
   std::swap(goal_, goal);
   if (state_ != State::IsSent && state_ != State::IsAccepted) return;

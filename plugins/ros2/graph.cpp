@@ -24,7 +24,7 @@ bool may_lose(const rmw_qos_profile_t& qos) {
   return qos.reliability == RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT;
 }
 
-// What the publisher does not offer, and the qos that would do. "": it offers all.
+// Names what the publisher does not offer, and the qos that would do. "": it offers all.
 std::string lacks(const rmw_qos_profile_t& offered, const rmw_qos_profile_t& wanted,
                   bool receives) {
   if (may_lose(offered) && !may_lose(wanted)) {

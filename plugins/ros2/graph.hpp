@@ -1,5 +1,5 @@
-// Whom a leaf that finds nobody could have meant: what there is of another type, of another quality
-// of service or under another name. By the thread of ROS.
+// A leaf that finds nobody asks here whom it could have meant: what there is of another type, of
+// another quality of service or under another name. By the thread of ROS.
 #pragma once
 
 #include <rmw/types.h>
@@ -8,7 +8,7 @@
 
 namespace ros2 {
 
-// Of a topic with its whole name. "": one fits, or there is none.
+// For a topic by its whole name. "": one fits, or there is none.
 std::string why_nothing_comes(const char* topic, const std::string& type,
                               const rmw_qos_profile_t& qos);
 std::string why_nobody_receives(const char* topic, const std::string& type,

@@ -7,7 +7,7 @@
 
 namespace ros2 {
 namespace {
-// What others have is known some time after they are seen first.
+// The qualities of others are known some time after they are seen first.
 constexpr auto kBetweenLooks = std::chrono::seconds(1);
 }  // namespace
 

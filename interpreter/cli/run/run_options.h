@@ -23,7 +23,7 @@ struct RunCommandOptions {
   std::string clock = "wall";
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> max_ticks;
-  std::string tick_limit = "--max-ticks";  // who gave it
+  std::string tick_limit = "--max-ticks";  // its giver
   std::optional<double> timeout;
   double stall = 5;
   double stall_fail = 0;

@@ -41,7 +41,7 @@ struct BoundPort {
 
   std::string_view name() const { return parameter != nullptr ? parameter->name : entry; }
   const ObjectType* object() const { return parameter != nullptr ? parameter->object : nullptr; }
-  // What it has now, of any type. Null: nothing.
+  // The value that it has now, of any type. Null: none.
   const Value* value() const {
     const bool is_empty = read == nullptr || std::holds_alternative<NoValue>(*read);
     return is_empty ? fallback : read;

@@ -115,7 +115,7 @@ bool RemoteEntries::read(MessageReader& message, bool& refused) {
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last, entry.objects)) return false;
     if (entry.is_generic ? !entry.last.index() : !holds(entry.last, entry.type)) return false;
-    // Who looks whether the entry has changed sees that it has not.
+    // A node that looks whether the entry has changed sees that it has not.
     if (is_same_object(entry.write->value, entry.last)) entry.last = entry.write->value;
     entry.known = true;
     if (entry.is_generic) {

@@ -8,7 +8,7 @@ namespace {
 
 using rclcpp::ParameterType;
 
-// Of any type until it is read: people write 100 for 100.0.
+// It has any type until it is read: people write 100 for 100.0.
 void declare_number(rclcpp::Node& node, const char* name, double value) {
   rcl_interfaces::msg::ParameterDescriptor descriptor;
   descriptor.dynamic_typing = true;

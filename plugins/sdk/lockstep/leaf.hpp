@@ -13,7 +13,7 @@
 #pragma once
 
 #include "cpp/action.hpp"           // IWYU pragma: export
-#include "cpp/any_port.hpp"        // IWYU pragma: export
+#include "cpp/any_port.hpp"         // IWYU pragma: export
 #include "cpp/control.hpp"          // IWYU pragma: export
 #include "cpp/element.hpp"          // IWYU pragma: export
 #include "cpp/plugin.hpp"           // IWYU pragma: export

@@ -97,8 +97,8 @@ class Services {
   double now() const { return host().now(caller_.id); }
   // Seconds between two ticks.
   double tick_period() const { return host().tick_period(caller_.id); }
-  // Of the tick that goes on. The next tick has the next number, also if it is late and some were
-  // left out for it. An older host does not tell: the periods since the run began.
+  // The number of the tick that goes on. The next tick has the next number, also if it is late and
+  // some were left out for it. An older host does not tell: the periods since the run began.
   std::uint64_t tick_number() const {
     const auto* const ticks = host_extension<lockstep_ticks>(LOCKSTEP_TICKS);
     if (ticks != nullptr) return ticks->number(caller_.id);
