@@ -341,18 +341,17 @@ std::string tower(int levels, int width, std::string_view ground = "<AlwaysSucce
 }
 
 TEST_CASE("a port of a plugin's node may have the name of a parameter of a built-in node") {
-  constexpr ClaimRow kRows[] = {
-      {"memory, of a control node",
-       R"(<Sequence memory="true"><Script code="m := true"/>
+  constexpr ClaimRow kRows[] = {{"memory, of a control node",
+                                 R"(<Sequence memory="true"><Script code="m := true"/>
        <Either memory="{m}"><Say text="first"/><Say text="second"/></Either></Sequence>)",
-       "success 1: second"},
-      {"times, around a member that keeps its resources",
-       R"(<root lockstep="1"><resources name="p"/><BehaviorTree ID="T">
+                                 "success 1: second"},
+                                {"times, around a member that keeps its resources",
+                                 R"(<root lockstep="1"><resources name="p"/><BehaviorTree ID="T">
        <ParallelAbsolute barriers="0.5">
          <At times="noon"><UseResources pool="p" resources="A" keep="true"><Wait seconds="0"/></UseResources></At>
          <UseResources pool="p" resources="A"><Wait seconds="0"/></UseResources>
        </ParallelAbsolute></BehaviorTree></root>)",
-       "success 2: noon"}};
+                                 "success 2: noon"}};
   check_runs(kRows);
 }
 
