@@ -31,7 +31,8 @@ if [ -n "$architecture" ]; then
   export DEB_HOST_ARCH=$architecture LOCKSTEP_SYSROOT STRIP=$triplet-strip
   # shellcheck disable=SC2086
   $here/sysroot.sh "$architecture" "$LOCKSTEP_SYSROOT" libc6-dev libstdc++-12-dev $PACKAGE_LIBRARIES
-  options=("-DCMAKE_TOOLCHAIN_FILE=$here/cross.cmake" "-DLOCKSTEP_TRIPLET=$triplet" "-DLOCKSTEP_SYSROOT=$LOCKSTEP_SYSROOT")
+  # CMake knows Debian's folder for libraries only when it compiles for this machine.
+  options=("-DCMAKE_INSTALL_LIBDIR=lib/$triplet" "-DCMAKE_TOOLCHAIN_FILE=$here/cross.cmake" "-DLOCKSTEP_TRIPLET=$triplet" "-DLOCKSTEP_SYSROOT=$LOCKSTEP_SYSROOT")
 fi
 export DEB_BUILD_MAINT_OPTIONS=hardening=+all DEB_CFLAGS_MAINT_STRIP=-g DEB_CXXFLAGS_MAINT_STRIP=-g
 for flags in CFLAGS CXXFLAGS LDFLAGS; do
