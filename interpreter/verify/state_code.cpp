@@ -22,28 +22,41 @@ class StateCode::Writer {
   void plain(const T& value) {
     bytes(&value, sizeof value);
   }
-  // Zero bytes as a zero and how many.
-  void sparse(const std::byte* from, std::size_t size) {
+  // A zero says how many there are. Of any other byte, two of them do so of those behind them.
+  void runs(const std::byte* from, std::size_t size) {
     const std::size_t begin = to_.size();
     to_.resize(begin + 2 * size);  // at most
     std::byte* to = to_.data() + begin;
     for (std::size_t at = 0; at < size;) {
-      if (from[at] != std::byte{0}) {
-        *to++ = from[at++];
+      const std::byte it = from[at];
+      if (it != std::byte{0} && (at + 1 == size || from[at + 1] != it)) {
+        *to++ = it;
+        ++at;
         continue;
       }
-      const std::size_t most = std::min<std::size_t>(size - at, 255);
-      std::size_t count = 1;
-      for (std::uint64_t word = 0; count + sizeof word <= most; count += sizeof word) {
-        std::memcpy(&word, from + at + count, sizeof word);
-        if (word != 0) break;
-      }
-      while (count < most && from[at + count] == std::byte{0}) ++count;
-      *to++ = std::byte{0};
-      *to++ = static_cast<std::byte>(count);
+      const std::size_t count = equal_bytes(from + at, std::min(size - at, kLongestRun));
+      const std::size_t alone = it == std::byte{0} ? 1 : 2;
+      for (std::size_t i = 0; i < alone; ++i) *to++ = it;
+      *to++ = static_cast<std::byte>(count - alone);
       at += count;
     }
     to_.resize(static_cast<std::size_t>(to - to_.data()));
+  }
+  // Many leaves behind each other keep the same, whether they are held or not.
+  void leaves(const std::vector<LeafState>& all) {
+    for (std::size_t at = 0; at < all.size();) {
+      const LeafState& leaf = all[at++];
+      if (leaf.phase == Phase::Idle) continue;
+      std::uint64_t more = 0;
+      for (; at < all.size(); ++at) {
+        if (all[at].phase == Phase::Idle) continue;
+        if (all[at].ticks != leaf.ticks || all[at].level != leaf.level) break;
+        ++more;
+      }
+      put_number(to_, std::uint64_t{leaf.ticks} << 1u | (more > 0 ? 1u : 0u));
+      put_number(to_, leaf.level);
+      if (more > 0) put_number(to_, more);
+    }
   }
   void number(std::uint32_t value) { put_number(to_, value); }
   void operator()(const NoValue&) {}
@@ -68,6 +81,19 @@ class StateCode::Writer {
     plain(value);
   }
 
+  // How many in front are the same.
+  static std::size_t equal_bytes(const std::byte* from, std::size_t size) {
+    const std::uint64_t all = 0x0101010101010101u * std::to_integer<std::uint64_t>(*from);
+    std::size_t count = 1;
+    for (std::uint64_t word = 0; count + sizeof word <= size; count += sizeof word) {
+      std::memcpy(&word, from + count, sizeof word);
+      if (word != all) break;
+    }
+    while (count < size && from[count] == *from) ++count;
+    return count;
+  }
+
+  static constexpr std::size_t kLongestRun = 255;
   StateBytes& to_;
 };
 
@@ -87,16 +113,21 @@ class StateCode::ByteReader {
     bytes(&value, sizeof value);
     return value;
   }
-  void sparse(std::byte* to, std::size_t size) {
+  void runs(std::byte* to, std::size_t size) {
     for (std::size_t at = 0; at < size;) {
       const std::byte it = plain<std::byte>();
-      const std::size_t count =
-          it == std::byte{0} ? std::to_integer<std::size_t>(plain<std::byte>()) : 1;
+      std::size_t count = 1;
+      if (it == std::byte{0}) {
+        count += std::to_integer<std::size_t>(plain<std::byte>());
+      } else if (at + 1 < size && from_.front() == it) {
+        from_ = from_.subspan(1);
+        count = 2 + std::to_integer<std::size_t>(plain<std::byte>());
+      }
       std::fill_n(to + at, count, it);
       at += count;
     }
   }
-  std::uint32_t number() { return static_cast<std::uint32_t>(take_number(from_)); }
+  std::uint64_t number() { return take_number(from_); }
   Value value(unsigned alternative) {
     return with_alternative(alternative, [&](auto of) { return Value(read(of)); });
   }
@@ -170,14 +201,10 @@ void StateCode::find_held(const Ticker& ticker) {
 }
 
 void StateCode::write(const KeptState& state, Writer& writer) {
-  writer.sparse(reinterpret_cast<const std::byte*>(state.activity.data()), state.activity.size());
-  writer.sparse(reinterpret_cast<const std::byte*>(state.words.data()),
-                state.words.size() * sizeof(std::uint64_t));
-  for (const LeafState& leaf : state.leaves) {
-    if (leaf.phase == Phase::Idle) continue;
-    writer.number(leaf.ticks);
-    writer.number(leaf.level);
-  }
+  writer.runs(reinterpret_cast<const std::byte*>(state.activity.data()), state.activity.size());
+  writer.runs(reinterpret_cast<const std::byte*>(state.words.data()),
+              state.words.size() * sizeof(std::uint64_t));
+  writer.leaves(state.leaves);
 }
 
 void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
@@ -210,16 +237,24 @@ void StateCode::read(ByteReader& reader, KeptState& state) const {
   state.activity.resize(tree_.nodes.size());
   state.words.resize(fresh_.run.bytes.size());
   state.leaves.assign(tree_.leaves.size(), {});
-  reader.sparse(reinterpret_cast<std::byte*>(state.activity.data()), state.activity.size());
-  reader.sparse(reinterpret_cast<std::byte*>(state.words.data()),
-                state.words.size() * sizeof(std::uint64_t));
+  reader.runs(reinterpret_cast<std::byte*>(state.activity.data()), state.activity.size());
+  reader.runs(reinterpret_cast<std::byte*>(state.words.data()),
+              state.words.size() * sizeof(std::uint64_t));
+  LeafState like;
+  std::uint64_t more = 0;  // like that
   for (std::size_t i = 0; i < state.leaves.size(); ++i) {
     const Activity activity = state.activity[tree_.leaves[i].node];
     if (status_of(activity) != Status::Running) continue;
-    LeafState& leaf = state.leaves[i];
-    leaf.phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
-    leaf.ticks = reader.number();
-    leaf.level = static_cast<std::uint16_t>(reader.number());
+    if (more > 0) {
+      --more;
+    } else {
+      const std::uint64_t head = reader.number();
+      like.ticks = static_cast<std::uint32_t>(head >> 1u);
+      like.level = static_cast<std::uint16_t>(reader.number());
+      if ((head & 1u) != 0) more = reader.number();
+    }
+    state.leaves[i] = like;
+    state.leaves[i].phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
   }
 }
 
@@ -252,7 +287,7 @@ void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
     const auto head = reader.plain<std::uint8_t>();
     entry.is_present = (head & 16u) != 0;
     entry.value = reader.value(head & 15u);
-    entry.writes = reader.number();
+    entry.writes = static_cast<std::uint32_t>(reader.number());
     if (fresh_.entries[slot].typing != Typing::Strict) {
       entry.typing = reader.plain<Typing>();
       entry.type = reader.plain<ValueType>();
