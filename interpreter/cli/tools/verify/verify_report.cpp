@@ -20,7 +20,7 @@ std::size_t count_findings(const Verdict& verdict) {
 // Why a search did not look at everything.
 std::string_view limit_of(SearchEnd end) {
   constexpr std::string_view kWords[] = {"",       "--states", "transitions", "--memory",
-                                         "--time", "--depth",  "a signal",    "--values"};
+                                         "--time", "--depth",  "a signal",    "values"};
   return kWords[static_cast<std::size_t>(end)];
 }
 
