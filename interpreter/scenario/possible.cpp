@@ -27,7 +27,8 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
       tree, models, {}, period,
       {.states = kMostStates,
        .stop_signal = [&looks] { return ++looks > kMostTransitions / kBetweenLooks ? 1 : 0; },
-       .symmetry = false});
+       .symmetry = false,
+       .cycles = false});
   if (!found.is_complete()) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);

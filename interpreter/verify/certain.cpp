@@ -62,7 +62,7 @@ bool has_start_values(const Tree& tree, const LeafModels& models) {
 class Certainties {
  public:
   Certainties(const Tree& tree, std::span<const Place> places, const SearchResult& found)
-      : tree_(tree), places_(places), found_(found), graph_(found.graph) {}
+      : tree_(tree), places_(places), found_(found), graph_(found.graph_of_cycles()) {}
 
   std::vector<Certainty> find() {
     look_for_dead_nodes();

@@ -1,7 +1,6 @@
 #include "verify/child_order.h"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 
 namespace lockstep::host {
@@ -29,23 +28,12 @@ ChildOrder::ChildOrder(const Tree& tree, const Symmetry& symmetry)
 void ChildOrder::sort(KeptState& state) {
   if (has_moved_) std::iota(origins_.begin(), origins_.end(), NodeIndex{0});
   has_moved_ = false;
-  number_kept_children(state, Numbered::FromNode);
+  symmetry_.number_kept_children(tree_, state.words, Symmetry::Numbered::FromNode);
   for (const EqualChildren& it : symmetry_.classes()) {
     const bool is_sorted = it.are_leaves() ? sort_leaves(it, state) : sort_subtrees(it, state);
     if (!is_sorted) apply(it, state);
   }
-  number_kept_children(state, Numbered::InTree);
-}
-
-void ChildOrder::number_kept_children(KeptState& state, Numbered by) const {
-  for (const NodeIndex node : symmetry_.keepers()) {
-    std::uint64_t& word = state.words[tree_.nodes[node].state / sizeof word];
-    NodeIndex child = 0;
-    std::memcpy(&child, &word, sizeof child);
-    if (child == 0) continue;
-    child = by == Numbered::FromNode ? child - node : child + node;
-    std::memcpy(&word, &child, sizeof child);
-  }
+  symmetry_.number_kept_children(tree_, state.words, Symmetry::Numbered::InTree);
 }
 
 // Fills `order_`, unless they are in order.
@@ -105,7 +93,7 @@ void ChildOrder::apply(const EqualChildren& it, KeptState& state) {
 }
 
 void ChildOrder::move(KeptState& state, std::span<const NodeIndex> places) {
-  number_kept_children(state, Numbered::FromNode);
+  symmetry_.number_kept_children(tree_, state.words, Symmetry::Numbered::FromNode);
   before_ = state;
   for (const EqualChildren& it : symmetry_.classes()) {
     for (const EqualChildren::Place& child : it.places) {
@@ -122,7 +110,7 @@ void ChildOrder::move(KeptState& state, std::span<const NodeIndex> places) {
       }
     }
   }
-  number_kept_children(state, Numbered::InTree);
+  symmetry_.number_kept_children(tree_, state.words, Symmetry::Numbered::InTree);
   for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
     const NodeIndex to = places[tree_.leaves[leaf].node];
     state.leaves[tree_.nodes[to].params] = before_.leaves[leaf];

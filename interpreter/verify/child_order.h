@@ -34,9 +34,6 @@ class ChildOrder {
   void move(KeptState& state, std::span<const NodeIndex> places);
 
  private:
-  // The children that nodes keep, by how far behind the node they are, and by their numbers.
-  enum class Numbered : bool { FromNode, InTree };
-  void number_kept_children(KeptState& state, Numbered by) const;
   bool sort_leaves(const EqualChildren& it, const KeptState& state);
   bool sort_subtrees(const EqualChildren& it, const KeptState& state);
   void apply(const EqualChildren& it, KeptState& state);

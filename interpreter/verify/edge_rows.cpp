@@ -14,10 +14,23 @@ enum Kind : std::uint64_t {
   kOtherLabel = 0b01,  // as the first, of one bit more; its label follows
 };
 
+// A row of no edges, which is never there, says that a label of the end follows.
+constexpr std::byte kEnd{kRow};
+
 }  // namespace
 
-void EdgeRows::add(std::span<const Edge> edges) {
+EdgeRow::EdgeRow(std::span<const std::byte> row) : bytes_(row) {
+  if (bytes_.empty() || bytes_.front() != kEnd) return;
+  bytes_ = bytes_.subspan(1);
+  label_of_end_ = static_cast<std::uint32_t>(take_number(bytes_));
+}
+
+void EdgeRows::add(std::span<const Edge> edges, std::optional<std::uint32_t> label_of_end) {
   packed_.clear();
+  if (label_of_end) {
+    packed_.push_back(kEnd);
+    put_number(packed_, *label_of_end);
+  }
   Edge before;
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t row = 0;

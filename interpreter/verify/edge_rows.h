@@ -1,8 +1,10 @@
 // The edges of a graph, packed: a row of bytes for each state, of its edges by their goals. An edge
-// takes a byte or two where goals are near each other.
+// takes a byte or two where goals are near each other. A row may begin with a label of the ticks
+// that end the run.
 #pragma once
 
 #include <iterator>
+#include <optional>
 
 #include "verify/byte_rows.h"
 #include "verify/state_store.h"
@@ -39,18 +41,20 @@ class EdgeRow {
   };
 
   EdgeRow() = default;
-  explicit EdgeRow(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit EdgeRow(std::span<const std::byte> row);
   Iterator begin() const { return Iterator(bytes_); }
   static std::default_sentinel_t end() { return {}; }
+  std::optional<std::uint32_t> label_of_end() const { return label_of_end_; }
 
  private:
   std::span<const std::byte> bytes_;
+  std::optional<std::uint32_t> label_of_end_;
 };
 
 class EdgeRows {
  public:
   // Those of the next state, by their goals.
-  void add(std::span<const Edge> edges);
+  void add(std::span<const Edge> edges, std::optional<std::uint32_t> label_of_end = {});
   EdgeRow operator[](StateId state) const { return EdgeRow(rows_[state]); }
   std::size_t states() const { return rows_.size(); }
   std::uint64_t size() const { return size_; }  // edges

@@ -22,7 +22,6 @@ void Chunk::clear() {
   states.clear();
   edges.clear();
   fresh.clear();
-  found_by.clear();
   news.clear();
 }
 
@@ -45,13 +44,41 @@ void Expander::expand(const StateStore& known, StateId first, StateId last, Nano
   into.clear();
   into.first = first;
   for (StateId state = first; state < last; ++state) {
-    expand(state, into);
+    labeller_.shape().clear(end_);
+    for_each_tick(
+        state, known[state], into,
+        [&](const Step& step, Status status) { take(step, status, into); },
+        [&](Chunk::State& at) { return why_cut(at, into); });
+    const bool some_are_held =
+        std::ranges::any_of(end_.bits, [](std::byte it) { return it != std::byte{0}; });
+    if (some_are_held) into.states.back().end = labels_.add(end_);
     if (into.states.back().cut) return;
   }
 }
 
-void Expander::expand(StateId state, Chunk& into) {
-  stepper_.load((*known_)[state], state == 0);
+void Expander::expand_again(const StateStore& known, std::span<const StateId> states,
+                            const BytesOf& bytes_of, const EdgeWanted& is_wanted, Chunk& into) {
+  known_ = &known;
+  into.clear();
+  for (const StateId state : states) {
+    const auto take_again = [&](const Step& step, Status status) {
+      if (status != Status::Running || stepper_.ticker().faulted()) return;
+      labeller_.of(stepper_);
+      const StateBytes& goal = stepper_.fold();
+      const StateId to = known_->find(goal, hash_of(goal));
+      if (to == kNoState || !is_wanted(step.from, to, goal)) return;
+      into.edges.push_back({to, labels_.add(labeller_.with_moves(stepper_))});
+    };
+    for_each_tick(state, bytes_of(state), into, take_again,
+                  [](const Chunk::State&) { return std::nullopt; });
+    if (into.states.back().cut) return;
+  }
+}
+
+template <class Take, class Cut>
+void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Chunk& into,
+                             const Take& take, const Cut& why_cut) {
+  stepper_.load(bytes, state == 0);
   const std::size_t first_edge = into.edges.size();
   Chunk::State& at = into.states.emplace_back();
   if (!labeller_.shape().moving_leaves.empty()) at.equals = labels_.add(labeller_.equals(stepper_));
@@ -59,7 +86,7 @@ void Expander::expand(StateId state, Chunk& into) {
   std::size_t most_edges = first_edge + 10 * kTicksBetweenLooks;
   Step step{state, 0};
   do {
-    take(step, stepper_.tick(), into);
+    take(step, stepper_.tick());
     ++step.combination;
     const bool looks_at_signal = ++at.transitions % kTicksBetweenSignals == 0;
     if (looks_at_signal && limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0)
@@ -70,7 +97,7 @@ void Expander::expand(StateId state, Chunk& into) {
       sort_edges(into, first_edge);
       most_edges = 2 * into.edges.size() + kTicksBetweenLooks;
     }
-    at.cut = why_cut(at, into);
+    at.cut = why_cut(at);
   } while (!at.cut && stepper_.next());
   sort_edges(into, first_edge);
   at.edges = into.edges.size();
@@ -106,20 +133,20 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   if (status != Status::Running) {
     tell(News::Kind::Result, index_of(status), step, into);
     into.states.back().ends = true;
+    labeller_.add_held(stepper_, end_);
     return;
   }
   look_at_values(step, into);
   labeller_.of(stepper_);
   const StateBytes& state = stepper_.fold();
-  const std::uint32_t label = labels_.add(labeller_.with_moves(stepper_));
   const std::uint64_t hash = hash_of(state);
   StateId to = known_->find(state, hash);
   if (to == kNoState) {
-    const auto [number, is_new] = into.fresh.add(state, hash);
-    if (is_new) into.found_by.push_back(step);
-    to = number | Chunk::kFresh;
+    to = into.fresh.add(state, hash).first | Chunk::kFresh;
   }
-  into.edges.push_back({to, label});
+  const bool is_loop = to == step.from;
+  into.edges.push_back(
+      {to, labels_.add(is_loop ? labeller_.with_moves(stepper_) : labeller_.only_held(stepper_))});
 }
 
 void Expander::tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,

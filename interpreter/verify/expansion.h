@@ -33,12 +33,14 @@ struct News {
 };
 
 // A row of states. What they lead to and was not known when the row was begun is in `fresh`.
+// The label of an edge to another state says only who is held: see CycleGraph.
 struct Chunk {
   struct State {
     std::uint64_t transitions = 0;
     std::size_t edges = 0, fresh = 0, news = 0;  // where those of the next state begin
     std::uint32_t equals = 0;                    // a label, if leaves may change places
     bool ends = false;                           // some tick ends the run
+    std::optional<std::uint32_t> end = {};       // a label of all that these hold, if they do
     std::optional<SearchEnd> cut = {};           // why not all of its ticks were made
     int signal = 0;
   };
@@ -49,7 +51,6 @@ struct Chunk {
   std::vector<State> states;
   std::vector<Edge> edges;
   StateStore fresh;
-  std::vector<Step> found_by;  // of each of those
   std::vector<News> news;
 
   void clear();
@@ -65,13 +66,21 @@ class Expander {
   StateBytes first_state() { return stepper_.first_state(); }
   // All ticks from these states. They can be cut by limits: then the chunk ends there.
   void expand(const StateStore& known, StateId first, StateId last, Nanoseconds began, Chunk& into);
+  // The same once more, for all that labels say of the edges for which `is_wanted`. All of their
+  // goals are known. A signal cuts them.
+  using BytesOf = std::function<std::span<const std::byte>(StateId)>;
+  using EdgeWanted = std::function<bool(StateId from, StateId to, const StateBytes& goal)>;
+  void expand_again(const StateStore& known, std::span<const StateId> states,
+                    const BytesOf& bytes_of, const EdgeWanted& is_wanted, Chunk& into);
 
   const LabelTable& labels() const { return labels_; }
   const LabelShape& label_shape() const { return labeller_.shape(); }
   const SearchCoverage& coverage() const { return coverage_; }
 
  private:
-  void expand(StateId state, Chunk& into);
+  template <class Take, class Cut>
+  void for_each_tick(StateId state, std::span<const std::byte> bytes, Chunk& into, const Take& take,
+                     const Cut& why_cut);
   void take(const Step& step, Status status, Chunk& into);
   void tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
             const std::string& text = {});
@@ -85,6 +94,7 @@ class Expander {
   Stepper stepper_;
   Labeller labeller_;
   LabelTable labels_;
+  Label end_;  // of the state that is looked at
   SearchCoverage coverage_;
   std::set<std::pair<News::Kind, std::size_t>> told_;
   std::vector<std::pair<std::uint32_t, std::set<std::string>>> values_;

@@ -4,28 +4,13 @@
 #include <numeric>
 
 #include "verify/components.h"
+#include "verify/union_find.h"
 #include "verify/way.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::uint32_t kNoSet = 0xffffffff;
-
-// Sets of numbers that become one.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t size) : parents_(size) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t it) {
-    for (; parents_[it] != it; it = parents_[it]) parents_[it] = parents_[parents_[it]];
-    return it;
-  }
-  void unite(std::size_t one, std::size_t other) { parents_[find(one)] = find(other); }
-
- private:
-  std::vector<std::size_t> parents_;
-};
 
 // Finds a fair cycle in a component, by leaving out edges on which a leaf works that never ends in
 // it. A leaf that may move is, in each state, the leaf at a place: in a component, the places that
@@ -189,7 +174,7 @@ class FairCycle {
              [&](StateId from, const Edge&, std::size_t i, const FollowedLeaf::Take& take) {
                Label equals;
                graph_.read_equals(from, equals);
-               for_each_equal(equals, i, moving_.size(), take);
+               for_each_equal(equals, i, take);
              },
          .next = [&](const Edge& edge, std::size_t i) { return leaf_after(edge, i); }});
     const auto is_start = [&](StateId, const Edge& edge, std::size_t) { return edge.to == start; };
@@ -233,7 +218,7 @@ class FairCycle {
       std::size_t place = first;
       bool work = false, end = false;
       for (const CycleStep& it : cycle) {
-        place = it.swaps[0](place);
+        place = graph_.shape.exchanged(it.swaps[0], place);
         work |= works(it.edge, moving_[place]);
         end |= ends(it.edge, moving_[place]);
         place = leaf_after(it.edge, place);

@@ -65,9 +65,9 @@ bool recurs(const Graph& graph, const EdgeFilter& is_wanted) {
   });
 }
 
-std::optional<std::uint64_t> longest_row(const Graph& graph, const EdgeFilter& is_wanted) {
+std::optional<std::uint64_t> longest_row(const Graph& graph, const LabelFilter& is_wanted) {
   const std::vector<StateId> states = expanded_states(graph);
-  const auto uses = [&](StateId, const Edge& edge) { return is_wanted(edge); };
+  const auto uses = [&](StateId, const Edge& edge) { return is_wanted(edge.label); };
   Components components(graph);
   components.find(states, uses);
   if (!components.with_cycles(states, uses).empty()) return std::nullopt;
@@ -75,8 +75,10 @@ std::optional<std::uint64_t> longest_row(const Graph& graph, const EdgeFilter& i
   std::vector<std::uint32_t> longest(graph.states());
   std::uint32_t most = 0;
   for (const StateId state : components.in_order(states)) {
-    for (const Edge& edge : graph.edges_of(state)) {
-      if (is_wanted(edge)) longest[state] = std::max(longest[state], longest[edge.to] + 1);
+    const EdgeRow edges = graph.edges_of(state);
+    if (const auto end = edges.label_of_end(); end && is_wanted(*end)) longest[state] = 1;
+    for (const Edge& edge : edges) {
+      if (is_wanted(edge.label)) longest[state] = std::max(longest[state], longest[edge.to] + 1);
     }
     most = std::max(most, longest[state]);
   }

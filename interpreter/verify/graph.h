@@ -19,44 +19,38 @@ struct Graph {
   std::vector<bool> ends;  // of each state: some tick from it ends the run
   LabelTable labels;
   LabelShape shape;
-  // Of each state that was looked at, if some leaves may change places: see read_equals.
+  // Of each state that was looked at, if something may change places: see read_equals.
   std::vector<std::uint32_t> equals = {};
 
   std::size_t states() const { return ends.size(); }
   // States that were looked at: their edges are known. Others may do anything.
   std::size_t expanded() const { return edges.states(); }
+  std::size_t memory() const {
+    return edges.memory() + labels.memory() + equals.size() * sizeof equals[0];
+  }
   EdgeRow edges_of(StateId state) const { return state < expanded() ? edges[state] : EdgeRow(); }
   bool has(const Edge& edge, std::size_t bit) const { return labels.has(edge.label, bit); }
   void read(const Edge& edge, Label& into) const {
     shape.clear(into);
     labels.read(edge.label, into);
   }
-  // Of each leaf that may move: the one before it that is in an equal state, or itself.
+  // Of each place: the one before it with which it may change places in this state, or itself.
   void read_equals(StateId state, Label& into) const {
     shape.clear(into);
     if (state < equals.size()) labels.read(equals[state], into);
   }
 };
 
-// Calls it for each of the leaves whose places this one may have: itself, and those in equal
-// states.
+// Calls it for each of the places that what is at this one may have: its own first.
 template <class F>
-void for_each_equal(const Label& equals, std::size_t moving, std::size_t count, const F& call) {
-  call(moving);
-  for (std::size_t i = moving; equals.after[i] != i;) call(i = equals.after[i]);
-  for (std::size_t i = moving + 1, last = moving; i < count; ++i) {
+void for_each_equal(const Label& equals, std::size_t place, const F& call) {
+  call(place);
+  for (std::size_t i = place; equals.after[i] != i;) call(i = equals.after[i]);
+  for (std::size_t i = place + 1, last = place; i < equals.after.size(); ++i) {
     if (equals.after[i] == last) call(last = i);
   }
 }
 
-// Two leaves in equal states that change places, by their places among those that may move.
-struct Swap {
-  std::size_t one = 0, other = 0;
-
-  std::size_t operator()(std::size_t leaf) const {
-    return leaf == one ? other : leaf == other ? one : leaf;
-  }
-};
 using Swaps = std::array<Swap, 2>;  // the first one first
 
 // A way through a graph, edge by edge.
@@ -79,8 +73,10 @@ std::vector<bool> reachable_from(const Graph& graph, StateId from);
 // Whether some cycle has an edge like this.
 bool recurs(const Graph& graph, const EdgeFilter& is_wanted);
 
-// How many edges like this may follow each other: nothing if there is no end.
-std::optional<std::uint64_t> longest_row(const Graph& graph, const EdgeFilter& is_wanted);
+// How many ticks with such a label may follow each other, the last of the run too: nothing if there
+// is no end.
+using LabelFilter = std::function<bool(std::uint32_t label)>;
+std::optional<std::uint64_t> longest_row(const Graph& graph, const LabelFilter& is_wanted);
 
 // From `from` the shortest way to a state for which `is_goal`, over the edges of the graph.
 std::vector<CycleStep> shortest_way(const Graph& graph, StateId from,

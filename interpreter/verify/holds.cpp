@@ -1,7 +1,6 @@
 #include "verify/holds.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -10,12 +9,6 @@
 #include "verify/fair_cycle.h"
 
 namespace lockstep::host {
-namespace {
-
-constexpr std::uint32_t kNoLeaf = 0xffffffff;
-
-}  // namespace
-
 FollowedChildren::FollowedChildren(const Graph& graph, const std::vector<std::size_t>& children)
     : graph_(graph), children_(children), moving_(children.size()) {
   for (std::size_t i = 0; i < graph.shape.moving_held.size(); ++i) {
@@ -23,49 +16,25 @@ FollowedChildren::FollowedChildren(const Graph& graph, const std::vector<std::si
         std::ranges::find(children, graph.shape.moving_held[i]) - children.begin()));
     if (places_[i] < children.size()) moving_[places_[i]] = i;
   }
-  leaves_.assign(children.size(), kNoLeaf);
-  for (std::uint32_t leaf = 0; leaf < graph.shape.held_of_leaf.size(); ++leaf) {
-    const MovingPlace held = graph.shape.held_of_leaf[leaf];
-    if (held != LabelShape::kNowhere && places_[held] < children.size()) {
-      leaves_[places_[held]] = leaf;
-    }
-  }
-}
-
-bool FollowedChildren::is_first(const Label& equals, std::size_t child) const {
-  return leaves_[child] == kNoLeaf || equals.after[leaves_[child]] == leaves_[child];
 }
 
 // Two that differ in nothing but their places count once.
-void FollowedChildren::choose(const Tick& tick, std::size_t child,
-                              std::vector<Choice>& choices) const {
-  const LabelShape& shape = graph_.shape;
+template <class IsWanted>
+void FollowedChildren::choose(const Tick& tick, std::size_t child, Labels labels,
+                              const IsWanted& is_wanted, std::vector<Choice>& choices) const {
   choices.clear();
-  const auto child_behind = [&](std::size_t as) {
-    const std::size_t leaves = shape.moving_leaves.size();
-    return places_[tick.label.after[leaves + moving_[as]] - leaves];
-  };
-  const auto is_held = [&](std::size_t as) {
-    return tick.label.has(shape.held_bit(children_[as]));
-  };
-  const std::size_t first = leaves_[child];
-  if (first == kNoLeaf) {
-    if (is_held(child)) choices.push_back({child_behind(child), {}, {}});
-    return;
-  }
-  std::vector<std::array<std::size_t, 3>> seen;
-  for_each_equal(tick.before, first, shape.moving_leaves.size(), [&](std::size_t leaf) {
-    const std::size_t as = places_[shape.held_of_leaf[leaf]];
-    if (!is_held(as)) return;
-    const std::size_t there = tick.label.after[leaf];
+  for_each_equal(tick.before, place_of(child), [&](std::size_t as) {
+    if (!tick.label.has(graph_.shape.held_bit(children_[child_at(as)]))) return;
+    const std::size_t there = tick.label.after[as];
     std::size_t to = there;
     while (tick.after.after[to] != to) to = tick.after.after[to];
-    const std::array<std::size_t, 3> now{
-        to, tick.label.has(shape.worked_bit(shape.moving_leaves[leaf])) ? 1u : 0u,
-        tick.label.has(shape.ended_bit(shape.moving_leaves[leaf])) ? 1u : 0u};
-    if (std::ranges::find(seen, now) != seen.end()) return;
-    seen.push_back(now);
-    choices.push_back({places_[shape.held_of_leaf[to]], {first, leaf}, {there, to}});
+    if (!is_wanted(child_at(to))) return;
+    Choice it{child_at(to), {place_of(child), as}, {there, to}};
+    if (labels == Labels::All) it.label = label(tick, it);
+    const bool is_known = std::ranges::any_of(choices, [&](const Choice& other) {
+      return other.child == it.child && other.label == it.label;
+    });
+    if (!is_known) choices.push_back(std::move(it));
   });
 }
 
@@ -76,8 +45,8 @@ void FollowedChildren::read_after(const Edge& edge, Tick& tick) const {
 
 Label FollowedChildren::label(const Tick& tick, const Choice& choice) const {
   Label label = tick.label;
-  graph_.shape.exchange_before(label, choice.before.one, choice.before.other);
-  graph_.shape.exchange_after(label, choice.after.one, choice.after.other);
+  graph_.shape.exchange_before(label, choice.before);
+  graph_.shape.exchange_after(label, choice.after);
   return label;
 }
 
@@ -97,35 +66,44 @@ Graph FollowedChildren::graph(Labels labels, const Wanted& is_wanted) const {
       read_after(edge, tick);
       for (std::size_t child = 0; child < count; ++child) {
         if (!is_first(tick.before, child)) continue;
-        choose(tick, child, choices);
+        const auto number = [&](std::size_t to) {
+          return static_cast<StateId>(edge.to * count + to);
+        };
+        const auto is_wanted_to = [&](std::size_t to) {
+          return is_wanted(static_cast<StateId>(state * count + child), number(to));
+        };
+        choose(tick, child, labels, is_wanted_to, choices);
         for (const Choice& it : choices) {
-          const auto to = static_cast<StateId>(edge.to * count + it.child);
-          if (!is_wanted(static_cast<StateId>(state * count + child), to)) continue;
           const bool has_label = labels == Labels::All;
-          edges[child].push_back({to, has_label ? followed.labels.add(label(tick, it)) : 0});
+          edges[child].push_back({number(it.child), has_label ? followed.labels.add(it.label) : 0});
         }
       }
     }
     for (std::size_t child = 0; child < count; ++child) {
       std::ranges::sort(edges[child]);
       edges[child].erase(std::unique(edges[child].begin(), edges[child].end()), edges[child].end());
-      followed.edges.add(edges[child]);
+      followed.edges.add(edges[child], is_held_at_end(state, tick.before, child)
+                                           ? std::optional<std::uint32_t>(0)
+                                           : std::nullopt);
       edges[child].clear();
       if (labels == Labels::All) {
-        followed.equals.push_back(followed.labels.add(others(tick.before, child)));
+        const Label equals = graph_.shape.equals_beside(tick.before, place_of(child));
+        followed.equals.push_back(followed.labels.add(equals));
       }
     }
   }
   return followed;
 }
 
-// The child that is followed is not one of its equals any more.
-Label FollowedChildren::others(const Label& equals, std::size_t child) const {
-  Label others = equals;
-  for (std::size_t i = 0; leaves_[child] != kNoLeaf && i < graph_.shape.moving_leaves.size(); ++i) {
-    if (others.after[i] == leaves_[child]) others.after[i] = static_cast<MovingPlace>(i);
-  }
-  return others;
+// All places of its equals are looked at, so a child that is not the first counts as that one.
+bool FollowedChildren::is_held_at_end(StateId state, const Label& equals, std::size_t child) const {
+  const auto end = graph_.edges_of(state).label_of_end();
+  bool is_held = false;
+  for_each_equal(equals, place_of(child), [&](std::size_t as) {
+    const std::size_t bit = graph_.shape.held_bit(children_[child_at(as)]);
+    is_held = is_held || (end && graph_.labels.has(*end, bit));
+  });
+  return is_held;
 }
 
 CycleStep FollowedChildren::step(const Graph& followed, const CycleStep& step) const {
@@ -138,42 +116,46 @@ CycleStep FollowedChildren::step(const Graph& followed, const CycleStep& step) c
   std::vector<Choice> choices;
   for (const Edge& edge : graph_.edges_of(from)) {
     read_after(edge, tick);
-    choose(tick, child, choices);
+    const auto is_wanted = [&](std::size_t to) { return edge.to * count + to == step.edge.to; };
+    choose(tick, child, Labels::All, is_wanted, choices);
     for (const Choice& it : choices) {
-      if (edge.to * count + it.child != step.edge.to || label(tick, it) != wanted) continue;
-      return {from, edge, {step.swaps[0], it.before}, it.after};
+      if (it.label == wanted) return {from, edge, {step.swaps[0], it.before}, it.after};
     }
   }
   throw std::logic_error("an edge of a child that is followed is not there any more");
 }
 
-Holds::Holds(const Graph& graph, std::vector<std::size_t> children)
-    : graph_(graph), children_(std::move(children)), following_(graph_, children_) {
+Holds::Holds(const Graph& graph, const Graph& cycles, std::vector<std::size_t> children)
+    : graph_(graph),
+      cycles_(cycles),
+      children_(std::move(children)),
+      following_(graph_, children_) {
   if (children_.size() > 1) {
     followed_ =
         following_.graph(FollowedChildren::Labels::None, [](StateId, StateId) { return true; });
   }
 }
 
-EdgeFilter Holds::filter() const {
-  if (children_.size() > 1) return [](const Edge&) { return true; };
+LabelFilter Holds::filter(const Graph& graph) const {
+  if (children_.size() > 1) return [](std::uint32_t) { return true; };
   // Many edges have one label.
   std::vector<bool> holds;
-  for (std::uint32_t label = 0; label < graph_.labels.size(); ++label) {
-    holds.push_back(graph_.labels.has(label, graph_.shape.held_bit(children_.front())));
+  for (std::uint32_t label = 0; label < graph.labels.size(); ++label) {
+    holds.push_back(graph.labels.has(label, graph.shape.held_bit(children_.front())));
   }
-  return [holds = std::move(holds)](const Edge& edge) { return bool(holds[edge.label]); };
+  return [holds = std::move(holds)](std::uint32_t label) { return bool(holds[label]); };
 }
 
 std::optional<std::uint64_t> Holds::longest() const {
-  return longest_row(children_.size() > 1 ? followed_ : graph_, filter());
+  return longest_row(children_.size() > 1 ? followed_ : graph_, filter(graph_));
 }
 
 std::optional<Holds::Endless> Holds::for_ever() const {
   const std::size_t count = children_.size();
   Endless endless{children_.front(), {}};
   if (count == 1) {
-    endless.cycle = fair_cycle(graph_, filter());
+    endless.cycle = fair_cycle(
+        cycles_, [holds = filter(cycles_)](const Edge& edge) { return holds(edge.label); });
     return endless.cycle.empty() ? std::nullopt : std::optional(std::move(endless));
   }
   Components components(followed_);
@@ -181,13 +163,14 @@ std::optional<Holds::Endless> Holds::for_ever() const {
   std::iota(states.begin(), states.end(), StateId{0});
   components.find(states, [](StateId, const Edge&) { return true; });
   // Only edges inside of one are in a cycle.
-  const Graph labelled = following_.graph(
+  const FollowedChildren following(cycles_, children_);
+  const Graph labelled = following.graph(
       FollowedChildren::Labels::All,
       [&](StateId from, StateId to) { return components.of(from) == components.of(to); });
-  endless.cycle = fair_cycle(labelled, filter());
+  endless.cycle = fair_cycle(labelled);
   if (endless.cycle.empty()) return std::nullopt;
   endless.child = children_[endless.cycle.front().from % count];
-  for (CycleStep& step : endless.cycle) step = following_.step(labelled, step);
+  for (CycleStep& step : endless.cycle) step = following.step(labelled, step);
   return endless;
 }
 

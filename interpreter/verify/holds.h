@@ -10,7 +10,7 @@
 namespace lockstep::host {
 
 // Children that may come to each other's places, followed: a state for each state and each of them,
-// and the edges that hold it. Of those that are leaves in equal states, the first stands for all.
+// and the edges that hold it. Of those in equal states, the first stands for all.
 class FollowedChildren {
  public:
   // Both must outlive this.
@@ -30,29 +30,39 @@ class FollowedChildren {
   struct Choice {
     std::size_t child;  // then
     Swap before, after;
+    Label label = {};  // of the tick with these changes
   };
-  // What a tick does, and which leaves are equal before and after it.
+  // What a tick does, and what is equal before and after it.
   struct Tick {
     Label label, before, after;
   };
   void read_after(const Edge& edge, Tick& tick) const;
-  void choose(const Tick& tick, std::size_t child, std::vector<Choice>& choices) const;
+  template <class IsWanted>
+  void choose(const Tick& tick, std::size_t child, Labels labels, const IsWanted& is_wanted,
+              std::vector<Choice>& choices) const;
   Label label(const Tick& tick, const Choice& choice) const;
-  Label others(const Label& equals, std::size_t child) const;
-  bool is_first(const Label& equals, std::size_t child) const;
+  bool is_held_at_end(StateId state, const Label& equals, std::size_t child) const;
+  std::size_t place_of(std::size_t child) const {
+    return graph_.shape.moving_leaves.size() + moving_[child];
+  }
+  std::size_t child_at(std::size_t place) const {
+    return places_[place - graph_.shape.moving_leaves.size()];
+  }
+  bool is_first(const Label& equals, std::size_t child) const {
+    return equals.after[place_of(child)] == place_of(child);
+  }
 
   const Graph& graph_;
   const std::vector<std::size_t>& children_;
-  std::vector<std::size_t> moving_;    // of each child: its place among those that may move
-  std::vector<std::size_t> places_;    // of each that may move: its place among the children
-  std::vector<std::uint32_t> leaves_;  // of each child: its place among the leaves that may move
+  std::vector<std::size_t> moving_;  // of each child: its place among those that may move
+  std::vector<std::size_t> places_;  // of each that may move: its place among the children
 };
 
 class Holds {
  public:
-  // `graph` must outlive this. `children`, of LabelShape::held: one, or all that may come to its
-  // place.
-  Holds(const Graph& graph, std::vector<std::size_t> children);
+  // Both graphs must outlive this. `children`, of LabelShape::held: one, or all that may come to
+  // its place. The labels of `cycles` say all that matters of cycles.
+  Holds(const Graph& graph, const Graph& cycles, std::vector<std::size_t> children);
 
   // How many ticks in a row: nothing if there is no end.
   std::optional<std::uint64_t> longest() const;
@@ -64,9 +74,9 @@ class Holds {
   std::optional<Endless> for_ever() const;
 
  private:
-  EdgeFilter filter() const;
+  LabelFilter filter(const Graph& graph) const;
 
-  const Graph& graph_;
+  const Graph &graph_, &cycles_;
   const std::vector<std::size_t> children_;
   const FollowedChildren following_;
   Graph followed_;  // with several children; without labels

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "verify/packed_numbers.h"
+#include "verify/union_find.h"
 
 namespace lockstep::host {
 namespace {
@@ -20,12 +21,6 @@ void exchange_bits(Label& label, std::size_t one, std::size_t other) {
   if (label.has(one) == label.has(other)) return;
   label.bits[one / 8] ^= std::byte{1} << one % 8;
   label.bits[other / 8] ^= std::byte{1} << other % 8;
-}
-
-void exchange_values(std::vector<MovingPlace>& after, std::size_t one, std::size_t other) {
-  const auto at = std::ranges::find(after, static_cast<MovingPlace>(one));
-  const auto there = std::ranges::find(after, static_cast<MovingPlace>(other));
-  std::iter_swap(at, there);
 }
 
 // Each row of bits that are set: its length, and how far it begins behind the one before it.
@@ -76,24 +71,137 @@ void LabelShape::clear(Label& label) const {
   std::iota(label.after.begin(), label.after.end(), MovingPlace{0});
 }
 
-void LabelShape::exchange_before(Label& label, std::size_t one, std::size_t other) const {
-  if (one == other) return;
-  exchange_bits(label, worked_bit(moving_leaves[one]), worked_bit(moving_leaves[other]));
-  exchange_bits(label, ended_bit(moving_leaves[one]), ended_bit(moving_leaves[other]));
-  std::swap(label.after[one], label.after[other]);
-  const std::size_t first = held_of_leaf[one], second = held_of_leaf[other];
-  if (first == kNowhere) return;
-  exchange_bits(label, held_bit(moving_held[first]), held_bit(moving_held[second]));
-  const std::size_t leaves_moving = moving_leaves.size();
-  std::swap(label.after[leaves_moving + first], label.after[leaves_moving + second]);
+void LabelShape::clear_all_but_held(Label& label) const {
+  const std::size_t first = held_bit(0), last = owed_bit(0);
+  for (std::size_t byte = 0; byte < label.bits.size(); ++byte) {
+    if (byte < first / 8 || byte > last / 8) label.bits[byte] = std::byte{0};
+  }
+  label.bits[last / 8] &= ~(~std::byte{0} << last % 8);
+  label.bits[first / 8] &= ~std::byte{0} << first % 8;
+  std::iota(label.after.begin(), label.after.end(), MovingPlace{0});
 }
 
-void LabelShape::exchange_after(Label& label, std::size_t one, std::size_t other) const {
-  if (one == other) return;
-  exchange_values(label.after, one, other);
-  const std::size_t first = held_of_leaf[one], second = held_of_leaf[other];
-  if (first == kNowhere) return;
-  exchange_values(label.after, moving_leaves.size() + first, moving_leaves.size() + second);
+std::vector<LabelShape::Exchange> LabelShape::exchanges(const Swap& swap) const {
+  std::vector<Exchange> found;
+  std::size_t from = swap.one;
+  for (std::size_t i = 0; i < moving_children.size() && from != swap.other; ++i) {
+    const MovingChildren& all = moving_children[i];
+    const Exchange it{i, child_with(all, from), child_with(all, swap.other)};
+    if (it.one == kNoChild || it.other == kNoChild || it.one == it.other) continue;
+    exchange(from, it);
+    found.push_back(it);
+  }
+  return found;
+}
+
+std::size_t LabelShape::child_with(const MovingChildren& all, std::size_t place) const {
+  const bool is_leaf = place < moving_leaves.size();
+  const std::size_t number = is_leaf ? place : place - moving_leaves.size();
+  const auto first = [&](const auto& it) { return is_leaf ? it.leaf : it.held; };
+  const auto behind = std::ranges::upper_bound(all.places, number, {}, first);
+  if (behind == all.places.begin()) return kNoChild;
+  const auto child = std::prev(behind);
+  if (number - first(*child) >= (is_leaf ? all.leaves : all.held)) return kNoChild;
+  return static_cast<std::size_t>(child - all.places.begin());
+}
+
+void LabelShape::exchange(std::size_t& place, const Exchange& it) const {
+  const MovingChildren& all = moving_children[it.children];
+  const MovingChildren::Place &one = all.places[it.one], &other = all.places[it.other];
+  const bool is_leaf = place < moving_leaves.size();
+  const std::size_t before = is_leaf ? 0 : moving_leaves.size();
+  const std::size_t size = is_leaf ? all.leaves : all.held;
+  const std::size_t first = before + (is_leaf ? one.leaf : one.held);
+  const std::size_t second = before + (is_leaf ? other.leaf : other.held);
+  if (place - first < size) {
+    place = place - first + second;
+  } else if (place - second < size) {
+    place = place - second + first;
+  }
+}
+
+std::size_t LabelShape::exchanged(const Swap& swap, std::size_t place) const {
+  for (const Exchange& it : exchanges(swap)) exchange(place, it);
+  return place;
+}
+
+// What has come to a place did what was done there, so the inner changes are the first.
+void LabelShape::exchange_before(Label& label, const Swap& swap) const {
+  const std::vector<Exchange> all = exchanges(swap);
+  for (auto it = all.rbegin(); it != all.rend(); ++it) {
+    const MovingChildren& children = moving_children[it->children];
+    const MovingChildren::Place &one = children.places[it->one],
+                                &other = children.places[it->other];
+    for (std::size_t i = 0; i < children.leaves; ++i) {
+      const std::uint32_t leaf = moving_leaves[one.leaf + i], by = moving_leaves[other.leaf + i];
+      exchange_bits(label, worked_bit(leaf), worked_bit(by));
+      exchange_bits(label, ended_bit(leaf), ended_bit(by));
+      std::swap(label.after[one.leaf + i], label.after[other.leaf + i]);
+    }
+    for (std::size_t i = 0; i < children.held; ++i) {
+      const std::size_t first = one.held + i, second = other.held + i;
+      exchange_bits(label, held_bit(moving_held[first]), held_bit(moving_held[second]));
+      const std::size_t before = moving_leaves.size();
+      std::swap(label.after[before + first], label.after[before + second]);
+    }
+  }
+}
+
+void LabelShape::exchange_after(Label& label, const Swap& swap) const {
+  for (const Exchange& it : exchanges(swap)) {
+    for (MovingPlace& place : label.after) {
+      std::size_t now = place;
+      exchange(now, it);
+      place = static_cast<MovingPlace>(now);
+    }
+  }
+}
+
+void LabelShape::set_equals(std::span<const EqualChild> equal, Label& label) const {
+  clear(label);
+  UnionFind sets(label.after.size());
+  const auto unite = [&](std::size_t one, std::size_t other, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) sets.unite(one + i, other + i);
+  };
+  for (const EqualChild& it : equal) {
+    const MovingChildren& all = moving_children[it.children];
+    const MovingChildren::Place &before = all.places[it.child - 1], &here = all.places[it.child];
+    unite(before.leaf, here.leaf, all.leaves);
+    unite(moving_leaves.size() + before.held, moving_leaves.size() + here.held, all.held);
+  }
+  std::vector<MovingPlace> last = label.after;  // of each set; itself: none was there
+  std::vector<bool> has_last(last.size());
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    const std::size_t set = sets.find(i);
+    if (has_last[set]) label.after[i] = last[set];
+    last[set] = static_cast<MovingPlace>(i);
+    has_last[set] = true;
+  }
+}
+
+Label LabelShape::equals_beside(const Label& equals, std::size_t place) const {
+  const auto first_of = [&](std::size_t it) {
+    while (equals.after[it] != it) it = equals.after[it];
+    return it;
+  };
+  std::vector<EqualChild> others;
+  for (std::size_t i = 0; i < moving_children.size(); ++i) {
+    const MovingChildren& all = moving_children[i];
+    if (all.leaves + all.held == 0) continue;
+    const auto first_place = [&](const MovingChildren::Place& it) {
+      return all.leaves > 0 ? it.leaf : moving_leaves.size() + it.held;
+    };
+    const std::size_t stays = child_with(all, place);
+    for (std::size_t child = 1; child < all.places.size(); ++child) {
+      if (stays == child || stays == child - 1) continue;
+      const bool is_equal =
+          first_of(first_place(all.places[child])) == first_of(first_place(all.places[child - 1]));
+      if (is_equal) others.push_back({i, child});
+    }
+  }
+  Label label;
+  set_equals(others, label);
+  return label;
 }
 
 std::uint32_t LabelTable::add(const Label& label) {

@@ -29,12 +29,27 @@ struct Label {
   friend bool operator==(const Label&, const Label&) = default;
 };
 
+// Children that may change places: those of one parallel. What may move in each of them, a leaf or
+// a child that may be held, is beside each other.
+struct MovingChildren {
+  struct Place {
+    std::size_t leaf, held;  // the first of those that may move
+  };
+  std::size_t leaves, held;  // in each
+  std::vector<Place> places;
+};
+
+// Children in equal states change places, so that what is at the place `one` comes to `other`: both
+// are leaves that may move, or behind those children that may be held. The children with them that
+// are farthest out change places, then those inside of where that came to, and so on.
+struct Swap {
+  std::size_t one = 0, other = 0;
+};
+
 struct LabelShape {
   std::size_t leaves = 0, held = 0, properties = 0;
   std::vector<std::uint32_t> moving_leaves = {}, moving_held = {};  // those that may move
-  // Of each leaf that may move: the place among the children that are held of the one that moves
-  // with it, which may be the leaf itself; or kNowhere.
-  std::vector<MovingPlace> held_of_leaf = {};
+  std::vector<MovingChildren> moving_children = {};                 // the outer ones first
 
   std::size_t worked_bit(std::size_t leaf) const { return leaf; }
   std::size_t ended_bit(std::size_t leaf) const { return leaves + leaf; }
@@ -44,12 +59,34 @@ struct LabelShape {
 
   // Makes it a label in which nothing has happened.
   void clear(Label& label) const;
-  // Makes it that of a tick in which these leaves, which may move, did what the other one did.
-  void exchange_before(Label& label, std::size_t one, std::size_t other) const;
-  // These leaves, which may move, change places behind the tick.
-  void exchange_after(Label& label, std::size_t one, std::size_t other) const;
+  void clear_all_but_held(Label& label) const;
+  // Makes it that of a tick in which children in equal states have changed places before it.
+  void exchange_before(Label& label, const Swap& swap) const;
+  // The same behind the tick.
+  void exchange_after(Label& label, const Swap& swap) const;
+  // Where what was at this place is then.
+  std::size_t exchanged(const Swap& swap, std::size_t place) const;
 
-  static constexpr MovingPlace kNowhere = 0xffff;
+  // Not a label of a tick: each place is after it where the one before it is with which it may
+  // change places, if of these children each is in the state of the one before it.
+  struct EqualChild {
+    std::size_t children, child;
+  };
+  void set_equals(std::span<const EqualChild> equal, Label& label) const;
+  // The same if what is at this place stays there, which is not behind another one that is like it.
+  Label equals_beside(const Label& equals, std::size_t place) const;
+
+  // The changes of places that a swap is, the outer ones first: of two of these children.
+  struct Exchange {
+    std::size_t children, one, other;
+  };
+  std::vector<Exchange> exchanges(const Swap& swap) const;
+
+ private:
+  // The child of these that the place is in, or kNoChild.
+  static constexpr std::size_t kNoChild = static_cast<std::size_t>(-1);
+  std::size_t child_with(const MovingChildren& all, std::size_t place) const;
+  void exchange(std::size_t& place, const Exchange& it) const;
 };
 
 // Few labels are different. They are packed: rows of bits that are set, and rows of what moves as

@@ -1,5 +1,7 @@
 #include "verify/labels.h"
 
+#include <algorithm>
+
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
@@ -35,21 +37,36 @@ Labeller::Labeller(const Tree& tree, const LeafModels& models, std::size_t prope
     shape_.moving_leaves.push_back(i);
   }
   for (std::uint32_t i = 0; i < held_.size(); ++i) {
-    if (!symmetry.moves(held_[i].child)) continue;
-    number_of_held_[held_[i].child] = static_cast<std::uint32_t>(shape_.moving_held.size());
-    shape_.moving_held.push_back(i);
+    if (symmetry.moves(held_[i].child)) shape_.moving_held.push_back(i);
   }
-  for (const std::uint32_t leaf : shape_.moving_leaves) {
-    const auto moved = symmetry.moved_with(tree.leaves[leaf].node);
-    const std::uint32_t held = moved ? number_of_held_[moved->child] : kStays;
-    shape_.held_of_leaf.push_back(held == kStays ? LabelShape::kNowhere
-                                                 : static_cast<MovingPlace>(held));
+  std::ranges::sort(shape_.moving_held, {}, [&](std::uint32_t i) { return held_[i].child; });
+  for (std::uint32_t i = 0; i < shape_.moving_held.size(); ++i) {
+    number_of_held_[held_[shape_.moving_held[i]].child] = i;
+  }
+  for (auto it = symmetry.classes().rbegin(); it != symmetry.classes().rend(); ++it) {
+    shape_.moving_children.push_back(moving_children(*it));
   }
   shape_.clear(label_);
 }
 
+MovingChildren Labeller::moving_children(const EqualChildren& all) const {
+  const auto leaf_at = [&](NodeIndex node) {
+    const auto node_of = [&](std::uint32_t leaf) { return tree_.leaves[leaf].node; };
+    const auto it = std::ranges::lower_bound(shape_.moving_leaves, node, {}, node_of);
+    return static_cast<std::size_t>(it - shape_.moving_leaves.begin());
+  };
+  const auto held_at = [&](NodeIndex node) {
+    const auto child_of = [&](std::uint32_t held) { return held_[held].child; };
+    const auto it = std::ranges::lower_bound(shape_.moving_held, node, {}, child_of);
+    return static_cast<std::size_t>(it - shape_.moving_held.begin());
+  };
+  const NodeIndex first = all.places.front().node, end = first + all.nodes;
+  MovingChildren found{leaf_at(end) - leaf_at(first), held_at(end) - held_at(first), {}};
+  for (const auto& it : all.places) found.places.push_back({leaf_at(it.node), held_at(it.node)});
+  return found;
+}
+
 const Label& Labeller::of(Stepper& stepper) {
-  const Ticker& ticker = stepper.ticker();
   const auto marks = stepper.leaves().marks();
   shape_.clear(label_);
   for (const std::uint32_t leaf : stepper.leaves().touched()) {
@@ -62,9 +79,7 @@ const Label& Labeller::of(Stepper& stepper) {
       label_.set(shape_.worked_bit(leaf));
     }
   }
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    if (is_held(ticker, held_[i])) label_.set(shape_.held_bit(i));
-  }
+  add_held(stepper, label_);
   for (std::size_t i = 0; i < shape_.properties; ++i) {
     if (stepper.owes(i)) label_.set(shape_.owed_bit(i));
   }
@@ -79,21 +94,32 @@ const Label& Labeller::with_moves(const Stepper& stepper) {
     const NodeIndex node = tree_.leaves[shape_.moving_leaves[to]].node;
     label_.after[number_of_leaf_[origins[node]]] = static_cast<MovingPlace>(to);
   }
-  for (std::size_t to = 0; to < shape_.moving_held.size(); ++to) {
-    const NodeIndex node = held_[shape_.moving_held[to]].child;
-    label_.after[leaves + number_of_held_[origins[node]]] = static_cast<MovingPlace>(leaves + to);
-  }
+  move_held(origins, false);
   return label_;
+}
+
+const Label& Labeller::only_held(const Stepper& stepper) {
+  shape_.clear_all_but_held(label_);
+  if (const auto origins = stepper.origins(); !origins.empty()) move_held(origins, true);
+  return label_;
+}
+
+void Labeller::move_held(std::span<const NodeIndex> origins, bool only_held) {
+  const std::size_t leaves = shape_.moving_leaves.size();
+  for (std::size_t to = 0; to < shape_.moving_held.size(); ++to) {
+    const std::uint32_t from = number_of_held_[origins[held_[shape_.moving_held[to]].child]];
+    if (only_held && !label_.has(shape_.held_bit(shape_.moving_held[from]))) continue;
+    label_.after[leaves + from] = static_cast<MovingPlace>(leaves + to);
+  }
 }
 
 Label Labeller::equals(const Stepper& stepper) const {
   Label label;
-  shape_.clear(label);
-  for (std::size_t i = 0; i < shape_.moving_leaves.size(); ++i) {
-    const std::uint32_t before = stepper.answers().equal_before(shape_.moving_leaves[i]);
-    if (before == TickAnswers::kNone) continue;
-    label.after[i] = static_cast<MovingPlace>(number_of_leaf_[tree_.leaves[before].node]);
+  std::vector<LabelShape::EqualChild> equal;
+  for (const TickAnswers::EqualChild& it : stepper.answers().equal_children()) {
+    equal.push_back({shape_.moving_children.size() - 1 - it.of, it.place});
   }
+  shape_.set_equals(equal, label);
   return label;
 }
 
@@ -119,10 +145,30 @@ Label Labeller::moved(const Label& label, std::span<const NodeIndex> places) con
   return moved;
 }
 
-// A node that waits for resources is held also before it has begun.
-bool Labeller::is_held(const Ticker& ticker, const Holdable& it) const {
-  if (!is_pool(tree_, it.holder)) return ticker.held(it.child);
-  return ticker.ticked(it.child - 1) && waits(limit(ticker, it.child - 1));
+void Labeller::add_held(const Stepper& stepper, Label& label) const {
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const std::size_t bit = shape_.held_bit(i);
+    if (!label.has(bit) && is_held(stepper, held_[i])) label.set(bit);
+  }
+}
+
+// A node that waits for resources is held also before it has begun. What is held in the tick in
+// which its holder ends is halted then, as SynchronizedProbe has it.
+bool Labeller::is_held(const Stepper& stepper, const Holdable& it) const {
+  const Ticker& ticker = stepper.ticker();
+  if (is_pool(tree_, it.holder)) {
+    return ticker.ticked(it.child - 1) && waits(limit(ticker, it.child - 1));
+  }
+  if (ticker.held(it.child)) return true;
+  const bool is_halted = ticker.status(it.child) == Status::Idle && !ticker.ticked(it.child) &&
+                         status_of(stepper.before().run.activity[it.child]) == Status::Running;
+  if (!is_halted) return false;
+  if (tree_.is_group(it.holder)) return ticker.ticked(it.child - 1);
+  for (NodeIndex child = it.holder + 1; child < tree_.nodes[it.holder].end;
+       child = tree_.nodes[child].end) {
+    if (ticker.ticked(child)) return true;
+  }
+  return false;
 }
 
 }  // namespace lockstep::host

@@ -21,16 +21,22 @@ class Labeller {
   const LabelShape& shape() const { return shape_; }
   // After a tick, before its state is folded. Valid until the next call.
   const Label& of(Stepper& stepper);
+  // Adds to a label without moves who is held in a tick that ends the run.
+  void add_held(const Stepper& stepper, Label& label) const;
   // The same once the state is folded, with where everything went.
   const Label& with_moves(const Stepper& stepper);
+  // All that matters of a tick which is in no cycle: who is held, and where those went.
+  const Label& only_held(const Stepper& stepper);
   // A label without moves, of the same tick in a run where each node is at one of these places.
   Label moved(const Label& label, std::span<const NodeIndex> places) const;
-  // Not of a tick: each of the leaves that may move is after it where the one before it is that is
-  // in an equal state. Of the state that was loaded.
+  // Not of a tick: each place is after it where the one before it is with which it may change
+  // places in the state that was loaded, since they are in equal children in equal states.
   Label equals(const Stepper& stepper) const;
 
  private:
-  bool is_held(const Ticker& ticker, const Holdable& it) const;
+  MovingChildren moving_children(const EqualChildren& all) const;
+  bool is_held(const Stepper& stepper, const Holdable& it) const;
+  void move_held(std::span<const NodeIndex> origins, bool only_held);
 
   const Tree& tree_;
   const LeafModels& models_;

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <memory>
 #include <set>
 
-#include "verify/crew.h"
+#include "verify/cycle_labels.h"
 
 namespace lockstep::host {
 namespace {
@@ -27,12 +26,12 @@ class Searcher {
       expanders_.push_back(
           std::make_unique<Expander>(tree, models, properties, period, result_.symmetry, limits));
     }
-    labels_.resize(expanders_.size());
     result_.graph.shape = expanders_[0]->label_shape();
+    merger_.emplace(expanders_, result_.graph);
   }
 
   SearchResult search() {
-    add(expanders_[0]->first_state(), {});
+    add(expanders_[0]->first_state());
     result_.depths.push_back(0);
     for (StateId done = 0; done < result_.store.size();) {
       const StateId last =
@@ -41,6 +40,7 @@ class Searcher {
       done = last;
       if (result_.store.keeps_hashes()) result_.store.forget_before(done);
     }
+    if (limits_.cycles) label_edges_of_cycles();
     for (const auto& it : expanders_) result_.coverage.add(it->coverage());
     result_.coverage.spread(result_.symmetry);
     result_.took = monotonic_now() - began_;
@@ -97,13 +97,15 @@ class Searcher {
     for (StateId i = 0; i < chunk.states.size(); ++i) {
       const Chunk::State& it = chunk.states[i];
       if (is_over(chunk.first + i)) return false;
+      if ((chunk.first + i) % SearchResult::kStatesOfRow == 0) {
+        result_.known.push_back(static_cast<StateId>(result_.store.size()));
+      }
       result_.transitions += it.transitions;
       for (std::size_t news = begin.news; news < it.news; ++news) {
         take(chunk.news[news], chunk.first + i);
       }
       for (auto fresh = static_cast<StateId>(begin.fresh); fresh < it.fresh; ++fresh) {
-        numbers_.push_back(
-            add(chunk.fresh[fresh], chunk.found_by[fresh], hash_of(chunk.fresh[fresh])));
+        numbers_.push_back(add(chunk.fresh[fresh]));
       }
       if (it.ends) result_.graph.ends[chunk.first + i] = true;
       if (it.cut) {
@@ -111,52 +113,27 @@ class Searcher {
         result_.signal = it.signal;
         return false;
       }
-      add_edges(chunk, begin.edges, it.edges);
+      merger_->add(chunk, begin.edges, it.edges, numbers_, it.end);
       if (!result_.graph.shape.moving_leaves.empty()) {
-        result_.graph.equals.push_back(label_of(chunk, it.equals));
+        result_.graph.equals.push_back(merger_->label_of(chunk, it.equals));
       }
       begin = it;
     }
     return true;
   }
 
-  void add_edges(const Chunk& chunk, std::size_t first, std::size_t last) {
-    const LabelTable& own = expanders_[chunk.thread]->labels();
-    edges_.assign(chunk.edges.begin() + static_cast<std::ptrdiff_t>(first),
-                  chunk.edges.begin() + static_cast<std::ptrdiff_t>(last));
-    for (Edge& it : edges_) {
-      if ((it.to & Chunk::kFresh) != 0) it.to = numbers_[it.to & ~Chunk::kFresh];
-    }
-    // By the bits, since each thread has its own numbers of labels.
-    std::ranges::sort(edges_, [&](const Edge& a, const Edge& b) {
-      if (a.to != b.to) return a.to < b.to;
-      return a.label != b.label &&
-             std::ranges::lexicographical_compare(own.packed(a.label), own.packed(b.label));
-    });
-    for (Edge& it : edges_) it.label = label_of(chunk, it.label);
-    result_.graph.edges.add(edges_);
-  }
-
-  // The number that a label of a thread has in the graph.
-  std::uint32_t label_of(const Chunk& chunk, std::uint32_t own_number) {
-    const LabelTable& own = expanders_[chunk.thread]->labels();
-    std::vector<std::uint32_t>& numbers = labels_[chunk.thread];
-    if (numbers.size() < own.size()) numbers.resize(own.size(), kNoState);
-    std::uint32_t& label = numbers[own_number];
-    if (label == kNoState) label = result_.graph.labels.add(own.packed(own_number));
-    return label;
-  }
-
-  StateId add(std::span<const std::byte> state, Step step) {
-    return add(state, step, hash_of(state));
-  }
-  StateId add(std::span<const std::byte> state, Step step, std::uint64_t hash) {
-    const auto [id, is_new] = result_.store.add(state, hash);
-    if (is_new) {
-      result_.before.push_back(step);
-      result_.graph.ends.push_back(false);
-    }
+  StateId add(std::span<const std::byte> state) {
+    const auto [id, is_new] = result_.store.add(state);
+    if (is_new) result_.graph.ends.push_back(false);
     return id;
+  }
+
+  void label_edges_of_cycles() {
+    CycleGraph cycles =
+        label_cycles(result_.graph, result_.store, crew_, expanders_, result_.signal);
+    result_.cycles = std::move(cycles.graph);
+    result_.signal = cycles.signal;
+    if (cycles.signal != 0) stop(SearchEnd::Signal);
   }
 
   void take(const News& news, StateId from) {
@@ -220,12 +197,11 @@ class Searcher {
   const Tree& tree_;
   const SearchLimits& limits_;
   Crew crew_;
-  std::vector<std::unique_ptr<Expander>> expanders_;  // of each thread
-  std::vector<std::vector<std::uint32_t>> labels_;    // of each thread: the numbers of its labels
-  std::vector<Chunk> chunks_;                         // of a round
+  Expanders expanders_;
+  std::vector<Chunk> chunks_;  // of a round
   SearchResult result_;
+  std::optional<EdgeMerger> merger_;
   std::vector<StateId> numbers_;  // of the fresh states of a chunk
-  std::vector<Edge> edges_;
   std::map<std::uint32_t, std::set<std::string>> values_;
   StateId next_depth_ = 0;
   const Nanoseconds began_ = monotonic_now();
@@ -244,16 +220,26 @@ std::uint32_t SearchResult::complete_depth() const {
   return depth_of(expanded);
 }
 
-std::vector<Step> SearchResult::way_to(StateId state) const {
-  std::vector<Step> way;
-  for (; state != 0; state = before[state].from) way.push_back(before[state]);
+// States are found in the order of those that lead to them.
+StateId SearchResult::found_from(StateId state) const {
+  const auto row = std::ranges::upper_bound(known, state) - known.begin() - 1;
+  for (auto from = static_cast<StateId>(row) * kStatesOfRow;; ++from) {
+    for (const Edge& edge : graph.edges_of(from)) {
+      if (edge.to == state) return from;
+    }
+  }
+}
+
+std::vector<StateId> SearchResult::way_to(StateId state) const {
+  std::vector<StateId> way{state};
+  while (way.back() != 0) way.push_back(found_from(way.back()));
   std::ranges::reverse(way);
   return way;
 }
 
 std::size_t SearchResult::memory() const {
-  return store.memory() + before.size() * sizeof(Step) + graph.edges.memory() +
-         graph.labels.memory() + graph.equals.size() * sizeof graph.equals[0];
+  return store.memory() + known.size() * sizeof known[0] + graph.memory() +
+         (cycles == nullptr ? 0 : cycles->memory());
 }
 
 SearchResult search(const Tree& tree, const LeafModels& models,

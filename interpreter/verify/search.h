@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -27,9 +27,12 @@ struct SearchResult {
   Symmetry symmetry;
   bool rising_answers = true;  // as in the limits
   StateStore store;
-  std::deque<Step> before;      // of each state: the tick that found it; of the first none
   std::vector<StateId> depths;  // the first state of each depth
+  // How many states were known before each of these rows of states was looked at.
+  static constexpr StateId kStatesOfRow = 64;
+  std::vector<StateId> known;
   Graph graph;
+  std::unique_ptr<Graph> cycles;  // see CycleGraph
   SearchCoverage coverage;
   std::uint64_t transitions = 0;
   Nanoseconds took{0};
@@ -45,9 +48,14 @@ struct SearchResult {
   std::uint32_t depth_of(StateId state) const;
   // So many ticks were looked at with all behaviors.
   std::uint32_t complete_depth() const;
-  // The ticks from the start to this state.
-  std::vector<Step> way_to(StateId state) const;
+  // The states from the first to this one, each found by a tick from the one before it.
+  std::vector<StateId> way_to(StateId state) const;
+  // The labels of its edges say all that matters of cycles. It has at least the edges of those.
+  const Graph& graph_of_cycles() const { return cycles == nullptr ? graph : *cycles; }
   std::size_t memory() const;
+
+ private:
+  StateId found_from(StateId state) const;
 };
 
 SearchResult search(const Tree& tree, const LeafModels& models,

@@ -30,6 +30,7 @@ struct SearchLimits {
   unsigned hash_bits = 0;                                // in place of states; 0: states are kept
   bool symmetry = true;                                  // states of equal children count once
   bool rising_answers = true;  // of equal leaves in equal states: one of all orders
+  bool cycles = true;          // their edges have labels
 };
 
 enum class SearchEnd : std::uint8_t {

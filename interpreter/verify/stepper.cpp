@@ -6,6 +6,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr int kMostTicksAtOnce = 10'000;
+const Symmetry kNoSymmetry;
 
 SavedRun saved(const Ticker& ticker) {
   SavedRun run;
@@ -19,7 +20,8 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
                  Nanoseconds period, const Symmetry& symmetry, bool rising_answers)
     : period_(period),
       board_(tree),
-      answers_(rising_answers ? symmetry : Symmetry(), tree.leaves.size() + models.facts.size()),
+      answers_(tree, rising_answers ? symmetry : kNoSymmetry,
+               tree.leaves.size() + models.facts.size()),
       leaves_(tree, models, board_, answers_),
       ticker_(tree, leaves_.slots(), board_),
       watch_(tree, properties),

@@ -47,6 +47,7 @@ class Stepper {
   // Whether the leaf ran in it, or was held.
   bool ran(std::uint32_t leaf) const { return from_leaves_[leaf].phase != Phase::Idle; }
   Ticker& ticker() { return ticker_; }
+  const Ticker& ticker() const { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
   // The properties that the tick, or the end in it, has violated, by their place.
   std::span<const std::size_t> violated() const { return watch_.violated(); }

@@ -1,6 +1,7 @@
 #include "verify/symmetry.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "engine/nodes/kinds.h"
@@ -111,17 +112,7 @@ class EqualChildrenFinder {
                         .words = last.word - first.word,
                         .places = {}};
     for (const NodeIndex child : children) found.places.push_back(place_of(child));
-    found.has_one_leaf = found.leaves == 1 && !has_own_order(children.front());
     return found;
-  }
-
-  // Somebody in it is held by somebody in it, or keeps the number of a child.
-  bool has_own_order(NodeIndex child) const {
-    for (NodeIndex node = child; node < tree_.nodes[child].end; ++node) {
-      const Node& it = tree_.nodes[node];
-      if (compares_progress(synchronization(it)) || keeps_child(it.kind)) return true;
-    }
-    return false;
   }
 
   EqualChildren::Place place_of(NodeIndex node) const {
@@ -184,8 +175,7 @@ class EqualChildrenFinder {
 Symmetry::Symmetry(const Tree& tree, const LeafModels& models, const std::vector<bool>& watched)
     : classes_(EqualChildrenFinder(tree, models, watched).find()),
       first_like_(tree.nodes.size()),
-      moves_(tree.nodes.size()),
-      moved_(tree.nodes.size()) {
+      moves_(tree.nodes.size()) {
   std::iota(first_like_.begin(), first_like_.end(), NodeIndex{0});
   std::size_t moving = 0;
   for (const EqualChildren& it : classes_) moving += it.places.size() * it.nodes;
@@ -194,13 +184,24 @@ Symmetry::Symmetry(const Tree& tree, const LeafModels& models, const std::vector
     for (const EqualChildren::Place& place : it.places) {
       for (NodeIndex i = 0; i < it.nodes; ++i) {
         moves_[place.node + i] = true;
-        if (it.has_one_leaf) moved_[place.node + i] = {place.node, it.nodes};
         first_like_[place.node + i] = first_like_[it.places.front().node + i];
       }
     }
   }
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (moves_[node] && keeps_child(tree.nodes[node].kind)) keepers_.push_back(node);
+  }
+}
+
+void Symmetry::number_kept_children(const Tree& tree, std::vector<std::uint64_t>& words,
+                                    Numbered by) const {
+  for (const NodeIndex node : keepers_) {
+    std::uint64_t& word = words[tree.nodes[node].state / sizeof word];
+    NodeIndex child = 0;
+    std::memcpy(&child, &word, sizeof child);
+    if (child == 0) continue;
+    child = by == Numbered::FromNode ? child - node : child + node;
+    std::memcpy(&word, &child, sizeof child);
   }
 }
 

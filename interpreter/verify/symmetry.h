@@ -6,7 +6,6 @@
 // since the first of two that write is not the second.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,10 +21,6 @@ struct EqualChildren {
   };
   std::uint32_t nodes, leaves, words;  // of each child
   std::vector<Place> places;           // of the children, in the order of the tree
-
-  // Children in equal states may change places before a tick by no more than their one leaf: there
-  // is one in each, and nobody inside is held. Then a tick needs one order of their answers.
-  bool has_one_leaf = false;
 
   bool are_leaves() const { return nodes == 1 && leaves == 1 && words == 0; }
 };
@@ -45,16 +40,10 @@ class Symmetry {
   NodeIndex first_like(NodeIndex node) const { return empty() ? node : first_like_[node]; }
   // Whether other nodes can come to its place.
   bool moves(NodeIndex node) const { return !empty() && moves_[node]; }
-  // The nodes that may move and whose state begins with the number of a child, or with 0.
-  std::span<const NodeIndex> keepers() const { return keepers_; }
-  // Of a leaf that may change places with others before a tick: the child that moves with it, and
-  // how many nodes it has. Nothing: the leaf is in no child with one leaf.
-  struct Moved {
-    NodeIndex child = 0, nodes = 0;
-  };
-  std::optional<Moved> moved_with(NodeIndex leaf) const {
-    return empty() || moved_[leaf].nodes == 0 ? std::nullopt : std::optional(moved_[leaf]);
-  }
+  // Nodes that may move and keep which child they are at: by how far behind the node it is, which
+  // is the same at each place, or by its number. `words` are RunState::bytes.
+  enum class Numbered : bool { FromNode, InTree };
+  void number_kept_children(const Tree& tree, std::vector<std::uint64_t>& words, Numbered by) const;
   // Changes of places that put `node` where `other` is, which is like it: of each node its place.
   std::vector<NodeIndex> exchange(NodeIndex node, NodeIndex other) const;
 
@@ -62,8 +51,7 @@ class Symmetry {
   std::vector<EqualChildren> classes_;
   std::vector<NodeIndex> first_like_;  // of each node
   std::vector<bool> moves_;
-  std::vector<Moved> moved_;  // of each node that is in a child with one leaf
-  std::vector<NodeIndex> keepers_;
+  std::vector<NodeIndex> keepers_;  // their state begins with the number of a child, or with 0
 };
 
 }  // namespace lockstep::host

@@ -5,34 +5,68 @@
 
 namespace lockstep::host {
 
-TickAnswers::TickAnswers(const Symmetry& symmetry, std::size_t askers)
-    : equal_before_(askers, kNone), first_(askers, kNone) {
+namespace {
+
+constexpr std::size_t kMostChildren = 32;  // one in the other; what is farther out has any order
+
+}  // namespace
+
+TickAnswers::TickAnswers(const Tree& tree, const Symmetry& symmetry, std::size_t askers)
+    : tree_(tree), symmetry_(symmetry), children_of_(askers) {
+  std::uint32_t child = 0;
   for (const EqualChildren& it : symmetry.classes()) {
-    for (std::size_t i = 1; i < it.places.size() && it.has_one_leaf; ++i) {
-      neighbors_.push_back({it.places[i - 1], it.places[i], it.nodes, it.words});
+    for (const EqualChildren::Place& place : it.places) {
+      for (std::uint32_t i = 0; i < it.leaves; ++i) {
+        std::vector<std::uint32_t>& inner = children_of_[place.leaf + i];
+        if (inner.size() < kMostChildren) inner.push_back(child);
+      }
+      ++child;
     }
   }
+  children_.resize(child);
 }
 
 // States have equal children in one order, so those in equal states are beside each other.
 void TickAnswers::begin_state(const RunState& run, const std::vector<LeafState>& leaves) {
-  forget_first();
   digits_.clear();
   at_ = 0;
-  is_given_ = has_equal_ = false;
-  for (const Neighbors& it : neighbors_) {
-    const bool is_equal = leaves[it.before.leaf] == leaves[it.here.leaf] && are_equal(it, run);
-    equal_before_[it.here.leaf] = is_equal ? it.before.leaf : kNone;
-    has_equal_ |= is_equal;
+  is_given_ = false;
+  equal_children_.clear();
+  with_equals_.clear();
+  if (children_.empty()) return;
+  words_ = run.bytes;
+  symmetry_.number_kept_children(tree_, words_, Symmetry::Numbered::FromNode);
+  for (Child& it : children_) it.has_equal = it.follows = false;
+  std::uint32_t child = 0;
+  for (std::size_t of = 0; of < symmetry_.classes().size(); ++of) {
+    const EqualChildren& it = symmetry_.classes()[of];
+    for (std::size_t place = 0; place < it.places.size(); ++place, ++child) {
+      if (place == 0 || !are_equal(it, place, run, leaves)) continue;
+      equal_children_.push_back({of, place});
+      children_[child - 1].has_equal = children_[child].has_equal = true;
+      children_[child].follows = true;
+    }
+  }
+  for (child = 0; child < children_.size(); ++child) {
+    if (!children_[child].has_equal) continue;
+    with_equals_.push_back(child);
+    children_[child].answers.clear();
+    children_[child].is_tied = children_[child].follows;
   }
 }
 
-bool TickAnswers::are_equal(const Neighbors& it, const RunState& run) {
-  const auto equal = [](const auto& all, std::size_t one, std::size_t other, std::size_t count) {
-    return std::equal(all.begin() + one, all.begin() + one + count, all.begin() + other);
+// Whether it is in the state of the one before it.
+bool TickAnswers::are_equal(const EqualChildren& it, std::size_t place, const RunState& run,
+                            const std::vector<LeafState>& leaves) const {
+  const EqualChildren::Place &one = it.places[place - 1], &other = it.places[place];
+  const auto equal = [](const auto& all, std::size_t first, std::size_t second, std::size_t count) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::equal(begin, begin + static_cast<std::ptrdiff_t>(count),
+                      all.begin() + static_cast<std::ptrdiff_t>(second));
   };
-  return equal(run.activity, it.before.node, it.here.node, it.nodes) &&
-         equal(run.bytes, it.before.word, it.here.word, it.words);
+  return equal(run.activity, one.node, other.node, it.nodes) &&
+         equal(words_, one.word, other.word, it.words) &&
+         equal(leaves, one.leaf, other.leaf, it.leaves);
 }
 
 void TickAnswers::give(std::span<const LeafAnswer> answers) {
@@ -40,12 +74,7 @@ void TickAnswers::give(std::span<const LeafAnswer> answers) {
   given_.assign(answers.begin(), answers.end());
 }
 
-void TickAnswers::forget_first() {
-  for (std::size_t i = 0; i < at_ && has_equal_; ++i) first_[digits_[i].asker] = kNone;
-}
-
 void TickAnswers::begin() {
-  forget_first();
   at_ = 0;
   if (!is_given_) return;
   digits_.clear();
@@ -53,12 +82,17 @@ void TickAnswers::begin() {
 }
 
 bool TickAnswers::next() {
-  forget_first();
-  digits_.resize(at_);
+  const auto take_back = [&] {
+    undo(digits_.back());
+    digits_.pop_back();
+  };
+  while (digits_.size() > at_) take_back();
   at_ = 0;
-  while (!digits_.empty() && digits_.back().value + 1 == digits_.back().count) digits_.pop_back();
+  while (!digits_.empty() && digits_.back().value + 1 == digits_.back().count) take_back();
   if (digits_.empty()) return false;
+  undo(digits_.back());
   ++digits_.back().value;
+  note(digits_.back());
   return true;
 }
 
@@ -66,17 +100,54 @@ std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
   if (count <= 1) return 0;
   if (at_ == digits_.size()) {
     digits_.push_back({is_given_ ? given(asker) : least(asker), count, asker});
+    note(digits_.back());
   }
-  const Digit& digit = digits_[at_++];
-  if (has_equal_ && first_[asker] == kNone) first_[asker] = digit.value;
-  return digit.value;
+  return digits_[at_++].value;
 }
 
-// Equal leaves in equal states have the same answers to choose from, and are asked in their order.
+// As long as a child has answered as the one before it, it is asked the same.
 std::uint32_t TickAnswers::least(std::uint32_t asker) const {
-  const std::uint32_t before = equal_before_[asker];
-  if (before == kNone || first_[asker] != kNone || first_[before] == kNone) return 0;
-  return first_[before];
+  std::uint32_t least = 0;
+  for (const std::uint32_t it : children_of_[asker]) {
+    const Child& child = children_[it];
+    if (!child.has_equal || !child.is_tied) continue;
+    const std::vector<std::uint32_t>& before = children_[it - 1].answers;
+    if (child.answers.size() < before.size()) {
+      least = std::max(least, before[child.answers.size()]);
+    }
+  }
+  return least;
+}
+
+void TickAnswers::note(Digit& digit) {
+  if (with_equals_.empty() || is_given_) return;
+  digit.was_tied = 0;
+  std::uint32_t bit = 1;
+  for (const std::uint32_t it : children_of_[digit.asker]) {
+    Child& child = children_[it];
+    if (child.has_equal && child.is_tied) {
+      const std::vector<std::uint32_t>& before = children_[it - 1].answers;
+      const std::size_t place = child.answers.size();
+      digit.was_tied |= bit;
+      child.is_tied = place < before.size() && before[place] == digit.value;
+    }
+    if (child.has_equal) child.answers.push_back(digit.value);
+    bit <<= 1u;
+  }
+}
+
+// Those after it are taken back before it.
+void TickAnswers::undo(const Digit& digit) {
+  if (with_equals_.empty() || is_given_) return;
+  std::uint32_t bit = 1;
+  for (const std::uint32_t it : children_of_[digit.asker]) {
+    Child& child = children_[it];
+    if (child.has_equal) {
+      child.answers.pop_back();
+      child.is_tied = (digit.was_tied & bit) != 0;
+    }
+    bit <<= 1u;
+  }
 }
 
 std::uint32_t TickAnswers::given(std::uint32_t asker) {

@@ -1,6 +1,9 @@
-// The answers of the leaves in one tick: all combinations in turn, or given ones. Equal leaves in
-// equal states give theirs in rising order, also where each is in an equal child that has no other:
-// with two answers exchanged, the tick leads to the same state, but for who is who.
+// The answers of the leaves in one tick: all combinations in turn, or given ones. Of equal children
+// in equal states, each gives the answers of the one before it or some that come later: from its
+// first other answer on, where they are compared as words are. That loses nothing: children in
+// equal states are asked the same as long as they answer the same, whatever others do. So in any
+// tick they can change places until their answers are in order, first those that are farthest
+// inside, and it leads to the same state but for who is who.
 #pragma once
 
 #include <limits>
@@ -21,8 +24,8 @@ struct LeafAnswer {
 
 class TickAnswers final : public Answers {
  public:
-  // `askers`: leaves and facts.
-  TickAnswers(const Symmetry& symmetry, std::size_t askers);
+  // `askers`: leaves and facts. Both must outlive this.
+  TickAnswers(const Tree& tree, const Symmetry& symmetry, std::size_t askers);
 
   // All combinations of a state, from the first on.
   void begin_state(const RunState& run, const std::vector<LeafState>& leaves);
@@ -37,27 +40,38 @@ class TickAnswers final : public Answers {
 
   // What the tick has asked that had more than one answer.
   std::vector<LeafAnswer> asked() const;
-  // The leaf before this one among those that are equal and in equal states; kNone: none.
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t equal_before(std::uint32_t leaf) const { return equal_before_[leaf]; }
+  // The children that are in a state equal to that of the one before them.
+  struct EqualChild {
+    std::size_t of, place;  // in Symmetry::classes
+  };
+  std::span<const EqualChild> equal_children() const { return equal_children_; }
 
  private:
   struct Digit {
     std::uint32_t value, count, asker;
+    std::uint32_t was_tied = 0;  // a bit for each child that the asker is in
   };
-  void forget_first();
+  // A child that is equal to one beside it.
+  struct Child {
+    bool has_equal = false;  // in an equal state, too
+    bool follows = false;    // that one is before it
+    bool is_tied = false;    // it has answered as that one in this tick, as far as it has
+    std::vector<std::uint32_t> answers = {};
+  };
+  bool are_equal(const EqualChildren& it, std::size_t place, const RunState& run,
+                 const std::vector<LeafState>& leaves) const;
   std::uint32_t least(std::uint32_t asker) const;
+  void note(Digit& digit);
+  void undo(const Digit& digit);
   std::uint32_t given(std::uint32_t asker);
 
-  struct Neighbors {
-    EqualChildren::Place before, here;
-    std::uint32_t nodes, words;  // of each
-  };
-  static bool are_equal(const Neighbors& it, const RunState& run);
-  std::vector<Neighbors> neighbors_;         // equal children with one leaf each
-  std::vector<std::uint32_t> equal_before_;  // of each asker
-  std::vector<std::uint32_t> first_;         // of each asker: its first answer in this tick
-  bool has_equal_ = false;
+  const Tree& tree_;
+  const Symmetry& symmetry_;
+  std::vector<Child> children_;                          // of all classes
+  std::vector<std::vector<std::uint32_t>> children_of_;  // of each asker: which it is in
+  std::vector<std::uint32_t> with_equals_;               // those that have one in an equal state
+  std::vector<EqualChild> equal_children_;
+  std::vector<std::uint64_t> words_;
   std::vector<Digit> digits_;
   std::size_t at_ = 0;
   bool is_given_ = false;

@@ -34,28 +34,39 @@ StateBytes Tracer::state_of(StateId state) {
     return {bytes.begin(), bytes.end()};
   }
   StateBytes here = stepper_.first_state();
-  for (const Step& step : found_.way_to(state)) {
-    tick(here, step);
+  const std::vector<StateId> way = found_.way_to(state);
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    first_step(here, way[i - 1], way[i]);
     here = stepper_.fold();
   }
   return here;
 }
 
-Step Tracer::step_of(const CycleStep& wanted) {
-  Label label;
-  found_.graph.read(wanted.edge, label);
-  stepper_.load(state_of(wanted.from), wanted.from == 0);
-  Step step{wanted.from, 0};
+// The tick of the step is the last one.
+template <class IsWanted>
+Step Tracer::find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted) {
+  stepper_.load(state, from == 0);
+  Step step{from, 0};
   do {
     const Status status = stepper_.tick();
-    if (status == Status::Running && !stepper_.ticker().faulted()) {
-      labeller_.of(stepper_);
-      const bool is_there = found_.store.is(wanted.edge.to, stepper_.fold());
-      if (is_there && labeller_.with_moves(stepper_) == label) return step;
-    }
+    if (status == Status::Running && !stepper_.ticker().faulted() && is_wanted()) return step;
     ++step.combination;
   } while (stepper_.next());
   fail("an edge of a search is not there any more");
+}
+
+Step Tracer::first_step(std::span<const std::byte> state, StateId from, StateId to) {
+  return find_step(state, from, [&] { return found_.store.is(to, stepper_.fold()); });
+}
+
+Step Tracer::step_of(const CycleStep& wanted) {
+  Label label;
+  found_.graph_of_cycles().read(wanted.edge, label);
+  return find_step(state_of(wanted.from), wanted.from, [&] {
+    labeller_.of(stepper_);
+    return found_.store.is(wanted.edge.to, stepper_.fold()) &&
+           labeller_.with_moves(stepper_) == label;
+  });
 }
 
 std::vector<GuidedStep> Tracer::steps_of(std::span<const CycleStep> edges) {
@@ -107,8 +118,10 @@ void Tracer::go(Trail& trail, std::span<const GuidedStep> steps) {
   for (const GuidedStep& step : steps) go(trail, step);
 }
 
-void Tracer::go(Trail& trail, std::span<const Step> steps) {
-  for (const Step& step : steps) go(trail, GuidedStep{step});
+void Tracer::go(Trail& trail, std::span<const StateId> way) {
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    go(trail, first_step(trail.searched, way[i - 1], way[i]));
+  }
 }
 
 // The run does in its places what the search does in others.
@@ -134,14 +147,12 @@ void Tracer::go(Trail& trail, const GuidedStep& step) {
 }
 
 void Tracer::swap(std::vector<NodeIndex>& nodes, const Swap& swap) const {
-  if (swap.one == swap.other) return;
-  const auto child_of = [&](std::size_t leaf) {
-    const std::uint32_t number = found_.graph.shape.moving_leaves[leaf];
-    return found_.symmetry.moved_with(tree_.leaves[number].node).value();
-  };
-  const Symmetry::Moved one = child_of(swap.one), other = child_of(swap.other);
-  std::swap_ranges(nodes.begin() + one.child, nodes.begin() + one.child + one.nodes,
-                   nodes.begin() + other.child);
+  const auto classes = found_.symmetry.classes();  // the inner ones first
+  for (const LabelShape::Exchange& it : found_.graph.shape.exchanges(swap)) {
+    const EqualChildren& all = classes[classes.size() - 1 - it.children];
+    const auto one = nodes.begin() + all.places[it.one].node;
+    std::swap_ranges(one, one + all.nodes, nodes.begin() + all.places[it.other].node);
+  }
 }
 
 // The answers of the leaves that have the places of these. Those of facts are the same.

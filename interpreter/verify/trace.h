@@ -39,13 +39,15 @@ class Tracer {
   Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
          Nanoseconds period, const SearchResult& found);
 
-  // The combinations of answers that take states over these edges.
+  // The combinations of answers that take states over these edges, which are of cycles.
   std::vector<GuidedStep> steps_of(std::span<const CycleStep> edges);
 
   // `nodes`: of each place, the node that begins there; empty: its own.
   Trail begin(std::vector<NodeIndex> nodes = {});
   void go(Trail& trail, std::span<const GuidedStep> steps);
-  void go(Trail& trail, std::span<const Step> steps);
+  void go(Trail& trail, const Step& step) { go(trail, GuidedStep{step}); }
+  // From the first of these states of the search on to each other one, by the first tick that does.
+  void go(Trail& trail, std::span<const StateId> way);
   // Rounds of a cycle until everything is where it was.
   void go_round(Trail& trail, std::span<const GuidedStep> cycle);
 
@@ -61,6 +63,9 @@ class Tracer {
 
   StateBytes state_of(StateId state);
   Step step_of(const CycleStep& edge);
+  Step first_step(std::span<const std::byte> state, StateId from, StateId to);
+  template <class IsWanted>
+  Step find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted);
   Status tick(std::span<const std::byte> state, const Step& step);
   Status tick(const TracedTick& tick);
   Outcome outcome(Status status);

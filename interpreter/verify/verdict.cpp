@@ -35,6 +35,7 @@ class VerdictMaker {
         properties_(properties),
         found_(found),
         graph_(found.graph),
+        cycles_(found.graph_of_cycles()),
         options_(options),
         held_(holdable(tree)),
         period_(from_seconds(1 / options.rate)),
@@ -67,10 +68,9 @@ class VerdictMaker {
     return place.empty() ? tree_.path(node) : fmt::format("{} ({})", tree_.path(node), place);
   }
   TracedRun run_to(const Occurrence& it) {
-    std::vector<Step> steps = found_.way_to(it.step.from);
-    steps.push_back(it.step);
     Trail trail = tracer_.begin();
-    tracer_.go(trail, steps);
+    tracer_.go(trail, found_.way_to(it.step.from));
+    tracer_.go(trail, it.step);
     return std::move(trail.run);
   }
 
@@ -98,7 +98,8 @@ class VerdictMaker {
             fmt::format("{} (from {})", to_string(status), counted(first->ticks, "tick")));
       }
     }
-    say("results", results.empty() ? "none: no behavior ends" : joined(results, ", "));
+    const char* const none = found_.is_complete() ? "none: no behavior ends" : "none so far";
+    say("results", results.empty() ? none : joined(results, ", "));
   }
 
   void look_for_traps() {
@@ -111,11 +112,11 @@ class VerdictMaker {
     }
     const auto state = static_cast<StateId>(doomed - can_end_.begin());
     Finding trap{.name = "trap", .message = {}};
-    const std::size_t ticks = found_.way_to(state).size();
+    const std::size_t ticks = found_.depth_of(state);
     const std::vector<bool> reached = reachable_from(graph_, state);
     const EdgeFilter inside = [&](const Edge& edge) { return bool(reached[edge.to]); };
-    auto cycle = fair_cycle(graph_, inside);
-    if (cycle.empty() || !reached[cycle.front().from]) cycle = any_cycle(graph_, inside);
+    auto cycle = fair_cycle(cycles_, inside);
+    if (cycle.empty() || !reached[cycle.front().from]) cycle = any_cycle(cycles_, inside);
     add_lasso(state, cycle, trap);
     trap.message = ticks == 0
                        ? "it can never end"
@@ -147,11 +148,13 @@ class VerdictMaker {
     return round;
   }
 
-  std::vector<GuidedStep> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
-    if (from == cycle.front().from) return {};
+  std::vector<StateId> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
+    std::vector<StateId> way{from};
+    if (from == cycle.front().from) return way;
     std::vector<bool> is_goal(graph_.states());
     is_goal[cycle.front().from] = true;
-    return tracer_.steps_of(shortest_way(graph_, from, is_goal));
+    for (const CycleStep& it : shortest_way(graph_, from, is_goal)) way.push_back(it.edge.to);
+    return way;
   }
 
   // Says who waits for whom in the end, or what is done instead.
@@ -207,7 +210,7 @@ class VerdictMaker {
   void look_for_cycles() {
     if (!models_.tree_ends) return;
     const EdgeFilter alive = [&](const Edge& edge) { return bool(can_end_[edge.to]); };
-    auto cycle = fair_cycle(graph_, alive);
+    auto cycle = fair_cycle(cycles_, alive);
     if (cycle.empty()) {
       if (!found_.is_complete()) return;
       const bool has_trap = !verdict_.findings.empty();
@@ -312,7 +315,7 @@ class VerdictMaker {
     }
     const auto [it, is_new] = holds_.try_emplace(like.front());
     if (is_new) {
-      const Holds holds(graph_, like);
+      const Holds holds(graph_, cycles_, like);
       it->second.longest = holds.longest();
       // Without an end only where a cycle is.
       if (!it->second.longest) it->second.for_ever = holds.for_ever();
@@ -382,9 +385,9 @@ class VerdictMaker {
                                     counted(it->second.ticks, "tick"));
       finding.more.push_back(last_tick_of(finding));
     } else {
-      const std::size_t bit = graph_.shape.owed_bit(number);
+      const std::size_t bit = cycles_.shape.owed_bit(number);
       const auto cycle =
-          fair_cycle(graph_, [&](const Edge& edge) { return graph_.has(edge, bit); });
+          fair_cycle(cycles_, [&](const Edge& edge) { return cycles_.has(edge, bit); });
       if (cycle.empty()) {
         if (found_.is_complete()) say_good(fmt::format("property '{}'", name), "holds");
         return;
@@ -495,7 +498,7 @@ class VerdictMaker {
   const LeafModels& models_;
   std::span<const Property> properties_;
   const SearchResult& found_;
-  const Graph& graph_;
+  const Graph &graph_, &cycles_;
   const VerdictOptions& options_;
   const std::vector<Holdable> held_;
   const Nanoseconds period_;

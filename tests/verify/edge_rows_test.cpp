@@ -50,6 +50,23 @@ TEST_CASE("packed edges: a table of rows") {
   }
 }
 
+TEST_CASE("packed edges: a row may have a label of the end") {
+  EdgeRows packed;
+  const std::vector<Edge> edges{{0, 7}, {1, 7}, {2, 0}};
+  packed.add(edges, 300);
+  packed.add({}, 0);
+  packed.add(edges);
+  packed.add({});
+  CHECK(packed[0].label_of_end() == 300u);
+  CHECK(all_of(packed[0]) == edges);
+  CHECK(packed[1].label_of_end() == 0u);
+  CHECK(all_of(packed[1]).empty());
+  CHECK_FALSE(packed[2].label_of_end());
+  CHECK(all_of(packed[2]) == edges);
+  CHECK_FALSE(packed[3].label_of_end());
+  CHECK(packed.size() == 6);
+}
+
 TEST_CASE("packed edges: random rows come back, and take less room than they did") {
   std::mt19937 random(7);
   std::vector<std::vector<Edge>> rows;

@@ -1,5 +1,6 @@
 // What a search leaves out where leaves are equal, a verdict still knows: small graphs in which it
 // matters who has given which answer, and a tick that only one child has shown.
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "verify/fair_cycle.h"
@@ -15,9 +16,10 @@ const LabelShape kShape{.leaves = 2,
                         .properties = 0,
                         .moving_leaves = {0, 1},
                         .moving_held = {0, 1},
-                        .held_of_leaf = {0, 1}};
+                        .moving_children = {{1, 1, {{0, 0}, {1, 1}}}}};
 
 enum class Equal : bool { No, Yes };
+constexpr LabelShape::EqualChild kEqual{0, 1};
 
 // All stay where they are. Equal: the leaves are in equal states before the tick.
 struct Tick {
@@ -37,7 +39,7 @@ Graph graph_of(StateId states, const std::vector<Tick>& ticks) {
       kShape.clear(label);
       for (const std::size_t bit : it.bits) label.set(bit);
       edges.push_back({it.to, graph.labels.add(label)});
-      if (it.equal == Equal::Yes) equals.after[1] = 0;
+      if (it.equal == Equal::Yes) kShape.set_equals(std::array{kEqual}, equals);
     }
     graph.edges.add(edges);
     graph.equals.push_back(graph.labels.add(equals));
@@ -60,7 +62,7 @@ TEST_CASE("equal leaves: a cycle is fair if each of them may be the one that end
   std::size_t place = kLeft;
   bool ends = false;
   for (const CycleStep& it : cycle) {
-    place = it.swaps[0](place);
+    place = kShape.exchanged(it.swaps[0], place);
     ends |= place == kRight;
   }
   CHECK(ends);
@@ -70,7 +72,7 @@ TEST_CASE("equal leaves: one that is held goes on to be held where its equal is"
   const auto longest = [](Equal equal) {
     const Graph graph = graph_of(
         3, {{1, 0, {kShape.held_bit(kLeft)}, Equal::No}, {0, 2, {kShape.held_bit(kRight)}, equal}});
-    return Holds(graph, {kLeft, kRight}).longest();
+    return Holds(graph, graph, {kLeft, kRight}).longest();
   };
   CHECK(longest(Equal::No) == 1u);
   CHECK(longest(Equal::Yes) == 2u);
@@ -80,15 +82,14 @@ TEST_CASE("equal leaves: of two that are held, the one counts that is held again
   const Graph graph =
       graph_of(3, {{0, 1, {kShape.held_bit(kLeft), kShape.held_bit(kRight)}, Equal::Yes},
                    {1, 2, {kShape.held_bit(kRight)}, Equal::No}});
-  CHECK(Holds(graph, {kLeft, kRight}).longest() == 2u);
+  CHECK(Holds(graph, graph, {kLeft, kRight}).longest() == 2u);
 }
 
 TEST_CASE("equal leaves: where a run says so, they change places behind a tick") {
   const Verified it("Parallel(a b)", R"(<leaf path="*" ticks="2"/>)");
   Tracer tracer(it.tree, it.models, {}, from_seconds(0.1), it.found);
   Trail trail = tracer.begin();
-  const std::vector<GuidedStep> steps{
-      {.step = it.found.before[1], .swaps = {}, .after = {kLeft, kRight}}};
+  const std::vector<GuidedStep> steps{{.step = {0, 0}, .swaps = {}, .after = {kLeft, kRight}}};
   tracer.go(trail, steps);
   const NodeIndex left = it.tree.leaves[0].node, right = it.tree.leaves[1].node;
   CHECK(trail.nodes[left] == right);
@@ -101,20 +102,20 @@ TEST_CASE("equal leaves: the one that is held for ever is not the one that works
                     0,
                     {kShape.worked_bit(kLeft), kShape.ended_bit(kRight), kShape.held_bit(kRight)},
                     Equal::Yes}});
-  CHECK_FALSE(Holds(graph, {kLeft, kRight}).longest());
-  CHECK_FALSE(Holds(graph, {kLeft, kRight}).for_ever());
+  CHECK_FALSE(Holds(graph, graph, {kLeft, kRight}).longest());
+  CHECK_FALSE(Holds(graph, graph, {kLeft, kRight}).for_ever());
 }
 
 TEST_CASE("equal leaves: a starving one is shown in the places that it has in turn") {
   const Graph graph = graph_of(2, {{0, 1, {kShape.held_bit(kRight)}, Equal::Yes},
                                    {1, 0, {kShape.held_bit(kLeft)}, Equal::Yes}});
-  const auto endless = Holds(graph, {kLeft, kRight}).for_ever();
+  const auto endless = Holds(graph, graph, {kLeft, kRight}).for_ever();
   REQUIRE(endless);
   std::size_t place = endless->child;
   for (const CycleStep& it : endless->cycle) {
-    for (const Swap& swap : it.swaps) place = swap(place);
+    for (const Swap& swap : it.swaps) place = kShape.exchanged(swap, place);
     CHECK(graph.has(it.edge, kShape.held_bit(place)));
-    place = it.after(place);
+    place = kShape.exchanged(it.after, place);
   }
   CHECK(place == endless->child);
 }

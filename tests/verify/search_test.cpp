@@ -109,32 +109,71 @@ TEST_CASE("an entry with more and more values stops the search, and is named") {
   CHECK(it.found.note == "n");
 }
 
+void check_same(const Graph& a, const Graph& b) {
+  REQUIRE(a.expanded() == b.expanded());
+  for (StateId i = 0; i < a.expanded(); ++i) {
+    if (!std::ranges::equal(a.edges[i], b.edges[i])) FAIL("state " << i);
+  }
+  CHECK(a.ends == b.ends);
+  CHECK(a.equals == b.equals);
+  REQUIRE(a.labels.size() == b.labels.size());
+  for (std::uint32_t i = 0; i < a.labels.size(); ++i) {
+    CHECK(std::ranges::equal(a.labels.packed(i), b.labels.packed(i)));
+  }
+}
+
 // All that a verdict is made of.
 void check_same(const SearchResult& a, const SearchResult& b) {
   CHECK(a.end == b.end);
   CHECK(a.store.size() == b.store.size());
   CHECK(a.transitions == b.transitions);
   CHECK(a.depths == b.depths);
-  REQUIRE(a.graph.expanded() == b.graph.expanded());
-  for (StateId i = 0; i < a.graph.expanded(); ++i) {
-    if (!std::ranges::equal(a.graph.edges[i], b.graph.edges[i])) FAIL("state " << i);
-  }
-  CHECK(a.graph.ends == b.graph.ends);
-  REQUIRE(a.graph.labels.size() == b.graph.labels.size());
-  for (std::uint32_t i = 0; i < a.graph.labels.size(); ++i) {
-    CHECK(std::ranges::equal(a.graph.labels.packed(i), b.graph.labels.packed(i)));
-  }
-  for (StateId i = 1; i < a.before.size(); ++i) {
-    if (a.before[i].from != b.before[i].from ||
-        a.before[i].combination != b.before[i].combination) {
-      FAIL("state " << i << " was found by another tick");
+  check_same(a.graph, b.graph);
+  check_same(a.graph_of_cycles(), b.graph_of_cycles());
+}
+
+TEST_CASE("the way to a state is a shortest one, over edges that the search has found") {
+  for (const std::string& tree :
+       {absolute(3, 4), std::string("Repeat(Sequence(c? a Retry[attempts=2](b)))")}) {
+    const Verified it(tree);
+    const SearchResult& found = it.found;
+    for (StateId state = 0; state < found.store.size(); ++state) {
+      const std::vector<StateId> way = found.way_to(state);
+      REQUIRE(way.size() == found.depth_of(state) + 1);
+      CHECK(way.front() == 0);
+      CHECK(way.back() == state);
+      for (std::size_t i = 1; i < way.size(); ++i) {
+        CHECK(std::ranges::any_of(found.graph.edges_of(way[i - 1]),
+                                  [&](const Edge& edge) { return edge.to == way[i]; }));
+      }
     }
   }
 }
 
+TEST_CASE("the edges of cycles have labels that say who worked and who ended") {
+  const Verified it("Repeat(Sequence[memory=true](a b))", R"(<leaf path="*" ticks="1..3"/>)");
+  const SearchResult& found = it.found;
+  REQUIRE(found.cycles != nullptr);
+  const LabelShape& shape = found.cycles->shape;
+  std::size_t works = 0, ends = 0;
+  for (StateId state = 0; state < found.cycles->expanded(); ++state) {
+    for (const Edge& edge : found.cycles->edges_of(state)) {
+      works += found.cycles->has(edge, shape.worked_bit(0));
+      ends += found.cycles->has(edge, shape.ended_bit(1));
+      CHECK(std::ranges::any_of(found.graph.edges_of(state),
+                                [&](const Edge& other) { return other.to == edge.to; }));
+    }
+  }
+  CHECK(works > 0);
+  CHECK(ends > 0);
+  // Without such a cycle, nothing is ticked again.
+  CHECK(Verified("Sequence[memory=true](a b)").found.cycles == nullptr);
+}
+
 TEST_CASE("any number of threads finds the same, in the same order") {
   constexpr auto kReactive = "Fallback(Sequence(c? Parallel(a b)) Sequence[memory=true](d e f))";
-  for (const std::string& tree : {absolute(3, 8), std::string(kReactive)}) {
+  constexpr auto kEndless = "Repeat(Sequence[memory=true](ParallelAbsolute[barriers=.5](a b) d))";
+  for (const std::string& tree : {absolute(3, 8), std::string(kReactive), std::string(kEndless)}) {
     const Verified one(tree), again(tree), three(tree, "", {.jobs = 3});
     check_same(one.found, again.found);
     check_same(one.found, three.found);
@@ -168,7 +207,8 @@ TEST_CASE("hashes in place of states: the same states, findings and runs in less
       "SyncProgress[barrier=coarse](Sequence[memory=true](b SyncProgress[barrier=fine](c)))) "
       "barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]";
   for (const std::string& tree :
-       {absolute(4, 4), std::string("Sequence(a b)"), std::string(kDeadlock)}) {
+       {absolute(4, 4), std::string("Sequence(a b)"), std::string(kDeadlock),
+        std::string("Repeat(Sequence[memory=true](a Retry[attempts=2](b)))")}) {
     INFO(tree);
     constexpr auto kFull = R"(<leaf path="*" finish="full" result="success"/>)";
     const Verified states(tree, kFull, {.symmetry = false});

@@ -79,7 +79,16 @@ class RandomLeaves {
     const std::string around =
         one_of({"", "", "Retry[attempts=2]", "Repeat[times=2]", "Inverter", "Timeout[seconds=.2]",
                 "Delay[seconds=.1]", "Repeat", "Retry[attempts=2]", "Timeout[seconds=.2]Repeat"});
-    const std::string leaf = child(around);
+    static const std::vector<std::string> kSubtrees{"Sequence[memory=true](a b)",
+                                                    "Fallback[memory=true](a a)",
+                                                    "Sequence(c? a)",
+                                                    "ParallelAbsolute[barriers=.5](a a)",
+                                                    "Parallel[success_count=1](a b)",
+                                                    "Retry[attempts=2](Sequence[memory=true](a b))",
+                                                    "ParallelRelative[delta=.25](Inverter(a) b)",
+                                                    "Sequence[memory=true](a Parallel(a a))"};
+    const bool has_many = random_() % 2 == 0;
+    const std::string leaf = has_many ? one_of(kSubtrees) : child(around);
     const std::string leaves = leaf + ' ' + leaf + one_of({"", "", ' ' + leaf});
     const std::string parallel =
         one_of({"Parallel", "Parallel[success_count=1]", "Parallel[memory=false]",
@@ -320,6 +329,31 @@ TEST_CASE("equal children: forty with one leaf each give their answers in one or
   CHECK(it.findings() == "");
   CHECK(it.said("always ends") == "yes");
   CHECK(it.said("results") == "success (from 2 ticks), failure (from 4 ticks)");
+}
+
+TEST_CASE("equal children: twenty with two leaves each give their answers in one order") {
+  std::string children = "Sequence[memory=true](a b)";
+  for (int i = 1; i < 20; ++i) children += " Sequence[memory=true](a b)";
+  const Verified it("Parallel(" + children + ')', R"(<leaf path="*" result="success"/>)");
+  CHECK(it.found.is_complete());
+  // So many are at their first leaf, at their second one, or have succeeded; and before the start.
+  CHECK(it.found.store.size() == 22 * 21 / 2);
+  CHECK(it.findings() == "");
+  CHECK(it.said("always ends") == "yes");
+  CHECK(it.said("results") == "success (from 1 tick)");
+}
+
+TEST_CASE("equal children: answers of those with several leaves are in the order of words") {
+  // From the state in which both children are at their first leaf: none, one or both of the two go
+  // on, and then each may have done so by now or not.
+  const std::string rows = R"(<leaf path="*" result="success"/>)";
+  const std::string tree = "Parallel(Sequence[memory=true](a b) Sequence[memory=true](a b))";
+  const Verified one(tree, rows), all(tree, rows, {.rising_answers = false});
+  check_same_states(one, all);
+  // Each child has three answers where both are at `a` (also before the start) and two where both
+  // are at `b`; where one is at each, or one is over, all of its answers count.
+  CHECK(one.found.transitions == 2 * 6 + 3 + 3 * 2 + 3 + 2);
+  CHECK(all.found.transitions == 2 * 9 + 4 + 3 * 2 + 3 + 2);
 }
 
 TEST_CASE("equal children: a child that starves is the one that the finding names") {

@@ -1,0 +1,145 @@
+#include "verify/cycle_labels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <unordered_set>
+
+#include "verify/components.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kStatesAgain = 8192, kStatesOfPart = 32;
+
+class CycleLabels {
+ public:
+  CycleLabels(const Graph& graph, const StateStore& store, Crew& crew, const Expanders& expanders)
+      : graph_(graph), store_(store), crew_(crew), expanders_(expanders), components_(graph) {}
+
+  CycleGraph find(int signal) {
+    CycleGraph found{nullptr, signal};
+    std::vector<StateId> states = states_in_cycles();
+    if (states.empty()) return found;
+    found.graph = std::make_unique<Graph>();
+    found.graph->ends = graph_.ends;
+    found.graph->shape = graph_.shape;
+    // States that were forgotten are found again, all in their order.
+    if (store_.keeps_hashes()) {
+      states = expanded_states();
+      made_.add(expanders_[0]->first_state());
+    }
+    EdgeMerger merger(expanders_, *found.graph);
+    for (std::size_t first = 0; first < states.size() && found.signal == 0;) {
+      const std::size_t there = store_.keeps_hashes() ? made_.size() : states.size();
+      const std::size_t count = std::min(kStatesAgain, there - first);
+      const auto round = std::span(states).subspan(first, count);
+      if (store_.keeps_hashes()) made_.forget_before(round.front());
+      found.signal = do_round(round, merger, *found.graph);
+      first += count;
+    }
+    add_loops_until(static_cast<StateId>(graph_.expanded()), *found.graph);
+    return found;
+  }
+
+ private:
+  struct Part {
+    Chunk chunk;
+    // States that were not found again before the round, in the order in which they were.
+    std::vector<std::pair<StateId, StateBytes>> made = {};
+    std::unordered_set<StateId> made_here = {};
+  };
+
+  std::vector<StateId> expanded_states() const {
+    std::vector<StateId> states(graph_.expanded());
+    std::iota(states.begin(), states.end(), StateId{0});
+    return states;
+  }
+
+  // Without those that are a cycle by themselves: the label of that edge says all.
+  std::vector<StateId> states_in_cycles() {
+    std::vector<StateId> states = expanded_states();
+    components_.find(states, [](StateId, const Edge&) { return true; });
+    std::vector<std::uint32_t> sizes(components_.count());
+    for (const StateId state : states) ++sizes[components_.of(state)];
+    std::erase_if(states, [&](StateId state) { return sizes[components_.of(state)] == 1; });
+    return states;
+  }
+
+  // Returns the signal that has cut it.
+  int do_round(std::span<const StateId> states, EdgeMerger& merger, Graph& into) {
+    std::vector<Part> parts((states.size() + kStatesOfPart - 1) / kStatesOfPart);
+    std::atomic<std::size_t> next{0};
+    crew_.work([&](unsigned thread) {
+      for (std::size_t i = next++; i < parts.size(); i = next++) {
+        const std::size_t first = i * kStatesOfPart;
+        expand(states.subspan(first, std::min(kStatesOfPart, states.size() - first)), thread,
+               parts[i]);
+      }
+    });
+    auto state = states.begin();
+    for (const Part& part : parts) {
+      std::size_t first_edge = 0;
+      for (const Chunk::State& it : part.chunk.states) {
+        if (it.cut) return it.signal;
+        add_loops_until(*state, into);
+        merger.add(part.chunk, first_edge, it.edges, {}, {});
+        add_equals(*state++, into);
+        first_edge = it.edges;
+      }
+      for (const auto& [id, bytes] : part.made) {
+        if (id == made_.size()) made_.add(bytes);
+      }
+    }
+    return 0;
+  }
+
+  void expand(std::span<const StateId> states, unsigned thread, Part& part) {
+    part.chunk.thread = thread;
+    const auto bytes_of = [&](StateId state) {
+      return store_.keeps_hashes() ? made_[state] : store_[state];
+    };
+    const auto is_wanted = [&](StateId from, StateId to, const StateBytes& goal) {
+      const bool is_made = store_.keeps_hashes() && to >= made_.size();
+      if (is_made && part.made_here.insert(to).second) part.made.emplace_back(to, goal);
+      return components_.of(from) == components_.of(to);
+    };
+    expanders_[thread]->expand_again(store_, states, bytes_of, is_wanted, part.chunk);
+  }
+
+  // The states before this one are in no cycle of several states.
+  void add_loops_until(StateId last, Graph& into) {
+    for (auto state = static_cast<StateId>(into.expanded()); state < last; ++state) {
+      loops_.clear();
+      for (const Edge& edge : graph_.edges_of(state)) {
+        if (edge.to == state) {
+          loops_.push_back({state, into.labels.add(graph_.labels.packed(edge.label))});
+        }
+      }
+      into.edges.add(loops_);
+      add_equals(state, into);
+    }
+  }
+
+  void add_equals(StateId state, Graph& into) const {
+    if (graph_.equals.empty()) return;
+    into.equals.push_back(into.labels.add(graph_.labels.packed(graph_.equals[state])));
+  }
+
+  const Graph& graph_;
+  const StateStore& store_;
+  Crew& crew_;
+  const Expanders& expanders_;
+  Components components_;
+  ByteRows made_;  // states that are found again
+  std::vector<Edge> loops_;
+};
+
+}  // namespace
+
+CycleGraph label_cycles(const Graph& graph, const StateStore& store, Crew& crew,
+                        const Expanders& expanders, int signal) {
+  return CycleLabels(graph, store, crew, expanders).find(signal);
+}
+
+}  // namespace lockstep::host
