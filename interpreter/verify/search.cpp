@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <set>
+#include <stdexcept>
 
 #include "verify/cycle_labels.h"
 
@@ -223,11 +224,12 @@ std::uint32_t SearchResult::complete_depth() const {
 // States are found in the order of those that lead to them.
 StateId SearchResult::found_from(StateId state) const {
   const auto row = std::ranges::upper_bound(known, state) - known.begin() - 1;
-  for (auto from = static_cast<StateId>(row) * kStatesOfRow;; ++from) {
+  for (auto from = static_cast<StateId>(row) * kStatesOfRow; from < graph.expanded(); ++from) {
     for (const Edge& edge : graph.edges_of(from)) {
       if (edge.to == state) return from;
     }
   }
+  throw std::logic_error("no tick has found this state");
 }
 
 std::vector<StateId> SearchResult::way_to(StateId state) const {
