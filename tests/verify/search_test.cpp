@@ -170,6 +170,19 @@ TEST_CASE("the edges of cycles have labels that say who worked and who ended") {
   CHECK(Verified("Sequence[memory=true](a b)").found.cycles == nullptr);
 }
 
+TEST_CASE("beside cycles of several states, a state that is a cycle by itself keeps its label") {
+  const Verified it("Sequence[memory=true](d Repeat(Sequence[memory=true](a b)))");
+  REQUIRE(it.found.cycles != nullptr);
+  const Graph& cycles = *it.found.cycles;
+  std::size_t loops = 0;
+  for (StateId state = 0; state < cycles.expanded(); ++state) {
+    for (const Edge& edge : cycles.edges_of(state)) {
+      loops += edge.to == state && cycles.has(edge, cycles.shape.worked_bit(0));
+    }
+  }
+  CHECK(loops == 1);
+}
+
 TEST_CASE("any number of threads finds the same, in the same order") {
   constexpr auto kReactive = "Fallback(Sequence(c? Parallel(a b)) Sequence[memory=true](d e f))";
   constexpr auto kEndless = "Repeat(Sequence[memory=true](ParallelAbsolute[barriers=.5](a b) d))";
