@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kMostStates = 50'000;
 // Not a time, so that a busy machine sees the same.
-constexpr std::uint64_t kMostTransitions = 1'000'000;
+constexpr std::uint64_t kMostTransitions = 200'000;
 
 }  // namespace
 
@@ -21,14 +21,11 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   const LeafModels models = make_models(tree, file, diagnostics, problems);
   if (!problems.empty() || diagnostics.has_errors()) return std::nullopt;
   const Nanoseconds period = from_seconds(1 / rate);
-  constexpr std::uint64_t kBetweenLooks = 1000;  // of a search, at its stop signal
-  std::uint64_t looks = 0;
-  const SearchResult found = search(
-      tree, models, {}, period,
-      {.states = kMostStates,
-       .stop_signal = [&looks] { return ++looks > kMostTransitions / kBetweenLooks ? 1 : 0; },
-       .symmetry = false,
-       .cycles = false});
+  const SearchResult found = search(tree, models, {}, period,
+                                    {.states = kMostStates,
+                                     .transitions = kMostTransitions,
+                                     .symmetry = false,
+                                     .cycles = false});
   if (!found.is_complete()) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
