@@ -415,6 +415,22 @@ TEST_CASE("coverage counts what is possible") {
   CHECK(contains(all.out, "100.0 %"));
 }
 
+TEST_CASE("what is possible is searched up to 200,000 ticks") {
+  const auto coverage = [](const std::string& barriers) {
+    const Folder folder(R"(<scenario name="a"><expect result="success"/></scenario>)",
+                        R"(<root lockstep="1"><plugin name="motion"/><BehaviorTree ID="T">
+      <ParallelAbsolute success_count="2" failure_count="3" barrier_count=")" +
+                            barriers + R"(">
+        <Advance step="0.1"/><Advance step="0.1"/><Advance step="0.1"/><Advance step="0.1"/>
+      </ParallelAbsolute></BehaviorTree></root>)");
+    return folder.test({"--coverage"}).out;
+  };
+  const std::string proved = "of what verify proves possible", all = coverage("8");
+  CHECK(contains(coverage("6"), proved));  // in 180,357 ticks; with 8 barriers 493,036
+  CHECK(contains(all, "1 passed"));
+  CHECK_FALSE(contains(all, proved));
+}
+
 TEST_CASE("JUnit's XML is well-formed and counts") {
   const Folder folder(R"(<scenario name="a &lt; &quot;b&quot;"><leaf path="left" does="F"/>
     <expect result="success"/></scenario><scenario name="c"><expect result="success"/></scenario>)");
