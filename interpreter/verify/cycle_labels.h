@@ -2,7 +2,7 @@
 // ticking from the states of those cycles once more, so that a search keeps it of no other edge.
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "verify/crew.h"
 #include "verify/edge_merger.h"
