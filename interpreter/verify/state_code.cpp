@@ -104,7 +104,7 @@ class StateCode::ByteReader {
   std::span<const std::byte> rest() const { return from_; }
 
   void bytes(void* to, std::size_t size) {
-    std::memcpy(to, from_.data(), size);
+    std::ranges::copy(from_.first(size), static_cast<std::byte*>(to));
     from_ = from_.subspan(size);
   }
   template <class T>
