@@ -29,7 +29,8 @@ bool StateStore::is(StateId id, std::span<const std::byte> state, std::uint64_t 
   if (keeps_hashes()) return long_hashes_[id] == (hash & mask_);
   if (hashes_[id] != static_cast<std::uint32_t>(hash)) return false;
   const std::span<const std::byte> known = rows_[id];
-  return known.size() == state.size() && std::memcmp(known.data(), state.data(), known.size()) == 0;
+  if (known.size() != state.size()) return false;
+  return known.empty() || std::memcmp(known.data(), state.data(), known.size()) == 0;
 }
 
 std::size_t StateStore::place_of(std::span<const std::byte> state, std::uint64_t hash) const {
