@@ -21,11 +21,9 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   const LeafModels models = make_models(tree, file, diagnostics, problems);
   if (!problems.empty() || diagnostics.has_errors()) return std::nullopt;
   const Nanoseconds period = from_seconds(1 / rate);
-  const SearchResult found = search(tree, models, {}, period,
-                                    {.states = kMostStates,
-                                     .transitions = kMostTransitions,
-                                     .symmetry = false,
-                                     .cycles = false});
+  const SearchResult found = search(
+      tree, models, {}, period,
+      {.states = kMostStates, .transitions = kMostTransitions, .symmetry = false, .cycles = false});
   if (!found.is_complete()) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
