@@ -8,7 +8,7 @@
 
 namespace lockstep::host {
 
-SearchCoverage::SearchCoverage(const Tree& tree) : tree_(tree), seen_(tree.nodes.size()) {
+SearchCoverage::SearchCoverage(const Tree& tree) : seen_(tree.nodes.size()) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (tree.labels[node].type->limits_time) timeouts_.push_back(node);
     if (compares_progress(synchronization(tree.nodes[node]))) synchronized_.push_back({node});

@@ -43,7 +43,6 @@ class SearchCoverage {
   void look_at(Ticker& ticker, Synchronized& it) const;
   static void add(const Synchronized& from, Synchronized& to);
 
-  const Tree& tree_;
   std::vector<std::uint8_t> seen_;  // of each node: a bit for each status, and these
   std::vector<NodeIndex> timeouts_;
   std::vector<Synchronized> synchronized_;

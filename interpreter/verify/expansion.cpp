@@ -27,8 +27,7 @@ void Chunk::clear() {
 
 Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                    Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits)
-    : tree_(tree),
-      limits_(limits),
+    : limits_(limits),
       stepper_(tree, models, properties, period, symmetry, limits.rising_answers),
       labeller_(tree, models, properties.size(), symmetry),
       coverage_(tree) {

