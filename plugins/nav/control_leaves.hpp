@@ -29,9 +29,8 @@ inline constexpr auto kRateController =
 inline constexpr auto kSpeedController = lockstep::leaf<SpeedController>(
     "SpeedController",
     "Starts its child at min_rate to max_rate times a second, as the speed is between min_speed "
-    "and "
-    "max_speed, and at once for another goal. Running in between. A child that runs is ticked in "
-    "every tick.");
+    "and max_speed, and at once for another goal. Running in between. A child that runs is ticked "
+    "in every tick.");
 inline constexpr auto kDistanceController = lockstep::leaf<DistanceController>(
     "DistanceController",
     "Starts its child whenever the robot is so far from where it was at the child's last Success. "

@@ -1035,7 +1035,7 @@ TEST_CASE("a node that is watched is told before and after each tick, and gets a
   CHECK_FALSE(lockstep_run_watch_nodes(run.get(), &none, 1, watch, &seen));
 }
 
-TEST_CASE("a node that a leaf before it begins to watch is told of in the same tick") {
+TEST_CASE("a node that a leaf before it begins to watch is reported in the same tick") {
   runtime::Project project;
   project.add_leaf<DoesAsTold>("DoesAsTold", "Does what the test says");
   project.add_leaf<Step>("Step", "Makes a step");
