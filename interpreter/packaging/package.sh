@@ -8,7 +8,10 @@ architecture="" trial=""
 while [ $# -gt 0 ]; do
   case $1 in
     --try) trial=yes ;;
-    --arch) architecture=${2:?--arch needs an architecture of Debian} && shift ;;
+    --arch)
+      [ $# -gt 1 ] || { echo "package: --arch needs an architecture of Debian, such as arm64" >&2 && exit 2; }
+      architecture=$2 && shift
+      ;;
     *) echo "package: expected [--try] [--arch ARCHITECTURE], got '$1'" >&2 && exit 2 ;;
   esac
   shift

@@ -9,7 +9,10 @@ version="" dry="" others=()
 while [ $# -gt 0 ]; do
   case $1 in
     --dry-run) dry=yes ;;
-    --arch) others+=("${2:?release: --arch needs an architecture of Debian, such as arm64}") && shift ;;
+    --arch)
+      [ $# -gt 1 ] || { echo "release: --arch needs an architecture of Debian, such as arm64" >&2 && exit 2; }
+      others+=("$2") && shift
+      ;;
     [0-9]*.[0-9]*.[0-9]*) version=$1 ;;
     *) echo "release: expected [VERSION] [--arch ARCH] [--dry-run], got '$1'" >&2 && exit 2 ;;
   esac

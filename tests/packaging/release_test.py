@@ -85,5 +85,6 @@ for spoil, mend, message in ROWS:
     must("bash", "-c", mend)
 assert release("9.9.9").returncode == 1
 assert "expected [VERSION]" in release("soon").stdout
+assert release("--arch").returncode == 2, "an architecture is missing"
 assert release().returncode == 0
 assert not os.path.exists(CLONE + "/build"), "a dry run makes nothing"
