@@ -415,6 +415,17 @@ TEST_CASE("coverage counts what is possible") {
   CHECK(contains(all.out, "100.0 %"));
 }
 
+TEST_CASE("a stdout that takes no more is reported once also with coverage") {
+  const Folder folder(R"(<scenario name="a"><expect result="success"/></scenario>)");
+  const Outcome it = run({.arguments = {"-c", "\"$0\" test \"$1\" --coverage > /dev/full",
+                                        LOCKSTEP_BINARY_DIR "/lockstep", folder.file()},
+                          .program = "/bin/sh"});
+  INFO(it.err);
+  CHECK(it.code == 2);
+  CHECK(it.err.find("cannot write") == it.err.rfind("cannot write"));
+  CHECK(contains(it.err, "cannot write to stdout"));
+}
+
 TEST_CASE("what is possible is searched up to 200,000 ticks") {
   const auto coverage = [](const std::string& barriers) {
     const Folder folder(R"(<scenario name="a"><expect result="success"/></scenario>)",

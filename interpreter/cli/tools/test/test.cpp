@@ -206,7 +206,8 @@ class TestCommand {
   int finish() {
     int covered = kExitSuccess;
     if (options_.coverage.is_wanted()) {
-      covered = write_coverage(options_.coverage, coverage_, options_.jobs, options_.json);
+      const bool is_quiet = options_.json || written_ != kExitSuccess;
+      covered = write_coverage(options_.coverage, coverage_, options_.jobs, is_quiet);
     }
     std::string text = options_.json ? to_json(reported_, counts_) : to_text(counts_);
     if (updated_ > 0 && !options_.json) {
