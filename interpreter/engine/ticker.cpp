@@ -7,9 +7,8 @@
 
 namespace lockstep::host {
 
-Status Ticker::tick_root(Nanoseconds now) {
+Status Ticker::tick_root() {
   const InEngine scope(board_.lock.get());
-  set_now(now);
   ++state_.tick_number;
   if (!held_leaves_.empty()) [[unlikely]]
     held_leaves_.look(*this);

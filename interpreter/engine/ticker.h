@@ -26,8 +26,13 @@ class Ticker : public NodeContext {
   // time.
   void set_now(Nanoseconds now) { state_.now = now; }
 
-  // Ticks the root once. The result is Running while the tree runs, and after a fault.
-  Status tick_root(Nanoseconds now);
+  // Ticks the root once, at that time. The result is Running while the tree runs, and after a
+  // fault.
+  Status tick_root();
+  Status tick_root(Nanoseconds now) {
+    set_now(now);
+    return tick_root();
+  }
 
   // Ticks it once more in the same tick, for a node that has asked for it.
   Status tick_root_again();

@@ -151,7 +151,7 @@ class Loop {
     run_.set_now(now);
     observe([&](Observer& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
-    end_.status = run_.tick(now);
+    end_.status = run_.tick();
     if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
     if (is_real_) note_worst(clock_.now() - start_ - now);
     // The loop keeps its own copy: an observer that asks for progress may add to the ticker's.

@@ -85,12 +85,11 @@ void Run::set_now(Nanoseconds now) {
   workers_.give_turns(now);
 }
 
-Status Run::tick(Nanoseconds now, bool exactly_once) {
-  set_now(now);
+Status Run::tick(bool exactly_once) {
   look_at_processes();
-  Status status = ticker_.tick_root(now);
+  Status status = ticker_.tick_root();
   if (ticker_.is_asked()) status = tick_again_if_asked(status, exactly_once);
-  workers_.give_turns(now);
+  workers_.give_turns(time_.now);
   return status;
 }
 

@@ -51,9 +51,21 @@ class Run {
   void set_now(Nanoseconds now);
   // One tick of the root at `now`; see Ticker::tick_root. While it is Running and a node asks for
   // another tick, it gets one at once, at most kMostTicksAtOnce.
-  Status tick(Nanoseconds now) { return tick(now, exactly_once_); }
+  Status tick(Nanoseconds now) {
+    set_now(now);
+    return tick(exactly_once_);
+  }
+  // The same at the time that set_now has set. Workers get their turns again: one may wait for a
+  // time that has passed.
+  Status tick() {
+    workers_.give_turns(time_.now);
+    return tick(exactly_once_);
+  }
   // The same without that other tick.
-  Status tick_exactly_once(Nanoseconds now) { return tick(now, true); }
+  Status tick_exactly_once(Nanoseconds now) {
+    set_now(now);
+    return tick(true);
+  }
   // Whether the processes of held leaves are still there, as before each tick: for an owner that
   // lets no tick come.
   void look_at_processes() {
@@ -80,7 +92,7 @@ class Run {
 
  private:
   void adopt_thread();
-  Status tick(Nanoseconds now, bool exactly_once);
+  Status tick(bool exactly_once);
   Status tick_again_if_asked(Status status, bool exactly_once);
 
   void prepare();

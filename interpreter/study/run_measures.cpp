@@ -22,12 +22,11 @@ void RunMeasures::run_started(Ticker&, const RunStart&) {
 }
 
 void RunMeasures::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  ticks_.before_tick(ticker);
+  before_tick(ticker);
 }
 
 void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
-  measuring_.after_tick(ticks_.read(ticker, report.tick, report.time));
-  last_ = report.time;
+  after_tick(ticker, report.tick, report.time);
 }
 
 void RunMeasures::run_ended(Ticker&, const RunEnd& end) {

@@ -23,6 +23,13 @@ class RunMeasures final : public Observer {
   // The values of the last run, in the order of columns(); NaN where it has no such number.
   std::span<const double> values() const { return values_; }
 
+  // What an observer does with a tick, for an owner that knows this one.
+  void before_tick(Ticker& ticker) { ticks_.before_tick(ticker); }
+  void after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+    measuring_.after_tick(ticks_.read(ticker, tick, time));
+    last_ = time;
+  }
+
   void run_started(Ticker& ticker, const RunStart& start) override;
   void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;

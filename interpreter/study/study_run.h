@@ -1,10 +1,10 @@
 // The runs of one cell on one thread, one after the other, as `lockstep run --clock virtual` would
-// make each of them.
+// make each of them: with the loop of runtime/loop.h, without what a study has no use for.
 #pragma once
 
 #include <span>
 
-#include "runtime/loop.h"
+#include "runtime/deadlines.h"
 #include "runtime/run.h"
 #include "study/run_measures.h"
 
@@ -32,11 +32,16 @@ class StudyRun {
   std::span<const OutOfRange> out_of_range() { return run_->ticker().out_of_range(); }
 
  private:
+  void begin(std::uint64_t seed);
+  bool may_tick(RunEnd& end) const;
+  bool tick(RunEnd& end);
+
   const StudyCell& cell_;
-  LoopOptions options_;
+  const Deadlines deadlines_;
+  const std::uint64_t max_ticks_;
+  int (*const stop_signal_)();
   LeafWatch watch_{LeafWatchOptions{}};  // names the leaf that crashed; times nothing
   RunMeasures measures_;
-  Observer* observers_[1] = {&measures_};
   std::optional<Run> run_;
 };
 
