@@ -23,8 +23,9 @@ inline double least_above(double progress) {
 
 // The state of a synchronized node, with the progress of each child behind it (child_states).
 struct SynchronizedState {
-  double limit;    // see limit()
-  bool succeeded;  // in the last tick
+  double limit;         // see limit()
+  std::uint32_t place;  // of the last barrier in its list: where the search for the next begins
+  bool succeeded;       // in the last tick
 };
 
 inline Synchronization synchronization(const Node& node) {

@@ -154,13 +154,14 @@ void hold(NodeContext& context, NodeIndex self, double held_from) {
 
 // Finds the limit of this tick, and who is held.
 void set_limit(NodeContext& context, NodeIndex self, double least) {
-  double& limit = context.state<BarrierState>(self).synchronized.limit;
+  auto& state = context.state<BarrierState>(self).synchronized;
+  double& limit = state.limit;
   if (synchronization(context.node(self)) == Synchronization::Relative) {
     limit = context.parameter(self, kBarrierDelta).number;
     hold(context, self, least_above(least + limit));
   } else {
     const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
-    limit = absolute::current_barrier(barriers, least);
+    limit = absolute::current_barrier(barriers, least, state.place);
     const bool ticks =
         context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
     hold(context, self, absolute::held_from(limit, ticks));
@@ -195,7 +196,9 @@ void fold_barrier(NodeContext& context, NodeIndex self) {
   if (context.status(context.tree().group(self).ancestor) != Status::Running) {
     return fold::dead(context, self);
   }
-  context.state<BarrierState>(self).synchronized.limit = 0;
+  auto& state = context.state<BarrierState>(self).synchronized;
+  state.limit = 0;
+  state.place = 0;
   std::ranges::fill(context.child_states<double>(self), 0.0);
   for (const Member& it : context.tree().members_of(self)) {
     member_state(context, self, it.number).held = false;

@@ -84,9 +84,16 @@ inline std::optional<RuleBreak> check_barriers(const ParameterValues& given) {
   return std::nullopt;
 }
 
-// The smallest barrier that not everybody has passed; infinity when none is left.
-inline double current_barrier(std::span<const double> barriers, double least) {
-  const auto next = std::upper_bound(barriers.begin(), barriers.end(), least + kProgressEpsilon);
+// The smallest barrier that not everybody has passed; infinity when none is left. `place` is where
+// it is in the list. Most often it is where it was in the last tick.
+inline double current_barrier(std::span<const double> barriers, double least,
+                              std::uint32_t& place) {
+  const double passed = least + kProgressEpsilon;
+  const bool is_there = place < barriers.size() && passed < barriers[place] &&
+                        (place == 0 || !(passed < barriers[place - 1]));
+  if (is_there) return barriers[place];
+  const auto next = std::upper_bound(barriers.begin(), barriers.end(), passed);
+  place = static_cast<std::uint32_t>(next - barriers.begin());
   return next == barriers.end() ? std::numeric_limits<double>::infinity() : *next;
 }
 

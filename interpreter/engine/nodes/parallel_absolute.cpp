@@ -25,8 +25,9 @@ std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
 Status tick_absolute(NodeContext& context, NodeIndex self) {
   const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
   const double least = synchronized::take_snapshot(context, self);
-  const double barrier = absolute::current_barrier(barriers, least);
-  context.state<SynchronizedState>(self).limit = barrier;
+  auto& state = context.state<SynchronizedState>(self);
+  const double barrier = absolute::current_barrier(barriers, least, state.place);
+  state.limit = barrier;
   const bool ticks =
       context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
   return synchronized::tick_children(context, self, kAbsoluteCounts,
