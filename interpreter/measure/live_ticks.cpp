@@ -41,7 +41,8 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
       numbers_(slots_.size()),
       parallel_ticks_(measuring.parallels().size()),
       node_ticks_(measuring.nodes().size()),
-      user_ticks_(users_.size()) {
+      user_ticks_(users_.size()),
+      has_others_(!(measuring.nodes().empty() && users_.empty() && slots_.empty())) {
   for (const NodeIndex node : measuring.parallels()) {
     parallels_.emplace_back(tree, node, measuring.needs_flags());
   }
@@ -65,15 +66,22 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
 
 void LiveTicks::before_tick(Ticker& ticker) {
   for (SynchronizedProbe& parallel : parallels_) parallel.before_tick(ticker);
+  if (!has_others_) return;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     node_ticks_[i].progress = ticker.progress(nodes_[i].index);
   }
 }
 
 const TickView& LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
-  for (std::size_t i = 0; i < parallels_.size(); ++i) {
-    parallels_[i].read(ticker, time, parallel_ticks_[i]);
-  }
+  SynchronizedTick* next = parallel_ticks_.data();
+  for (SynchronizedProbe& parallel : parallels_) parallel.read(ticker, time, *next++);
+  if (has_others_) read_others(ticker);
+  view_.tick = tick;
+  view_.time = time;
+  return view_;
+}
+
+void LiveTicks::read_others(Ticker& ticker) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     node_ticks_[i].ticked = ticker.ticked(node.index);
@@ -90,9 +98,6 @@ const TickView& LiveTicks::read(Ticker& ticker, std::uint64_t tick, Nanoseconds 
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     numbers_[i] = number_of(ticker.blackboard().entries[slots_[i]].value);
   }
-  view_.tick = tick;
-  view_.time = time;
-  return view_;
 }
 
 }  // namespace lockstep::host

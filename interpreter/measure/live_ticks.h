@@ -23,6 +23,8 @@ class LiveTicks {
   const TickView& read(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
 
  private:
+  void read_others(Ticker& ticker);
+
   struct Node {
     NodeIndex index;
     std::optional<NodeIndex> parent;  // the synchronized node that holds it, if any
@@ -36,7 +38,8 @@ class LiveTicks {
   std::vector<SynchronizedTick> parallel_ticks_;
   std::vector<NodeTick> node_ticks_;
   std::vector<ResourceTick> user_ticks_;
-  TickView view_;  // of all these
+  const bool has_others_;  // more than parallels
+  TickView view_;          // of all these
 };
 
 }  // namespace lockstep::host

@@ -122,8 +122,7 @@ SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with
 // A node that does not run will start again: none of its children has progress then. Else as in
 // the snapshot of a synchronized node: a child that was skipped is left out, and one that has
 // failed for good counts as 1.
-void SynchronizedProbe::before_tick(Ticker& ticker) {
-  if (progress_.empty()) return;
+void SynchronizedProbe::read_progress(Ticker& ticker) {
   const bool runs = ticker.status(node_) == Status::Running;
   for (std::size_t child = 0; child < progress_.size(); ++child) {
     progress_[child] = runs ? snapshot_of(ticker, children_[child]) : 0;
@@ -147,17 +146,19 @@ void SynchronizedProbe::read_held(Ticker& ticker) {
 }
 
 void SynchronizedProbe::read(Ticker& ticker, Nanoseconds time, SynchronizedTick& tick) {
-  tick.time = time;
-  tick.ticked = ticker.ticked(node_);
-  tick.status = ticker.status(node_);
+  const Status status = ticker.status(node_);
   if (with_flags_) read_held(ticker);
-  if (!tick.ticked) {
-    tick = {.time = time, .status = tick.status};
+  if (!ticker.ticked(node_)) {
+    tick = {.time = time, .status = status};
     return;
   }
+  tick.time = time;
+  tick.ticked = true;
+  tick.status = status;
   if (progress_.empty()) {
-    if (succeeded(ticker, node_)) tick.status = Status::Success;
-    tick.limit = limit(ticker, node_);
+    const auto& state = ticker.RunView::state<SynchronizedState>(node_);
+    if (state.succeeded) tick.status = Status::Success;
+    tick.limit = state.limit;
     tick.progress = child_progress(ticker, node_);
   } else {
     tick.progress = progress_;

@@ -91,7 +91,9 @@ class SynchronizedProbe {
   // Without `with_flags` its ticks do not say which children are held or have succeeded.
   SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_flags = true);
   // A plain parallel does not store the progress of its children, so this reads it.
-  void before_tick(Ticker& ticker);
+  void before_tick(Ticker& ticker) {
+    if (!progress_.empty()) read_progress(ticker);
+  }
   // Valid until the next call.
   SynchronizedTick read(Ticker& ticker, Nanoseconds time) {
     SynchronizedTick tick;
@@ -105,6 +107,7 @@ class SynchronizedProbe {
   std::span<const NodeIndex> children() const { return children_; }
 
  private:
+  void read_progress(Ticker& ticker);
   void read_held(Ticker& ticker);
   void read_succeeded(Ticker& ticker, SynchronizedTick& tick);
 
