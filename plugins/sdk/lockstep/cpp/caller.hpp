@@ -46,9 +46,9 @@ struct Caller {
   }
 };
 
-// Runs `work`; no exception leaves. `report` gets what it throws.
+// Runs `work`, in line; no exception leaves. `report` gets what it throws.
 template <class Work, class Report>
-void catching(Work&& work, Report&& report) noexcept {
+[[gnu::always_inline]] inline void catching(Work&& work, Report&& report) noexcept {
   const auto tell = [&](const char* text) {
     report(text != nullptr ? text : "an exception without a text");
   };
@@ -68,7 +68,8 @@ void catching(Work&& work, Report&& report) noexcept {
 // Runs `work` and returns its result. An exception becomes an error of the caller, and `otherwise`
 // the result, which then does not count.
 template <class Result, class Work>
-Result guarded(const Caller& caller, Result otherwise, Work&& work) noexcept {
+[[gnu::always_inline]] inline Result guarded(const Caller& caller, Result otherwise,
+                                             Work&& work) noexcept {
   Result result = otherwise;
   catching([&] { result = work(); },
            [&](const char* message) { caller.host->set_error(caller.id, message); });
