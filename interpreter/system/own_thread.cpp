@@ -26,7 +26,8 @@ Mutex g_failure_mutex;
 std::exception_ptr g_failure LOCKSTEP_GUARDED_BY(g_failure_mutex);  // the first
 
 // The stack of a thread that ends. Its thread_local objects go first, then, in rounds, what has a
-// key; both may be a plugin's. In the last round this goes.
+// key; both may be a plugin's. This goes in the round before the last: in the last one, the runtime
+// of AddressSanitizer unmaps the stack that the thread has then.
 struct EndingStack {
   AlternateStack stack;
   int rounds = 0;
@@ -44,7 +45,7 @@ pthread_key_t ending_key() {
 
 void end_round(void* stack) {
   auto* const it = static_cast<EndingStack*>(stack);
-  if (++it->rounds < PTHREAD_DESTRUCTOR_ITERATIONS) {
+  if (++it->rounds < PTHREAD_DESTRUCTOR_ITERATIONS - 1) {
     pthread_setspecific(ending_key(), it);
   } else {
     it->~EndingStack();

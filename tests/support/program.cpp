@@ -131,8 +131,8 @@ bool Process::has_more(int milliseconds) const {
 bool Process::read_more() {
   pollfd files[] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};  // poll ignores a negative file
   if (out_ < 0 && err_ < 0) return false;
-#if defined(__SANITIZE_THREAD__)
-  constexpr int kPatience = 240'000;  // it takes ten times as long
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr int kPatience = 600'000;  // it takes ten times as long
 #else
   constexpr int kPatience = 60'000;
 #endif
