@@ -68,18 +68,6 @@ Result<TextEdit> set_attribute(const Document& document, std::uint32_t element,
   return edit;
 }
 
-Result<TextEdit> remove_attribute(const Document& document, std::uint32_t element,
-                                  std::string_view name) {
-  const auto found = find(document, element, name);
-  if (!found) return tl::unexpected(found.error());
-  const std::string_view text = document.source()->text();
-  std::size_t begin = found->text.begin;
-  while (begin > 0 && is_xml_blank(text[begin - 1])) --begin;
-  TextEdit edit;
-  edit.remove(begin, found->text.end);
-  return edit;
-}
-
 Result<TextEdit> rename_attribute(const Document& document, std::uint32_t element,
                                   std::string_view name, std::string_view new_name) {
   if (!is_xml_name(new_name)) return no_name(new_name);
@@ -91,20 +79,6 @@ Result<TextEdit> rename_attribute(const Document& document, std::uint32_t elemen
   }
   TextEdit edit;
   edit.replace(found->text.begin, found->text.name_end, std::string(new_name));
-  return edit;
-}
-
-Result<TextEdit> rename_element(const Document& document, std::uint32_t element,
-                                std::string_view tag) {
-  if (!is_xml_name(tag)) return no_name(tag);
-  const auto at = element_text(document, element);
-  if (!at) return problem(kBroken);
-  TextEdit edit;
-  edit.replace(at->tag.begin + 1, at->tag.name_end, std::string(tag));
-  if (!at->tag.is_empty) {
-    const std::size_t name = at->close + 2;
-    edit.replace(name, name + at->tag.name_end - at->tag.begin - 1, std::string(tag));
-  }
   return edit;
 }
 

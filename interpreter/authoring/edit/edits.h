@@ -16,29 +16,18 @@ namespace lockstep::host {
 // Sets the value; if there is no such attribute, adds it behind the others.
 Result<TextEdit> set_attribute(const Document& document, std::uint32_t element,
                                std::string_view name, std::string_view value);
-Result<TextEdit> remove_attribute(const Document& document, std::uint32_t element,
-                                  std::string_view name);
 Result<TextEdit> rename_attribute(const Document& document, std::uint32_t element,
                                   std::string_view name, std::string_view new_name);
 
-// Renames the element itself, both of its tags.
-Result<TextEdit> rename_element(const Document& document, std::uint32_t element,
-                                std::string_view tag);
-
-// A place among the children of `parent`: before the child `index`; behind the last one if there
-// are no more.
-struct ChildSlot {
-  std::uint32_t parent = 0;
-  std::uint32_t index = 0;
-};
-
-// `xml` is one element, or several, indented as if it began at the first column. Its lines get the
-// indentation of the place.
-Result<TextEdit> insert_element(const Document& document, ChildSlot slot, std::string_view xml);
+// `xml` is one element, indented as if it began at the first column. It comes behind `sibling`, and
+// its lines get the indentation of that.
+Result<TextEdit> insert_behind(const Document& document, std::uint32_t sibling,
+                               std::string_view xml);
 // With its lines if nothing else is in them. Comments beside it stay.
 Result<TextEdit> delete_element(const Document& document, std::uint32_t element);
-// `slot` counts the children as they are before the move.
-Result<TextEdit> move_element(const Document& document, std::uint32_t element, ChildSlot slot);
+// `second` is the sibling behind `first`. Comments in the lines before an element, and behind it in
+// its line, go with it.
+Result<TextEdit> swap_elements(const Document& document, std::uint32_t first, std::uint32_t second);
 // Puts it into a new element; `tag` is what stands between '<' and '>': "Retry attempts=\"3\"".
 Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
                               std::string_view tag);

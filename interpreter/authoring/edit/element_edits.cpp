@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <optional>
-#include <vector>
 
 #include "authoring/edit/edits.h"
 #include "authoring/edit/element_text.h"
 #include "authoring/edit/line_shift.h"
 #include "authoring/edit/slot.h"
 #include "core/pre_order.h"
-#include "core/wording.h"
-#include "document/well_formed.h"
+#include "document/cursor.h"
 
 namespace lockstep::host {
 namespace {
@@ -32,44 +30,6 @@ void remove_part(TextEdit& edit, std::string_view text, std::size_t begin, std::
   edit.remove(begin, end);
 }
 
-void insert_at(TextEdit& edit, const ChildSlotText& slot, std::string_view xml) {
-  edit.replace(slot.begin, slot.end, fmt::format("{}{}{}", slot.before, xml, slot.after));
-}
-
-std::optional<Problem> check_fragment(std::string_view xml, Grammar grammar) {
-  const std::string text = fmt::format("<r>{}</r>", xml);
-  const WellFormed written = check_well_formed(text, {}, grammar);
-  if (written.readable) return std::nullopt;
-  return Problem{written.faults.front().message, written.faults.front().hint};
-}
-
-// Which of the children of `parent` it is.
-std::uint32_t index_of(const Document& document, std::uint32_t parent, std::uint32_t element) {
-  const auto elements = document.elements();
-  std::uint32_t index = 0;
-  for (const std::uint32_t child : children_in(elements, parent)) {
-    if (child == element) return index;
-    ++index;
-  }
-  return UINT32_MAX;
-}
-
-std::uint32_t count_children(const Document& document, std::uint32_t parent) {
-  const auto elements = document.elements();
-  std::uint32_t count = 0;
-  for ([[maybe_unused]] const auto child : children_in(elements, parent)) ++count;
-  return count;
-}
-
-bool is_tag(std::string_view tag, Grammar grammar) {
-  const std::string text = fmt::format("<{}>", tag);
-  Scanner scanner(text, grammar);
-  if (scanner.next().kind != TokenKind::OpenTag) return false;
-  XmlToken token = scanner.next();
-  while (token.kind == TokenKind::Attribute) token = scanner.next();
-  return token.kind == TokenKind::TagEnd && scanner.next().kind == TokenKind::End;
-}
-
 // The indentation of the first child that begins a line.
 std::optional<std::string_view> indentation_inside(const Document& document,
                                                    std::uint32_t element) {
@@ -84,15 +44,15 @@ std::optional<std::string_view> indentation_inside(const Document& document,
 
 }  // namespace
 
-Result<TextEdit> insert_element(const Document& document, ChildSlot slot, std::string_view xml) {
+Result<TextEdit> insert_behind(const Document& document, std::uint32_t sibling,
+                               std::string_view xml) {
   const Grammar grammar = grammar_of(document);
-  if (auto wrong = check_fragment(xml, grammar)) return tl::unexpected(std::move(*wrong));
-  const auto at = slot_text(document, slot);
-  if (!at) return broken();
+  const auto slot = slot_behind(document, sibling);
+  if (!slot) return broken();
   const std::string_view line_end = line_end_of(document.source()->text());
   TextEdit edit;
-  insert_at(edit, *at,
-            shifted(with_line_ends(xml, grammar, line_end), grammar, {}, at->indentation));
+  edit.insert(slot->at, slot->before + shifted(with_line_ends(xml, grammar, line_end), grammar, {},
+                                               slot->indentation));
   return edit;
 }
 
@@ -105,35 +65,26 @@ Result<TextEdit> delete_element(const Document& document, std::uint32_t element)
   return edit;
 }
 
-Result<TextEdit> move_element(const Document& document, std::uint32_t element, ChildSlot slot) {
-  if (element == 0) return is_root();
-  if (slot.parent >= element && slot.parent < document.elements()[element].end) {
-    return problem("an element cannot move into itself");
-  }
-  TextEdit edit;
-  slot.index = std::min(slot.index, count_children(document, slot.parent));
-  const std::uint32_t own = index_of(document, slot.parent, element);
-  if (own != UINT32_MAX && (slot.index == own || slot.index == own + 1)) return edit;
-  const auto from = element_text(document, element);
-  const auto to = slot_text(document, slot);
-  if (!from || !to) return broken();
+Result<TextEdit> swap_elements(const Document& document, std::uint32_t first,
+                               std::uint32_t second) {
+  const auto left = commented_text(document, first), right = commented_text(document, second);
+  if (!left || !right) return broken();
   const std::string_view text = document.source()->text();
-  const std::string_view xml = text.substr(from->tag.begin, from->end - from->tag.begin);
-  insert_at(edit, *to,
-            shifted(xml, grammar_of(document), indentation(text, from->tag.begin).value_or(""),
-                    to->indentation));
-  remove_part(edit, text, from->tag.begin, from->end);
+  const auto outer_left = indentation(text, left->begin),
+             outer_right = indentation(text, right->begin);
+  const auto part = [&](const CommentedText& it, auto from, auto to) {
+    const std::string_view xml = text.substr(it.begin, it.end - it.begin);
+    return from && to ? shifted(xml, grammar_of(document), *from, *to) : std::string(xml);
+  };
+  TextEdit edit;
+  edit.replace(left->begin, left->end, part(*right, outer_right, outer_left));
+  edit.replace(right->begin, right->end, part(*left, outer_left, outer_right));
   return edit;
 }
 
 Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
                               std::string_view tag) {
   if (element == 0) return is_root();
-  const Grammar grammar = grammar_of(document);
-  if (!is_tag(tag, grammar)) {
-    return problem(fmt::format("'<{}>' is not a tag", brief(tag)),
-                   "write Name attribute=\"value\"");
-  }
   const auto at = element_text(document, element);
   if (!at) return broken();
   const std::string_view text = document.source()->text();
@@ -147,8 +98,8 @@ Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
   }
   const std::string inner = std::string(*outer).append(indentation_unit(document));
   edit.insert(at->tag.begin, fmt::format("<{}>{}{}", tag, line_end_of(text), inner));
-  shift_lines(edit, at->tag.begin, text.substr(at->tag.begin, at->end - at->tag.begin), grammar,
-              *outer, inner);
+  shift_lines(edit, at->tag.begin, text.substr(at->tag.begin, at->end - at->tag.begin),
+              grammar_of(document), *outer, inner);
   edit.insert(at->end, fmt::format("{}{}{}", line_end_of(text), *outer, close));
   return edit;
 }

@@ -1,11 +1,10 @@
-// Where a new element goes, and with which indentation.
+// Where an element goes that comes behind another one, and with which indentation.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "authoring/edit/edits.h"
 #include "authoring/edit/element_text.h"
 
 namespace lockstep::host {
@@ -14,15 +13,21 @@ namespace lockstep::host {
 // blanks.
 std::string indentation_unit(const Document& document);
 
-// Replaces [begin, end) by `before`, the element and `after`.
-struct ChildSlotText {
-  std::size_t begin, end;
-  std::string before, after;
-  std::string indentation;  // of the new element's lines
+struct SlotText {
+  std::size_t at;
+  std::string before;       // a line end and the indentation, or "" in a line
+  std::string indentation;  // of the lines of the new element
 };
 
 // Nothing if the text is broken there.
-std::optional<ChildSlotText> slot_text(const Document& document, ChildSlot slot);
+std::optional<SlotText> slot_behind(const Document& document, std::uint32_t sibling);
+
+// An element with what is written about it: comments in the lines before it, and behind it in its
+// line.
+struct CommentedText {
+  std::size_t begin, end;
+};
+std::optional<CommentedText> commented_text(const Document& document, std::uint32_t element);
 
 // Whether nothing but blanks comes after `at` in its line.
 bool ends_line(std::string_view text, std::size_t at);

@@ -21,15 +21,6 @@ using Way = EntryUse::Way;
 
 constexpr std::string_view kMainTree = "main_tree_to_execute";
 
-std::uint32_t number_among_siblings(std::span<const Element> elements, std::uint32_t element) {
-  std::uint32_t number = 0;
-  for (const std::uint32_t child : children_in(elements, 0)) {
-    if (child == element) return number;
-    ++number;
-  }
-  return number;
-}
-
 // Whether a SubTree below the node has a tree that an argument chooses, and passes on all entries.
 bool passes_on_by_choice(const ProjectTexts& texts, ElementAt node) {
   const std::uint32_t end = texts.document(node.document).elements()[node.element].end;
@@ -210,8 +201,8 @@ Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
   const std::string xml =
       shifted(text.substr(at->tag.begin, at->end - at->tag.begin), grammar_of(document),
               indentation(text, at->tag.begin).value_or(""), unit);
-  auto added = insert_element(
-      document, {0, number_among_siblings(document.elements(), tree->element) + 1},
+  auto added = insert_behind(
+      document, tree->element,
       fmt::format("<BehaviorTree ID={}>\n{}{}\n</BehaviorTree>", quoted(id), unit, xml));
   if (!added) return tl::unexpected(std::move(added.error()));
   ProjectEdit edit(texts.size());

@@ -1,6 +1,7 @@
 #include "authoring/server/analysis.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "authoring/check/certainties.h"
 #include "definition/check/plugin_requests.h"
@@ -9,16 +10,6 @@
 
 namespace lockstep::host {
 namespace {
-
-LoadOptions options_of(const AnalysisJob& job) {
-  LoadOptions options;
-  options.plugins = job.settings->plugins;
-  options.arguments = job.settings->arguments;
-  options.plugins.only_described = true;
-  options.unsaved = job.unsaved;
-  options.unknown = job.settings->trusted ? MissingNodes::AreNoted : MissingNodes::AreMocked;
-  return options;
-}
 
 // In place of those that no plugin was asked for.
 void note_left_out(const Project& project, Diagnostics& diagnostics, Analysis& result) {
@@ -76,7 +67,7 @@ class TreeAnalysis {
         cache_(cache),
         diagnostics_(diagnostics),
         result_(result),
-        options_(options_of(job)) {}
+        options_(load_options(*job.settings, job.unsaved)) {}
 
   void run() {
     const std::shared_ptr<Project> project =
@@ -129,6 +120,16 @@ class TreeAnalysis {
 FileKind kind_of_file(std::string_view path) {
   if (path.ends_with(".test.xml")) return FileKind::Scenarios;
   return path.ends_with(".leaves.xml") ? FileKind::Leaves : FileKind::Tree;
+}
+
+LoadOptions load_options(const Settings& settings, UnsavedTexts unsaved) {
+  LoadOptions options;
+  options.plugins = settings.plugins;
+  options.arguments = settings.arguments;
+  options.plugins.only_described = true;
+  options.unsaved = std::move(unsaved);
+  options.unknown = settings.trusted ? MissingNodes::AreNoted : MissingNodes::AreMocked;
+  return options;
 }
 
 Analysis analyze(const AnalysisJob& job, PluginCache& cache) {

@@ -52,6 +52,8 @@ struct Analysis {
 enum class FileKind : unsigned char { Tree, Scenarios, Leaves };
 FileKind kind_of_file(std::string_view path);
 
+LoadOptions load_options(const Settings& settings, UnsavedTexts unsaved);
+
 // Takes little time: its `is_whole` is false if complete() has more to say.
 Analysis analyze(const AnalysisJob& job, PluginCache& cache);
 // Adds what a search over all behaviors is sure of, unless `stop_signal` returns something else

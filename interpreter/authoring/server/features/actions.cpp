@@ -4,18 +4,17 @@
 
 #include <algorithm>
 
-#include "authoring/edit/text_edit.h"
+#include "authoring/edit/file_text.h"
 #include "authoring/edit/value_text.h"
 #include "authoring/server/diagnostics_json.h"
 #include "authoring/server/features/names.h"
+#include "authoring/server/features/refactorings.h"
 #include "authoring/server/features/site.h"
 #include "authoring/server/features/workspace_edit.h"
 #include "document/lines.h"
 
 namespace lockstep::host {
 namespace {
-
-constexpr std::string_view kMarkOfFile = "\xEF\xBB\xBF";
 
 // The words between single quotes of a message.
 std::vector<std::string_view> quoted_words(std::string_view message) {
@@ -43,10 +42,10 @@ class Fixes {
       : question_(question),
         tree_(question.file.tree()),
         // The places of messages are those without a byte order mark.
-        mark_(tree_.text.starts_with(kMarkOfFile) ? kMarkOfFile.size() : 0),
+        mark_(byte_order_mark(tree_.text).size()),
         lines_(tree_.text.substr(mark_)) {}
 
-  Json all() {
+  std::vector<Json> all() {
     const Positions& positions = question_.file.positions();
     ByteRange wanted{0, tree_.text.size()};
     if (const auto& range = question_.params.range)
@@ -59,12 +58,13 @@ class Fixes {
       replace_word(it, place);
       add_missing(it, place);
     }
-    return Json::array(std::move(actions_));
+    return std::move(actions_);
   }
 
  private:
   void add(std::string title, const TextEdit& edit) {
-    Json change = workspace_edit({{question_.file.uri, json_of(edit, question_.file.positions())}});
+    Json change = workspace_edit(question_,
+                                 {{question_.file.uri, json_of(edit, question_.file.positions())}});
     actions_.push_back(Json{{"title", std::move(title)},
                             {"kind", "quickfix"},
                             {"isPreferred", true},
@@ -149,8 +149,18 @@ class Fixes {
 
 }  // namespace
 
+bool is_wanted(std::string_view kind, const std::vector<std::string>& kinds) {
+  return kinds.empty() || std::ranges::any_of(kinds, [&](std::string_view it) {
+           const bool begins = it.empty() || kind.starts_with(it);
+           return begins && (it.empty() || it.size() == kind.size() || kind[it.size()] == '.');
+         });
+}
+
 Json code_actions(const Question& question) {
-  return Fixes(question).all();
+  std::vector<Json> actions;
+  if (is_wanted("quickfix", question.params.kinds)) actions = Fixes(question).all();
+  for (Json& it : refactorings(question)) actions.push_back(std::move(it));
+  return Json::array(std::move(actions));
 }
 
 }  // namespace lockstep::host

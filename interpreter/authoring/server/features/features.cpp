@@ -35,7 +35,8 @@ Json capabilities() {
   Json sync{{"openClose", true}, {"change", 2}, {"save", true}};
   std::vector<Json> signs, kinds;
   for (const char* sign : {"<", "/", " ", "\"", "'", "{", "$"}) signs.emplace_back(sign);
-  kinds.emplace_back("quickfix");
+  for (const char* kind : {"quickfix", "refactor.extract", "refactor.inline", "refactor.rewrite"})
+    kinds.emplace_back(kind);
   Json tokens{{"legend", script_token_legend()}, {"full", true}};
   return {{"positionEncoding", "utf-16"},
           {"textDocumentSync", std::move(sync)},

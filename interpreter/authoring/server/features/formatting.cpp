@@ -12,12 +12,7 @@ Json formatting(const Question& question) {
   if (document == nullptr) return {};
   const auto edit = format(*document);
   if (!edit) throw JsonError(edit.error().message);
-  // The document has no byte order mark.
-  const std::size_t mark = text.size() - document->source()->text().size();
-  TextEdit moved;
-  for (Patch& it : edit->patches())
-    moved.replace(it.begin + mark, it.end + mark, std::move(it.text));
-  return json_of(moved, question.file.positions());
+  return json_of_document(*edit, text);
 }
 
 }  // namespace lockstep::host

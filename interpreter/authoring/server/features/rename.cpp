@@ -67,25 +67,16 @@ Json rename(const Question& question) {
   const NamePlace* const place = names.at(question.byte());
   if (place == nullptr) refuse("nothing here has a name that can be changed");
   const std::string& new_name = question.params.new_name;
-  if (place->kind == NameKind::Group) return workspace_edit(rename_group(names, *place, new_name));
-  const Analysis& analysis = *question.file.analysis;
-  const auto& project = analysis.project;
-  if (!project || project->documents.front()->source()->text() != *question.file.text)
-    refuse("the file cannot be read: a name can be changed when its errors are mended");
-  const ProjectTexts texts(*project, analysis.catalog);
-  const auto edits = renamed(texts, names, *place, new_name);
+  if (place->kind == NameKind::Group)
+    return workspace_edit(question, rename_group(names, *place, new_name));
+  const auto texts = project_texts(question);
+  if (!texts) refuse("the file cannot be read: a name can be changed when its errors are mended");
+  const auto edits = renamed(*texts, names, *place, new_name);
   if (!edits) {
     const Problem& why = edits.error();
     refuse(why.hint.empty() ? why.message : fmt::format("{}: {}", why.message, why.hint));
   }
-  std::map<std::string, Json> changes;
-  for (std::uint32_t i = 0; i < texts.size(); ++i) {
-    const Source& source = *texts.document(i).source();
-    if (!(*edits)[i].empty())
-      changes[question.workspace.uri_of(source.path())] =
-          json_of((*edits)[i], Positions(source.text()));
-  }
-  return workspace_edit(changes);
+  return workspace_edit(question, *texts, *edits);
 }
 
 }  // namespace lockstep::host

@@ -2,17 +2,24 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
-#include "authoring/edit/text_edit.h"
-#include "authoring/server/positions.h"
-#include "json/json.h"
+#include "authoring/edit/project_texts.h"
+#include "authoring/server/features/feature.h"
 
 namespace lockstep::host {
 
-Json json_of(const TextEdit& edit, const Positions& positions);
+// The file and what it includes; nothing while the file cannot be read.
+std::optional<ProjectTexts> project_texts(const Question& question);
 
-// The changes of several files, by their URIs.
-Json workspace_edit(const std::map<std::string, Json>& edits);
+Json json_of(const TextEdit& edit, const Positions& positions);
+// Of a document of `text`, which leaves out its byte order mark.
+Json json_of_document(const TextEdit& edit, std::string_view text);
+
+// The changes of several files, by their URIs; of the versions that are open, if the client knows
+// that.
+Json workspace_edit(const Question& question, const std::map<std::string, Json>& edits);
+Json workspace_edit(const Question& question, const ProjectTexts& texts, const ProjectEdit& edit);
 
 }  // namespace lockstep::host

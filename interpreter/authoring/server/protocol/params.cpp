@@ -70,17 +70,19 @@ void read_text_capabilities(JsonValue value, ClientParams& to) {
                      }}});
 }
 
+void read_workspace_capabilities(JsonValue value, ClientParams& to) {
+  const auto watched = [&](JsonValue it) {
+    read_some(it, {{"dynamicRegistration", maybe(to.can_register_watchers)}});
+  };
+  const auto edits = [&](JsonValue it) {
+    read_some(it, {{"documentChanges", maybe(to.has_document_changes)}});
+  };
+  read_some(value, {{"didChangeWatchedFiles", watched}, {"workspaceEdit", edits}});
+}
+
 void read_capabilities(JsonValue value, ClientParams& to) {
-  read_some(
-      value,
-      {{"textDocument", [&](JsonValue it) { read_text_capabilities(it, to); }},
-       {"workspace", [&](JsonValue it) {
-          read_some(
-              it,
-              {{"didChangeWatchedFiles", [&](JsonValue watched) {
-                  read_some(watched, {{"dynamicRegistration", maybe(to.can_register_watchers)}});
-                }}});
-        }}});
+  read_some(value, {{"textDocument", [&](JsonValue it) { read_text_capabilities(it, to); }},
+                    {"workspace", [&](JsonValue it) { read_workspace_capabilities(it, to); }}});
 }
 
 std::vector<std::string> texts_in(JsonValue value) {
@@ -104,6 +106,9 @@ void read_settings(JsonValue value, ClientParams& to) {
                     {"arguments", read_arguments}});
 }
 
+// CodeActionTriggerKind
+constexpr std::uint64_t kAutomatic = 2;
+
 void set_root(JsonValue value, std::string& root) {
   std::string_view uri;
   value.get(uri) ? void(root = path_of_uri(uri)) : value.skip();
@@ -118,7 +123,11 @@ FileParams read_file_params(JsonReader& reader, Message& message) {
               {{"uri", into(to.uri)}, {"version", maybe(to.version)}, {"text", into(to.text)}});
   };
   const auto context = [&](JsonValue value) {
-    read_some(value, {{"includeDeclaration", maybe(to.with_declaration)}});
+    std::uint64_t trigger = 0;
+    read_some(value, {{"includeDeclaration", maybe(to.with_declaration)},
+                      {"only", [&](JsonValue it) { to.kinds = texts_in(it); }},
+                      {"triggerKind", maybe(trigger)}});
+    to.is_automatic = trigger == kAutomatic;
   };
   const auto options = [&](JsonValue value) {
     read_some(value, {{"insertSpaces", maybe(to.insert_spaces)}, {"tabSize", maybe(to.tab_size)}});

@@ -29,6 +29,8 @@ struct FileParams {
   std::optional<PositionRange> range;
   std::string new_name;
   bool with_declaration = true;
+  std::vector<std::string> kinds;  // of code actions that are asked for; none: all
+  bool is_automatic = false;       // nobody has asked for code actions, the editor does
   bool insert_spaces = true;
   std::uint64_t tab_size = 2;
 };
@@ -42,6 +44,7 @@ struct ClientParams {
   bool has_snippets = false;
   bool has_markdown = false;
   bool can_register_watchers = false;
+  bool has_document_changes = false;  // edits for a version of a file
   std::optional<bool> trusted;
   std::optional<std::vector<std::string>> plugins, plugin_path;
   std::optional<std::vector<std::pair<std::string, std::string>>> arguments;

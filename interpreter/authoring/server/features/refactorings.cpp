@@ -1,0 +1,207 @@
+#include "authoring/server/features/refactorings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "authoring/edit/edits.h"
+#include "authoring/edit/element_text.h"
+#include "authoring/edit/file_text.h"
+#include "authoring/edit/subtree_edits.h"
+#include "authoring/edit/value_text.h"
+#include "authoring/server/features/actions.h"
+#include "authoring/server/features/names.h"
+#include "authoring/server/features/trial.h"
+#include "authoring/server/features/workspace_edit.h"
+#include "core/pre_order.h"
+#include "core/wording.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::string_view kExtract = "refactor.extract", kInline = "refactor.inline",
+                           kRewrite = "refactor.rewrite";
+constexpr std::string_view kKinds[] = {kExtract, kInline, kRewrite};
+
+// A check of a larger text takes so long that the editor would wait.
+constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+
+// A language has those whose tag and attribute it knows.
+struct Wrapping {
+  std::string_view tag, attribute = {}, value = {};
+};
+constexpr Wrapping kWrappings[] = {
+    {"Sequence"},
+    {"Fallback"},
+    {"Parallel"},
+    {"ParallelAbsolute", "barriers", "0.25;0.5;0.75"},
+    {"Inverter"},
+    {"Retry", "attempts", "3"},
+    {"RetryUntilSuccessful", "num_attempts", "3"},
+    {"Timeout", "seconds", "10"},
+    {"Timeout", "msec", "10000"},
+};
+
+// The bytes that are selected, without the blanks around them; of a cursor in the indentation of a
+// line, its first byte that is no blank.
+ByteRange selected_part(const Question& question) {
+  const std::string_view text = *question.file.text;
+  const Positions& positions = question.file.positions();
+  const auto range = question.params.range.value_or(PositionRange());
+  ByteRange part{positions.byte_at(range.first), positions.byte_at(range.second)};
+  const bool is_cursor = part.begin >= part.end;
+  if (is_cursor && !indentation(text, part.begin)) return part;
+  const std::size_t end = is_cursor ? line_end(text, part.begin) : part.end;
+  const std::size_t begin = text.find_first_not_of(" \t\r\n", part.begin);
+  if (begin < end) part.begin = begin;
+  if (is_cursor) return {part.begin, part.begin};
+  return {part.begin, std::max(part.begin, text.find_last_not_of(" \t\r\n", end - 1) + 1)};
+}
+
+// The last element that has the begin of the part in one of its tags, and all of it.
+const TolerantElement* element_at(const TolerantTree& tree, ByteRange part) {
+  const TolerantElement* found = nullptr;
+  for (const TolerantElement& it : tree.elements) {
+    if (it.begin > part.begin) break;
+    const bool is_in_tag = part.begin <= it.tag_end || part.begin >= it.close;
+    if (is_in_tag && part.begin <= it.end) found = &it;
+  }
+  return found != nullptr && part.end <= found->end ? found : nullptr;
+}
+
+// The number of the element in the document of the file.
+std::optional<std::uint32_t> selected_node(const Question& question, const ProjectTexts& texts) {
+  const TolerantTree& tree = question.file.tree();
+  const TolerantElement* const element = element_at(tree, selected_part(question));
+  if (element == nullptr) return std::nullopt;
+  const Document& document = texts.document(0);
+  const std::size_t begin = element->begin - byte_order_mark(tree.text).size();
+  for (std::uint32_t i = 0; i < document.elements().size(); ++i) {
+    if (offset_of(document, document.elements()[i].place) != begin) continue;
+    return texts.tree_around({0, i}) ? std::optional(i) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// The name of the node, or what it is and in which tree.
+std::string free_id(const ProjectTexts& texts, ElementAt node) {
+  std::string name(texts.value(node, "name"));
+  if (name.empty() || name.find_first_of("/{}$") != name.npos) {
+    const ElementAt tree = texts.tree_around(node).value();
+    name = fmt::format("{}{}", texts.value(tree, "ID"),
+                       texts.document(0).elements()[node.element].tag);
+  }
+  std::string id = name;
+  for (int number = 2; texts.find_tree(id) || texts.catalog().find(id) != nullptr; ++number)
+    id = fmt::format("{}{}", name, number);
+  return id;
+}
+
+class Refactorings {
+ public:
+  Refactorings(const Question& question, const ProjectTexts& texts, std::uint32_t node)
+      : question_(question),
+        texts_(texts),
+        document_(texts.document(0)),
+        node_(node),
+        tag_(brief(document_.elements()[node].tag)),
+        trial_(question, texts) {}
+
+  std::vector<Json> all() {
+    const std::vector<std::string>& kinds = question_.params.kinds;
+    if (is_wanted(kExtract, kinds)) extract();
+    if (is_wanted(kInline, kinds)) put_in_place();
+    if (!is_wanted(kRewrite, kinds)) return std::move(actions_);
+    for (const Wrapping& it : kWrappings) wrap(it);
+    unwrap();
+    move();
+    offer(kRewrite, fmt::format("Delete {}", tag_), delete_element(document_, node_));
+    return std::move(actions_);
+  }
+
+ private:
+  void offer(std::string_view kind, std::string title, const Result<ProjectEdit>& edit) {
+    if (!edit || !trial_.accepts(*edit)) return;
+    actions_.push_back(Json{{"title", std::move(title)},
+                            {"kind", kind},
+                            {"edit", workspace_edit(question_, texts_, *edit)}});
+  }
+
+  // Of the file.
+  void offer(std::string_view kind, std::string title, Result<TextEdit> edit) {
+    if (!edit) return;
+    ProjectEdit all(texts_.size());
+    all[0] = std::move(*edit);
+    offer(kind, std::move(title), Result<ProjectEdit>(std::move(all)));
+  }
+
+  void extract() {
+    if (texts_.is_sub_tree({0, node_})) return;
+    const std::string id = free_id(texts_, {0, node_});
+    offer(kExtract, fmt::format("Extract into the SubTree '{}'", brief(id)),
+          extract_subtree(texts_, {0, node_}, id));
+  }
+
+  void put_in_place() {
+    if (!texts_.is_sub_tree({0, node_})) return;
+    const std::string_view id = texts_.value({0, node_}, "ID");
+    offer(kInline, fmt::format("Put the tree '{}' in the place of this SubTree", brief(id)),
+          inline_subtree(texts_, {0, node_}));
+  }
+
+  void wrap(const Wrapping& in) {
+    const NodeType* const type = texts_.catalog().find(in.tag);
+    if (type == nullptr || !type->plugin.empty()) return;
+    if (!in.attribute.empty() && parameter_of(type, in.attribute) == nullptr) return;
+    std::string tag(in.tag);
+    if (!in.attribute.empty()) tag += fmt::format(" {}={}", in.attribute, quoted(in.value));
+    offer(kRewrite, fmt::format("Wrap in {}", in.tag), wrap_element(document_, node_, tag));
+  }
+
+  void unwrap() {
+    const auto elements = document_.elements();
+    if (elements[node_].end == node_ + 1) return;
+    const bool is_one = elements[node_ + 1].end == elements[node_].end;
+    offer(kRewrite, fmt::format("Replace {} by its {}", tag_, is_one ? "child" : "children"),
+          unwrap_element(document_, node_));
+  }
+
+  void move() {
+    const auto elements = document_.elements();
+    std::uint32_t parent = node_ - 1, before = 0;
+    while (elements[parent].end <= node_) --parent;
+    for (const std::uint32_t it : children_in(elements, parent)) {
+      if (before != 0 && it == node_)
+        offer(kRewrite, "Move up", swap_elements(document_, before, it));
+      if (before == node_) offer(kRewrite, "Move down", swap_elements(document_, before, it));
+      before = it;
+    }
+  }
+
+  const Question& question_;
+  const ProjectTexts& texts_;
+  const Document& document_;  // of the file
+  std::uint32_t node_;
+  std::string tag_;
+  Trial trial_;
+  std::vector<Json> actions_;
+};
+
+}  // namespace
+
+std::vector<Json> refactorings(const Question& question) {
+  if (kind_of_file(question.file.path) != FileKind::Tree) return {};
+  if (question.file.text->size() > kMostBytes) return {};
+  const FileParams& params = question.params;
+  if (params.is_automatic && params.kinds.empty()) return {};
+  const bool is_any = std::ranges::any_of(
+      kKinds, [&](std::string_view kind) { return is_wanted(kind, params.kinds); });
+  if (!is_any) return {};
+  const auto texts = project_texts(question);
+  if (!texts) return {};
+  const auto node = selected_node(question, *texts);
+  if (!node) return {};
+  return Refactorings(question, *texts, *node).all();
+}
+
+}  // namespace lockstep::host
