@@ -1,5 +1,5 @@
-"""What docs/editors.md says of Neovim, in a headless one: the messages of a tree are those of check. Without Neovim it is
-skipped: exit code 77. neovim_test.py LOCKSTEP SOURCES"""
+"""What docs/editors.md says of Neovim, in a headless one: the messages of a tree are those of check, and a refactoring changes
+its text. Without Neovim it is skipped: exit code 77. neovim_test.py LOCKSTEP SOURCES"""
 import json
 import os
 import pathlib
@@ -23,6 +23,36 @@ vim.fn.writefile({ vim.json.encode(found) }, arg_out)
 vim.cmd("qall!")
 """
 
+TREE = """<root lockstep="1">
+  <BehaviorTree ID="Main">
+    WAIT
+  </BehaviorTree>
+</root>
+"""
+# Wraps the first Wait of the file, and writes it.
+WRAP = """
+vim.cmd("silent edit " .. arg_file)
+vim.fn.search("<Wait")
+local clients = vim.lsp.get_clients or vim.lsp.get_active_clients
+vim.wait(20000, function() return clients()[1] ~= nil and clients()[1].initialized end, 20)
+local params = vim.lsp.util.make_range_params(0, "utf-16")
+params.context = { diagnostics = {}, only = { "refactor.rewrite" } }
+local function wrap()
+  local answers = vim.lsp.buf_request_sync(0, "textDocument/codeAction", params, 5000) or {}
+  for _, answer in pairs(answers) do
+    for _, it in ipairs(answer.result or {}) do
+      if it.title == "Wrap in Inverter" then
+        vim.lsp.util.apply_workspace_edit(it.edit, "utf-16")
+        return true
+      end
+    end
+  end
+end
+vim.wait(20000, wrap, 20)
+vim.cmd("silent write")
+vim.cmd("qall!")
+"""
+
 
 def blocks(heading):
     page = (SOURCES / "docs/editors.md").read_text()
@@ -35,15 +65,19 @@ def version():
     return tuple(int(it) for it in re.search(r"v(\d+)\.(\d+)", text).groups())
 
 
-def messages(init, tree, work):
-    out = work / "messages.json"
-    ask = ASK.replace("arg_file", json.dumps(str(SOURCES / tree))).replace("arg_out", json.dumps(str(out)))
+def neovim(init, ask, work):
     (work / "init.lua").write_text(init)
     (work / "ask.lua").write_text(ask)
     environment = {**os.environ, "PATH": f"{LOCKSTEP.parent}:{os.environ['PATH']}", "XDG_STATE_HOME": str(work),
                    "XDG_CACHE_HOME": str(work), "HOME": str(work)}
     command = ["nvim", "--headless", "-u", str(work / "init.lua"), "-i", "NONE", "-c", f"luafile {work / 'ask.lua'}"]
     subprocess.run(command, env=environment, cwd=work, check=True, timeout=60)
+
+
+def messages(init, tree, work):
+    out = work / "messages.json"
+    ask = ASK.replace("arg_file", json.dumps(str(SOURCES / tree))).replace("arg_out", json.dumps(str(out)))
+    neovim(init, ask, work)
     return {(line, text.split("\n")[0]) for line, text in json.loads(out.read_text())}
 
 
@@ -62,7 +96,13 @@ def main():
         with tempfile.TemporaryDirectory() as work:
             found, expected = messages(init, tree, pathlib.Path(work)), checked(tree)
         assert expected and expected <= found, f"{tree}: expected {expected}, Neovim has {found}"
-    print(f"Neovim {version()}: as check says")
+    with tempfile.TemporaryDirectory() as work:
+        tree, wait = pathlib.Path(work) / "tree.xml", '<Wait seconds="1"/>'
+        tree.write_text(TREE.replace("WAIT", wait))
+        neovim(init, WRAP.replace("arg_file", json.dumps(str(tree))), pathlib.Path(work))
+        expected = TREE.replace("WAIT", f"<Inverter>\n      {wait}\n    </Inverter>")
+        assert tree.read_text() == expected, f"expected {expected}, Neovim has {tree.read_text()}"
+    print(f"Neovim {version()}: as check says, and a refactoring")
     return 0
 
 

@@ -151,3 +151,24 @@ class Client:
 
     def about(self, method, path, **more):
         return self.ask(method, {"textDocument": {"uri": Path(path).as_uri()}, **more})
+
+
+def offset(text, position):
+    """In characters of Python."""
+    lines = text.split("\n")
+    line = lines[position["line"]].encode("utf-16-le")[:2 * position["character"]]
+    return sum(len(it) + 1 for it in lines[:position["line"]]) + len(line.decode("utf-16-le"))
+
+
+def place(text, at):
+    """The position of a character."""
+    before = text[:at]
+    return before.count("\n"), len(before.rpartition("\n")[2].encode("utf-16-le")) // 2
+
+
+def edited(text, edits):
+    """With the edits of a file, of which no two overlap."""
+    ranges = [(*(offset(text, it["range"][end]) for end in ("start", "end")), it["newText"]) for it in edits]
+    for begin, end, new in sorted(ranges, key=lambda it: it[:2], reverse=True):
+        text = text[:begin] + new + text[end:]
+    return text

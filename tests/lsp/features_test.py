@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from client import Client
+from client import Client, edited
 
 SOURCE = Path(os.environ["SOURCE"])
 
@@ -68,17 +68,7 @@ class Features(unittest.TestCase):
         return self.edited([edit])
 
     def edited(self, edits):
-        text = self.text
-        for edit in sorted(edits, key=lambda it: str(it["range"]["start"]["line"]).zfill(6) +
-                           str(it["range"]["start"]["character"]).zfill(6), reverse=True):
-            begin, end = (self.offset(edit["range"][it]) for it in ("start", "end"))
-            text = text[:begin] + edit["newText"] + text[end:]
-        return text
-
-    def offset(self, position):
-        lines = self.text.split("\n")
-        line = lines[position["line"]].encode("utf-16-le")[:2 * position["character"]]
-        return sum(len(it) + 1 for it in lines[:position["line"]]) + len(line.decode("utf-16-le"))
+        return edited(self.text, edits)
 
     def test_completion_of_nodes(self):
         for line in ("<|", "<Wa|", "<Wa|\n<Wait seconds=\"1\"/>", "|", "<Fallback><|", "<Fallback>\n<Se|\n</Fallback>"):
@@ -273,6 +263,7 @@ class Features(unittest.TestCase):
         self.assertIn("cannot be a key", self.renamed(limit, "a b"))
         self.assertIn("cannot be a name", self.renamed(text.replace("\"table\">", "\"ta|ble\">"), "a b"))
         self.assertIn("cannot be read", self.renamed(limit + "<", "most"))
+        self.assertEqual("\ufeff" + self.renamed(limit, "most"), self.renamed("\ufeff" + limit, "most"))
         # A SubTree that passes on all entries binds this one with an attribute from now on.
         found = self.renamed(limit.replace("inner=\"", "_autoremap=\"true\" inner=\""), "most")
         self.assertIn("_autoremap=\"true\" inner=\"{most}\"", found)

@@ -24,7 +24,7 @@ constexpr std::string_view kExtract = "refactor.extract", kInline = "refactor.in
 constexpr std::string_view kKinds[] = {kExtract, kInline, kRewrite};
 
 // A check of a larger text takes so long that the editor would wait.
-constexpr std::size_t kMostBytes = std::size_t{4} << 20;
+constexpr std::size_t kMostBytes = std::size_t{2} << 20;
 
 // A language has those whose tag and attribute it knows.
 struct Wrapping {
