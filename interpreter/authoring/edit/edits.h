@@ -23,6 +23,8 @@ Result<TextEdit> rename_attribute(const Document& document, std::uint32_t elemen
 // its lines get the indentation of that.
 Result<TextEdit> insert_behind(const Document& document, std::uint32_t sibling,
                                std::string_view xml);
+// The elements of the following are not the root.
+
 // With its lines if nothing else is in them. Comments beside it stay.
 Result<TextEdit> delete_element(const Document& document, std::uint32_t element);
 // `second` is the sibling behind `first`. Comments in the lines before an element, and behind it in

@@ -17,10 +17,6 @@ auto broken() {
   return problem("the text is broken at this place");
 }
 
-auto is_root() {
-  return problem("a file needs its root element");
-}
-
 // Its lines, if nothing else is in them.
 void remove_part(TextEdit& edit, std::string_view text, std::size_t begin, std::size_t end) {
   if (indentation(text, begin) && ends_line(text, end)) {
@@ -57,7 +53,6 @@ Result<TextEdit> insert_behind(const Document& document, std::uint32_t sibling,
 }
 
 Result<TextEdit> delete_element(const Document& document, std::uint32_t element) {
-  if (element == 0) return is_root();
   const auto at = element_text(document, element);
   if (!at) return broken();
   TextEdit edit;
@@ -84,7 +79,6 @@ Result<TextEdit> swap_elements(const Document& document, std::uint32_t first,
 
 Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
                               std::string_view tag) {
-  if (element == 0) return is_root();
   const auto at = element_text(document, element);
   if (!at) return broken();
   const std::string_view text = document.source()->text();
@@ -105,7 +99,6 @@ Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
 }
 
 Result<TextEdit> unwrap_element(const Document& document, std::uint32_t element) {
-  if (element == 0) return is_root();
   const auto at = element_text(document, element);
   if (!at) return broken();
   const std::string_view text = document.source()->text();

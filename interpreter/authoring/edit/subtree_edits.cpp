@@ -173,12 +173,6 @@ Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
                                     std::string_view id) {
   const auto tree = texts.tree_around(node);
   if (!tree) return problem("only a node of a tree can become a tree");
-  if (id.empty() || id.find_first_of("/{}$") != std::string_view::npos) {
-    return problem(fmt::format("'{}' cannot be the ID of a tree", brief(id)));
-  }
-  if (texts.find_tree(id)) {
-    return problem(fmt::format("there is a tree '{}' already", brief(id)));
-  }
   const Document& document = texts.document(node.document);
   std::string sub_tree = fmt::format("<SubTree ID={}", quoted(id));
   for (const std::string& key : keys_in(texts, node)) {

@@ -8,8 +8,8 @@
 
 namespace lockstep::host {
 
-// The node becomes the BehaviorTree `id`, behind the one that it is in; in its place is a SubTree
-// that binds each entry that the node uses.
+// The node becomes the BehaviorTree `id`, which no tree has so far, behind the one that it is in.
+// In its place is a SubTree that binds each entry that the node uses.
 Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node, std::string_view id);
 
 // The SubTree becomes the nodes of its tree, which stays. Entries that only it has get names that

@@ -73,6 +73,17 @@ std::vector<Unit> units_of(std::string_view raw) {
   return units;
 }
 
+// The value that a reader makes of it: references and line ends are replaced.
+std::string unescaped(std::string_view raw) {
+  std::string text;
+  while (!raw.empty()) {
+    const Unit unit = first_unit(raw);
+    text += unit.read;
+    raw.remove_prefix(unit.raw);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string escaped(std::string_view value, char quote) {
@@ -97,16 +108,6 @@ std::string escaped(std::string_view value, char quote) {
 
 std::string quoted(std::string_view value) {
   return '"' + escaped(value) + '"';
-}
-
-std::string unescaped(std::string_view raw) {
-  std::string text;
-  while (!raw.empty()) {
-    const Unit unit = first_unit(raw);
-    text += unit.read;
-    raw.remove_prefix(unit.raw);
-  }
-  return text;
 }
 
 std::string changed_value(std::string_view raw, std::string_view value, char quote) {

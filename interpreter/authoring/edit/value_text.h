@@ -11,9 +11,6 @@ std::string escaped(std::string_view value, char quote = '"');
 // The same with the quotes.
 std::string quoted(std::string_view value);
 
-// The value that a reader makes of it: references and line ends are replaced.
-std::string unescaped(std::string_view raw);
-
 // `raw` with the value `value`: what both have at their begin and end stays as it is written.
 std::string changed_value(std::string_view raw, std::string_view value, char quote);
 

@@ -11,6 +11,7 @@
 #include "authoring/edit/value_text.h"
 #include "authoring/server/features/actions.h"
 #include "authoring/server/features/names.h"
+#include "authoring/server/features/site.h"
 #include "authoring/server/features/trial.h"
 #include "authoring/server/features/workspace_edit.h"
 #include "core/pre_order.h"
@@ -42,37 +43,13 @@ constexpr Wrapping kWrappings[] = {
     {"Timeout", "msec", "10000"},
 };
 
-// The bytes that are selected, without the blanks around them; of a cursor in the indentation of a
-// line, its first byte that is no blank.
-ByteRange selected_part(const Question& question) {
-  const std::string_view text = *question.file.text;
-  const Positions& positions = question.file.positions();
-  const auto range = question.params.range.value_or(PositionRange());
-  ByteRange part{positions.byte_at(range.first), positions.byte_at(range.second)};
-  const bool is_cursor = part.begin >= part.end;
-  if (is_cursor && !indentation(text, part.begin)) return part;
-  const std::size_t end = is_cursor ? line_end(text, part.begin) : part.end;
-  const std::size_t begin = text.find_first_not_of(" \t\r\n", part.begin);
-  if (begin < end) part.begin = begin;
-  if (is_cursor) return {part.begin, part.begin};
-  return {part.begin, std::max(part.begin, text.find_last_not_of(" \t\r\n", end - 1) + 1)};
-}
-
-// The last element that has the begin of the part in one of its tags, and all of it.
-const TolerantElement* element_at(const TolerantTree& tree, ByteRange part) {
-  const TolerantElement* found = nullptr;
-  for (const TolerantElement& it : tree.elements) {
-    if (it.begin > part.begin) break;
-    const bool is_in_tag = part.begin <= it.tag_end || part.begin >= it.close;
-    if (is_in_tag && part.begin <= it.end) found = &it;
-  }
-  return found != nullptr && part.end <= found->end ? found : nullptr;
-}
-
 // The number of the element in the document of the file.
 std::optional<std::uint32_t> selected_node(const Question& question, const ProjectTexts& texts) {
   const TolerantTree& tree = question.file.tree();
-  const TolerantElement* const element = element_at(tree, selected_part(question));
+  const Positions& positions = question.file.positions();
+  const auto range = question.params.range.value_or(PositionRange());
+  const TolerantElement* const element =
+      selected_element(tree, {positions.byte_at(range.first), positions.byte_at(range.second)});
   if (element == nullptr) return std::nullopt;
   const Document& document = texts.document(0);
   const std::size_t begin = element->begin - byte_order_mark(tree.text).size();
@@ -143,7 +120,6 @@ class Refactorings {
   }
 
   void put_in_place() {
-    if (!texts_.is_sub_tree({0, node_})) return;
     const std::string_view id = texts_.value({0, node_}, "ID");
     offer(kInline, fmt::format("Put the tree '{}' in the place of this SubTree", brief(id)),
           inline_subtree(texts_, {0, node_}));

@@ -1,5 +1,7 @@
 #include "authoring/server/features/site.h"
 
+#include "authoring/edit/element_text.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -16,7 +18,29 @@ Site in_tag(const TolerantTree& tree, const TolerantElement& element, std::size_
   return {Site::Part::AttributeName, &element, nullptr, {byte, byte}};
 }
 
+// The selection without the blanks around it.
+ByteRange trimmed(std::string_view text, ByteRange selection) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const bool is_cursor = selection.begin >= selection.end;
+  if (is_cursor && !indentation(text, selection.begin)) return {selection.begin, selection.begin};
+  const std::size_t end = is_cursor ? line_end(text, selection.begin) : selection.end;
+  const std::size_t begin = text.find_first_not_of(kBlanks, selection.begin);
+  if (begin >= end) return selection;
+  return {begin, is_cursor ? begin : text.find_last_not_of(kBlanks, end - 1) + 1};
+}
+
 }  // namespace
+
+const TolerantElement* selected_element(const TolerantTree& tree, ByteRange selection) {
+  const auto [begin, end] = trimmed(tree.text, selection);
+  const TolerantElement* found = nullptr;
+  for (const TolerantElement& it : tree.elements) {
+    if (it.begin > begin) break;
+    const bool is_in_tag = begin <= it.tag_end || begin >= it.close;
+    if (is_in_tag && begin <= it.end) found = &it;
+  }
+  return found != nullptr && end <= found->end ? found : nullptr;
+}
 
 Site site_at(const TolerantTree& tree, std::size_t byte) {
   if (tree.is_in_comment(byte)) return {};

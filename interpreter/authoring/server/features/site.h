@@ -25,6 +25,10 @@ struct Site {
 
 Site site_at(const TolerantTree& tree, std::size_t byte);
 
+// The element in one of whose tags a selection begins, and which has all of it; null: there is
+// none. A cursor, which selects nothing, in the indentation of a line is where the line begins.
+const TolerantElement* selected_element(const TolerantTree& tree, ByteRange selection);
+
 // The bytes of a part of the text.
 inline ByteRange range_of(const TolerantTree& tree, std::string_view part) {
   const std::size_t begin = tree.offset_of(part);
