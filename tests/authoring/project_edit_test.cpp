@@ -149,6 +149,10 @@ std::vector<ElementAt> trees_of(const ProjectTexts& texts) {
   });
 }
 
+// A leaf that uses entries by their names.
+constexpr NodeType kOpens{
+    .id = "Opens", .category = NodeCategory::Action, .doc = "", .opens_entries = true};
+
 // One text, changed; or the message.
 std::string changed(const std::string& nodes,
                     const std::function<Result<ProjectEdit>(const ProjectTexts&)>& make) {
@@ -158,7 +162,8 @@ std::string changed(const std::string& nodes,
       Arguments(), diagnostics);
   REQUIRE(project != nullptr);
   const PluginSet none;
-  const Catalog catalog = make_catalog(none);
+  Catalog catalog = make_catalog(none);
+  catalog.add(&kOpens);
   const ProjectTexts texts(*project, catalog);
   const auto edit = make(texts);
   if (!edit) return edit.error().message;
@@ -302,6 +307,29 @@ TEST_CASE("project edits: what nodes cannot say is not inlined") {
         std::string::npos);
   CHECK(inlined("<SubTree ID=\"B\" k=\"3\"/>", "<Wait seconds=\"{k}\"/>")
             .find("<Wait seconds=\"3\"/>") != std::string::npos);
+}
+
+TEST_CASE("project edits: a part whose entries are not known stays where it is") {
+  const auto extracted = [](const std::string& part, const std::string& inside) {
+    return changed("<BehaviorTree ID=\"A\"><Sequence>" + part +
+                       "</Sequence></BehaviorTree><BehaviorTree ID=\"B\">" + inside +
+                       "</BehaviorTree>\n",
+                   [](const ProjectTexts& texts) {
+                     return extract_subtree(texts, first(texts, "Sequence"), "C");
+                   });
+  };
+  const std::string opens = "'Opens' may use entries that no port names",
+                    shared = "<SubTree ID=\"B\" _autoremap=\"true\"/>";
+  CHECK(extracted("<Opens/>", "<Wait seconds=\"1\"/>") == opens);
+  CHECK(extracted("<Nowhere/>", "<Wait seconds=\"1\"/>") == "no plugin has 'Nowhere'");
+  CHECK(extracted(shared, "<Opens/>") == opens);
+  CHECK(extracted("<SubTree ID=\"B\"/>", "<Opens/>").find("ID=\"C\"") != std::string::npos);
+  CHECK(changed("<BehaviorTree ID=\"A\">" + shared +
+                    "</BehaviorTree><BehaviorTree ID=\"B\">"
+                    "<Opens/></BehaviorTree>",
+                [](const ProjectTexts& texts) {
+                  return inline_subtree(texts, first(texts, "SubTree"));
+                }) == opens);
 }
 
 }  // namespace lockstep::host::test

@@ -194,6 +194,17 @@ class Refactorings(Session):
         self.assertIn("Wrap in Sequence", found)
         self.assertEqual({}, self.ask(main(TWO).replace("<Wait name", "<|Wait name").replace("</Sequence>", "")))
 
+    def test_with_a_node_whose_entries_nobody_knows(self):
+        text = main(TWO.replace("<Wait seconds", "<Grasp seconds"))
+        for cursor in ("<Gra|sp", "<Seq|uence"):
+            found = list(self.ask(text.replace(cursor.replace("|", ""), cursor)))
+            self.assertEqual("Wrap in Sequence", found[0])
+        self.assertIn("Extract into the SubTree 'then'", self.ask(text.replace("<Wait", "<|Wait")))
+        text = text.replace('lockstep="1"', 'BTCPP_format="4"').replace("<Wait", "<Sleep").replace("seconds", "msec")
+        model = '  <TreeNodesModel>\n    <Action ID="Grasp"><input_port name="msec"/></Action>\n  </TreeNodesModel>\n</root>'
+        self.assertNotIn("Extract into the SubTree 'MainGrasp'", self.ask(text.replace("<Grasp", "<|Grasp")))
+        self.assertIn("Extract into the SubTree 'MainGrasp'", self.ask(text.replace("<Grasp", "<|Grasp").replace("</root>", model)))
+
     def test_only_and_trigger(self):
         text = main(TWO.replace("<Wait seconds", "<Wait se|cond"))
         fix = "Replace 'second' by 'seconds'"

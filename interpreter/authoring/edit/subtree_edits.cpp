@@ -10,6 +10,7 @@
 #include "authoring/edit/entry_uses.h"
 #include "authoring/edit/line_shift.h"
 #include "authoring/edit/slot.h"
+#include "authoring/edit/unknown_uses.h"
 #include "authoring/edit/value_text.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
@@ -184,6 +185,7 @@ Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
     sub_tree += fmt::format(" {}=\"{{{}}}\"", key, key);
   }
   if (auto wrong = names_at_run_time(texts)) return tl::unexpected(std::move(*wrong));
+  if (auto wrong = unknown_uses(texts, node)) return tl::unexpected(std::move(*wrong));
   if (passes_on_by_choice(texts, node)) {
     return problem("a SubTree in it may pass on all entries to one of several trees",
                    "an argument chooses which: name the entries there");
@@ -221,6 +223,7 @@ Result<ProjectEdit> inline_subtree(const ProjectTexts& texts, ElementAt sub_tree
     return problem(fmt::format("the tree '{}' has no node", brief(id)));
   }
   if (auto wrong = names_at_run_time(texts)) return tl::unexpected(std::move(*wrong));
+  if (auto wrong = unknown_uses(texts, *inner)) return tl::unexpected(std::move(*wrong));
   return Inliner(texts, sub_tree, *outer, *inner).run();
 }
 

@@ -104,7 +104,7 @@ class Refactorings {
                             {"edit", workspace_edit(question_, texts_, *edit)}});
   }
 
-  // Of the file.
+  // The edit is one of the file.
   void offer(std::string_view kind, std::string title, Result<TextEdit> edit) {
     if (!edit) return;
     ProjectEdit all(texts_.size());

@@ -8,7 +8,7 @@
 
 namespace lockstep::host {
 
-// None if the editor asks without being told to, as for its light bulb, unless it asks for them.
+// None if only the editor asks, as for its light bulb, unless it asks for these kinds.
 std::vector<Json> refactorings(const Question& question);
 
 }  // namespace lockstep::host

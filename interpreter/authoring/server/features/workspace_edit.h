@@ -14,7 +14,7 @@ namespace lockstep::host {
 std::optional<ProjectTexts> project_texts(const Question& question);
 
 Json json_of(const TextEdit& edit, const Positions& positions);
-// Of a document of `text`, which leaves out its byte order mark.
+// The edit is one of the document of `text`, which leaves out its byte order mark.
 Json json_of_document(const TextEdit& edit, std::string_view text);
 
 // The changes of several files, by their URIs; of the versions that are open, if the client knows
