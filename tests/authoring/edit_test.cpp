@@ -175,12 +175,21 @@ class RandomEdit {
   }
 
   TextEdit wrap() {
-    const auto element = any_but_root();
+    const auto first = any_but_root();
+    const auto elements = document_.elements();
+    const auto parent = parent_of(elements, first);
+    std::uint32_t last = first, count = 1;
+    while (elements[last].end < elements[parent].end && random_.one_in(2)) {
+      last = elements[last].end;
+      ++count;
+    }
     what = "wrap";
-    return done(wrap_element(document_, element, "Around c=\"d\""), [&] {
-      ElementModel& part = part_of(model_, element);
-      ElementModel inside = std::exchange(part, {"Around", {{"c", "d"}}});
-      part.children.push_back(std::move(inside));
+    return done(wrap_elements(document_, first, last, "Around c=\"d\""), [&] {
+      const Position at = position_of(first);
+      const auto begin = at.parent.children.begin() + at.index;
+      std::vector<ElementModel> inside(begin, begin + count);
+      at.parent.children.erase(begin + 1, begin + count);
+      at.parent.children[static_cast<std::size_t>(at.index)] = {"Around", {{"c", "d"}}, inside};
     });
   }
 

@@ -155,10 +155,20 @@ class Refactorings(Session):
         for cursor in nothing:
             with self.subTest(cursor):
                 self.assertEqual({}, self.ask(text.replace(cursor.replace("|", ""), cursor)))
-        # Several nodes.
-        two = text.replace("      <Wait seconds", "[      <Wait seconds").replace("\n    </Sequence", "]\n    </Sequence")
-        self.assertEqual({}, self.ask(two))
         self.assertEqual({}, self.ask("[" + text + "]"))
+
+    def test_several_nodes(self):
+        text = main(TWO.replace("    </Seq", '      <Wait seconds="3"/>\n    </Seq'))
+        begin, middle, end = '      <Wait seconds="1"/>\n', '      <Wait name="then" seconds="{later}"/>\n', '      <Wait seconds="3"/>\n'
+        inside = "".join("  " + it for it in (begin, middle))
+        for selected in (f"[{begin}{middle}]", f"[{begin}{middle[:-1]}]\n", f"      [{begin[6:]}{middle[:20]}]{middle[20:]}"):
+            with self.subTest(selected):
+                found = self.ask(text.replace(begin + middle, selected))
+                self.assertEqual(["Wrap in Sequence", "Wrap in Fallback", "Wrap in Parallel", "Wrap in ParallelAbsolute"], list(found))
+                self.assertEqual(text.replace(begin + middle, f"      <Sequence>\n{inside}      </Sequence>\n"),
+                                 found["Wrap in Sequence"])
+        self.assertEqual({}, self.ask(text.replace(begin + middle, f"[{begin}{middle}").replace("</Beh", "]</Beh")))
+        self.assertEqual({}, self.ask(text.replace("<!-- a", "[<!-- a").replace(end, end + "]")))
 
     def test_what_breaks_the_tree_is_not_offered(self):
         found = self.ask(main(ONE.replace("<Wait", "<Wa|it")))

@@ -30,9 +30,11 @@ Result<TextEdit> delete_element(const Document& document, std::uint32_t element)
 // `second` is the sibling behind `first`. Comments in the lines before an element, and behind it in
 // its line, go with it.
 Result<TextEdit> swap_elements(const Document& document, std::uint32_t first, std::uint32_t second);
-// Puts it into a new element; `tag` is what stands between '<' and '>': "Retry attempts=\"3\"".
-Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
-                              std::string_view tag);
+// Puts `first` and its siblings up to `last` into a new element; `tag` is what stands between '<'
+// and
+// '>': "Retry attempts=\"3\"".
+Result<TextEdit> wrap_elements(const Document& document, std::uint32_t first, std::uint32_t last,
+                               std::string_view tag);
 // Replaces it by what is in it.
 Result<TextEdit> unwrap_element(const Document& document, std::uint32_t element);
 

@@ -77,24 +77,24 @@ Result<TextEdit> swap_elements(const Document& document, std::uint32_t first,
   return edit;
 }
 
-Result<TextEdit> wrap_element(const Document& document, std::uint32_t element,
-                              std::string_view tag) {
-  const auto at = element_text(document, element);
-  if (!at) return broken();
+Result<TextEdit> wrap_elements(const Document& document, std::uint32_t first, std::uint32_t last,
+                               std::string_view tag) {
+  const auto from = element_text(document, first), to = element_text(document, last);
+  if (!from || !to) return broken();
   const std::string_view text = document.source()->text();
+  const std::size_t begin = from->tag.begin, end = to->end;
   const std::string close = fmt::format("</{}>", Cursor(tag).take_name());
-  const auto outer = indentation(text, at->tag.begin);
+  const auto outer = indentation(text, begin);
   TextEdit edit;
   if (!outer) {
-    edit.insert(at->tag.begin, fmt::format("<{}>", tag));
-    edit.insert(at->end, close);
+    edit.insert(begin, fmt::format("<{}>", tag));
+    edit.insert(end, close);
     return edit;
   }
   const std::string inner = std::string(*outer).append(indentation_unit(document));
-  edit.insert(at->tag.begin, fmt::format("<{}>{}{}", tag, line_end_of(text), inner));
-  shift_lines(edit, at->tag.begin, text.substr(at->tag.begin, at->end - at->tag.begin),
-              grammar_of(document), *outer, inner);
-  edit.insert(at->end, fmt::format("{}{}{}", line_end_of(text), *outer, close));
+  edit.insert(begin, fmt::format("<{}>{}{}", tag, line_end_of(text), inner));
+  shift_lines(edit, begin, text.substr(begin, end - begin), grammar_of(document), *outer, inner);
+  edit.insert(end, fmt::format("{}{}{}", line_end_of(text), *outer, close));
   return edit;
 }
 

@@ -16,6 +16,7 @@
 #include "authoring/server/features/workspace_edit.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
+#include "definition/check/node_check.h"
 
 namespace lockstep::host {
 namespace {
@@ -43,21 +44,34 @@ constexpr Wrapping kWrappings[] = {
     {"Timeout", "msec", "10000"},
 };
 
-// The number of the element in the document of the file.
-std::optional<std::uint32_t> selected_node(const Question& question, const ProjectTexts& texts) {
+struct Nodes {
+  std::uint32_t first, last;  // siblings
+};
+
+// The numbers of elements in the document of the file.
+std::optional<Nodes> selected_nodes(const Question& question, const ProjectTexts& texts) {
   const TolerantTree& tree = question.file.tree();
   const Positions& positions = question.file.positions();
   const auto range = question.params.range.value_or(PositionRange());
-  const TolerantElement* const element =
-      selected_element(tree, {positions.byte_at(range.first), positions.byte_at(range.second)});
-  if (element == nullptr) return std::nullopt;
+  const SelectedElements selected =
+      selected_elements(tree, {positions.byte_at(range.first), positions.byte_at(range.second)});
+  if (selected.first == nullptr) return std::nullopt;
   const Document& document = texts.document(0);
-  const std::size_t begin = element->begin - byte_order_mark(tree.text).size();
-  for (std::uint32_t i = 0; i < document.elements().size(); ++i) {
-    if (offset_of(document, document.elements()[i].place) != begin) continue;
-    return texts.tree_around({0, i}) ? std::optional(i) : std::nullopt;
-  }
-  return std::nullopt;
+  const auto number_of = [&](const TolerantElement& element) {
+    const std::size_t begin = element.begin - byte_order_mark(tree.text).size();
+    const auto place = [&](const Element& it) { return offset_of(document, it.place); };
+    const auto elements = document.elements();
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(elements, begin, {}, place) -
+                                      elements.begin());
+  };
+  const Nodes nodes{number_of(*selected.first), number_of(*selected.last)};
+  return texts.tree_around({0, nodes.first}) ? std::optional(nodes) : std::nullopt;
+}
+
+// What a tree calls the node.
+std::string_view kind_of(const ProjectTexts& texts, ElementAt node) {
+  const std::string_view tag = texts.document(node.document).elements()[node.element].tag;
+  return is_explicit_tag(tag) ? texts.value(node, "ID") : tag;
 }
 
 // The name of the node, or what it is and in which tree.
@@ -65,8 +79,7 @@ std::string free_id(const ProjectTexts& texts, ElementAt node) {
   std::string name(texts.value(node, "name"));
   if (name.empty() || name.find_first_of("/{}$") != name.npos) {
     const ElementAt tree = texts.tree_around(node).value();
-    name = fmt::format("{}{}", texts.value(tree, "ID"),
-                       texts.document(0).elements()[node.element].tag);
+    name = fmt::format("{}{}", texts.value(tree, "ID"), kind_of(texts, node));
   }
   std::string id = name;
   for (int number = 2; texts.find_tree(id) || texts.catalog().find(id) != nullptr; ++number)
@@ -76,23 +89,26 @@ std::string free_id(const ProjectTexts& texts, ElementAt node) {
 
 class Refactorings {
  public:
-  Refactorings(const Question& question, const ProjectTexts& texts, std::uint32_t node)
+  Refactorings(const Question& question, const ProjectTexts& texts, Nodes nodes)
       : question_(question),
         texts_(texts),
         document_(texts.document(0)),
-        node_(node),
-        tag_(brief(document_.elements()[node].tag)),
+        node_(nodes.first),
+        last_(nodes.last),
+        kind_(brief(kind_of(texts, {0, node_}))),
         trial_(question, texts) {}
 
   std::vector<Json> all() {
     const std::vector<std::string>& kinds = question_.params.kinds;
-    if (is_wanted(kExtract, kinds)) extract();
-    if (is_wanted(kInline, kinds)) put_in_place();
+    const bool is_one = node_ == last_;
+    if (is_one && is_wanted(kExtract, kinds)) extract();
+    if (is_one && is_wanted(kInline, kinds)) put_in_place();
     if (!is_wanted(kRewrite, kinds)) return std::move(actions_);
     for (const Wrapping& it : kWrappings) wrap(it);
+    if (!is_one) return std::move(actions_);
     unwrap();
     move();
-    offer(kRewrite, fmt::format("Delete {}", tag_), delete_element(document_, node_));
+    offer(kRewrite, fmt::format("Delete {}", kind_), delete_element(document_, node_));
     return std::move(actions_);
   }
 
@@ -131,14 +147,14 @@ class Refactorings {
     if (!in.attribute.empty() && parameter_of(type, in.attribute) == nullptr) return;
     std::string tag(in.tag);
     if (!in.attribute.empty()) tag += fmt::format(" {}={}", in.attribute, quoted(in.value));
-    offer(kRewrite, fmt::format("Wrap in {}", in.tag), wrap_element(document_, node_, tag));
+    offer(kRewrite, fmt::format("Wrap in {}", in.tag), wrap_elements(document_, node_, last_, tag));
   }
 
   void unwrap() {
     const auto elements = document_.elements();
     if (elements[node_].end == node_ + 1) return;
     const bool is_one = elements[node_ + 1].end == elements[node_].end;
-    offer(kRewrite, fmt::format("Replace {} by its {}", tag_, is_one ? "child" : "children"),
+    offer(kRewrite, fmt::format("Replace {} by its {}", kind_, is_one ? "child" : "children"),
           unwrap_element(document_, node_));
   }
 
@@ -157,8 +173,8 @@ class Refactorings {
   const Question& question_;
   const ProjectTexts& texts_;
   const Document& document_;  // of the file
-  std::uint32_t node_;
-  std::string tag_;
+  std::uint32_t node_, last_;
+  std::string kind_;
   Trial trial_;
   std::vector<Json> actions_;
 };
@@ -175,9 +191,9 @@ std::vector<Json> refactorings(const Question& question) {
   if (!is_any) return {};
   const auto texts = project_texts(question);
   if (!texts) return {};
-  const auto node = selected_node(question, *texts);
-  if (!node) return {};
-  return Refactorings(question, *texts, *node).all();
+  const auto nodes = selected_nodes(question, *texts);
+  if (!nodes) return {};
+  return Refactorings(question, *texts, *nodes).all();
 }
 
 }  // namespace lockstep::host

@@ -1,5 +1,5 @@
-// Refactorings of the node that is selected, or whose tag the cursor is at: those after which
-// `lockstep check` finds no new error.
+// Refactorings of the node that is selected, or whose tag the cursor is at, and wrappings of
+// several siblings: those after which `lockstep check` finds no new error.
 #pragma once
 
 #include <vector>

@@ -31,15 +31,19 @@ ByteRange trimmed(std::string_view text, ByteRange selection) {
 
 }  // namespace
 
-const TolerantElement* selected_element(const TolerantTree& tree, ByteRange selection) {
+SelectedElements selected_elements(const TolerantTree& tree, ByteRange selection) {
   const auto [begin, end] = trimmed(tree.text, selection);
-  const TolerantElement* found = nullptr;
+  const TolerantElement* first = nullptr;
   for (const TolerantElement& it : tree.elements) {
     if (it.begin > begin) break;
     const bool is_in_tag = begin <= it.tag_end || begin >= it.close;
-    if (is_in_tag && begin <= it.end) found = &it;
+    if (is_in_tag && begin <= it.end) first = &it;
   }
-  return found != nullptr && end <= found->end ? found : nullptr;
+  if (first == nullptr) return {};
+  const TolerantElement* last = first;
+  for (const TolerantElement& it : tree.elements)
+    if (it.parent == first->parent && it.begin > last->begin && it.begin < end) last = &it;
+  return end <= last->end ? SelectedElements{first, last} : SelectedElements{};
 }
 
 Site site_at(const TolerantTree& tree, std::size_t byte) {

@@ -25,9 +25,13 @@ struct Site {
 
 Site site_at(const TolerantTree& tree, std::size_t byte);
 
-// The element in one of whose tags a selection begins, and which has all of it; null: there is
-// none. A cursor, which selects nothing, in the indentation of a line is where the line begins.
-const TolerantElement* selected_element(const TolerantTree& tree, ByteRange selection);
+// An element in one of whose tags a selection begins, and the one of it and its siblings behind it
+// in which the selection ends. Null: there are none. A cursor, which selects nothing, in the
+// indentation of a line is where the line begins.
+struct SelectedElements {
+  const TolerantElement *first = nullptr, *last = nullptr;
+};
+SelectedElements selected_elements(const TolerantTree& tree, ByteRange selection);
 
 // The bytes of a part of the text.
 inline ByteRange range_of(const TolerantTree& tree, std::string_view part) {
