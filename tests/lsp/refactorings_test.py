@@ -134,6 +134,9 @@ class Refactorings(Session):
         self.assertFalse([it for it in found if it.startswith("Extract")])
         again = found["Put the tree 'then' in the place of this SubTree"]
         self.assertTrue(again.startswith(text[:text.index("</root>")]), again)
+        # Trees that an empty line separates stay so.
+        lines = self.ask(text.replace("  <Beh", "\n  <!-- one -->\n  <Beh").replace("<Wait name", "|<Wait name"))
+        self.assertIn('</BehaviorTree>\n\n  <BehaviorTree ID="then">', lines["Extract into the SubTree 'then'"])
         # A name that is taken gets a number.
         found = self.ask(apart.replace("<Wait seconds", '<Wait name="then" |seconds'))
         self.assertIn("Extract into the SubTree 'then2'", found)

@@ -1,6 +1,7 @@
 #include "authoring/edit/line_shift.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "document/cursor.h"
 
@@ -35,8 +36,7 @@ bool is_blank_line(std::string_view xml, std::size_t begin) {
   return first == xml.size() || xml[first] == '\n';
 }
 
-}  // namespace
-
+// Where they begin.
 std::vector<std::size_t> movable_lines(std::string_view xml, Grammar grammar) {
   std::vector<std::size_t> lines;
   Scanner scanner(xml, grammar);
@@ -59,6 +59,8 @@ std::vector<std::size_t> movable_lines(std::string_view xml, Grammar grammar) {
   take_until(xml.size(), false);
   return lines;
 }
+
+}  // namespace
 
 void shift_lines(TextEdit& edit, std::size_t at, std::string_view xml, Grammar grammar,
                  std::string_view from, std::string_view to) {

@@ -1,19 +1,16 @@
-// Lines of a text that may be indented differently: those that do not begin within a value.
+// Lines of a text that may be indented differently: those that do not begin within a value. `xml`
+// is elements and comments; lines that begin within a comment count, the first one and blank ones
+// do not.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "authoring/edit/text_edit.h"
 #include "document/scanner.h"
 
 namespace lockstep::host {
-
-// Where they begin, except for the first line. `xml` is elements and comments; lines that begin
-// within a comment count, blank ones do not.
-std::vector<std::size_t> movable_lines(std::string_view xml, Grammar grammar);
 
 // Replaces `from` at the begin of these lines by `to`; a line that does not begin so stays. `xml`
 // is at byte `at` of the text that is edited.

@@ -53,8 +53,12 @@ std::optional<SlotText> slot_behind(const Document& document, std::uint32_t sibl
   const std::string_view text = document.source()->text();
   const auto outer = indentation(text, at->tag.begin);
   if (!outer) return SlotText{at->end, {}, {}};
-  return SlotText{behind_comment(text, at->end), std::string(line_end_of(text)).append(*outer),
-                  std::string(*outer)};
+  const std::string line_end(line_end_of(text)), indent(*outer);
+  // An empty line before the sibling is one before the new element, too.
+  const std::size_t begin = line_begin(text, before_comments(text, at->tag.begin));
+  const bool is_apart = text.substr(0, begin).ends_with("\n" + line_end);
+  return SlotText{behind_comment(text, at->end), line_end + (is_apart ? line_end : "") + indent,
+                  indent};
 }
 
 std::optional<CommentedText> commented_text(const Document& document, std::uint32_t element) {

@@ -168,13 +168,8 @@ class Inliner {
   TextEdit edit_;
 };
 
-}  // namespace
-
-Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
-                                    std::string_view id) {
-  const auto tree = texts.tree_around(node);
-  if (!tree) return problem("only a node of a tree can become a tree");
-  const Document& document = texts.document(node.document);
+// The SubTree in the place of a node.
+Result<std::string> sub_tree_for(const ProjectTexts& texts, ElementAt node, std::string_view id) {
   std::string sub_tree = fmt::format("<SubTree ID={}", quoted(id));
   for (const std::string& key : keys_in(texts, node)) {
     if (key.starts_with('@')) continue;
@@ -184,12 +179,24 @@ Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
     }
     sub_tree += fmt::format(" {}=\"{{{}}}\"", key, key);
   }
+  return sub_tree + "/>";
+}
+
+}  // namespace
+
+Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
+                                    std::string_view id) {
+  const auto tree = texts.tree_around(node);
+  if (!tree) return problem("only a node of a tree can become a tree");
+  const Document& document = texts.document(node.document);
   if (auto wrong = names_at_run_time(texts)) return tl::unexpected(std::move(*wrong));
   if (auto wrong = unknown_uses(texts, node)) return tl::unexpected(std::move(*wrong));
   if (passes_on_by_choice(texts, node)) {
     return problem("a SubTree in it may pass on all entries to one of several trees",
                    "an argument chooses which: name the entries there");
   }
+  auto sub_tree = sub_tree_for(texts, node, id);
+  if (!sub_tree) return tl::unexpected(std::move(sub_tree.error()));
   const auto at = element_text(document, node.element);
   if (!at) return problem("the text is broken at this place");
   const std::string_view text = document.source()->text();
@@ -203,7 +210,7 @@ Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
   if (!added) return tl::unexpected(std::move(added.error()));
   ProjectEdit edit(texts.size());
   edit[node.document] = std::move(*added);
-  edit[node.document].replace(at->tag.begin, at->end, sub_tree + "/>");
+  edit[node.document].replace(at->tag.begin, at->end, std::move(*sub_tree));
   // The only tree of a file is no longer the only one.
   if (texts.value({0, 0}, kMainTree).empty() && !texts.main_tree().empty()) {
     if (auto named = set_attribute(texts.document(0), 0, kMainTree, texts.main_tree()))
