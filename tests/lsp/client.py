@@ -2,7 +2,11 @@
 import json
 import os
 import subprocess
+import tempfile
+import unittest
 from pathlib import Path
+
+PLUGINS = ["--plugin-path", os.environ["BUILD"] + "/plugins"]
 
 
 class Client:
@@ -151,6 +155,21 @@ class Client:
 
     def about(self, method, path, **more):
         return self.ask(method, {"textDocument": {"uri": Path(path).as_uri()}, **more})
+
+
+class Session(unittest.TestCase):
+    """A client with a place for a file, and a server that ends well."""
+    maxDiff = None
+
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.path = Path(self.directory.name) / "tree.xml"
+        self.client = Client(*PLUGINS)
+
+    def tearDown(self):
+        self.assertEqual(self.client.stop(), 0)
+        self.assertEqual(self.client.errors, "")
+        self.directory.cleanup()
 
 
 def offset(text, position):

@@ -1,11 +1,10 @@
 """What the server answers about places in a text. '|' in a text is the cursor, and not of the text."""
 import os
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
-from client import Client, edited
+from client import Client, Session, edited
 
 SOURCE = Path(os.environ["SOURCE"])
 
@@ -28,19 +27,10 @@ TAIL = """
 """
 
 
-class Features(unittest.TestCase):
-    maxDiff = None
-
+class Features(Session):
     def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.path = Path(self.directory.name) / "tree.xml"
-        self.client = Client("--plugin-path", os.environ["BUILD"] + "/plugins")
+        super().setUp()
         self.client.start(self.directory.name)
-
-    def tearDown(self):
-        self.assertEqual(self.client.stop(), 0)
-        self.assertEqual(self.client.errors, "")
-        self.directory.cleanup()
 
     def put(self, text, path=None):
         """Opens or changes the file; the place of the cursor."""

@@ -9,10 +9,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from client import Client, edited, place
+from client import PLUGINS, Client, Session, edited, place
 
 SOURCE = Path(os.environ["SOURCE"])
-PLUGINS = ["--plugin-path", os.environ["BUILD"] + "/plugins"]
 PLACES = int(os.environ.get("LOCKSTEP_REFACTORINGS", 1))
 
 WRAPS = {"lockstep": ["Sequence", "Fallback", "Parallel", "ParallelAbsolute", "Inverter", "Retry", "Timeout"],
@@ -39,19 +38,7 @@ ONE = """    <Sequence>
 """
 
 
-class Session(unittest.TestCase):
-    maxDiff = None
-
-    def setUp(self):
-        self.directory = tempfile.TemporaryDirectory()
-        self.path = Path(self.directory.name) / "tree.xml"
-        self.client = Client(*PLUGINS)
-
-    def tearDown(self):
-        self.assertEqual(self.client.stop(), 0)
-        self.assertEqual(self.client.errors, "")
-        self.directory.cleanup()
-
+class Actions(Session):
     def put(self, text, path=None):
         path = path or self.path
         known = path in self.client.versions
@@ -69,7 +56,7 @@ class Session(unittest.TestCase):
         return {it["title"]: edited(text, it["edit"]["changes"][path.as_uri()]) for it in answer}
 
 
-class Refactorings(Session):
+class Refactorings(Actions):
     def setUp(self):
         super().setUp()
         self.client.start(self.directory.name)
@@ -332,7 +319,7 @@ def keeps_the_run(text, at, title):
         bare and title == "Replace Sequence by its child")
 
 
-class EveryTree(Session):
+class EveryTree(Actions):
     def test_no_tree_gets_an_error(self):
         self.client.start(SOURCE)
         choose = random.Random(34)
