@@ -1,5 +1,6 @@
 // Random edits of all trees of this project, with both line ends: each does to the elements what it
-// says, and keeps the comments. LOCKSTEP_EDITS says how many.
+// says, keeps the comments, and its inverse brings the same bytes back. LOCKSTEP_EDITS says how
+// many.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -221,6 +222,7 @@ void check_edit(const std::string& text, RandomSource& random) {
   const auto changed = parsed(after);
   REQUIRE(changed != nullptr);
   REQUIRE(model_of(*changed) == model);
+  REQUIRE(edit.inverse(before).apply(after) == before);
   auto comments = comments_in(after), expected = comments_in(before);
   if (edits.comments == RandomEdit::Comments::Move) {
     std::ranges::sort(comments);

@@ -32,4 +32,17 @@ std::string TextEdit::apply(std::string_view text) const {
   return result += text.substr(done);
 }
 
+TextEdit TextEdit::inverse(std::string_view text) const {
+  TextEdit back;
+  std::size_t before = 0, after = 0;  // where a patch is: in `text`, and in the changed one
+  for (const Patch& patch : patches()) {
+    after += patch.begin - before;
+    back.replace(after, after + patch.text.size(),
+                 std::string(text.substr(patch.begin, patch.end - patch.begin)));
+    after += patch.text.size();
+    before = patch.end;
+  }
+  return back;
+}
+
 }  // namespace lockstep::host

@@ -1,5 +1,5 @@
 // A change of a text: patches of parts of it, made all at once. All that changes a tree file is one
-// of these.
+// of these. Its inverse is one too.
 #pragma once
 
 #include <cstddef>
@@ -30,6 +30,8 @@ class TextEdit {
   // dropped. Insertions at one byte stay in the order in which they were made.
   std::vector<Patch> patches() const;
   std::string apply(std::string_view text) const;
+  // Changes apply(text) back into `text`.
+  TextEdit inverse(std::string_view text) const;
 
  private:
   std::vector<Patch> patches_;
