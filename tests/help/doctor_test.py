@@ -40,7 +40,8 @@ if os.geteuid() == 0:
     for more, grade in ([], "note"), (["--realtime"], "trouble"):
         done = subprocess.run(limited + more, capture_output=True, text=True, cwd="/")
         grades = [it["grade"] for it in json.loads(done.stdout)["findings"] if it["subject"] == "--realtime"]
-        assert grades == [grade, grade], done
+        # Of the priority and of memory, which a sanitizer does not lock.
+        assert grades == [grade] * (1 if os.environ.get("LOCKSTEP_SANITIZE") else 2), done
         advice = "docker run --ulimit rtprio=90 --ulimit memlock=-1"
         if not any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv"))) and "container" not in os.environ:
             assert advice not in done.stdout
