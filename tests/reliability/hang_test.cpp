@@ -2,6 +2,8 @@
 // --halt-limit. These wait for real time, as little of it as there can be.
 #include <signal.h>
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "reliability/hostile_tree.h"
@@ -74,6 +76,11 @@ TEST_CASE("a halt that does not return in time is named, if it returns late, the
 }
 
 TEST_CASE("time in which the program is stopped counts as nobody's hang") {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr const char *kLimit = "4", *kTwice = "8";  // a program takes half a second to begin
+#else
+  constexpr const char *kLimit = "0.4", *kTwice = "1";
+#endif
   for (const Where where : {Where::InProcess, Where::Isolated}) {
     const OwnPlugin plugin;
     const TemporaryDirectory directory;
@@ -81,12 +88,13 @@ TEST_CASE("time in which the program is stopped counts as nobody's hang") {
     Strings arguments = {"run",          directory.file("tree.xml", hostile_tree({how})),
                          "--plugin",     plugin.directory() + "hostile.so",
                          "--clock",      "virtual",
-                         "--hang-limit", "0.4"};
+                         "--hang-limit", kLimit};
     if (where == Where::Isolated) arguments.emplace_back("--isolate");
     Process process({.arguments = arguments});
     process.wait_for_stop();
-    const std::string wait = directory.file("wait.xml", tree_text("<Wait seconds=\"1\"/>"));
-    CHECK(run_lockstep({"run", wait}).code == 0);  // which takes twice the limit
+    const std::string wait =
+        directory.file("wait.xml", tree_text(fmt::format("<Wait seconds=\"{}\"/>", kTwice)));
+    CHECK(run_lockstep({"run", wait}).code == 0);
     process.signal(SIGCONT);
     run_lockstep({"--version"});  // the other process goes on a moment later
     for (const pid_t leafhost : plugin.processes()) kill(leafhost, SIGCONT);
