@@ -112,6 +112,7 @@ class Compiler {
     find_guards();
     find_begun_once();
     list_children();
+    count_followers();
     for (const BlackboardEntry& entry : definition_.entries) {
       tree_.slots.push_back(
           {entry.name, entry.type, entry.initial, entry.object, entry.typing, entry.is_present});
@@ -159,6 +160,18 @@ class Compiler {
         node.kind->state_size + std::size_t{node.kind->state_per_child} * node.children;
     tree_.state_size += (size + 7) / 8 * 8;
     tree_.nodes.push_back(node);
+  }
+
+  // Only of leaves that are called as the tree has them: not of those with scripts.
+  void count_followers() {
+    auto& leaves = tree_.leaves;
+    for (std::size_t place = leaves.size(); place > 1; --place) {
+      const LeafNode& next = leaves[place - 1];
+      LeafNode& leaf = leaves[place - 2];
+      const bool follows =
+          next.node == leaf.node + 1 && tree_.nodes[next.node].kind == &kPluginAction;
+      leaf.followers = follows ? next.followers + 1 : 0;
+    }
   }
 
   void add_scripts() {

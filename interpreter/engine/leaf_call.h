@@ -29,7 +29,7 @@ class LeafCall {
     mark_.leave(around_);
     if (context_.watch_ != nullptr) {
       const std::uint32_t place = context_.node(node_).params;
-      context_.watch_->end(begun_, place, node_, function_, mark_);
+      context_.watch_->end(begun_, place, function_, mark_);
     }
     context_.in_line_ = context_.state_.interrupted ? nullptr : in_line_;
   }
@@ -39,13 +39,11 @@ class LeafCall {
   // A call with nothing around it but a mark and its time, for a leaf while can_be_in_line. After
   // an exception, which is a fault then, it returns -1, if anything.
   template <PluginFunction kFunction, class Result>
-  [[gnu::always_inline]] static Result in_line(NodeContext& context, NodeIndex node,
-                                               const LeafSlot& leaf, Result (*function)(void*)) {
+  [[gnu::always_inline]] static Result in_line(NodeContext& context, const LeafSlot& leaf,
+                                               Result (*function)(void*)) {
     CallMark& mark = *context.in_line_;
-    const std::uint32_t place = context.nodes_[node].params;
-    return context.timer_ != nullptr
-               ? marked<kFunction, true>(context, mark, node, place, leaf, function)
-               : marked<kFunction, false>(context, mark, node, place, leaf, function);
+    return context.timer_ != nullptr ? marked<kFunction, true>(context, mark, leaf, function)
+                                     : marked<kFunction, false>(context, mark, leaf, function);
   }
   static bool can_be_in_line(const NodeContext& context) { return context.in_line_ != nullptr; }
 
@@ -53,14 +51,16 @@ class LeafCall {
   friend class LeafLoop;
 
   template <PluginFunction kFunction, bool kTimed, class Result>
-  [[gnu::always_inline]] static Result marked(NodeContext& context, CallMark& mark, NodeIndex node,
-                                              std::uint32_t place, const LeafSlot& leaf,
-                                              Result (*function)(void*));
+  [[gnu::always_inline]] static Result marked(NodeContext& context, CallMark& mark,
+                                              const LeafSlot& leaf, Result (*function)(void*));
+  static std::uint32_t place_of(const NodeContext& context, const LeafSlot& leaf) {
+    return static_cast<std::uint32_t>(&leaf - context.leaves_.data());
+  }
   // In nodes/leaf.cpp. What a tick in line has to do for a result that is not the usual one.
   static Status complete(NodeContext& context, NodeIndex node, const LeafSlot& leaf,
                          lockstep_status result);
   static double spoiled_progress(NodeContext& context, NodeIndex node, double reported);
-  static void note_exception(NodeContext& context, NodeIndex node);
+  static void note_exception(NodeContext& context, const LeafSlot& leaf);
 
   NodeContext& context_;
   CallMark& mark_;
@@ -73,8 +73,7 @@ class LeafCall {
 };
 
 template <PluginFunction kFunction, bool kTimed, class Result>
-inline Result LeafCall::marked(NodeContext& context, CallMark& mark, NodeIndex node,
-                               std::uint32_t place, const LeafSlot& leaf,
+inline Result LeafCall::marked(NodeContext& context, CallMark& mark, const LeafSlot& leaf,
                                Result (*function)(void*)) {
   mark.enter_alone(*leaf.site, kFunction);
   constexpr bool kHasResult = !std::is_void_v<Result>;
@@ -86,11 +85,11 @@ inline Result LeafCall::marked(NodeContext& context, CallMark& mark, NodeIndex n
       function(leaf.self);
     }
   } catch (...) {
-    note_exception(context, node);
+    note_exception(context, leaf);
   }
   mark.leave();
   if constexpr (kTimed) {
-    context.timer_->note(place, node, kFunction, mark);
+    context.timer_->note(place_of(context, leaf), kFunction, mark);
   }
   if constexpr (kHasResult) return result;
 }

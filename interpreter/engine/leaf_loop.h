@@ -3,10 +3,12 @@
 // the control node as for any other child. The slots of such siblings are next to each other too.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
 #include "engine/leaf_call.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 
@@ -58,11 +60,21 @@ class LeafLoop {
     const double limit;
   };
 
+  static NodeIndex end_of_row(const NodeContext& context, NodeIndex child, NodeIndex end) {
+    if (context.watches_ != nullptr) return end_of_watched_row(context, child, end);
+    return std::min(end, child + 1 + context.tree_.leaves[context.nodes_[child].params].followers);
+  }
+  static NodeIndex end_of_watched_row(const NodeContext& context, NodeIndex child, NodeIndex end) {
+    while (++child != end && context.nodes_[child].kind == &kPluginAction) {
+    }
+    return child;
+  }
+
   // Nothing but the call belongs to the tick.
   static bool is_ready(Activity before, const LeafSlot& leaf) {
     const bool is_simple =
         before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
-    return is_simple && !leaf.failed && !leaf.unreset;
+    return is_simple && !(leaf.failed | leaf.unreset);
   }
   // One that has failed as a program is not held: its progress is 0.
   template <class While>
@@ -89,23 +101,26 @@ class LeafLoop {
                                               double* progress);
 };
 
+// All pointers go from leaf to leaf together, so that they stay in registers over the calls.
 template <Status kGoesOn, bool kTimed, class While>
 LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeIndex end,
                                   While chosen) {
   constexpr bool kRuns = kGoesOn == Status::Running;
   CallMark& mark = *context.in_line_;
-  const Node* node = context.nodes_ + child;
-  LeafSlot* leaf = context.leaves_.data() + node->params;
-  Activity* const activity = context.state_.activity.data();
-  std::uint32_t* const last_tick = context.state_.last_tick.data();
-  const std::uint32_t tick_number = context.state_.tick_number;
+  LeafSlot* leaf = &context.leaf(child);
+  Activity* activity = context.state_.activity.data() + child;
+  std::uint32_t* last_tick = context.state_.last_tick.data() + child;
+  const LeafSlot* const last = leaf + (end_of_row(context, child, end) - child);
+  const auto here = [&] {
+    return static_cast<NodeIndex>(last_tick - context.state_.last_tick.data());
+  };
   // A call may end the calls in line, also by a fault: then the next child is not called so.
   const auto pass = [&] {
-    ++child, ++node, ++leaf;
-    return child != end && context.in_line_ != nullptr && node->kind == &kPluginAction;
+    ++leaf, ++activity, ++last_tick;
+    return leaf != last && context.in_line_ != nullptr;
   };
   do {
-    const Activity before = activity[child];
+    const Activity before = *activity;
     if constexpr (!kRuns) {
       if (!is_ready(before, *leaf)) break;
       leaf->started = true;
@@ -115,45 +130,47 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     } else if (!chosen.next() || leaf->failed) {
       break;
     }
-    const auto result = LeafCall::marked<PluginFunction::Tick, kTimed>(
-        context, mark, child, node->params, *leaf, leaf->type->tick);
+    const auto result =
+        LeafCall::marked<PluginFunction::Tick, kTimed>(context, mark, *leaf, leaf->type->tick);
     if (leaf->error != nullptr || result != static_cast<int>(kGoesOn)) [[unlikely]] {
-      const Status status = LeafCall::complete(context, child, *leaf, result);
-      if (status != kGoesOn) return {child, status};
+      const Status status = LeafCall::complete(context, here(), *leaf, result);
+      if (status != kGoesOn) return {here(), status};
       continue;
     }
-    if constexpr (!kRuns) activity[child] = static_cast<Activity>(kGoesOn);
-    last_tick[child] = tick_number;
+    if constexpr (!kRuns) *activity = static_cast<Activity>(kGoesOn);
+    *last_tick = context.state_.tick_number;
   } while (pass());
-  return {child, Status::Idle};
+  return {here(), Status::Idle};
 }
 
 template <bool kTimed>
 NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex end,
                              double* progress) {
   CallMark& mark = *context.in_line_;
-  const Node* node = context.nodes_ + child;
-  const LeafSlot* leaf = context.leaves_.data() + node->params;
-  const Activity* const activity = context.state_.activity.data();
+  const LeafSlot* leaf = &context.leaf(child);
+  const Activity* const all = context.state_.activity.data();
+  const Activity* activity = all + child;
+  const LeafSlot* const last = leaf + (end_of_row(context, child, end) - child);
+  const auto here = [&] { return static_cast<NodeIndex>(activity - all); };
   const auto pass = [&] {
-    ++child, ++node, ++leaf, ++progress;
-    return child != end && context.in_line_ != nullptr && node->kind == &kPluginAction;
+    ++leaf, ++activity, ++progress;
+    return leaf != last && context.in_line_ != nullptr;
   };
   do {
-    if (status_of(activity[child]) != Status::Running || leaf->failed) break;
+    if (status_of(*activity) != Status::Running || leaf->failed) break;
     double reported = 0.0;
     if (leaf->kept_progress != nullptr) {
       reported = leaf->read_progress();
     } else if (leaf->type->progress == nullptr) {
       break;
     } else {
-      reported = LeafCall::marked<PluginFunction::Progress, kTimed>(
-          context, mark, child, node->params, *leaf, leaf->type->progress);
+      reported = LeafCall::marked<PluginFunction::Progress, kTimed>(context, mark, *leaf,
+                                                                    leaf->type->progress);
     }
     const bool is_plain = leaf->error == nullptr && is_usual(reported);
-    *progress = is_plain ? reported : LeafCall::spoiled_progress(context, child, reported);
+    *progress = is_plain ? reported : LeafCall::spoiled_progress(context, here(), reported);
   } while (pass());
-  return child;
+  return here();
 }
 
 }  // namespace lockstep::host

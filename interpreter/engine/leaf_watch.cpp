@@ -60,33 +60,37 @@ LeafWatch::Begun LeafWatch::begin(CallMark& mark) {
           .carried = std::exchange(mark.carried, Nanoseconds(0))};
 }
 
-void LeafWatch::end(const Begun& begun, std::uint32_t place, NodeIndex leaf,
-                    PluginFunction function, CallMark& mark) {
+NodeIndex LeafWatch::leaf_at(std::uint32_t place) const {
+  return tree_->leaves[place].node;
+}
+
+void LeafWatch::end(const Begun& begun, std::uint32_t place, PluginFunction function,
+                    CallMark& mark) {
   if (FloatMode::current() != mode_) [[unlikely]]
-    restore_mode(leaf, function);
+    restore_mode(leaf_at(place), function);
   if (!is_timed()) return;
   last_end_ = read();
   const std::int64_t whole = last_end_ - begun.start;
   const std::int64_t own = whole - std::exchange(inner_, begun.inner + whole);
-  note_unusual(place, leaf, function, own, std::exchange(mark.carried, begun.carried));
+  note_unusual(place, function, own, std::exchange(mark.carried, begun.carried));
 }
 
-void LeafWatch::note_unusual(std::uint32_t place, NodeIndex leaf, PluginFunction function,
-                             std::int64_t took, Nanoseconds carried) {
+void LeafWatch::note_unusual(std::uint32_t place, PluginFunction function, std::int64_t took,
+                             Nanoseconds carried) {
   if (carried != Nanoseconds(0)) {
     took -= options_.clock == nullptr ? cycles_.count_of(carried) : carried.count();
   }
   took = std::max<std::int64_t>(took, 0);
   if (function == PluginFunction::Tick) ticks_->record(place, static_cast<std::uint64_t>(took));
   if (slowest_.function == PluginFunction::None || took > slowest_took_) {
-    slowest_ = {leaf, function, Nanoseconds(0)};
+    slowest_ = {leaf_at(place), function, Nanoseconds(0)};
     slowest_took_ = took;
     set_usual();
   }
   if (took > budget_) {
-    note_over_budget(place, leaf, function, took);
+    note_over_budget(place, function, took);
   } else if (carried > *options_.budget && may_tell() && options_.on_carried) {
-    options_.on_carried(leaf, carried);
+    options_.on_carried(leaf_at(place), carried);
   }
 }
 
@@ -97,11 +101,10 @@ void LeafWatch::set_usual() {
                           Histograms::kLargest);
 }
 
-void LeafWatch::note_over_budget(std::uint32_t place, NodeIndex leaf, PluginFunction function,
-                                 std::int64_t took) {
+void LeafWatch::note_over_budget(std::uint32_t place, PluginFunction function, std::int64_t took) {
   ++over_[place].calls;
   over_[place].max = std::max(over_[place].max, took);
-  if (may_tell() && options_.on_slow) options_.on_slow(leaf, function, time_of(took));
+  if (may_tell() && options_.on_slow) options_.on_slow(leaf_at(place), function, time_of(took));
 }
 
 bool LeafWatch::may_tell() {
@@ -123,8 +126,8 @@ std::vector<LeafWatch::Timing> LeafWatch::over_budget() const {
       const auto count = static_cast<std::int64_t>(ticks_->quantile(place, fraction));
       return time_of(std::min(count, over.max));
     };
-    list.push_back({tree_->leaves[place].node, ticks_->count(place), over.calls, quantile(0.5),
-                    quantile(0.99), time_of(over.max)});
+    list.push_back({leaf_at(place), ticks_->count(place), over.calls, quantile(0.5), quantile(0.99),
+                    time_of(over.max)});
   }
   std::ranges::stable_sort(list, std::greater{}, &Timing::max);
   return list;

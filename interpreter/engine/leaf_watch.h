@@ -63,11 +63,11 @@ class LeafWatch {
   bool looks_after_each_call() const { return looks_left_ != 0; }
 
   // `place`: in Tree::leaves. The call has begun where the last one ended.
-  void note(std::uint32_t place, NodeIndex leaf, PluginFunction function, CallMark& mark) {
+  void note(std::uint32_t place, PluginFunction function, CallMark& mark) {
     const std::int64_t end = read();
     const std::int64_t took = end - std::exchange(last_end_, end);
     if (static_cast<std::uint64_t>(took) > usual_ || mark.carried != Nanoseconds(0)) [[unlikely]] {
-      return note_unusual(place, leaf, function, took, std::exchange(mark.carried, Nanoseconds(0)));
+      return note_unusual(place, function, took, std::exchange(mark.carried, Nanoseconds(0)));
     }
     if (function == PluginFunction::Tick) {
       ticks_->record_in_range(place, static_cast<std::uint64_t>(took));
@@ -80,8 +80,7 @@ class LeafWatch {
     Nanoseconds carried{0};             // of the call around this one
   };
   Begun begin(CallMark& mark);
-  void end(const Begun& begun, std::uint32_t place, NodeIndex leaf, PluginFunction function,
-           CallMark& mark);
+  void end(const Begun& begun, std::uint32_t place, PluginFunction function, CallMark& mark);
 
   // --- for the owner of the run ------------------------------------------------------------------
 
@@ -117,10 +116,10 @@ class LeafWatch {
   Nanoseconds time_of(std::int64_t count) const {
     return options_.clock == nullptr ? cycles_.time_of(count) : Nanoseconds(count);
   }
-  void note_unusual(std::uint32_t place, NodeIndex leaf, PluginFunction function, std::int64_t took,
+  NodeIndex leaf_at(std::uint32_t place) const;
+  void note_unusual(std::uint32_t place, PluginFunction function, std::int64_t took,
                     Nanoseconds carried);
-  void note_over_budget(std::uint32_t place, NodeIndex leaf, PluginFunction function,
-                        std::int64_t took);
+  void note_over_budget(std::uint32_t place, PluginFunction function, std::int64_t took);
   bool may_tell();
   void set_usual();
   void restore_mode(std::optional<NodeIndex> leaf, PluginFunction function);

@@ -103,7 +103,7 @@ Status out(NodeContext& context, NodeIndex self) {
   if (std::exchange(leaf.unreset, false)) {
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
   } else if (LeafCall::can_be_in_line(context) && context.end_of(self) == self + 1) {
-    LeafCall::in_line<PluginFunction::Start>(context, self, leaf, leaf.type->start);
+    LeafCall::in_line<PluginFunction::Start>(context, leaf, leaf.type->start);
     if (leaf.error != nullptr) take_error(context, self, leaf);
   } else {
     call<PluginFunction::Start>(context, self, leaf.type->start);
@@ -172,7 +172,7 @@ Status tick_leaf(NodeContext& context, NodeIndex self) {
     result = call_tick(context, self);
     is_out_now = is_out(context, leaf);
   } else if (LeafCall::can_be_in_line(context)) {
-    result = LeafCall::in_line<PluginFunction::Tick>(context, self, leaf, leaf.type->tick);
+    result = LeafCall::in_line<PluginFunction::Tick>(context, leaf, leaf.type->tick);
   } else {
     result = call_tick(context, self);
   }
@@ -274,8 +274,8 @@ double LeafCall::spoiled_progress(NodeContext& context, NodeIndex node, double r
   return corrected(context, node, leaf, reported);
 }
 
-[[gnu::cold]] void LeafCall::note_exception(NodeContext& context, NodeIndex node) {
-  context.set_fault(node, describe_exception());
+[[gnu::cold]] void LeafCall::note_exception(NodeContext& context, const LeafSlot& leaf) {
+  context.set_fault(context.tree().leaves[place_of(context, leaf)].node, describe_exception());
 }
 
 std::optional<double> look_at_progress(NodeContext& context, NodeIndex node) {
