@@ -39,19 +39,20 @@ struct LateTick {
 
 // The part that the leaves of a type, or with a path, play.
 struct CastRow {
-  enum class From : std::uint8_t { Words, Plugin, Recording } from = From::Words;
+  enum class From : std::uint8_t { Words, Plugin, Recording };
   std::string of, path;  // one of both
   Place place = {};      // of that attribute
+  Place source = {};     // of what it does
   std::vector<LeafWord> words = {};
-  bool restarts = false;               // in each activation
-  bool has_result = false;             // the words are made of a result and the time until it
-  std::optional<double> seconds = {};  // such a time, of which they are made for a rate
+  std::optional<double> seconds = {};  // the time of a result, of which they are made for a rate
+  std::vector<std::pair<std::string, std::string>> written = {};
+  std::string recording = {};
+  From from = From::Words;
+  bool restarts = false;    // in each activation
+  bool has_result = false;  // the words are made of a result and the time until it
   Status result = Status::Success;
   bool is_fault = false;
-  std::vector<std::pair<std::string, std::string>> written = {};
   bool may_lack = false;  // the tree need not have such a leaf
-  std::string recording = {};
-  Place source = {};  // of what it does
 };
 
 struct NumberRange {
