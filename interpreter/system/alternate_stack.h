@@ -35,7 +35,7 @@ class AlternateStack {
   AlternateStack& operator=(const AlternateStack&) = delete;
 
  private:
-  static constexpr std::size_t kSize = 256 * 1024;  // the kernel's part alone can be 12 KB
+  static constexpr std::size_t kSize = std::size_t{256} * 1024;  // the kernel's part alone can be 12 KB
   void* memory_ = nullptr;
   stack_t before_{};
 };
