@@ -49,6 +49,8 @@ except lockstep.Error as error:
         "3 none.xml: error: cannot be read: No such file or directory\n");
 }
 
+#if !defined(__SANITIZE_THREAD__)  // whose runtime cannot be loaded into Python
+
 TEST_CASE("docs/programs.md: a tree in Python with the leaves of a program") {
   const std::string page = read_file(LOCKSTEP_SOURCE_DIR "/docs/programs.md");
   const auto block = [&](const std::string& heading) {
@@ -75,6 +77,8 @@ TEST_CASE("docs/programs.md: a tree in Python with the leaves of a program") {
   CHECK(contains(outcome.out, "0.03 {'w': 0.095}\n0.05 {'w': 0.09}\n"));
   CHECK(lines(outcome.out).size() == 19);
 }
+
+#endif
 
 TEST_CASE("docs/paper/figure3.py makes the figure: more barriers, better predictability") {
   const Outcome outcome = python({LOCKSTEP_SOURCE_DIR "/docs/paper/figure3.py", "5"}, kPackage);
