@@ -1,11 +1,13 @@
 // Each MISTAKE is one that authors of nodes for BehaviorTree.CPP make, or something of that library
-// that lockstep has not.
+// that lockstep has not. -1: all at once, of which each is reported in other words.
 #include <memory>
 
 #include "behaviortree_cpp/actions/script_node.h"
 #include "behaviortree_cpp/actions/test_node.h"
 #include "behaviortree_cpp/bt_factory.h"
 #include "behaviortree_cpp/loggers/bt_sqlite_logger.h"
+
+#define IS_MISTAKE(number) (MISTAKE == (number) || MISTAKE == -1)
 
 using namespace BT;
 
@@ -17,7 +19,7 @@ class Good : public SyncActionNode {
  public:
   Good(const std::string& name, const NodeConfig& config) : SyncActionNode(name, config) {}
   static PortsList providedPorts() {
-#if MISTAKE == 1
+#if IS_MISTAKE(1)
     return {InputPort<Point>("point", std::make_unique<int>(1), "a point")};
 #else
     return {InputPort<Point>("point", Point{1}, "a point")};
@@ -52,28 +54,38 @@ class NoNode {};
 
 BT_REGISTER_NODES(factory) {
   factory.registerNodeType<Good>("Good");
-#if MISTAKE == 2
+#if IS_MISTAKE(2)
   factory.registerNodeType<Abstract>("Abstract");
-#elif MISTAKE == 3
+#endif
+#if IS_MISTAKE(3)
   factory.registerNodeType<NoPorts>("NoPorts");
-#elif MISTAKE == 4
+#endif
+#if IS_MISTAKE(4)
   factory.registerNodeType<NoConfig>("NoConfig");
-#elif MISTAKE == 5
+#endif
+#if IS_MISTAKE(5)
   factory.registerNodeType<NoNode>("NoNode");
-#elif MISTAKE == 6
+#endif
+#if IS_MISTAKE(6)
   auto tree = factory.createTreeFromText("");
   const SqliteLogger table(tree, "run.db3");
-#elif MISTAKE == 7
+#endif
+#if IS_MISTAKE(7)
   factory.registerNodeType<TestNode>("Test");
-#elif MISTAKE == 8
+#endif
+#if IS_MISTAKE(8)
   factory.registerNodeType<ManualSelectorNode>("Pick");
-#elif MISTAKE == 9
+#endif
+#if IS_MISTAKE(9)
   factory.registerNodeType<ScriptNode>("Code");
-#elif MISTAKE == 10
+#endif
+#if IS_MISTAKE(10)
 #include "behaviortree_cpp/loggers/bt_zmq_publisher.h"
-#elif MISTAKE == 11
+#endif
+#if IS_MISTAKE(11)
   factory.registerPolymorphicCast<Good, Abstract>();
-#elif MISTAKE == 12
+#endif
+#if IS_MISTAKE(12)
   const PortInfo port(PortDirection::INPUT, typeid(int), [](StringView) { return Any(1); });
 #endif
 }
