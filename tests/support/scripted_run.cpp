@@ -22,7 +22,8 @@ std::map<std::string, LeafScript> scripts(std::string_view text) {
   return scripts;
 }
 
-const CallSite kSite;  // of each leaf
+// Of each leaf.
+const CallSite& site = CallSite::of({.path = "leaf", .id = "Scripted", .plugin = "test"});
 
 }  // namespace
 
@@ -33,7 +34,7 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
 ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy)
     : tree_(std::move(tree)),
       board_(tree_),
-      slots_(tree_.leaves.size(), {.site = &kSite}),
+      slots_(tree_.leaves.size(), {.site = &site}),
       plugin_nodes_(tree_, board_, slots_),
       ticker_(tree_, slots_, board_, policy) {
   plugin_nodes_.set_node_context(ticker_);
