@@ -1,7 +1,6 @@
 #include "document/language_of.h"
 
 #include <algorithm>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -13,8 +12,9 @@ namespace {
 
 // By the attributes of the root. Of two languages the later one in the list, so not our own.
 const LanguageRules& chosen(std::span<const std::string_view> attributes) {
-  for (const LanguageRules* it : languages() | std::views::reverse) {
-    if (std::ranges::find(attributes, it->root_attribute) != attributes.end()) return *it;
+  const auto all = languages();
+  for (auto it = all.rbegin(); it != all.rend(); ++it) {
+    if (std::ranges::find(attributes, (*it)->root_attribute) != attributes.end()) return **it;
   }
   for (const LanguageRules* it : languages()) {
     if (it->root_may_lack_it) return *it;

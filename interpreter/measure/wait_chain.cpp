@@ -41,7 +41,8 @@ class WaitSearch {
       const Obstacle obstacle = follow(begin);
       return {std::move(links_), obstacle};
     }
-    std::ranges::rotate(links_, std::ranges::min_element(links_, {}, &WaitLink::node));
+    const auto first = std::ranges::min_element(links_, {}, &WaitLink::node);
+    std::rotate(links_.begin(), first, links_.end());
     return {std::move(links_), Obstacle::Circle};
   }
 

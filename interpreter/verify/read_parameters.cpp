@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/blackboard.h"
+#include "engine/tree.h"
+
 namespace lockstep::host {
 namespace {
 

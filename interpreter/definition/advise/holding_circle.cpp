@@ -30,7 +30,8 @@ class Follower {
     std::vector<HoldingLink> links;
     for (auto it = std::ranges::find(way, leaf); it != way.end(); ++it)
       links.push_back(links_[*it]);
-    std::ranges::rotate(links, std::ranges::min_element(links, {}, &HoldingLink::held));
+    const auto first = std::ranges::min_element(links, {}, &HoldingLink::held);
+    std::rotate(links.begin(), first, links.end());
     return links;
   }
 
