@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "authoring/server/features/site.h"
 #include "core/element_types.h"
 #include "core/language.h"
 #include "document/references.h"
@@ -168,7 +169,8 @@ std::vector<const NamePlace*> Names::same_as(const NamePlace& name) const {
                          (name.kind != NameKind::Entry || it.scope == name.scope);
     if (is_same) same.push_back(&it);
   }
-  std::ranges::stable_partition(same, [](const NamePlace* it) { return it->is_declaration; });
+  std::stable_partition(same.begin(), same.end(),
+                        [](const NamePlace* it) { return it->is_declaration; });
   return same;
 }
 
