@@ -35,7 +35,8 @@ class AlternateStack {
   AlternateStack& operator=(const AlternateStack&) = delete;
 
  private:
-  static constexpr std::size_t kSize = std::size_t{256} * 1024;  // the kernel's part alone can be 12 KB
+  // The kernel's part alone can be 12 KB.
+  static constexpr std::size_t kSize = std::size_t{256} * 1024;
   void* memory_ = nullptr;
   stack_t before_{};
 };

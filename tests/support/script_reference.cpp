@@ -57,7 +57,7 @@ std::vector<Term> words_of(const std::string& script) {
       words.push_back({.what = "name", .text = script.substr(at, end - at)});
       at = end;
     } else if (is_digit_of(c)) {
-      const bool is_hex = c == '0' && peek(1) == 'x';
+      const bool is_hex = c == '0' && (peek(1) == 'x' || peek(1) == 'X');
       std::size_t end = at + (is_hex ? 2 : 0);
       bool is_real = false;
       const std::string digits = is_hex ? "0123456789abcdefABCDEF" : "0123456789";
