@@ -28,6 +28,8 @@ for compiler in /usr/bin/{g++,clang++} /usr/bin/{g++,clang++}-[0-9]*; do
     try_with "$compiler" c++ "$standard" lockstep/leaf.hpp lockstep/clock.h
     try_with "$compiler" c++ "$standard" lockstep/runtime.hpp lockstep/testing.hpp
   done
+  # With a sanitizer, g++ takes less for a constant.
+  "$compiler" "${flags[@]}" -std=c++17 -fsanitize=undefined tests/abi/plugins/shapes_sdk.cpp
 done
 seen=()
 for compiler in /usr/bin/{gcc,clang} /usr/bin/{gcc,clang}-[0-9]*; do
