@@ -31,12 +31,12 @@ ScriptedRun::ScriptedRun(std::string_view tree, std::string_view leaves, FaultPo
                          const LanguageRules& rules)
     : ScriptedRun(tree_from_text(tree, rules), leaves, policy) {}
 
-ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy)
+ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy, LeafWatch* watch)
     : tree_(std::move(tree)),
       board_(tree_),
       slots_(tree_.leaves.size(), {.site = &site}),
       plugin_nodes_(tree_, board_, slots_),
-      ticker_(tree_, slots_, board_, policy) {
+      ticker_(tree_, slots_, board_, policy, watch) {
   plugin_nodes_.set_node_context(ticker_);
   const auto by_name = scripts(leaves);
   for (std::uint32_t number = 0; number < slots_.size(); ++number) {

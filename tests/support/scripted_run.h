@@ -19,7 +19,9 @@ class ScriptedRun {
   // std::invalid_argument.
   ScriptedRun(std::string_view tree, std::string_view leaves,
               FaultPolicy policy = FaultPolicy::Stop, const LanguageRules& rules = kLockstepRules);
-  ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy = FaultPolicy::Stop);
+  // The watch may be null; else it outlives the run.
+  ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy = FaultPolicy::Stop,
+              LeafWatch* watch = nullptr);
   ScriptedRun(const ScriptedRun&) = delete;
   ScriptedRun& operator=(const ScriptedRun&) = delete;
 
