@@ -60,7 +60,8 @@ Status NodeContext::fail(NodeIndex node) {
 }
 
 void NodeContext::note_failed_leaf(NodeIndex node) {
-  if (std::exchange(leaf(node).failed, true)) return;
+  if (leaf(node).failed) return;
+  leaf(node).failed = true;
   std::erase_if(state_.failed_leaves, [this](NodeIndex it) { return !leaf(it).failed; });
   state_.failed_leaves.push_back(node);
 }

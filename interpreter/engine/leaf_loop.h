@@ -72,9 +72,8 @@ class LeafLoop {
 
   // Nothing but the call belongs to the tick.
   static bool is_ready(Activity before, const LeafSlot& leaf) {
-    const bool is_simple =
-        before == Activity::Running || (before != Activity::Paused && leaf.type->start == nullptr);
-    return is_simple && !(leaf.failed | leaf.unreset);
+    if (before == Activity::Running) return !(leaf.failed | leaf.unreset);
+    return before != Activity::Paused && !(leaf.failed | leaf.unreset | leaf.starts);
   }
   // One that has failed as a program is not held: its progress is 0.
   template <class While>

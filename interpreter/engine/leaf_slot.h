@@ -20,11 +20,13 @@ struct LeafSlot {
   const CallSite* site = nullptr;         // names it when a call crashes or hangs
   const double* kept_progress = nullptr;  // where it keeps its progress; null: it is called
   const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
-  bool failed = false;          // a tolerated fault in this activation, which ends in a Failure
-  bool unreset = false;         // it begins from its last result, which its parent has not ended
-  bool started = false;         // the activation began, so it has to be halted
-  bool out_of_range = false;    // it has reported a progress outside [0, 1] in this run
-  bool went_on = false;         // its progress has risen in this run while it was held
+  // In one byte, of which one look is enough.
+  bool failed : 1 = false;    // a tolerated fault in this activation, which ends in a Failure
+  bool unreset : 1 = false;   // it begins from its last result, which its parent has not ended
+  bool starts : 1 = true;     // its activation may begin with a call; false: one did without
+  bool started = false;       // the activation began, so it has to be halted
+  bool out_of_range = false;  // it has reported a progress outside [0, 1] in this run
+  bool went_on = false;       // its progress has risen in this run while it was held
   ChildAccess access = ChildAccess::None;  // of a control node or decorator
 
   // A thread of the leaf may store it at this moment.

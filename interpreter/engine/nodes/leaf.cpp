@@ -100,7 +100,8 @@ Status out(NodeContext& context, NodeIndex self) {
 
 [[gnu::noinline]] void start(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   leaf.started = false;
-  if (std::exchange(leaf.unreset, false)) {
+  if (leaf.unreset) {
+    leaf.unreset = false;
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
   } else if (LeafCall::can_be_in_line(context) && context.end_of(self) == self + 1) {
     LeafCall::in_line<PluginFunction::Start>(context, leaf, leaf.type->start);
@@ -122,6 +123,7 @@ bool prepare(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   if (before == Activity::Paused) {
     resume(context, self, leaf);
   } else if (leaf.type->start == nullptr && !leaf.unreset) {
+    leaf.starts = false;
     leaf.started = true;
   } else {
     start(context, self, leaf);
