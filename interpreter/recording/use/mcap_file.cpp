@@ -52,7 +52,7 @@ void put_list(std::string& to, std::string_view items) {
 
 }  // namespace
 
-McapFile::McapFile(std::string library, const ExportSink& write) : write_(write) {
+McapFile::McapFile(std::string_view library, const ExportSink& write) : write_(write) {
   std::string header;
   put_text(header, "");  // profile: none
   put_text(header, library);
@@ -116,18 +116,18 @@ void McapFile::end_chunk() {
   open_.size = chunk_.size();
   put(record(Opcode::Chunk, content));
   open_.length = position_ - open_.offset;
-  for (std::uint16_t number = 0; number < channels_.size(); ++number) {
+  for (std::size_t number = 0; number < channels_.size(); ++number) {
     Channel& it = channels_[number];
     it.is_in_chunk = false;
     if (it.index.empty()) continue;
-    open_.indexes[number] = position_;
+    open_.indexes[static_cast<std::uint16_t>(number)] = position_;
     std::string entries, index;
     for (const auto& [time, offset] : it.index) {
       put_number(entries, time);
       put_number(entries, offset);
     }
     it.index.clear();
-    put_number(index, number);
+    put_number(index, static_cast<std::uint16_t>(number));
     put_list(index, entries);
     put(record(Opcode::MessageIndex, index));
   }
@@ -139,10 +139,10 @@ void McapFile::end_chunk() {
 std::string McapFile::statistics() const {
   std::uint64_t messages = 0;
   std::string counts, content;
-  for (std::uint16_t number = 0; number < channels_.size(); ++number) {
+  for (std::size_t number = 0; number < channels_.size(); ++number) {
     messages += channels_[number].messages;
     if (channels_[number].messages == 0) continue;
-    put_number(counts, number);
+    put_number(counts, static_cast<std::uint16_t>(number));
     put_number(counts, static_cast<std::uint64_t>(channels_[number].messages));
   }
   put_number(content, messages);

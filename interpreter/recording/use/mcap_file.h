@@ -17,7 +17,7 @@ class McapFile {
  public:
   static constexpr std::size_t kChunk = 1u << 20;  // bytes of records, then the chunk is written
 
-  McapFile(std::string library, const ExportSink& write);
+  McapFile(std::string_view library, const ExportSink& write);
 
   // The number of a schema: JSON Schema.
   std::uint16_t add_schema(std::string_view name, std::string_view json_schema);
