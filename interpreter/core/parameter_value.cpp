@@ -118,10 +118,11 @@ ListErrors list_errors(const NodeType& type, const Parameter& parameter, std::st
   std::set<double> told;
   std::erase_if(numbers, [&](double number) {
     auto refused = refuse_value(parameter, Value(number));
-    if (refused && told.size() < kMostTold && told.insert(number).second) {
+    if (!refused) return false;
+    if (told.size() < kMostTold && told.insert(number).second) {
       errors.refused.push_back(*std::move(refused));
     }
-    return refused.has_value();
+    return true;
   });
   if (type.rule == nullptr) return errors;
   const auto place = static_cast<std::size_t>(&parameter - type.parameters.data());

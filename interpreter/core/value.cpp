@@ -120,7 +120,7 @@ class Writer {
  public:
   explicit Writer(std::string& out) : out_(out) {}
 
-  void operator()(NoValue) const {}
+  void operator()(const NoValue&) const {}
   void operator()(bool flag) const { out_ += flag ? "true" : "false"; }
   void operator()(Flag flag) const { (*this)(flag.is_set); }
   void operator()(std::int64_t number) const { put(number); }

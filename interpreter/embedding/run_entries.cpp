@@ -277,6 +277,7 @@ using namespace lockstep::host::embedding;
 
 // Each function exists twice: for an entry by its key, and by its index.
 
+// NOLINTBEGIN(bugprone-macro-parentheses): it is a type
 #define LOCKSTEP_ROW(TYPE, of_type, Item)                                                \
   bool lockstep_run_get_##of_type(lockstep_run* run, const char* key, Item* value) {     \
     return get(run, key, value);                                                         \
@@ -290,6 +291,7 @@ using namespace lockstep::host::embedding;
   bool lockstep_run_set_##of_type##_at(lockstep_run* run, uint32_t entry, Item value) {  \
     return set(run, entry, value);                                                       \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 LOCKSTEP_PLAIN_TYPES(LOCKSTEP_ROW)
 #undef LOCKSTEP_ROW
 

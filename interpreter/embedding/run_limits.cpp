@@ -7,7 +7,7 @@
 
 namespace lockstep::host::embedding {
 
-RunLimitsWatch::RunLimitsWatch(RunLimits limits, const Tree& tree, LeafLog log)
+RunLimitsWatch::RunLimitsWatch(RunLimits limits, const Tree& tree, const LeafLog& log)
     : limits_(std::move(limits)) {
   if (!limits_.budget) return;
   LeafWatchOptions options{.budget = limits_.budget};

@@ -20,7 +20,7 @@ struct RunLimits {
 
 class RunLimitsWatch {
  public:
-  RunLimitsWatch(RunLimits limits, const Tree& tree, LeafLog log);
+  RunLimitsWatch(RunLimits limits, const Tree& tree, const LeafLog& log);
 
   // Null: calls are not timed.
   LeafWatch* leaf_watch() { return leaves_ ? &*leaves_ : nullptr; }

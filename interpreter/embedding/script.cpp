@@ -77,7 +77,7 @@ lockstep_script* lockstep_script_new(const char* text, size_t length, const lock
                        it.hint.empty() ? "" : "; ", it.hint));
       return nullptr;
     }
-    auto script = std::make_unique<lockstep_script>(*std::move(code));
+    auto script = std::make_unique<lockstep_script>(lockstep_script{*std::move(code)});
     script->entries.resize(script->code.names().size());
     return script.release();
   });

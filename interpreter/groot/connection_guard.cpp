@@ -40,7 +40,7 @@ std::uint64_t received(const FileDescriptor& socket) {
 // Both sides see the end at once. After shutdown() a client whose window is full would not.
 void cut_off(const FileDescriptor& socket) {
   const sockaddr nobody{.sa_family = AF_UNSPEC, .sa_data = {}};
-  connect(socket.number(), &nobody, sizeof nobody);
+  static_cast<void>(connect(socket.number(), &nobody, sizeof nobody));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void EntryState::set(const std::string* value, std::uint64_t tick) {
   changed = tick;
 }
 
-EntryChanges::EntryChanges(std::vector<std::uint32_t> slots) {
+EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {
   for (const std::uint32_t slot : slots) {
     Watched& watched = watched_.emplace_back(Watched{.slot = slot});
     watched.text.reserve(kNumber);

@@ -33,7 +33,7 @@ class EntryChanges {
   static constexpr std::size_t kNumber = 32;    // and of the longest number, at least
 
   // For these slots of the blackboard, numbered in this order.
-  explicit EntryChanges(std::vector<std::uint32_t> slots);
+  explicit EntryChanges(const std::vector<std::uint32_t>& slots);
 
   // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
   // than before.

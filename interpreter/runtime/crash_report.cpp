@@ -120,7 +120,7 @@ Crash crash_here(CrashKind kind) {
 }
 
 Crash crash_of(int number, const siginfo_t& info, const Registers& registers) {
-  constexpr std::uint64_t kNear = 64 * 1024;
+  constexpr std::uint64_t kNear = std::uint64_t{64} << 10;
   Crash crash = crash_here(CrashKind::Signal);
   crash.signal = number;
   crash.code = info.si_code;

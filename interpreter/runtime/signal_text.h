@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -23,7 +24,7 @@ class SignalText {
   SignalText& hexadecimal(std::uint64_t number) { return (*this << "0x").digits(number, 16); }
   // "2.0", with one digit after the point.
   SignalText& tenths(double number) {
-    const auto all = static_cast<std::uint64_t>(number * 10 + 0.5);
+    const auto all = static_cast<std::uint64_t>(std::llround(number * 10));
     return *this << all / 10 << "." << all % 10;
   }
 

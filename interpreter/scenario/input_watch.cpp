@@ -17,7 +17,8 @@ Value read_input(const BoundPort& port) {
   const Value& value = *port.ordinary();
   if (port.is_generic || holds(value, port.type)) return value;
   auto converted = convert_value(value, port.type, port.object());
-  return converted ? std::move(*converted) : value;
+  if (converted) return std::move(*converted);
+  return value;
 }
 
 bool are_same(const Value& value, const PreparedInput& input) {

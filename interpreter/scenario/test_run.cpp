@@ -50,7 +50,7 @@ std::string stem_of(const ScenarioFile& file, const Scenario& scenario) {
 
 }  // namespace
 
-TestRun::TestRun(std::vector<const ScenarioFile*> files,
+TestRun::TestRun(const std::vector<const ScenarioFile*>& files,
                  const std::function<bool(const ScenarioFile&, const Scenario&)>& is_chosen,
                  TestOptions options)
     : options_(std::move(options)) {

@@ -50,7 +50,7 @@ struct TestOptions {
 class TestRun {
  public:
   // Loads the trees of these scenarios; `files` must outlive this.
-  TestRun(std::vector<const ScenarioFile*> files,
+  TestRun(const std::vector<const ScenarioFile*>& files,
           const std::function<bool(const ScenarioFile&, const Scenario&)>& is_chosen,
           TestOptions options);
 

@@ -36,8 +36,8 @@ class Workshop {
  public:
   explicit Workshop(const StudyWork& work)
       : work_(work),
-        per_chunk_(std::clamp<std::uint64_t>((work.last_row - work.first_row) / (4 * work.jobs), 1,
-                                             kRowsPerChunk)),
+        per_chunk_(std::clamp<std::uint64_t>(
+            (work.last_row - work.first_row) / (std::uint64_t{4} * work.jobs), 1, kRowsPerChunk)),
         chunks_((work.last_row - work.first_row + per_chunk_ - 1) / per_chunk_),
         ring_(std::clamp<std::uint64_t>(chunks_, 1, kChunksPerThread * work.jobs)) {}
 

@@ -7,7 +7,7 @@
 
 namespace lockstep::host {
 
-Crew::Crew(unsigned size) : failures_(size) {
+Crew::Crew(unsigned size) : failures_(size) {  // NOLINT(bugprone-throw-keyword-missing)
   try {
     for (unsigned i = 1; i < size; ++i) {
       threads_.push_back(own_thread([this, i] { serve(i); }));

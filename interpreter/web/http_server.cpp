@@ -208,7 +208,7 @@ struct HttpServer::Implementation {
     auto open = std::make_unique<Open>(*this, connection, std::move(answer.stream));
     MHD_Response* response =
         mhd().create_response_from_callback(MHD_SIZE_UNKNOWN, kPiece, on_read, open.get(), on_free);
-    if (response != nullptr) open.release();
+    if (response != nullptr) static_cast<void>(open.release());
     return response;
   }
 

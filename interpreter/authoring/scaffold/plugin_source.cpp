@@ -79,7 +79,8 @@ bool has_node(const PluginSource& source, const std::string& mask, const NewNode
 }
 
 // The plugin may call its factory as it likes.
-std::string entry_of(const PluginSource& source, const std::string& mask, std::string entry) {
+std::string entry_of(const PluginSource& source, const std::string& mask,
+                     const std::string& entry) {
   std::smatch match;
   const bool is_named =
       source.language->name == "btcpp" &&

@@ -11,7 +11,7 @@ struct Literal {
   bool is_python;
   std::string_view type;  // as the language has it
 
-  std::string operator()(NoValue) const { return {}; }
+  std::string operator()(const NoValue&) const { return {}; }
   std::string operator()(const Object&) const { return {}; }
   std::string operator()(bool value) const {
     if (is_python) return value ? "True" : "False";

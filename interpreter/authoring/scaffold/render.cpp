@@ -19,7 +19,7 @@ data data_of(const Values& values) {
   for (const auto& [name, rows] : values.lists) {
     data list(data::type::list);
     for (const Values& row : rows) list.push_back(data_of(row));
-    made.set(name, std::move(list));
+    made.set(name, list);
   }
   return made;
 }

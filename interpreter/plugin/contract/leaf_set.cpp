@@ -65,7 +65,7 @@ struct LeafSet::Implementation {
 
   Implementation(const Tree& tree, Blackboard& blackboard, const LeafTime& time, LeafLog log,
                  BoardsOfRun* boards);
-  ~Implementation() { destroy_all(); }
+  ~Implementation() { destroy_all(); }  // NOLINT(bugprone-exception-escape): plugins' are caught
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 

@@ -1,5 +1,7 @@
 #include "cli/tools/log/recorded_tree.h"
 
+#include <fmt/format.h>
+
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
@@ -15,7 +17,9 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
   load.unknown = MissingNodes::AreMocked;
   load.main_tree = header.tree;
   load.main_file = MainFile::IsRegular;
-  for (const auto& [name, value] : header.arguments) load.arguments.push_back(name + '=' + value);
+  for (const auto& [name, value] : header.arguments) {
+    load.arguments.push_back(fmt::format("{}={}", name, value));
+  }
   Diagnostics diagnostics;
   auto loaded = load_given(file_, load, diagnostics);
   print_diagnostics(diagnostics, Severity::Error);

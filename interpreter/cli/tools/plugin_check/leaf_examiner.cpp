@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kTicks = 20;
 constexpr std::uint32_t kMostChildren = 2;
-constexpr std::size_t kLong = 64 * 1024;
+constexpr std::size_t kLong = std::size_t{64} << 10;
 
 // The steps of a scenario.
 enum class Do : std::uint8_t { Tick, Pause, Halt, Restart };

@@ -2,6 +2,7 @@
 // that turns C++ exceptions into leaf errors. Included by lockstep/leaf.hpp.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -103,7 +104,7 @@ class Services {
   std::uint64_t tick_number() const {
     const auto* const ticks = host_extension<lockstep_ticks>(LOCKSTEP_TICKS);
     if (ticks != nullptr) return ticks->number(caller_.id);
-    return static_cast<std::uint64_t>(now() / tick_period() + 0.5);
+    return static_cast<std::uint64_t>(std::llround(now() / tick_period()));
   }
 
   // The caller's own stream of random numbers: 64 bits, or uniform in [0, 1) or [low, high). The

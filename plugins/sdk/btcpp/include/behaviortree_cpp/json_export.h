@@ -261,6 +261,7 @@ void ImportTreeFromJSON(const lockstep_detail::Json<AnyTree>& json, AnyTree& tre
 
 // Says the fields of a class, in its namespace:
 //   BT_JSON_CONVERTER(Point, point) { add_field("x", &point.x); add_field("y", &point.y); }
+// NOLINTBEGIN(bugprone-macro-parentheses): they are names
 #define BT_JSON_CONVERTER(Type, value)                                                         \
   template <class AddField>                                                                    \
   void _JsonTypeDefinition(Type&, AddField&);                                                  \
@@ -275,3 +276,4 @@ void ImportTreeFromJSON(const lockstep_detail::Json<AnyTree>& json, AnyTree& tre
   }                                                                                            \
   template <class AddField>                                                                    \
   inline void _JsonTypeDefinition(Type& value, AddField& add_field)
+// NOLINTEND(bugprone-macro-parentheses)

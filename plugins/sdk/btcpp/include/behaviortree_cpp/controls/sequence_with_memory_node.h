@@ -15,7 +15,7 @@ class SequenceWithMemory : public lockstep_detail::LockstepRowNode {
   }
 
   // It keeps its place.
-  void halt() override { ControlNode::halt(); }
+  void halt() override { ControlNode::halt(); }  // NOLINT(bugprone-parent-virtual-call)
 
  private:
   NodeStatus lockstep_fail(NodeStatus result) override {

@@ -48,11 +48,10 @@ class LoopNode : public DecoratorNode {
  private:
   // An entry with a queue is taken from. A list, or a text, is copied in each activation.
   void lockstep_find_items() {
-    if (auto queue = getInput<SharedQueue<T>>("queue"); queue && !lockstep_is_text()) {
-      lockstep_items_ = std::move(*queue);
-    } else if (lockstep_items_ != nullptr) {
-      return;
-    } else if (queue) {
+    auto queue = getInput<SharedQueue<T>>("queue");
+    const bool is_taken_from = queue && !lockstep_is_text();
+    if (lockstep_items_ != nullptr && !is_taken_from) return;
+    if (queue) {
       lockstep_items_ = std::move(*queue);
     } else if (const auto list = getInput<std::vector<T>>("queue")) {
       lockstep_items_ = std::make_shared<std::deque<T>>(list->begin(), list->end());

@@ -50,6 +50,7 @@ class Coroutine {
   // makecontext passes ints only.
   static void run(unsigned low, unsigned high) {
     const std::uint64_t self = (static_cast<std::uint64_t>(high) << 32u) | low;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): as it was passed
     reinterpret_cast<Coroutine*>(static_cast<std::uintptr_t>(self))->live();
   }
   void live() {

@@ -49,7 +49,9 @@ constexpr lockstep_plugin plugin_entry() {
   }                                                                                  \
   void BT_RegisterNodesFromPlugin([[maybe_unused]] BT::BehaviorTreeFactory& factory)
 #else
+// NOLINTBEGIN(bugprone-macro-parentheses): it is a name
 #define BT_REGISTER_NODES(factory)                         \
   [[maybe_unused]] static void BT_RegisterNodesFromPlugin( \
       [[maybe_unused]] BT::BehaviorTreeFactory& factory)
+// NOLINTEND(bugprone-macro-parentheses)
 #endif

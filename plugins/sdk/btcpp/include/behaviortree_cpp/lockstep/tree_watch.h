@@ -162,11 +162,9 @@ class TreeWatch {
     const std::uint32_t above = watched_[index].parent;
     const Watched& parent = watched_[above];
     const bool is_complete = isStatusCompleted(status);
-    if (above == index) {
-      if (is_complete) forget(index);  // the root
-    } else if (parent.own) {
-      return;
-    } else if (parent.is_decorator()) {
+    const bool is_root = above == index;
+    if (!is_root && parent.own) return;
+    if (is_root || parent.is_decorator()) {
       if (is_complete) forget(index);
     } else if (parent.is_reactive && status == NodeStatus::RUNNING) {
       for (const std::uint32_t other : parent.children) {

@@ -57,7 +57,7 @@ bool convert_number(From from, To& to) {
     to = from != 0;
     return true;
   } else if constexpr (std::is_floating_point_v<To>) {
-    to = static_cast<To>(from);
+    to = static_cast<To>(from);  // NOLINT(bugprone-signed-char-misuse)
     if constexpr (std::is_integral_v<From>) {
       constexpr From kExact = From{1} << 53;
       if (from >= kExact) return false;
@@ -93,7 +93,7 @@ class Any {
       unsigned_ = value;
       kind_ = Kind::kUnsigned;
     } else if constexpr (std::is_integral_v<Value> || std::is_enum_v<Value>) {
-      whole_ = static_cast<std::int64_t>(value);
+      whole_ = static_cast<std::int64_t>(value);  // NOLINT(bugprone-signed-char-misuse)
       kind_ = Kind::kWhole;
     } else if constexpr (std::is_floating_point_v<Value>) {
       real_ = static_cast<double>(value);
