@@ -39,7 +39,7 @@ Status NodeContext::fail(NodeIndex node) {
   const HookedNode* const hooked = scripts_.around(node);
   Status status = Status::Failure;
   if (tree_.labels[node].type->leaf != nullptr) {
-    leaf(node).failed = true;
+    leaf(node).mark(LeafSlot::kFailed, true);
     const bool is_watched = watches_ != nullptr && watches_->is_watched(node);
     const NodeKind& kind = is_watched          ? watches_->inner_kind(node)
                            : hooked != nullptr ? *hooked->kind
@@ -60,21 +60,21 @@ Status NodeContext::fail(NodeIndex node) {
 }
 
 void NodeContext::note_failed_leaf(NodeIndex node) {
-  if (leaf(node).failed) return;
-  leaf(node).failed = true;
-  std::erase_if(state_.failed_leaves, [this](NodeIndex it) { return !leaf(it).failed; });
+  if (leaf(node).failed()) return;
+  leaf(node).mark(LeafSlot::kFailed, true);
+  std::erase_if(state_.failed_leaves, [this](NodeIndex it) { return !leaf(it).failed(); });
   state_.failed_leaves.push_back(node);
 }
 
 [[gnu::cold, gnu::noinline]] bool NodeContext::has_failed_leaf(NodeIndex child) {
   return std::ranges::any_of(state_.failed_leaves, [&](NodeIndex it) {
-    return it >= child && it < end_of(child) && leaf(it).failed;
+    return it >= child && it < end_of(child) && leaf(it).failed();
   });
 }
 
 [[gnu::cold, gnu::noinline]] bool NodeContext::fails_itself(NodeIndex child) {
   for (const NodeIndex it : state_.failed_leaves) {
-    if (it < child || it >= end_of(child) || !leaf(it).failed) continue;
+    if (it < child || it >= end_of(child) || !leaf(it).failed()) continue;
     if (it == child) return true;
     halt_failed(it);
   }
@@ -86,7 +86,7 @@ void NodeContext::halt_failed(NodeIndex node) {
   if (!leaf(node).started || status(node) != Status::Running) return;
   nodes_[node].kind->halt(*this, node);
   leaf(node).started = false;
-  leaf(node).failed = true;
+  leaf(node).mark(LeafSlot::kFailed, true);
 }
 
 }  // namespace lockstep::host

@@ -17,7 +17,7 @@ constexpr std::uint32_t kRises = 2;
 
 void HeldLeaves::add(NodeContext& context, NodeIndex node) {
   const LeafSlot& leaf = context.leaf(node);
-  if (leaf.went_on || leaf.failed) return;
+  if (leaf.went_on || leaf.failed()) return;
   if (const auto now = look_at_progress(context, node)) held_.push_back({node, 0, *now, *now});
 }
 
@@ -28,7 +28,7 @@ void HeldLeaves::look(NodeContext& context) {
 // Nothing more is to be found.
 bool HeldLeaves::is_done(NodeContext& context, Held& held) {
   LeafSlot& leaf = context.leaf(held.node);
-  if (!context.held(held.node) || leaf.went_on || leaf.failed) return true;
+  if (!context.held(held.node) || leaf.went_on || leaf.failed()) return true;
   const auto now = look_at_progress(context, held.node);
   if (!now) return true;
   if (*now <= held.most + kProgressEpsilon) return false;

@@ -72,8 +72,8 @@ class LeafLoop {
 
   // Nothing but the call belongs to the tick.
   static bool is_ready(Activity before, const LeafSlot& leaf) {
-    if (before == Activity::Running) return !(leaf.failed | leaf.unreset);
-    return before != Activity::Paused && !(leaf.failed | leaf.unreset | leaf.starts);
+    if (before == Activity::Running) return (leaf.marks & ~LeafSlot::kStarts) == 0;
+    return before != Activity::Paused && leaf.marks == 0;
   }
   // One that has failed as a program is not held: its progress is 0.
   template <class While>
@@ -126,7 +126,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     } else if (before != Activity::Running) {
       if (stays_held(before, chosen)) continue;
       break;
-    } else if (!chosen.next() || leaf->failed) {
+    } else if (!chosen.next() || leaf->failed()) {
       break;
     }
     const auto result =
@@ -156,7 +156,7 @@ NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex en
     return leaf != last && context.in_line_ != nullptr;
   };
   do {
-    if (status_of(*activity) != Status::Running || leaf->failed) break;
+    if (status_of(*activity) != Status::Running || leaf->failed()) break;
     double reported = 0.0;
     if (leaf->kept_progress != nullptr) {
       reported = leaf->read_progress();

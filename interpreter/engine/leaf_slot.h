@@ -19,15 +19,22 @@ struct LeafSlot {
   void* self = nullptr;
   const CallSite* site = nullptr;         // names it when a call crashes or hangs
   const double* kept_progress = nullptr;  // where it keeps its progress; null: it is called
-  const char* error = nullptr;  // set by the host's set_error: the reason, valid until taken
-  // In one byte, of which one look is enough.
-  bool failed : 1 = false;    // a tolerated fault in this activation, which ends in a Failure
-  bool unreset : 1 = false;   // it begins from its last result, which its parent has not ended
-  bool starts : 1 = true;     // its activation may begin with a call; false: one did without
-  bool started = false;       // the activation began, so it has to be halted
-  bool out_of_range = false;  // it has reported a progress outside [0, 1] in this run
-  bool went_on = false;       // its progress has risen in this run while it was held
+  const char* error = nullptr;   // set by the host's set_error: the reason, valid until taken
+  std::uint8_t marks = kStarts;  // of those below; none: nothing is asked before its tick
+  bool started = false;          // the activation began, so it has to be halted
+  bool out_of_range = false;     // it has reported a progress outside [0, 1] in this run
+  bool went_on = false;          // its progress has risen in this run while it was held
   ChildAccess access = ChildAccess::None;  // of a control node or decorator
+
+  // kFailed: a tolerated fault in this activation, which ends in a Failure. kUnreset: the
+  // activation begins from a result that its parent has not ended. kStarts: it may begin with a
+  // call.
+  static constexpr std::uint8_t kFailed = 1, kUnreset = 2, kStarts = 4;
+  void mark(std::uint8_t with, bool is_so) {
+    marks = static_cast<std::uint8_t>(is_so ? marks | with : marks & ~with);
+  }
+  bool failed() const { return (marks & kFailed) != 0; }
+  bool unreset() const { return (marks & kUnreset) != 0; }
 
   // A thread of the leaf may store it at this moment.
   double read_progress() const {

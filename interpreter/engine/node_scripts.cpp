@@ -139,7 +139,7 @@ void NodeScripts::fail(NodeIndex node, std::string_view attribute, std::string_v
   context_.set_fault(node, message.append(attribute).append(": ").append(wrong));
   if (context_.faulted()) return;
   context_.halt(node);
-  if (tree_.labels[node].type->leaf != nullptr) context_.leaf(node).failed = false;
+  if (tree_.labels[node].type->leaf != nullptr) context_.leaf(node).mark(LeafSlot::kFailed, false);
 }
 
 }  // namespace lockstep::host

@@ -67,7 +67,7 @@ void halt_before_children(NodeContext& context, NodeIndex self, LeafSlot& leaf) 
     take_error(context, self, leaf);
   }
   context.halt_range(self + 1, context.end_of(self));
-  leaf.failed = false;
+  leaf.mark(LeafSlot::kFailed, false);
 }
 
 // Children are halted before their control node.
@@ -82,12 +82,12 @@ void halt_leaf(NodeContext& context, NodeIndex self) {
     if (context.faulted() && !context.in_last_halt()) return;  // halted at the end of the run
   }
   if (leaf.started) call<PluginFunction::Halt>(context, self, leaf.type->halt);
-  leaf.failed = false;
+  leaf.mark(LeafSlot::kFailed, false);
 }
 
 // No function of the leaf is called any more but halt, in its time.
 bool is_out(const NodeContext& context, const LeafSlot& leaf) {
-  return leaf.failed || context.faulted();
+  return leaf.failed() || context.faulted();
 }
 
 // Ends a tick once the leaf is out.
@@ -100,8 +100,8 @@ Status out(NodeContext& context, NodeIndex self) {
 
 [[gnu::noinline]] void start(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   leaf.started = false;
-  if (leaf.unreset) {
-    leaf.unreset = false;
+  if (leaf.unreset()) {
+    leaf.mark(LeafSlot::kUnreset, false);
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
   } else if (LeafCall::can_be_in_line(context) && context.end_of(self) == self + 1) {
     LeafCall::in_line<PluginFunction::Start>(context, leaf, leaf.type->start);
@@ -113,17 +113,17 @@ Status out(NodeContext& context, NodeIndex self) {
 }
 
 [[gnu::noinline]] void resume(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
-  if (!leaf.failed) call<PluginFunction::Resume>(context, self, leaf.type->resume);
+  if (!leaf.failed()) call<PluginFunction::Resume>(context, self, leaf.type->resume);
 }
 
 // The first tick of an activation, or the first after a pause. False: the leaf is out.
 bool prepare(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   const Activity before = context.activity(self);
-  if (before == Activity::Running) return !leaf.failed;
+  if (before == Activity::Running) return !leaf.failed();
   if (before == Activity::Paused) {
     resume(context, self, leaf);
-  } else if (leaf.type->start == nullptr && !leaf.unreset) {
-    leaf.starts = false;
+  } else if (leaf.type->start == nullptr && !leaf.unreset()) {
+    leaf.mark(LeafSlot::kStarts, false);
     leaf.started = true;
   } else {
     start(context, self, leaf);
@@ -152,7 +152,7 @@ template <Kind kKind>
                                 : "returned status " + std::to_string(result) +
                                       ", expected one of lockstep/leaf.h");
   }
-  return leaf.failed ? out<kKind>(context, self) : Status::Running;
+  return leaf.failed() ? out<kKind>(context, self) : Status::Running;
 }
 
 lockstep_status call_tick(NodeContext& context, NodeIndex self) {
@@ -191,13 +191,13 @@ Status tick_control(NodeContext& context, NodeIndex self) {
 
 Unreset unreset_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  leaf.unreset = leaf.type->start_unreset != nullptr;
-  return leaf.unreset ? Unreset::Begins : unreset_by(*context.tree().labels[self].type);
+  leaf.mark(LeafSlot::kUnreset, leaf.type->start_unreset != nullptr);
+  return leaf.unreset() ? Unreset::Begins : unreset_by(*context.tree().labels[self].type);
 }
 
 void pause(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (!leaf.failed) call<PluginFunction::Pause>(context, self, leaf.type->pause);
+  if (!leaf.failed()) call<PluginFunction::Pause>(context, self, leaf.type->pause);
 }
 
 void pause_leaf(NodeContext& context, NodeIndex self) {
@@ -225,7 +225,7 @@ double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double re
 
 double progress_of_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (leaf.failed) return 0.0;
+  if (leaf.failed()) return 0.0;
   double reported = 0.0;
   if (leaf.kept_progress != nullptr) {
     reported = leaf.read_progress();
@@ -251,7 +251,7 @@ double progress_of_children(NodeContext& context, NodeIndex self) {
 
 double progress_of_control(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (leaf.failed) return 0.0;
+  if (leaf.failed()) return 0.0;
   if (leaf.type->progress == nullptr) return progress_of_children(context, self);
   const Reach reach(leaf, ChildAccess::Look);
   return progress_of_leaf(context, self);
@@ -272,7 +272,7 @@ Status LeafCall::complete(NodeContext& context, NodeIndex node, const LeafSlot& 
 
 double LeafCall::spoiled_progress(NodeContext& context, NodeIndex node, double reported) {
   LeafSlot& leaf = context.leaf(node);
-  if (leaf.failed || context.faulted()) reported = 0.0;  // as after an exception
+  if (leaf.failed() || context.faulted()) reported = 0.0;  // as after an exception
   return corrected(context, node, leaf, reported);
 }
 

@@ -18,7 +18,7 @@ bool may(const lockstep_caller* caller, ChildAccess access, std::string_view wha
   if (caller->is_foreign()) return false;
   const LeafSlot& slot = *caller->slot;
   if (slot.access >= access) [[likely]]
-    return slot.error == nullptr && !slot.failed && !caller->run->node_context->faulted();
+    return slot.error == nullptr && !slot.failed() && !caller->run->node_context->faulted();
   if (caller->children == 0) {
     breach(caller, fmt::format("{} a child, but has none", what));
   } else if (access == ChildAccess::Tick) {

@@ -10,7 +10,7 @@ void ProcessLeaves::remove(const ProcessLeaf& leaf) {
 
 void ProcessLeaves::look(NodeContext& context) {
   for (const auto& [node, leaf] : all_) {
-    if (!context.held(node) || context.leaf(node).failed || context.faulted()) continue;
+    if (!context.held(node) || context.leaf(node).failed() || context.faulted()) continue;
     if (std::string what = leaf->trouble(); !what.empty()) context.set_fault(node, std::move(what));
   }
 }
