@@ -68,6 +68,21 @@ std::string BoundParameters::read_bound(std::uint32_t place) {
   return wrong;
 }
 
+bool BoundParameters::are_up_to_date(std::uint32_t place) const {
+  const BoundNode& node = tree_.bound[place];
+  const Values& read = own_.values[place];
+  if (is_current(node, read)) return true;
+  Values now = read;
+  return take_values(node, now).empty() && now.values == read.values;
+}
+
+void BoundParameters::set(std::uint32_t place, const std::vector<Value>& values) {
+  Values& read = own_.values[place];
+  read.values = values;
+  read.known = false;
+  set_cells(tree_.bound[place], read);
+}
+
 bool BoundParameters::is_current(const BoundNode& node, const Values& values) const {
   if (!values.known) return false;
   for (std::size_t i = 0; i < values.seen.size(); ++i) {

@@ -40,6 +40,10 @@ class BoundParameters {
   std::string read(NodeIndex node);
   // The same for a node of Tree::bound, by its place there.
   std::string read_bound(std::uint32_t place);
+  // Whether a node's entries still say what it has read. By its place in Tree::bound.
+  bool are_up_to_date(std::uint32_t place) const;
+  // As if the node had read these. It reads again in its next tick.
+  void set(std::uint32_t place, const std::vector<Value>& values);
   // As new, for the next run.
   void reset();
 

@@ -105,14 +105,9 @@ void ModelLeaves::begin_tick() {
   std::fill(asked_.begin(), asked_.end(), false);
   for (const std::uint32_t leaf : drifting_) {
     if (states_[leaf].phase != Phase::Paused) continue;
-    const LeafModel& model = models_.leaves[leaf];
-    const auto top = static_cast<std::int64_t>(model.levels.size()) - 1;
-    const std::int64_t now = states_[leaf].level;
-    const std::int64_t first = std::clamp<std::int64_t>(now + model.least_drift, 0, top);
-    const std::int64_t last = std::clamp<std::int64_t>(now + model.most_drift, 0, top);
-    const std::int64_t to =
-        first + answers_.choose(static_cast<std::uint32_t>(last - first + 1), leaf);
-    set_level(leaf, static_cast<std::int32_t>(to));
+    const Reach& reach = rules_[leaf].while_held[states_[leaf].level];
+    const auto count = static_cast<std::uint32_t>(reach.last - reach.first + 1);
+    set_level(leaf, reach.first + static_cast<std::int32_t>(answers_.choose(count, leaf)));
     mark(leaf).drifted = true;
     mark(leaf).held_progress = progress_[leaf];
   }
@@ -176,25 +171,41 @@ void ModelLeaves::write(std::uint32_t leaf) {
 ModelLeaves::Rule::Rule(const LeafModel& model)
     : levels(model.levels.data()),
       can_run(model.can_run),
-      must_finish(model.finishes_full && model.has_progress),
-      has_one_level(model.levels.size() == 1),
       is_plain(model.fact == kNoFact && model.sets.empty() && model.outputs.empty()),
       results(model.results) {
   const auto count = [](std::int64_t ticks) {
     constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ticks, 0, kMost));
   };
-  // No leaf has as many levels.
-  const auto step = [](std::int64_t levels_of_step) {
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(levels_of_step, -100'000, 100'000));
-  };
   least_ticks = count(model.least_ticks);
   most_ticks = count(model.most_ticks);
-  least_step = step(model.least_step);
-  most_step = step(model.most_step);
-  const auto all = static_cast<std::int32_t>(model.levels.size());
-  goal = model.levels.back() >= 1 ? all - 1 : all;
-  last = model.finishes_full ? std::max(goal - 1, 0) : all - 1;
+  const auto end = static_cast<std::int32_t>(model.levels.size()) - 1;
+  const bool ends_at_1 = model.levels.back() >= 1;
+  const std::int32_t last = model.finishes_full && ends_at_1 ? std::max(end - 1, 0) : end;
+  in_a_tick = reaches(model, model.least_step, model.most_step, last);
+  while_held = reaches(model, model.least_drift, model.most_drift, end);
+}
+
+// From one step to another it may come to all levels on the way.
+std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std::int64_t least,
+                                                     std::int64_t most, std::int32_t last_level) {
+  const std::vector<std::int32_t>& steps = model.steps;
+  const auto usable = std::span(steps).first(static_cast<std::size_t>(last_level) + 1);
+  const bool must_finish = model.finishes_full && model.has_progress;
+  std::vector<Reach> reaches;
+  for (std::size_t level = 0; level < steps.size(); ++level) {
+    const std::int64_t from = std::clamp<std::int64_t>(steps[level] + least, 0, usable.back());
+    const std::int64_t to = std::clamp<std::int64_t>(steps[level] + most, from, usable.back());
+    auto first = static_cast<std::int32_t>(std::ranges::lower_bound(usable, from) - usable.begin());
+    const auto behind =
+        static_cast<std::int32_t>(std::ranges::upper_bound(usable, to) - usable.begin());
+    if (least >= 0) first = std::clamp(static_cast<std::int32_t>(level), first, last_level);
+    reaches.push_back({.first = first,
+                       .last = behind - 1,
+                       .may_succeed = !must_finish || steps[level] + most >= model.goal,
+                       .must_succeed = must_finish && steps[level] + least >= model.goal});
+  }
+  return reaches;
 }
 
 Status ModelLeaves::tick(std::uint32_t leaf) {
@@ -207,16 +218,9 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   ++state.ticks;
   if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
 
-  const std::int32_t level = state.level;
-  std::int32_t from = 0, to = 0;
-  if (!rule.has_one_level) {
-    from = std::clamp(level + rule.least_step, 0, rule.last);
-    to = std::clamp(level + rule.most_step, from, rule.last);
-  }
+  const Reach& reach = rule.in_a_tick[state.level];
   const bool may_end = state.ticks >= rule.least_ticks;
-  const bool may_succeed = !rule.must_finish || level + rule.most_step >= rule.goal;
-  const bool must_succeed =
-      rule.must_finish && level + rule.least_step >= rule.goal && may_end && rule.results.success;
+  const bool must_succeed = reach.must_succeed && may_end && rule.results.success;
   const bool is_last = rule.most_ticks != 0 && state.ticks >= rule.most_ticks;
   bool may_run = rule.can_run && !is_last && !must_succeed;
 
@@ -226,7 +230,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   if (may_end && !rule.is_plain && model.fact != kNoFact) {
     ends[count++] = ask(model.fact) ? Status::Success : Status::Failure;
   } else if (may_end) {
-    if (may_succeed && rule.results.success) ends[count++] = Status::Success;
+    if (reach.may_succeed && rule.results.success) ends[count++] = Status::Success;
     if (rule.results.failure) ends[count++] = Status::Failure;
     if (rule.results.skipped) ends[count++] = Status::Skipped;
     may_fault = rule.results.fault;
@@ -234,7 +238,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   if (count == 0 && !may_fault && !may_run) {
     rule.can_run ? void(may_run = true) : void(ends[count++] = Status::Success);
   }
-  const auto running = may_run ? static_cast<std::uint32_t>(to - from + 1) : 0;
+  const auto running = may_run ? static_cast<std::uint32_t>(reach.last - reach.first + 1) : 0;
   std::uint32_t choice = answers_.choose(count + (may_fault ? 1 : 0) + running, leaf);
   if (choice < count) {
     mark.result = ends[choice];
@@ -251,7 +255,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
     slots_[leaf].error = "fails as a program, which the leaf file allows";
     return Status::Failure;
   }
-  set_level(leaf, from + static_cast<std::int32_t>(choice));
+  set_level(leaf, reach.first + static_cast<std::int32_t>(choice));
   mark.result = Status::Running;
   mark.progress = progress_[leaf];
   return Status::Running;

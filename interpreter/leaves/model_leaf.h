@@ -108,19 +108,23 @@ class ModelLeaves {
     progress_[leaf] = rules_[leaf].levels[level];
   }
 
+  // To which levels a leaf may come, and whether it may succeed, or has to.
+  struct Reach {
+    std::int32_t first, last;
+    bool may_succeed, must_succeed;
+  };
+  static std::vector<Reach> reaches(const LeafModel& model, std::int64_t least, std::int64_t most,
+                                    std::int32_t last_level);
+
   // All that most ticks read of a model.
   struct Rule {
     explicit Rule(const LeafModel& model);
 
     const double* levels;
     std::uint32_t least_ticks, most_ticks;
-    std::int32_t least_step, most_step;
-    std::int32_t goal;  // the level at which it is done: at 1, or behind all of them
-    std::int32_t last;  // to which it may come
+    std::vector<Reach> in_a_tick, while_held;  // from each level
     bool can_run;
-    bool must_finish;    // it succeeds only at its goal
-    bool has_one_level;  // it stays at it
-    bool is_plain;       // it has to do with no fact and no entry
+    bool is_plain;  // it has to do with no fact and no entry
     ResultSet results;
   };
 

@@ -21,6 +21,7 @@ namespace {
 constexpr std::int64_t kNoEnd = 1'000'000'000;
 constexpr std::string_view kProgress = "progress";
 constexpr std::uint32_t kUsualParts = 10, kMostParts = 1000;
+constexpr double kSameLevel = 1e-9;
 
 bool is_whole(double value) {
   return std::abs(value - std::round(value)) < 1e-6;
@@ -325,10 +326,32 @@ class ModelMaker {
   }
 
   void find_levels() {
-    const std::vector<Cuts> cuts = cuts_of(tree_, barriers_of_entries(), observed_.progress);
+    const BarriersOfEntries barriers = barriers_of_entries();
+    const std::vector<Cuts> cuts = cuts_of(tree_, barriers);
+    const std::vector<Cuts> all_cuts = cuts_of(tree_, barriers, observed_.progress);
     for (std::size_t leaf = 0; leaf < models_.leaves.size(); ++leaf) {
-      find_levels(leaf, cuts[models_.leaves[leaf].node]);
+      LeafModel& model = models_.leaves[leaf];
+      const bool is_on_grid = ways_[leaf].way && ways_[leaf].way->kind == ProgressWay::Kind::Grid;
+      Cuts own = cuts[model.node];
+      own.is_unknown = all_cuts[model.node].is_unknown;
+      find_levels(leaf, own);
+      const std::vector<double> steps = model.levels;
+      if (model.has_progress && !is_on_grid) {
+        for (const double cut : all_cuts[model.node].values) add_level(model, cut);
+      }
+      count_steps(model, steps);
     }
+  }
+
+  // What a property compares progress with is seen, but makes no step smaller.
+  static void count_steps(LeafModel& model, const std::vector<double>& steps) {
+    const auto steps_to = [&](double level) {
+      return static_cast<std::int32_t>(std::ranges::lower_bound(steps, level - kSameLevel) -
+                                       steps.begin());
+    };
+    model.steps.clear();
+    for (const double level : model.levels) model.steps.push_back(steps_to(level));
+    model.goal = steps_to(1);
   }
 
   void find_levels(std::size_t leaf, const Cuts& cuts) {
@@ -355,12 +378,13 @@ class ModelMaker {
     for (std::uint32_t part = 1; part <= model.parts; ++part) {
       add_level(model, static_cast<double>(part) / model.parts);
     }
+    if (way && way->kind == Kind::Grid) return;
     for (const double cut : cuts.values) add_level(model, cut);
   }
 
   static void add_level(LeafModel& model, double value) {
-    const auto at = std::ranges::lower_bound(model.levels, value - 1e-9);
-    if (at == model.levels.end() || *at > value + 1e-9) model.levels.insert(at, value);
+    const auto at = std::ranges::lower_bound(model.levels, value - kSameLevel);
+    if (at == model.levels.end() || *at > value + kSameLevel) model.levels.insert(at, value);
   }
 
   void check_parts(const ProgressWay& way, Place place, const std::vector<double>& deltas) {

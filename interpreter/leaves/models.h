@@ -24,8 +24,12 @@ struct LeafModel {
   std::int64_t most_ticks = 0;  // 0: without end
   bool ends = true;
   // The progress that it may have, rising from 0; 1 only if running with it is not the same as
-  // having succeeded. A step is from one to another.
+  // having succeeded.
   std::vector<double> levels{0.0};
+  // Of each level: the steps from 0 to it. One that only a property tells apart is as far as the
+  // next one that is not.
+  std::vector<std::int32_t> steps{0};
+  std::int32_t goal = 1;  // as many steps: at 1, or behind all
   bool has_progress = false;
   std::uint32_t parts = 0;  // of a grid; 0: the levels are cuts
   std::int64_t least_step = 0, most_step = 0;

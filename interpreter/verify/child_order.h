@@ -26,6 +26,8 @@ class ChildOrder {
   ChildOrder(const Tree& tree, const Symmetry& symmetry);
 
   void sort(KeptState& state);
+  // In place of `sort`: all are where they were.
+  void keep();
   // After `sort`: of each place, the node that was there before; empty if all are where they were.
   std::span<const NodeIndex> origins() const {
     return has_moved_ ? std::span<const NodeIndex>(origins_) : std::span<const NodeIndex>();

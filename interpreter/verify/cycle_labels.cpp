@@ -31,7 +31,9 @@ class CycleLabels {
     }
     EdgeMerger merger(expanders_, *found.graph);
     for (std::size_t first = 0; first < states.size() && found.signal == 0;) {
-      const std::size_t there = store_.keeps_hashes() ? made_.size() : states.size();
+      // At a limit there are states that were made, and not looked at.
+      const std::size_t there =
+          store_.keeps_hashes() ? std::min(made_.size(), states.size()) : states.size();
       const std::size_t count = std::min(kStatesAgain, there - first);
       const auto round = std::span(states).subspan(first, count);
       if (store_.keeps_hashes()) made_.forget_before(round.front());
@@ -102,7 +104,7 @@ class CycleLabels {
     const auto is_wanted = [&](StateId from, StateId to, const StateBytes& goal) {
       const bool is_made = store_.keeps_hashes() && to >= made_.size();
       if (is_made && part.made_here.insert(to).second) part.made.emplace_back(to, goal);
-      return components_.of(from) == components_.of(to);
+      return to < graph_.expanded() && components_.of(from) == components_.of(to);
     };
     expanders_[thread]->expand_again(store_, states, bytes_of, is_wanted, part.chunk);
   }

@@ -1,6 +1,7 @@
 #include "verify/read_parameters.h"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 #include "engine/blackboard.h"
@@ -23,7 +24,8 @@ std::size_t count_known(const BoundParameters::State& state) {
 
 }  // namespace
 
-ReadParameters::ReadParameters(const Tree& tree, const SavedRun& fresh) : fresh_(fresh) {
+ReadParameters::ReadParameters(const Tree& tree, const SavedRun& fresh)
+    : tree_(tree), fresh_(fresh) {
   std::set<std::uint32_t> slots;
   for (const BoundNode& node : tree.bound) {
     const std::size_t count = node.kind->type.parameters.size();
@@ -51,7 +53,25 @@ void ReadParameters::learn(const SavedRun& from, Ticker& ticker) {
   known_ = read;
 }
 
-void ReadParameters::give(SavedRun& run) {
+void ReadParameters::give(SavedRun& run, std::span<const ReadValues> values, Ticker& ticker) {
+  give_known(run);
+  const auto is_missing = [&](std::uint32_t place) {
+    return status_of(run.run.activity[tree_.bound[place].node]) == Status::Running &&
+           !run.parameters.values[place].known;
+  };
+  const auto places =
+      std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(tree_.bound.size()));
+  if (values.empty() && std::ranges::none_of(places, is_missing)) return;
+  ticker.restore(run);
+  for (const std::uint32_t place : places) {
+    if (is_missing(place)) ticker.parameters().read_bound(place);
+  }
+  for (const ReadValues& it : values) ticker.parameters().set(it.place, it.values);
+  run.parameters = ticker.parameters().state();
+  given_ = kOthers;
+}
+
+void ReadParameters::give_known(SavedRun& run) {
   const std::size_t wanted = are_known(run.entries) ? count_ : 0;
   if (wanted == given_) return;
   run.parameters = wanted > 0 ? known_ : fresh_.parameters;

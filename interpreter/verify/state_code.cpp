@@ -180,9 +180,39 @@ StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun&
   }
 }
 
-void StateCode::before_fold(const Ticker& ticker) {
+void StateCode::before_fold(Ticker& ticker) {
   seen_.clear();
   for (const NodeIndex node : watched_) seen_.push_back(ticker.activity(node));
+  read_.clear();
+  const BoundParameters& parameters = ticker.parameters();
+  for (std::uint32_t place = 0; place < tree_.bound.size(); ++place) {
+    if (ticker.status(tree_.bound[place].node) != Status::Running) continue;
+    if (parameters.are_up_to_date(place)) continue;
+    read_.push_back({place, parameters.state().values[place].values});
+  }
+}
+
+void StateCode::write(const std::vector<ReadValues>& all, Writer& writer) const {
+  if (tree_.bound.empty()) return;
+  writer.number(static_cast<std::uint32_t>(all.size()));
+  for (const ReadValues& it : all) {
+    writer.number(it.place);
+    for (const Value& value : it.values) {
+      writer.plain(static_cast<std::uint8_t>(value.index()));
+      std::visit(writer, value);
+    }
+  }
+}
+
+void StateCode::read(ByteReader& reader, std::vector<ReadValues>& all) const {
+  all.resize(tree_.bound.empty() ? 0 : reader.number());
+  for (ReadValues& it : all) {
+    it.place = static_cast<std::uint32_t>(reader.number());
+    it.values.clear();
+    const std::size_t count = tree_.bound[it.place].kind->type.parameters.size();
+    while (it.values.size() < count)
+      it.values.push_back(reader.value(reader.plain<std::uint8_t>()));
+  }
 }
 
 // A node that is held and would not be told apart from one that runs is one that runs: the next
@@ -215,10 +245,12 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
   }
   kept_.words = ticker.run_state().bytes;
   kept_.leaves = leaves.states();
-  if (children == Children::Sorted) order_.sort(kept_);
+  // Equal children read the same entries, but not at the same moment.
+  if (children == Children::Sorted) read_.empty() ? order_.sort(kept_) : order_.keep();
   into.clear();
   Writer writer(into);
   write(kept_, writer);
+  write(read_, writer);
   writer.bytes(leaves.facts().data(), leaves.facts().size());
   writer.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {
@@ -263,17 +295,24 @@ void StateCode::move(std::span<const std::byte> from, std::span<const NodeIndex>
   ByteReader reader(from);
   read(reader, kept_);
   order_.move(kept_, places);
+  std::vector<ReadValues> values;
+  read(reader, values);
+  for (ReadValues& it : values) {
+    it.place = tree_.place_in_front(places[tree_.bound[it.place].node], FrontCell::Bound);
+  }
   into.clear();
   Writer writer(into);
   write(kept_, writer);
+  write(values, writer);
   writer.bytes(reader.rest().data(), reader.rest().size());
 }
 
 void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
                        std::vector<LeafState>& leaves, std::vector<FactState>& facts,
-                       std::span<std::byte> properties) {
+                       std::span<std::byte> properties, std::vector<ReadValues>& values) {
   ByteReader reader(from);
   read(reader, kept_);
+  read(reader, values);
   run.run.activity = kept_.activity;
   run.run.bytes = kept_.words;
   leaves = kept_.leaves;

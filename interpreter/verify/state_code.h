@@ -1,5 +1,6 @@
 // The state of a run as bytes that can be compared: what is active of a folded run, what its leaves
-// keep, the facts, what properties remember, and the entries that the tree reads.
+// keep, the facts, what properties remember, the entries that the tree reads, and parameters that
+// were read from entries which say something else now.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,12 @@ namespace lockstep::host {
 
 using StateBytes = std::vector<std::byte>;
 
+// What an active node of Tree::bound has read.
+struct ReadValues {
+  std::uint32_t place;
+  std::vector<Value> values;
+};
+
 class StateCode {
  public:
   // `fresh` is a run before its first tick. All must outlive this.
@@ -22,8 +29,9 @@ class StateCode {
   StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
             std::vector<bool> watched, const Symmetry& symmetry);
 
-  // Notes what a fold would forget of those.
-  void before_fold(const Ticker& ticker);
+  // Notes what a fold would forget: those statuses, and which entries were written since they were
+  // read.
+  void before_fold(Ticker& ticker);
 
   // Encodes a run that is folded, with equal children in one order or as they are.
   enum class Children : std::uint8_t { Sorted, AsTheyAre };
@@ -34,7 +42,8 @@ class StateCode {
   // The state in which each node is at one of these places.
   void move(std::span<const std::byte> from, std::span<const NodeIndex> places, StateBytes& into);
   void decode(std::span<const std::byte> from, SavedRun& run, std::vector<LeafState>& leaves,
-              std::vector<FactState>& facts, std::span<std::byte> properties);
+              std::vector<FactState>& facts, std::span<std::byte> properties,
+              std::vector<ReadValues>& values);
 
  private:
   class Writer;
@@ -42,6 +51,8 @@ class StateCode {
   void find_held(const Ticker& ticker);
   static void write(const KeptState& state, Writer& writer);
   void read(ByteReader& reader, KeptState& state) const;
+  void write(const std::vector<ReadValues>& all, Writer& writer) const;
+  void read(ByteReader& reader, std::vector<ReadValues>& all) const;
 
   const Tree& tree_;
   const LeafModels& models_;
@@ -49,7 +60,8 @@ class StateCode {
   std::vector<std::uint32_t> entries_;  // the slots that are in the state
   std::vector<bool> keeps_pause_;       // of each node: it is not the same held or not
   std::vector<NodeIndex> watched_;
-  std::vector<Activity> seen_;  // of those, before the fold
+  std::vector<Activity> seen_;    // of those, before the fold
+  std::vector<ReadValues> read_;  // before the fold, where entries say something else
   ChildOrder order_;
   KeptState kept_;  // as it is encoded
 };

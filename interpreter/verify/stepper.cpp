@@ -36,6 +36,9 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
 
 StateBytes Stepper::first_state() {
   ticker_.restore(fresh_);
+  leaves_.restore(std::vector<LeafState>(from_leaves_.size()),
+                  std::vector<FactState>(from_facts_.size(), FactState::Unknown));
+  code_.before_fold(ticker_);
   watch_.begin(property_bytes_.data());
   StateBytes state;
   code_.encode(ticker_, leaves_, property_bytes_, StateCode::Children::AsTheyAre, state);
@@ -43,8 +46,8 @@ StateBytes Stepper::first_state() {
 }
 
 void Stepper::load(std::span<const std::byte> state, bool is_first) {
-  code_.decode(state, from_, from_leaves_, from_facts_, from_properties_);
-  parameters_.give(from_);
+  code_.decode(state, from_, from_leaves_, from_facts_, from_properties_, from_read_);
+  parameters_.give(from_, from_read_, ticker_);
   leaves_.restore(from_leaves_, from_facts_);
   time_ = is_first ? Nanoseconds(0) : period_;
   answers_.begin_state(from_.run, from_leaves_);

@@ -66,6 +66,7 @@ class Stepper {
   ReadParameters parameters_;
   std::vector<LeafState> from_leaves_;
   std::vector<FactState> from_facts_;
+  std::vector<ReadValues> from_read_;
   StateBytes property_bytes_, from_properties_;
   Nanoseconds time_{0};
   StateBytes folded_, moved_;

@@ -11,6 +11,8 @@ struct Row {
 };
 
 constexpr auto kArms = "ParallelAbsolute[barriers=.5](a b)";
+constexpr auto kWaits =
+    "Sequence[memory=true](Script[code=q:=1.0] ParallelAbsolute[barriers=.5](Wait[seconds={q}] a))";
 constexpr auto kFull = R"(<leaf path="*" finish="full" result="success"/>)";
 
 // clang-format off
@@ -33,6 +35,16 @@ const Row kRows[] = {
   {"a.running leads to a.done", "a", "", "holds"},
   {"a.running leads to a.done within 2 ticks", "a", R"(<leaf path="*" ticks="1..3"/>)", "holds"},
   {"a.running leads to a.done within 1 ticks", "a", R"(<leaf path="*" ticks="1..3"/>)", "2"},
+  // What a property compares progress with makes no step smaller: of a grid, or from cut to cut.
+  {"never b.progress > 0.6 and a.running", "Parallel(a b)",
+   R"(<leaf path="*/a" result="success" ticks="5" progress="none"/>
+      <leaf path="*/b" result="success" progress="grid:4" step="1" finish="full"/>)", "4"},
+  {"b.progress >= 0.5 only after b.progress >= 0.2 and b.progress < 0.5", kArms,
+   R"(<leaf path="*" finish="full" step="0..1"/>)", "2"},
+  // The progress of a node needs the parameters that it has read, also before it reads them again.
+  {"never Wait.held", kWaits, R"(<leaf path="*/a" result="success" ticks="3" progress="none"/>)", "holds"},
+  {"a.success only after Wait.held", kWaits,
+   R"(<leaf path="*/a" result="success" ticks="3" progress="none"/>)", "3"},
   // Below a node that has ended, results stay as they are.
   {"never a.success and c.running", "Sequence[memory=true](Sequence[memory=true](a b) c)", "", "1"},
 };
@@ -64,6 +76,12 @@ TEST_CASE("a property that waits is violated by a run that goes on without it") 
   };
   CHECK(findings("it: sometimes a.failure") == "property/it");
   CHECK(findings("it: sometimes a.success").empty());
+}
+
+TEST_CASE("the run of each finding begins as a run does") {
+  const Verified it("Parallel(a b)", "", {}, 10, {"x: never a.running", "y: never b.success"});
+  CHECK(it.findings() == "property/x, property/y");
+  CHECK(it.script("property/y") == "Test/Parallel/a = S\nTest/Parallel/b = S\n");
 }
 
 TEST_CASE("one property that is violated does not hide another") {
