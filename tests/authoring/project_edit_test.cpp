@@ -301,7 +301,12 @@ TEST_CASE("project edits: what nodes cannot say is not inlined") {
   CHECK(inlined("<SubTree ID=\"B\" k=\"5\"/>", script) == "the entry 'k' has a start value here");
   CHECK(inlined("<SubTree ID=\"B\" table=\"x\"/>", script) == "'table' is no entry of the tree");
   CHECK(inlined("<SubTree ID=\"B\" while=\"k\"/>", "<Script code=\"k := 1\" while=\"true\"/>") ==
-        "the first node has 'while' too");
+        "the SubTree has 'while', and the first node has 'while'");
+  CHECK(inlined("<SubTree ID=\"B\" success_if=\"k == 1\"/>",
+                "<Wait seconds=\"1\" on_success=\"k += 1\"/>") ==
+        "the SubTree has 'success_if', and the first node has 'on_success'");
+  CHECK(inlined("<SubTree ID=\"B\" success_if=\"k == 1\"/>", "<Wait seconds=\"1\"/>")
+            .find("<Wait seconds=\"1\" success_if=\"k == 1\"/>") != std::string::npos);
   // An entry that only the tree has stays one.
   CHECK(inlined("<SubTree ID=\"B\"/>", script).find("<Script code=\"k_2 := 1\"/>") !=
         std::string::npos);

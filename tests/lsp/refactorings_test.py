@@ -160,6 +160,19 @@ class Refactorings(Actions):
         self.assertEqual({}, self.ask(text.replace(begin + middle, f"[{begin}{middle}").replace("</Beh", "]</Beh")))
         self.assertEqual({}, self.ask(text.replace("<!-- a", "[<!-- a").replace(end, end + "]")))
 
+    def test_the_ticks_of_several_nodes_in_a_sequence(self):
+        def keeps(around, language='lockstep="1"', wait='<Wait seconds="0.03"/>'):
+            begin = f"      {wait}\n" * 2
+            nodes = f"    <{around}>\n[{begin}]      {wait}\n    </{around.split()[0]}>\n"
+            found = self.ask(root(f'  <BehaviorTree ID="Main">\n{nodes}  </BehaviorTree>\n', language))
+            return leaf_ticks(self.path, self.text) == leaf_ticks(self.path, found["Wrap in Sequence"])
+        other = 'BTCPP_format="4"', '<Sleep msec="30"/>'
+        self.assertTrue(keeps("Sequence"))
+        self.assertFalse(keeps('Sequence memory="true"'))
+        self.assertFalse(keeps("Fallback"))
+        self.assertTrue(keeps("Sequence", *other))
+        self.assertFalse(keeps("Fallback", *other))
+
     def test_what_breaks_the_tree_is_not_offered(self):
         found = self.ask(main(ONE.replace("<Wait", "<Wa|it")))
         self.assertFalse([it for it in found if it.startswith(("Delete", "Move"))])
@@ -187,6 +200,37 @@ class Refactorings(Actions):
         found = self.ask(text)
         self.assertIn("Wrap in Retry", found)
         self.assertFalse([it for it in found if it.startswith("Put")])
+
+    def test_a_subtree_and_its_first_node_with_scripts(self):
+        text = root('  <BehaviorTree ID="Main">\n    <Sub|Tree ID="Other" success_if="1 == 1"/>\n  </BehaviorTree>\n'
+                    '  <BehaviorTree ID="Other">\n    <Wait seconds="1" on_success="k += 1"/>\n  </BehaviorTree>\n')
+        title = "Put the tree 'Other' in the place of this SubTree"
+        self.assertNotIn(title, self.ask(text))
+        found = self.ask(text.replace(' on_success="k += 1"', ""))
+        self.assertIn('    <Wait seconds="1" success_if="1 == 1"/>\n', found[title])
+        self.assertIn(title, self.ask(text.replace(' success_if="1 == 1"', "").replace("k +", "k :")))
+
+    def test_a_condition_that_is_not_reset(self):
+        def offered(condition):
+            text = root('  <BehaviorTree ID="Main">\n    <WhileDoElse>\n      CONDITION\n      <Sleep msec="30"/>\n'
+                        '    </WhileDoElse>\n  </BehaviorTree>\n  <BehaviorTree ID="Other">\n    '
+                        '<AlwaysSuccess/>\n  </BehaviorTree>\n', 'BTCPP_format="4"')
+            found = self.ask(text.replace("CONDITION", condition))
+            at = self.text.index(condition[condition.index("|") + 1:]) - 1
+            return {it.split(" '")[0] for it in found if keeps_the_run(self.text, at, it)}
+        extract, put, wrap, unwrap = ("Extract into the SubTree", "Put the tree", "Wrap in Sequence",
+                                      "Replace Sequence by its child")
+        self.assertEqual({extract, wrap}, offered("<|AlwaysSuccess/>"))
+        self.assertEqual(set(), offered('<|AlwaysSuccess _skipIf="k == 1"/>'))
+        self.assertEqual(set(), offered('<|AlwaysSuccess _while="k == 1"/>'))
+        self.assertEqual({extract, wrap}, offered('<|AlwaysSuccess _onSuccess="k = 1"/>'))
+        self.assertEqual(set(), offered('<|Sleep msec="10"/>'))
+        self.assertEqual({put, wrap}, offered('<|SubTree ID="Other"/>'))
+        self.assertEqual(set(), offered('<|SubTree ID="Other" _failureIf="k == 1"/>'))
+        self.assertEqual({extract, wrap, unwrap}, offered("<|Sequence><AlwaysSuccess/></Sequence>"))
+        self.assertEqual({extract, wrap}, offered('<|Sequence><AlwaysSuccess _successIf="k == 1"/></Sequence>'))
+        # Its other children are reset.
+        self.assertEqual({extract, wrap}, offered('<AlwaysSuccess/>\n      <|Sleep msec="20" _skipIf="k == 1"/>'))
 
     def test_in_a_tree_with_errors(self):
         text = main(TWO.replace("<Wait seconds", "<Wait secnds"))

@@ -32,6 +32,13 @@ bool passes_on_by_choice(const ProjectTexts& texts, ElementAt node) {
   return false;
 }
 
+// The first script around ticks that an element has.
+const Attribute* hook_of(const ProjectTexts& texts, ElementAt at) {
+  for (const Attribute& it : texts.document(at.document).attributes(at.element))
+    if (hook_named(it.name, texts.rules())) return &it;
+  return nullptr;
+}
+
 // The part of a text that the edit leaves there.
 std::string edited_part(std::string_view text, std::size_t begin, std::size_t end,
                         const TextEdit& edit) {
@@ -130,11 +137,14 @@ class Inliner {
       return Problem{fmt::format("'{}' is no entry of the tree", brief(name)),
                      "remove it, or rename the barrier in the tree"};
     }
-    if (document_.find_attribute(root_.element, name) != nullptr) {
-      if (!is_hook) return std::nullopt;
-      return Problem{fmt::format("the first node has '{}' too", brief(name)),
-                     "put the SubTree into a node, and move the script there"};
+    // One node runs its scripts otherwise than two do, one around the other.
+    const Attribute* const other = hook_of(texts_, root_);
+    if (is_hook && other != nullptr) {
+      return Problem{
+          fmt::format("the SubTree has '{}', and the first node has '{}'", name, other->name),
+          "put the SubTree into a node, and move the script there"};
     }
+    if (document_.find_attribute(root_.element, name) != nullptr) return std::nullopt;
     auto added = set_attribute(document_, root_.element, name, attribute.value);
     if (!added) return added.error();
     edit_.add(std::move(*added));

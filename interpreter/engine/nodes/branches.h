@@ -109,7 +109,8 @@ constexpr NodeKind kWhile{
              .doc = "Asks its first child in every tick: while it succeeds, ticks the second "
                     "child, else the third. The branch that is left is halted. Failure without a "
                     "third child.",
-             .arity = {2, 3}},
+             .arity = {2, 3},
+             .keeps_first_child = kRule == Rule::Strict},
     .tick = tick_while<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),

@@ -44,6 +44,9 @@ constexpr Wrapping kWrappings[] = {
     {"Timeout", "msec", "10000"},
 };
 
+// A node around one child that changes no tick of it.
+constexpr std::string_view kSame = "Sequence";
+
 struct Nodes {
   std::uint32_t first, last;  // siblings
 };
@@ -85,6 +88,19 @@ std::string free_id(const ProjectTexts& texts, ElementAt node) {
   for (int number = 2; texts.find_tree(id) || texts.catalog().find(id) != nullptr; ++number)
     id = fmt::format("{}{}", name, number);
   return id;
+}
+
+// Whether the node, ticked again after it has completed, does not do the same with a reset as
+// without one. Then its scripts before a tick do not run, an action has its result, and one of a
+// plugin does what it likes.
+bool differs_without_reset(const ProjectTexts& texts, ElementAt node) {
+  for (const Attribute& it : texts.document(node.document).attributes(node.element)) {
+    const auto hook = hook_named(it.name, texts.rules());
+    if (hook && *hook <= Hook::While) return true;
+  }
+  const NodeType* const type = texts.type_of(node);
+  if (type == nullptr) return !texts.is_sub_tree(node);
+  return type->can_run || !type->plugin.empty() || type->mock != nullptr;
 }
 
 class Refactorings {
@@ -129,7 +145,7 @@ class Refactorings {
   }
 
   void extract() {
-    if (texts_.is_sub_tree({0, node_})) return;
+    if (texts_.is_sub_tree({0, node_}) || stays_in_place({0, node_})) return;
     const std::string id = free_id(texts_, {0, node_});
     offer(kExtract, fmt::format("Extract into the SubTree '{}'", brief(id)),
           extract_subtree(texts_, {0, node_}, id));
@@ -137,6 +153,9 @@ class Refactorings {
 
   void put_in_place() {
     const std::string_view id = texts_.value({0, node_}, "ID");
+    const auto tree = texts_.find_tree(id);
+    if (stays_in_place({0, node_})) return;
+    if (tree && stays_in_place({tree->document, tree->element + 1})) return;
     offer(kInline, fmt::format("Put the tree '{}' in the place of this SubTree", brief(id)),
           inline_subtree(texts_, {0, node_}));
   }
@@ -144,6 +163,7 @@ class Refactorings {
   void wrap(const Wrapping& in) {
     const NodeType* const type = texts_.catalog().find(in.tag);
     if (type == nullptr || !type->plugin.empty()) return;
+    if (in.tag == kSame && stays_in_place({0, node_})) return;
     if (!in.attribute.empty() && parameter_of(type, in.attribute) == nullptr) return;
     std::string tag(in.tag);
     if (!in.attribute.empty()) tag += fmt::format(" {}={}", in.attribute, quoted(in.value));
@@ -154,15 +174,36 @@ class Refactorings {
     const auto elements = document_.elements();
     if (elements[node_].end == node_ + 1) return;
     const bool is_one = elements[node_ + 1].end == elements[node_].end;
+    if (is_one && kind_ == kSame && stays_in_place({0, node_ + 1})) return;
     offer(kRewrite, fmt::format("Replace {} by its {}", kind_, is_one ? "child" : "children"),
           unwrap_element(document_, node_));
   }
 
+  std::uint32_t parent() const {
+    const auto elements = document_.elements();
+    std::uint32_t parent = node_ - 1;
+    while (elements[parent].end <= node_) --parent;
+    return parent;
+  }
+
+  // Whether the node around the selected one may tick it again without a reset.
+  bool is_kept() const {
+    const NodeType* const around = texts_.type_of({0, parent()});
+    if (around == nullptr) return false;
+    const bool is_of_plugin = !around->plugin.empty() || around->mock != nullptr;
+    return is_of_plugin || (around->keeps_first_child && node_ == parent() + 1);
+  }
+
+  // Whether the node would do something else inside of another one in the place of the selected
+  // one, since that resets it.
+  bool stays_in_place(ElementAt node) const {
+    return is_kept() && differs_without_reset(texts_, node);
+  }
+
   void move() {
     const auto elements = document_.elements();
-    std::uint32_t parent = node_ - 1, before = 0;
-    while (elements[parent].end <= node_) --parent;
-    for (const std::uint32_t it : children_in(elements, parent)) {
+    std::uint32_t before = 0;
+    for (const std::uint32_t it : children_in(elements, parent())) {
       if (before != 0 && it == node_)
         offer(kRewrite, "Move up", swap_elements(document_, before, it));
       if (before == node_) offer(kRewrite, "Move down", swap_elements(document_, before, it));
