@@ -258,6 +258,14 @@ class Features(Session):
         found = self.renamed(limit.replace("inner=\"", "_autoremap=\"true\" inner=\""), "most")
         self.assertIn("_autoremap=\"true\" inner=\"{most}\"", found)
 
+    def test_words_of_scripts_are_no_entries(self):
+        text = HEAD + "<Script code=\"w := tr|ue\"/>" + TAIL
+        self.assertIn("nothing here has a name", self.renamed(text, "yes"))
+        labels = self.complete(HEAD + "<Script code=\"w := true and false\"/><Wait seconds=\"{|\"/>" + TAIL)
+        for label in ("{true}", "{false}", "{and}"):
+            self.assertNotIn(label, labels)
+        self.assertIn("{w}", labels)
+
     def test_rename_in_what_is_beside_the_trees(self):
         text = HEAD + "<Wait seconds=\"{lim|it}\"/>" + TAIL.replace("</root>", """  <property>{limit} &gt;= 0</property>
   <scenario name="short" main="Main"><set key="limit" value="1"/><expect>{limit} == 1</expect></scenario>

@@ -83,19 +83,13 @@ class UseFinder {
     for (std::size_t offset = 0;;) {
       const auto token = next_token(script, offset);
       if (!token || token->symbol == Symbol::End) return;
-      if (token->symbol != Symbol::Name || is_word(token->text)) continue;
+      if (token->symbol != Symbol::Name) continue;
+      if (is_word_of_scripts(token->text, texts_.rules(), texts_.catalog())) continue;
       use.key = token->text;
       use.begin = token->offset;
       use.end = token->offset + token->text.size();
       uses_.push_back(use);
     }
-  }
-
-  bool is_word(std::string_view name) const {
-    const auto& words = texts_.catalog().words();
-    const bool is_sign = texts_.rules().strict_scripts && (name == "and" || name == "or");
-    return is_sign || name == "true" || name == "false" ||
-           (words != nullptr && words->find(std::string(name)) != words->end());
   }
 
   void visit_defaults(ElementAt at, const NodeType& type) {
@@ -144,6 +138,13 @@ class UseFinder {
 std::vector<EntryUse> entry_uses(const ProjectTexts& texts, ElementAt part) {
   std::set<std::string, std::less<>> open_trees;
   return UseFinder(texts, open_trees).find(part);
+bool is_word_of_scripts(std::string_view name, const LanguageRules& rules, const Catalog& catalog) {
+  const auto& words = catalog.words();
+  const bool is_sign = rules.strict_scripts && (name == "and" || name == "or");
+  return is_sign || name == "true" || name == "false" ||
+         (words != nullptr && words->find(std::string(name)) != words->end());
+}
+
 }
 
 std::set<std::string> keys_in(const ProjectTexts& texts, ElementAt part) {

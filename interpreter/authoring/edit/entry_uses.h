@@ -32,6 +32,9 @@ struct EntryUse {
 std::vector<EntryUse> entry_uses(const ProjectTexts& texts, ElementAt part);
 std::set<std::string> keys_in(const ProjectTexts& texts, ElementAt part);
 
+// Whether the name means something else than an entry in scripts.
+bool is_word_of_scripts(std::string_view name, const LanguageRules& rules, const Catalog& catalog);
+
 // Why entries of the project cannot change: a script, or the name of an entry, is in an entry.
 std::optional<Problem> names_at_run_time(const ProjectTexts& texts);
 

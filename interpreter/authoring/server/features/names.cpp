@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "authoring/edit/entry_uses.h"
 #include "authoring/server/features/site.h"
 #include "core/element_types.h"
 #include "core/language.h"
@@ -113,7 +114,8 @@ class NameVisitor {
         before.reset();
       }
       if (!token || token->symbol == Symbol::End) return;
-      if (token->symbol == Symbol::Name) before = *token;
+      const bool is_name = token->symbol == Symbol::Name;
+      if (is_name && !is_word_of_scripts(token->text, rules_, catalog_)) before = *token;
     }
   }
 
