@@ -270,6 +270,23 @@ TEST_CASE("project edits: an entry gets another name wherever it is the same ent
             "<BehaviorTree ID=\"B\"><Script code=\"j := 1\"/></BehaviorTree>\n");
 }
 
+TEST_CASE("project edits: a name that means something else is refused") {
+  const auto renamed = [](std::string_view name) {
+    return changed("<BehaviorTree ID=\"A\"><Script code=\"k := 1\"/></BehaviorTree>\n",
+                   [&](const ProjectTexts& texts) { return rename_entry(texts, "A", "k", name); });
+  };
+  for (const std::string name :
+       {"true", "false", "and", "or", "name", "ID", "_description", "while", "_autoremap",
+        "skip_if", "on_success", "_k", "1k", "@k"}) {
+    CHECK(renamed(name) == "'" + name + "' cannot be a key");
+  }
+  CHECK(renamed("_skipIf") == "'_skipIf' cannot be a key");
+  CHECK(renamed("skipIf").find("skipIf := 1") != std::string::npos);
+  CHECK(changed("<BehaviorTree ID=\"A\"><Wait seconds=\"1\"/></BehaviorTree>\n",
+                [](const ProjectTexts& texts) { return rename_tree(texts, "A", "Sequence"); }) ==
+        "'Sequence' cannot be the ID of a tree");
+}
+
 TEST_CASE("project edits: a tree of a part, and back") {
   const std::string before =
       "  <BehaviorTree ID=\"A\">\n    <Sequence>\n      <!-- c -->\n      <Fallback>\n"

@@ -258,6 +258,68 @@ class Features(Session):
         found = self.renamed(limit.replace("inner=\"", "_autoremap=\"true\" inner=\""), "most")
         self.assertIn("_autoremap=\"true\" inner=\"{most}\"", found)
 
+    def test_names_that_a_rename_refuses(self):
+        text = HEAD + "<Wait seconds=\"{lim|it}\" skip_if=\"limit == 3\"/>" + TAIL
+        for name in ("true", "and", "or"):
+            self.assertIn(f"'{name}' cannot be a key: scripts have this word", self.renamed(text, name))
+        for name in ("name", "ID", "_description", "_autoremap", "skip_if", "while", "on_halt"):
+            self.assertIn(f"'{name}' cannot be a key: a SubTree has an attribute", self.renamed(text, name))
+        self.assertIn("begins with '_'", self.renamed(text, "_limit"))
+        tree = text.replace("lim|it", "limit").replace("ID=\"Oth", "ID=\"O|th")
+        for name in ("Sequence", "Wait", "Advance"):
+            self.assertIn(f"'{name}' cannot be the ID of a tree: there is a node", self.renamed(tree, name))
+        self.assertIn("ID=\"Waits\"", self.renamed(tree, "Waits"))
+
+    def test_a_rename_that_makes_an_error(self):
+        text = HEAD + """<Parallel>
+        <SubTree ID="Used" own="5"/>
+        <SyncProgress barrier="table"><Wait seconds="1"/></SyncProgress>
+      </Parallel>""" + TAIL.replace("</root>", """
+  <BehaviorTree ID="Used">
+    <Sequence><Script code="o|wn := 1"/><SyncProgress barrier="table"><Wait seconds="1"/></SyncProgress></Sequence>
+  </BehaviorTree>
+</root>""")
+        self.put(text)
+        self.assertEqual([], [it for it in self.client.diagnostics(self.path) if it["severity"] == 1])
+        self.assertIn("the text would have an error: ", self.renamed(text, "table"))
+        self.assertIn("its=\"5\"", self.renamed(text, "its"))
+        # A path in a property keeps the ID of a tree.
+        text = text.replace("o|wn", "own").replace("ID=\"Main\"", "ID=\"Ma|in\"").replace(
+            "</root>", "<property>never Main/Sequence.failure</property></root>")
+        self.assertIn("never Main/", self.renamed(text, "First"))
+
+    def test_rename_of_an_entry_of_the_main_tree(self):
+        text = """<root BTCPP_format="4" main_tree_to_execute="Main">
+  <BehaviorTree ID="Main">
+    <Sequence><Script code="g := 1; h := 2"/><SubTree ID="Inner" x="{@g}"/><SubTree ID="Inner" x="{g}"/></Sequence>
+  </BehaviorTree>
+  <BehaviorTree ID="Inner">
+    <Sequence><Script code="@g = x + 1; g := 5"/><Script code="@only := @g"/></Sequence>
+  </BehaviorTree>
+</root>
+"""
+        after = text.replace("@g", "@all").replace("g := 1", "all := 1").replace("{g}", "{all}")
+        for cursor in ("\"@|g = x", "@only := @g|", "\"|@g = x", "{@|g}", "\"g| := 1", "{g|}"):
+            with self.subTest(cursor):
+                self.assertEqual(1, text.count(cursor.replace("|", "")))
+                marked = text.replace(cursor.replace("|", ""), cursor)
+                self.assertEqual(after, self.renamed(marked, "all"))
+        place = self.put(text.replace("\"@g", "\"@|g"))
+        found = self.client.at("textDocument/prepareRename", self.path, *place)
+        self.assertEqual("g", found["placeholder"])
+        begin, end = found["range"]["start"], found["range"]["end"]
+        self.assertEqual("g", text.split("\n")[begin["line"]][begin["character"]:end["character"]])
+        marked = text.replace("\"@g", "\"@|g")
+        self.assertEqual(after, self.renamed(marked, "@all"))
+        self.assertIn("has an entry 'h' already", self.renamed(marked, "h"))
+        self.assertIn("has an entry 'only' already", self.renamed(marked, "only"))
+        only = text.replace("@only", "@on|ly")
+        self.assertEqual(text.replace("@only", "@one"), self.renamed(only, "one"))
+        # The entry of the tree that is called so stays.
+        own = text.replace("; g :=", "; g| :=")
+        self.assertEqual(text.replace("; g :=", "; own :="), self.renamed(own, "own"))
+        self.assertIn("does not say which", self.renamed(marked.replace(" main_tree_to_execute=\"Main\"", ""), "all"))
+
     def test_words_of_scripts_are_no_entries(self):
         text = HEAD + "<Script code=\"w := tr|ue\"/>" + TAIL
         self.assertIn("nothing here has a name", self.renamed(text, "yes"))

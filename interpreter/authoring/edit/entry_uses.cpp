@@ -13,6 +13,9 @@ namespace {
 
 using Way = EntryUse::Way;
 
+// With these a SubTree passes on entries without an attribute.
+constexpr std::string_view kPassesOnAll[] = {"_autoremap", "__autoremap", "__shared_blackboard"};
+
 const Parameter* parameter_of(const NodeType* type, std::string_view attribute) {
   if (type == nullptr) return nullptr;
   const auto it = std::ranges::find(type->parameters, attribute, &Parameter::name);
@@ -135,9 +138,6 @@ class UseFinder {
 
 }  // namespace
 
-std::vector<EntryUse> entry_uses(const ProjectTexts& texts, ElementAt part) {
-  std::set<std::string, std::less<>> open_trees;
-  return UseFinder(texts, open_trees).find(part);
 bool is_word_of_scripts(std::string_view name, const LanguageRules& rules, const Catalog& catalog) {
   const auto& words = catalog.words();
   const bool is_sign = rules.strict_scripts && (name == "and" || name == "or");
@@ -145,6 +145,9 @@ bool is_word_of_scripts(std::string_view name, const LanguageRules& rules, const
          (words != nullptr && words->find(std::string(name)) != words->end());
 }
 
+std::vector<EntryUse> entry_uses(const ProjectTexts& texts, ElementAt part) {
+  std::set<std::string, std::less<>> open_trees;
+  return UseFinder(texts, open_trees).find(part);
 }
 
 std::set<std::string> keys_in(const ProjectTexts& texts, ElementAt part) {
@@ -170,8 +173,7 @@ std::optional<Problem> names_at_run_time(const ProjectTexts& texts) {
 }
 
 bool passes_on_all(const ProjectTexts& texts, ElementAt sub_tree) {
-  constexpr std::string_view kNames[] = {"_autoremap", "__autoremap", "__shared_blackboard"};
-  return std::ranges::any_of(kNames, [&](std::string_view name) {
+  return std::ranges::any_of(kPassesOnAll, [&](std::string_view name) {
     const std::string_view value = texts.value(sub_tree, name);
     return value == "true" || value == "1";
   });
@@ -189,9 +191,14 @@ std::optional<std::string_view> binding_of(const ProjectTexts& texts, ElementAt 
   return std::nullopt;
 }
 
+bool is_of_sub_trees(const ProjectTexts& texts, std::string_view attribute) {
+  return attribute == "ID" || is_common_attribute(attribute) ||
+         std::ranges::count(kPassesOnAll, attribute) != 0 ||
+         hook_named(attribute, texts.rules()).has_value();
+}
+
 bool is_remapping(const ProjectTexts& texts, std::string_view attribute) {
-  return attribute != "ID" && !is_common_attribute(attribute) && !attribute.starts_with('_') &&
-         !hook_named(attribute, texts.rules());
+  return !attribute.starts_with('_') && !is_of_sub_trees(texts, attribute);
 }
 
 void rename_use(TextEdit& edit, const ProjectTexts& texts, const EntryUse& use,

@@ -44,6 +44,8 @@ bool passes_on_all(const ProjectTexts& texts, ElementAt sub_tree);
 // Nothing if neither is there.
 std::optional<std::string_view> binding_of(const ProjectTexts& texts, ElementAt sub_tree,
                                            std::string_view key);
+// Whether the language gives this attribute of a SubTree a meaning.
+bool is_of_sub_trees(const ProjectTexts& texts, std::string_view attribute);
 // Whether an attribute of a SubTree binds a key, and is not of the language.
 bool is_remapping(const ProjectTexts& texts, std::string_view attribute);
 

@@ -39,16 +39,31 @@ void replace_all(TextEdit& edit, const Document& document, const Attribute& attr
 std::optional<Problem> check_key(const ProjectTexts& texts, std::string_view key,
                                  std::string_view new_key) {
   const bool is_marked = texts.rules().marked_keys && new_key.starts_with('_');
-  const bool is_word = new_key == "true" || new_key == "false";
-  if (!is_identifier(new_key) || is_word) {
-    return Problem{fmt::format("'{}' cannot be a key", brief(new_key)),
-                   fmt::format("a key is {}", kIdentifierRule)};
+  const auto refused = [&](std::string why) {
+    return Problem{fmt::format("'{}' cannot be a key", brief(new_key)), std::move(why)};
+  };
+  if (!is_identifier(new_key)) return refused(fmt::format("a key is {}", kIdentifierRule));
+  if (key == new_key) return std::nullopt;
+  if (is_word_of_scripts(new_key, texts.rules(), texts.catalog())) {
+    return refused("scripts have this word already");
+  }
+  if (is_of_sub_trees(texts, new_key)) {
+    return refused("a SubTree has an attribute of this name, so it could not be passed on");
+  }
+  if (!is_marked && new_key.starts_with('_') && is_remapping(texts, key)) {
+    return refused("a SubTree cannot bind a key that begins with '_'");
   }
   if (is_marked != key.starts_with('_') && texts.rules().marked_keys) {
     return Problem{fmt::format("'{}' would be passed on to other trees otherwise", brief(new_key)),
                    "there, a key with '_' in front is passed on by an attribute only"};
   }
   return std::nullopt;
+}
+
+void rename_uses(ProjectEdit& edit, const ProjectTexts& texts, ElementAt tree, std::string_view key,
+                 std::string_view new_key) {
+  for (const EntryUse& use : entry_uses(texts, tree))
+    if (use.key == key) rename_use(edit[use.at.document], texts, use, new_key);
 }
 
 // Renames the key in a SubTree of its tree.
@@ -99,6 +114,21 @@ void for_each_reference(const ProjectTexts& texts,
   });
 }
 
+// As each tree calls an entry of the main tree.
+std::string of_main_tree(std::string_view key) {
+  return fmt::format("@{}", key);
+}
+
+// Whether a tree has the entry of the main tree by that name.
+bool is_used_as_of_main_tree(const ProjectTexts& texts, std::string_view key) {
+  bool is_used = false;
+  texts.for_each_element([&](ElementAt at) {
+    if (tag_of(texts, at) == "BehaviorTree")
+      is_used |= keys_in(texts, at).contains(of_main_tree(key));
+  });
+  return is_used;
+}
+
 std::ptrdiff_t count_uses(const ProjectTexts& texts, ElementAt tree, std::string_view key) {
   return std::ranges::count(entry_uses(texts, tree), key, &EntryUse::key);
 }
@@ -130,6 +160,10 @@ Result<ProjectEdit> rename_tree(const ProjectTexts& texts, std::string_view id,
   if (new_id != id && texts.find_tree(new_id)) {
     return problem(fmt::format("there is a tree '{}' already", brief(new_id)));
   }
+  if (new_id != id && texts.catalog().find(new_id) != nullptr) {
+    return problem(fmt::format("'{}' cannot be the ID of a tree", brief(new_id)),
+                   "there is a node of this name");
+  }
   ProjectEdit edit(texts.size());
   bool is_made = false;
   const ProjectTexts read = texts.with_arguments();
@@ -148,9 +182,11 @@ Result<ProjectEdit> rename_entry(const ProjectTexts& texts, std::string_view tre
   if (auto wrong = check_key(texts, key, new_key)) return tl::unexpected(std::move(*wrong));
   if (auto wrong = names_at_run_time(texts)) return tl::unexpected(std::move(*wrong));
   ProjectEdit edit(texts.size());
-  const std::vector<EntryUse> uses = entry_uses(texts, *at_tree);
+  const bool is_main = texts.main_tree() == tree;
+  const bool has_marks = is_main && texts.rules().marked_keys;
   const auto has = [&](std::string_view name) {
-    return std::ranges::count(uses, name, &EntryUse::key) != 0;
+    return count_uses(texts, *at_tree, name) != 0 ||
+           (has_marks && is_used_as_of_main_tree(texts, name));
   };
   if (!has(key)) {
     return problem(fmt::format("the tree '{}' has no entry '{}'", brief(tree), brief(key)));
@@ -168,19 +204,15 @@ Result<ProjectEdit> rename_entry(const ProjectTexts& texts, std::string_view tre
         fmt::format("the tree '{}' has an entry '{}' already", brief(tree), brief(new_key)),
         "the two would become one");
   }
-  for (const EntryUse& use : uses)
-    if (use.key == key) rename_use(edit[use.at.document], texts, use, new_key);
+  rename_uses(edit, texts, *at_tree, key, new_key);
   for (const ElementAt port : texts.modeled_ports(tree))
     replace_value(edit, texts, port, "name", key, new_key);
-  const bool is_main = texts.main_tree() == tree;
   texts.for_each_element([&](ElementAt at) {
     if (texts.is_sub_tree(at) && texts.value(at, "ID") == tree && texts.tree_around(at))
       rename_remapping(edit, texts, at, std::string(key), new_key);
     if (is_main) rename_beside(edit, texts, at, key, new_key);
-    if (!is_main || !texts.rules().marked_keys || tag_of(texts, at) != "BehaviorTree") return;
-    for (const EntryUse& use : entry_uses(texts, at)) {
-      if (use.attribute != nullptr && use.key == fmt::format("@{}", key))
-        rename_use(edit[at.document], texts, use, fmt::format("@{}", new_key));
+    if (has_marks && tag_of(texts, at) == "BehaviorTree") {
+      rename_uses(edit, texts, at, of_main_tree(key), of_main_tree(new_key));
     }
   });
   return edit;

@@ -14,6 +14,12 @@ bool Trial::accepts(const ProjectEdit& edit) const {
   return std::ranges::includes(errors_, errors_after(edit));
 }
 
+std::optional<std::string> Trial::error_after(const ProjectEdit& edit) const {
+  if (question_.file.analysis->meaning == nullptr) return std::nullopt;
+  const std::vector<std::string> errors = errors_after(edit);
+  return errors.empty() ? std::nullopt : std::optional(errors.front());
+}
+
 std::vector<std::string> Trial::errors_after(const ProjectEdit& edit) const {
   LoadOptions options = load_options(question_.settings, question_.workspace.texts());
   const auto changed = [&](std::uint32_t document) {

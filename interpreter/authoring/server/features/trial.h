@@ -1,6 +1,7 @@
 // Tries an edit before it is offered: what `lockstep check` would say of the changed texts.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ class Trial {
 
   // Whether the changed texts have no error that these do not have.
   bool accepts(const ProjectEdit& edit) const;
+  // An error of the changed texts, if these have none. A rename would change the errors that there
+  // are.
+  std::optional<std::string> error_after(const ProjectEdit& edit) const;
 
  private:
   std::vector<std::string> errors_after(const ProjectEdit& edit) const;
