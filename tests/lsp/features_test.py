@@ -148,6 +148,32 @@ class Features(Session):
                 self.assertIn(expected, items)
         self.assertIn("never pause.running</property>", self.applied(items["running"]))
 
+    def test_names_of_nodes_in_properties(self):
+        text = HEAD + """<Wait name="pick up" seconds="1"/>
+      <SubTree ID="Other"/>
+      <Wait name="left-arm" seconds="1"/>
+      <Wait name="O'Hara &amp; co" seconds="1"/>
+      <Wait name="grüß.2#1" seconds="1"/>
+      <Wait name="after" seconds="1"/>
+      <Wait name="12" seconds="1"/>""" + TAIL
+
+        def items(typed):
+            return self.complete(text.replace("</root>", f"<property name=\"p\">{typed}</property></root>"))
+        found = items("never |")
+        names = ("'pick up'", "Other", "left-arm", "\"O'Hara &amp; co\"", "grüß.2#1", "'after'", "'12'", "Sequence")
+        written = {it: self.applied(found[it]) for it in names}
+        for name in names:  # as a property reads them, too
+            with self.subTest(name):
+                self.put(written[name].replace("</property>", ".running</property>"))
+                self.assertEqual([], [it["message"] for it in self.client.diagnostics(self.path) if it["severity"] == 1])
+        self.assertFalse({"pick up", "SubTree"} & set(found))
+        self.assertIn("never left-arm</property>", self.applied(items("never left-a|")["left-arm"]))
+        for typed in ("never 'pi|", "never 'pick u|", "never 'x'.running and 'pick|"):
+            with self.subTest(typed):
+                after = typed.rpartition("'")[0] + "'pick up'</property>"
+                self.assertIn(after, self.applied(items(typed)["'pick up'"]))
+        self.assertIn("held", items("never 'pick up'.|"))
+
     def test_keys_of_the_right_type(self):
         text = HEAD + """<Advance step="{step}"/>
           <Wait seconds="1" name="{step}"/>

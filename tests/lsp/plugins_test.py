@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from client import Client
+from client import Client, edited, place
 
 PLUGINS = Path(os.environ["BUILD"]) / "plugins"
 TREE = """<root lockstep="1">
@@ -169,6 +169,31 @@ class Plugins(unittest.TestCase):
         found = client.known[self.path.as_uri()]
         self.assertIn("unknown node 'Exc'", self.messages(found))
         self.assertFalse(started.exists())
+        self.assertEqual(0, client.stop())
+
+    def test_completion_of_programs(self):
+        for name, mode in (("exec.py", 0o755), ("plain.py", 0o644), ("tool", 0o755)):
+            (self.plugins / name).write_text("#!/bin/sh\n")
+            (self.plugins / name).chmod(mode)
+        for name in ("exec", "plain"):
+            shutil.copy(PLUGINS / "exec.leaves.json", self.plugins / f"{name}.leaves.json")
+        client = self.session()
+
+        def completed(plugin):
+            """The texts by their labels, with that element for the plugin."""
+            before, cursor, after = TREE.replace('plugin name="NAME"/', plugin).partition("|")
+            text = before + after
+            (client.change if self.path in client.versions else client.open)(self.path, text)
+            items = client.at("textDocument/completion", self.path, *place(text, len(before)))["items"]
+            return {it["label"]: edited(text, [it["textEdit"]]) for it in items if "ec" in it["label"] or "." in it["label"]
+                    or it["label"] in ("plain", "tool")}
+        whole = TREE.replace('name="NAME"', 'name="exec" program="exec.py"')
+        self.assertEqual({"exec": whole}, completed('plugin name="|"/'))
+        self.assertEqual({"exec": whole}, completed('plugin name="ex|e"/'))
+        self.assertEqual({"exec": whole.replace('"exec" program="exec.py"', "'exec' program='exec.py'")}, completed("plugin name='|'/"))
+        self.assertEqual({"exec": whole}, completed('plugin name="|" program="exec.py"/'))
+        self.assertEqual({"exec.py": whole}, completed('plugin name="exec" program="|"/'))
+        self.assertEqual([], [it for it in client.open(self.path, whole) if "exec" in it["message"] and it["severity"] == 1])
         self.assertEqual(0, client.stop())
 
 

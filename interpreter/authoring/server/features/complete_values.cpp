@@ -8,6 +8,8 @@
 #include "authoring/server/features/completion.h"
 #include "authoring/server/features/entries.h"
 #include "loading/plugin_directories.h"
+#include "plugin/open/plugin_path.h"
+#include "remote/json_lines/leaves_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -121,6 +123,7 @@ class ValueItems {
                                   (attribute_.name == "tree" || attribute_.name == "leaves");
     if (is_file || is_scenario_file) add_files();
     if (element_.tag == "plugin" && attribute_.name == "name") add_plugins();
+    if (element_.tag == "plugin" && attribute_.name == "program") add_programs();
   }
 
   // "never|freely|rises" of words, not a pattern.
@@ -149,14 +152,47 @@ class ValueItems {
 
   void add_plugins() {
     std::set<std::string> seen;
+    for_each_plugin_file([&](const fs::path& path) {
+      const std::string name = path.stem().string();
+      const bool is_program = path.extension() != ".so";
+      if (is_program && !is_program_with_leaves(path)) return;
+      if (!seen.insert(name).second) return;
+      CompletionItem item{name, ItemKind::Module, path.parent_path().string()};
+      if (is_program) item.insert = name + program_behind_name(path.filename().string());
+      add_item(std::move(item));
+    });
+  }
+
+  void add_programs() {
+    std::set<std::string> seen;
+    for_each_plugin_file([&](const fs::path& path) {
+      const std::string file = path.filename().string();
+      if (is_program_with_leaves(path) && seen.insert(file).second)
+        add_item({file, ItemKind::File, path.parent_path().string()});
+    });
+  }
+
+  template <class Visit>
+  void for_each_plugin_file(Visit visit) const {
     for (const std::string& directory : plugin_directories(at_.question.settings.plugins)) {
       std::error_code error;
-      for (const auto& entry : fs::directory_iterator(directory, error)) {
-        const bool is_plugin = entry.path().extension() == ".so";
-        const std::string name = entry.path().stem().string();
-        if (is_plugin && seen.insert(name).second) add_item({name, ItemKind::Module, directory});
-      }
+      for (const auto& entry : fs::directory_iterator(directory, error)) visit(entry.path());
     }
+  }
+
+  // Other files may be executable too, so one counts that has said which leaves it has.
+  static bool is_program_with_leaves(const fs::path& path) {
+    std::error_code error;
+    return path.extension() != ".so" && is_executable(path) &&
+           fs::exists(leaves_file_of(path), error);
+  }
+
+  // A plugin that is a program is named with its file.
+  std::string program_behind_name(std::string_view file) const {
+    const auto attributes = at_.tree.attributes_of(element_);
+    if (std::ranges::count(attributes, "program", &TolerantAttribute::name) != 0) return {};
+    const char quote = at_.tree.text[at_.site.word.begin - 1];
+    return fmt::format("{0} program={0}{1}", quote, file);
   }
 
   void add_parameter() {
