@@ -47,6 +47,31 @@ const std::string kPorts =
     "--port is_open:bool=true --port 'way:list of double=1;2'";
 const std::string kListPorts = " --port 'b:list of int' --port 'c:list of string=x;y\\;\"z'";
 
+// Words of C++, and names that leaves have there.
+const std::string kWordsOfCpp =
+    "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t "
+    "class compl const const_cast constexpr continue decltype default delete do double "
+    "dynamic_cast else enum explicit export extern false float for friend goto if inline int long "
+    "mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public "
+    "register reinterpret_cast return short signed sizeof static static_assert static_cast struct "
+    "switch template this thread_local throw true try typedef typeid typename union unsigned using "
+    "virtual void volatile wchar_t while xor xor_eq";
+const std::string kMembersOfCpp =
+    "progress tick start halt pause resume check log now random uniform wake context required run "
+    "begin finish tick_period tick_number random_bits host_extension Status kWakes kRealTime "
+    "kKeepsProgress kDuration more_ports describe behavior Input Output InOut Fixed optional "
+    "between at_least at_most PortsType kMinChildren kMaxChildren child_count tick_child "
+    "halt_child child_status child_progress set_progress keeps_progress kept_progress host "
+    "AwkwardPorts GraspPorts TryAllPorts TwicePorts Awkward linux unix NULL NAN EOF errno std "
+    "lockstep Action Ports Leaf start_port";
+
+std::string ports_of(const std::string& names) {
+  std::istringstream words(names);
+  std::string ports, name;
+  while (words >> name) ports += " --port " + name + ":double=1";
+  return ports;
+}
+
 // Nodes of these arguments of `lockstep new` are inserted, and the plugin keeps the contract.
 void insert_nodes(const std::vector<std::string>& nodes, const std::string& plugin,
                   const TemporaryDirectory& directory) {
@@ -92,10 +117,11 @@ TEST_CASE("a project in C++ builds and passes its tests, and nodes of all kinds 
   insert_nodes(
       {"leaf OpenDoor" + kPorts,
        "leaf Lists" + kListPorts + " --port 'd:list of bool' --port e:number=1",
-       "leaf Awkward --port progress:double=1 --port class:string --port elapsed_:int=1",
+       "leaf Awkward --port elapsed_:int=1" + ports_of(kWordsOfCpp) + ports_of(kMembersOfCpp),
        "leaf IsOpen --kind condition --doc 'Whether the \"door\" is open' --port limit:double",
-       "leaf Grasp --kind threaded --port force:double", "leaf Plain",
-       "node TryAll --kind control --port times:int=3", "node Twice --kind decorator"},
+       "leaf Grasp --kind threaded --port force:double" + ports_of(kMembersOfCpp), "leaf Plain",
+       "node TryAll --kind control --port times:int=3" + ports_of(kMembersOfCpp),
+       "node Twice --kind decorator" + ports_of(kMembersOfCpp)},
       "build/robot.so", directory);
 }
 

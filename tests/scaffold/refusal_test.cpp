@@ -9,12 +9,12 @@ using namespace lockstep::host::test;
 namespace {
 
 struct Refusal {
-  const char* arguments;
-  const char* message;
+  std::string arguments;
+  std::string message;
 };
 
 void check_refused(const Refusal& row, const TemporaryDirectory& directory) {
-  const Outcome outcome = shell(std::string("lockstep new ") + row.arguments, directory);
+  const Outcome outcome = shell("lockstep new " + row.arguments, directory);
   INFO(row.arguments << '\n' << outcome.err);
   CHECK(outcome.code == 2);
   CHECK(outcome.out.empty());
@@ -85,8 +85,15 @@ TEST_CASE("a language says what it does not have") {
                 directory);
   check_refused({"leaf Open --port x:number", "a plugin in Python has no ports of type"},
                 directory);
-  check_refused({"leaf Open --port pause:bool", "a port in Python cannot be called 'pause'"},
-                directory);
+  for (const std::string name :
+       {"pause",  "describe", "more_ports", "behavior", "float", "None", "True",
+        "and",    "as",       "assert",     "async",    "await", "del",  "elif",
+        "except", "finally",  "global",     "nonlocal", "not",   "or",   "raise",
+        "return", "try",      "while",      "with",     "yield"}) {
+    check_refused(
+        {"leaf Open --port " + name + ":bool", "a port in Python cannot be called '" + name + "'"},
+        directory);
+  }
 }
 
 TEST_CASE("a file that is there is not written over, and none is made beside it") {

@@ -3,43 +3,45 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "authoring/scaffold/names.h"
 #include "authoring/scaffold/port_value.h"
 #include "authoring/scaffold/render.h"
+#include "authoring/scaffold/taken_names.h"
 
 namespace lockstep::host {
 namespace {
-
-// Members of the classes that leaves in C++ derive from, words of C++, and what a template has.
-constexpr std::array<std::string_view, 41> kTakenMembers{
-    "tick",   "start",    "halt",   "pause",   "resume",   "progress", "check",
-    "log",    "now",      "random", "uniform", "wake",     "context",  "required",
-    "run",    "begin",    "finish", "class",   "struct",   "default",  "double",
-    "float",  "int",      "bool",   "char",    "long",     "short",    "new",
-    "delete", "this",     "for",    "while",   "do",       "if",       "else",
-    "switch", "operator", "return", "public",  "template", "namespace"};
-// Attributes that leaves in Python have beside ports, and words of Python.
-constexpr std::array<std::string_view, 24> kTakenAttributes{
-    "clock", "halt",     "kind",   "log",       "now",    "path",  "pause", "period",
-    "tick",  "progress", "random", "real_time", "resume", "start", "from",  "in",
-    "is",    "lambda",   "class",  "def",       "if",     "for",   "pass",  "import"};
 
 bool is_python(const SourceLanguage& language) {
   return language.name == "python";
 }
 
-Values port_values(const SourceLanguage& language, const NewPort& port) {
+// The names of the classes of a source are no members of them.
+bool is_class_of(const NewNode& node, std::string_view name) {
+  return name == node.id || name == node.id + "Ports";
+}
+
+// No word of C++ and no other member.
+std::string member_of(const NewNode& node, const NewPort& port) {
+  std::string member = port.name;
+  const auto is_taken = [&] {
+    const bool is_other_port =
+        member != port.name && std::ranges::count(node.ports, member, &NewPort::name) != 0;
+    return is_other_port || is_taken_in_cpp(member) || is_class_of(node, member);
+  };
+  while (is_taken()) member += "_port";
+  return member;
+}
+
+Values port_values(const SourceLanguage& language, const NewNode& node, const NewPort& port) {
   const auto type = std::ranges::find(language.types, port.type, &PortType::type);
   const std::string_view direction = language.directions[static_cast<int>(port.direction)];
   const bool has_default = port.default_text.has_value();
   const bool is_output = port.direction == PortDirection::Output;
-  const bool is_taken = std::ranges::find(kTakenMembers, port.name) != kTakenMembers.end();
   Values values;
   values.texts = {{"name", port.name},
-                  {"member", port.name + (is_taken || port.name.ends_with('_') ? "_port" : "")},
+                  {"member", member_of(node, port)},
                   {"PORT", as_upper(as_lower_name(port.name))},
                   {"type", std::string(type->text)},
                   {"direction", std::string(direction)},
@@ -65,8 +67,7 @@ Result<void> check_ports(const SourceLanguage& language, const NewNode& node) {
                                  to_string(port.type)),
                      "take another type, or another language");
     }
-    const bool is_taken = std::ranges::find(kTakenAttributes, port.name) != kTakenAttributes.end();
-    if (is_python(language) && is_taken) {
+    if (is_python(language) && is_taken_in_python(port.name)) {
       return problem(fmt::format("a port in Python cannot be called '{}'", port.name),
                      fmt::format("leaves have it already, or the language: '{}_port'", port.name));
     }
@@ -101,7 +102,7 @@ Values node_values(const SourceLanguage& language, const NewNode& node) {
                   {"is_" + std::string(to_string(node.kind)), "yes"},
                   {"has_ports", node.ports.empty() ? "" : "yes"}};
   std::vector<Values>& ports = values.lists["ports"];
-  for (const NewPort& port : node.ports) ports.push_back(port_values(language, port));
+  for (const NewPort& port : node.ports) ports.push_back(port_values(language, node, port));
   if (!ports.empty()) ports.back().texts["is_last"] = "yes";
   return values;
 }
