@@ -39,6 +39,12 @@ class Threaded {
   std::string tree_;
 };
 
+std::string said_by(const Outcome& outcome) {
+  INFO(outcome.out << outcome.err);
+  CHECK_FALSE(contains(outcome.err, "warning"));
+  return outcome.out + outcome.err;
+}
+
 std::string without_logs(const std::string& recording) {
   std::istringstream lines(recording);
   std::string all;
@@ -58,6 +64,23 @@ TEST_CASE("on the virtual clock a threaded leaf sleeps in the time of the run") 
   CHECK(contains(outcome.err + outcome.out, "success after 6001 ticks, 600.100 s"));
   CHECK_FALSE(contains(outcome.err, "warning"));
   CHECK(outcome.cpu_seconds < 10);
+}
+
+TEST_CASE("on the virtual clock each yield of a threaded leaf waits for the next tick") {
+  const Threaded it("<Yields times=\"100\"/>");
+  for (const std::string rate : {"1", "10", "30", "1000"}) {
+    INFO(rate);
+    CHECK(contains(said_by(it.run({"--rate", rate})), "success after 101 ticks"));
+  }
+  CHECK(contains(said_by(it.run({"--isolate"})), "success after 101 ticks"));
+  const Outcome halted =
+      Threaded("<Timeout seconds=\"1\"><Yields times=\"1000\"/></Timeout>").run();
+  CHECK(contains(said_by(halted), "failure after 101 ticks"));
+}
+
+TEST_CASE("a sleep of one period ends in the next tick, also where times are rounded") {
+  const Threaded it("<Sleeps steps=\"300\" seconds=\"0.1\"/>");
+  CHECK(contains(said_by(it.run({"--rate", "10"})), "success after 301 ticks"));
 }
 
 TEST_CASE("threaded leaves are held, and a run gives the same bytes every time") {

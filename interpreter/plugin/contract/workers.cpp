@@ -9,15 +9,17 @@ struct lockstep_worker {
   lockstep::host::Workers& set;
   const lockstep::host::CallSite& site;
   std::condition_variable turn = {};
-  double until = 0;  // it waits for this time
+  double since = 0, until = 0;  // it began to wait, and for this time
   bool has_turn = false;
   bool is_woken = true;  // its first turn waits for nothing
   bool has_ended = false;
 
-  bool is_due(double now) const {
+  // Rounding brings no time that is still to come into the tick that asked for it.
+  bool has_waited(double now) const {
     constexpr double kRounding = 1e-9;  // of a sum of durations
-    return !has_ended && (is_woken || until <= now + kRounding);
+    return until <= (now > since ? now + kRounding : now);
   }
+  bool is_due(double now) const { return !has_ended && (is_woken || has_waited(now)); }
 };
 
 namespace lockstep::host {
@@ -80,11 +82,12 @@ void Workers::start(lockstep_worker* worker) {
 bool Workers::wait(lockstep_worker* worker, double until) {
   Workers& set = worker->set;
   Lock lock(set.mutex_);
+  worker->since = set.now_;
   worker->until = until;
   worker->has_turn = false;
   set.turn_over_.notify_one();
   set.await_turn(*worker, lock);
-  return until <= set.now_;
+  return worker->has_waited(set.now_);
 }
 
 void Workers::end(lockstep_worker* worker) {

@@ -33,6 +33,22 @@ class Sleeps : public lockstep::ThreadedAction<SleepPorts> {
   double seconds_ = 0;
 };
 
+struct YieldPorts : lockstep::Ports {
+  Input<std::int64_t> times{this, "times", "100", "yields"};
+};
+
+class Yields : public lockstep::ThreadedAction<YieldPorts> {
+ public:
+  void begin() override { times_ = times.get(); }
+  Status run(lockstep::Token& token) override {
+    for (std::int64_t i = 0; i < times_ && !token.stop_requested(); ++i) token.yield();
+    return Status::Success;
+  }
+
+ private:
+  std::int64_t times_ = 0;
+};
+
 // Waits for what never comes.
 class Blocks : public lockstep::ThreadedAction<> {
  public:
@@ -57,5 +73,6 @@ class Throws : public lockstep::ThreadedAction<> {
 
 LOCKSTEP_PLUGIN("threaded", "1.0", "Threaded leaves for tests",
                 lockstep::leaf<Sleeps>("Sleeps", "Sleeps and logs"),
+                lockstep::leaf<Yields>("Yields", "Yields and does nothing else"),
                 lockstep::leaf<Blocks>("Blocks", "Never returns"),
                 lockstep::leaf<Throws>("Throws", "Throws after a while"));
