@@ -23,6 +23,7 @@ void Chunk::clear() {
   edges.clear();
   fresh.clear();
   news.clear();
+  root_ticks = 0;
 }
 
 Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
@@ -40,6 +41,7 @@ void Expander::expand(const StateStore& known, StateId first, StateId last, Nano
                       Chunk& into) {
   known_ = &known;
   began_ = began;
+  most_root_ticks_ = limits_.transitions;
   into.clear();
   into.first = first;
   for (StateId state = first; state < last; ++state) {
@@ -58,6 +60,7 @@ void Expander::expand(const StateStore& known, StateId first, StateId last, Nano
 void Expander::expand_again(const StateStore& known, std::span<const StateId> states,
                             const BytesOf& bytes_of, const EdgeWanted& is_wanted, Chunk& into) {
   known_ = &known;
+  most_root_ticks_ = std::numeric_limits<std::uint64_t>::max();
   into.clear();
   for (const StateId state : states) {
     const auto take_again = [&](const Step& step, Status status) {
@@ -81,17 +84,21 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   const std::size_t first_edge = into.edges.size();
   Chunk::State& at = into.states.emplace_back();
   if (!labeller_.shape().moving_leaves.empty()) at.equals = labels_.add(labeller_.equals(stepper_));
-  next_look_ = kTicksBetweenLooks;
+  std::uint64_t next_signal = kTicksBetweenSignals, next_look = kTicksBetweenLooks;
   std::size_t most_edges = first_edge + 10 * kTicksBetweenLooks;
   Step step{state, 0};
   do {
-    take(step, stepper_.tick());
+    const std::optional<Status> status = tick(at, into);
+    if (!status) break;
+    take(step, *status);
     ++step.combination;
-    const bool looks_at_signal = ++at.transitions % kTicksBetweenSignals == 0;
-    if (looks_at_signal && limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0)
-      at.cut = SearchEnd::Signal;
-    if (at.cut || at.transitions < next_look_) continue;
-    next_look_ += kTicksBetweenLooks;
+    if (at.root_ticks >= next_signal) {
+      next_signal = at.root_ticks + kTicksBetweenSignals;
+      if (limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0)
+        at.cut = SearchEnd::Signal;
+    }
+    if (at.cut || at.root_ticks < next_look) continue;
+    next_look = at.root_ticks + kTicksBetweenLooks;
     if (into.edges.size() > most_edges) {
       sort_edges(into, first_edge);
       most_edges = 2 * into.edges.size() + kTicksBetweenLooks;
@@ -104,11 +111,23 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   at.news = into.news.size();
 }
 
+// Nothing if the limit of ticks ends it.
+std::optional<Status> Expander::tick(Chunk::State& at, Chunk& into) {
+  const std::uint64_t left = most_root_ticks_ - std::min(most_root_ticks_, into.root_ticks);
+  const Status status = stepper_.tick(std::max<std::uint64_t>(1, left));
+  at.root_ticks += stepper_.root_ticks();
+  into.root_ticks += stepper_.root_ticks();
+  ++at.transitions;
+  if (stepper_.is_done()) return status;
+  at.cut = SearchEnd::Transitions;
+  return std::nullopt;
+}
+
 // Cuts off one state with very many answers. Where a chunk begins does not depend on the threads,
 // so what counts states and ticks ends at the same one.
 std::optional<SearchEnd> Expander::why_cut(Chunk::State& at, const Chunk& chunk) {
   if (known_->size() + chunk.fresh.size() > limits_.states) return SearchEnd::States;
-  if (at.transitions > limits_.transitions) return SearchEnd::Transitions;
+  if (chunk.root_ticks > limits_.transitions) return SearchEnd::Transitions;
   if (limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0) return SearchEnd::Signal;
   if (limits_.time && monotonic_now() - began_ > *limits_.time) return SearchEnd::Time;
   const std::size_t memory =

@@ -36,7 +36,7 @@ struct News {
 // The label of an edge to another state says only who is held: see CycleGraph.
 struct Chunk {
   struct State {
-    std::uint64_t transitions = 0;
+    std::uint64_t transitions = 0, root_ticks = 0;
     std::size_t edges = 0, fresh = 0, news = 0;  // where those of the next state begin
     std::uint32_t equals = 0;                    // a label, if leaves may change places
     bool ends = false;                           // some tick ends the run
@@ -47,6 +47,7 @@ struct Chunk {
   static constexpr StateId kFresh = 0x80000000;  // of an edge: its goal is in `fresh`
 
   StateId first = 0;
+  std::uint64_t root_ticks = 0;
   unsigned thread = 0;  // whose labels the edges have
   std::vector<State> states;
   std::vector<Edge> edges;
@@ -81,6 +82,7 @@ class Expander {
   template <class Take, class Cut>
   void for_each_tick(StateId state, std::span<const std::byte> bytes, Chunk& into, const Take& take,
                      const Cut& why_cut);
+  std::optional<Status> tick(Chunk::State& at, Chunk& into);
   void take(const Step& step, Status status, Chunk& into);
   void tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
             const std::string& text = {});
@@ -97,7 +99,7 @@ class Expander {
   SearchCoverage coverage_;
   std::set<std::pair<News::Kind, std::size_t>> told_;
   std::vector<std::pair<std::uint32_t, std::set<std::string>>> values_;
-  std::uint64_t next_look_ = 0;
+  std::uint64_t most_root_ticks_ = 0;  // in a chunk
 };
 
 }  // namespace lockstep::host

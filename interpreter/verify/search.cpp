@@ -52,17 +52,21 @@ class Searcher {
   std::uint32_t depth() const { return static_cast<std::uint32_t>(result_.depths.size()) - 1; }
 
   // As many as have so many edges, if those are like the ones so far, and do not go far over the
-  // limit of transitions.
+  // limit of transitions. A tick again counts as an edge.
   StateId states_of_round() const {
     const Graph& graph = result_.graph;
     const std::uint64_t edges_of_state =
-        graph.edges.size() / std::max<std::uint64_t>(1, graph.expanded());
-    const std::uint64_t left =
-        limits_.transitions - std::min(limits_.transitions, result_.transitions);
+        (graph.edges.size() + result_.root_ticks - result_.transitions) /
+        std::max<std::uint64_t>(1, graph.expanded());
     const std::uint64_t wanted = std::clamp<std::uint64_t>(kEdgesOfRound / (edges_of_state + 1),
                                                            kStatesOfChunk, kStatesOfRound);
     // At least one: a round without states would never end the search.
-    return static_cast<StateId>(std::clamp<std::uint64_t>(left / (edges_of_state + 1), 1, wanted));
+    return static_cast<StateId>(
+        std::clamp<std::uint64_t>(ticks_left() / (edges_of_state + 1), 1, wanted));
+  }
+
+  std::uint64_t ticks_left() const {
+    return limits_.transitions - std::min(limits_.transitions, result_.root_ticks);
   }
 
   // False: a limit was reached.
@@ -71,12 +75,14 @@ class Searcher {
     const StateId count = (last - first + kStatesOfChunk - 1) / kStatesOfChunk;
     if (chunks_.size() < count) chunks_.resize(count);
     std::atomic<StateId> next{0}, cut{count};  // chunks; nothing behind one that is cut counts
+    std::atomic<std::uint64_t> ticks{0};       // nor behind those that use up the limit
     const auto work = [&](unsigned thread) {
-      for (StateId i = next++; i < count && i <= cut; i = next++) {
+      for (StateId i = 0; ticks <= ticks_left() && (i = next++) < count && i <= cut;) {
         const StateId from = first + i * kStatesOfChunk;
         chunks_[i].thread = thread;
         expanders_[thread]->expand(result_.store, from, std::min(last, from + kStatesOfChunk),
                                    began_, chunks_[i]);
+        ticks += chunks_[i].root_ticks;
         if (!chunks_[i].states.back().cut) continue;
         for (StateId least = cut; i < least && !cut.compare_exchange_weak(least, i);) {
         }
@@ -85,7 +91,7 @@ class Searcher {
     // To wake the others takes longer than one chunk does.
     count == 1 ? work(0) : crew_.work(work);
     for (StateId i = 0; i < count; ++i) {
-      if (!put_together(chunks_[i])) return false;
+      if (is_over(first + i * kStatesOfChunk) || !put_together(chunks_[i])) return false;
     }
     return true;
   }
@@ -102,6 +108,7 @@ class Searcher {
         result_.known.push_back(static_cast<StateId>(result_.store.size()));
       }
       result_.transitions += it.transitions;
+      result_.root_ticks += it.root_ticks;
       for (std::size_t news = begin.news; news < it.news; ++news) {
         take(chunk.news[news], chunk.first + i);
       }
@@ -170,7 +177,7 @@ class Searcher {
     if (!result_.note.empty()) return stop(SearchEnd::Values);
     if (result_.store.size() > limits_.states) return stop(SearchEnd::States);
     if (limits_.depth && depth() >= *limits_.depth) return stop(SearchEnd::Depth);
-    return result_.transitions > limits_.transitions && stop(SearchEnd::Transitions);
+    return result_.root_ticks > limits_.transitions && stop(SearchEnd::Transitions);
   }
 
   // Before a round, this looks at all that depends on the machine.

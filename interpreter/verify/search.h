@@ -35,6 +35,7 @@ struct SearchResult {
   std::unique_ptr<Graph> cycles;  // see CycleGraph
   SearchCoverage coverage;
   std::uint64_t transitions = 0;
+  std::uint64_t root_ticks = 0;  // of them all
   Nanoseconds took{0};
   std::array<std::optional<Occurrence>, kStatuses.size()> results = {};  // the first of each
   std::map<NodeIndex, std::pair<std::string, Occurrence>> faults = {};   // the first of each node

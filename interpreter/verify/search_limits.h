@@ -19,6 +19,7 @@ struct SearchProgress {
 
 struct SearchLimits {
   std::uint64_t states = 5'000'000;
+  // Those in which a node asks for more ticks of the root count as often.
   std::uint64_t transitions = std::numeric_limits<std::uint64_t>::max();
   std::size_t memory = std::size_t{1} << 30u;            // bytes
   std::optional<Nanoseconds> time = {};                  // of a real clock

@@ -5,7 +5,7 @@
 namespace lockstep::host {
 namespace {
 
-constexpr int kMostTicksAtOnce = 10'000;
+constexpr std::uint64_t kMostTicksAtOnce = 10'000;
 const Symmetry kNoSymmetry;
 
 SavedRun saved(const Ticker& ticker) {
@@ -53,7 +53,7 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   answers_.begin_state(from_.run, from_leaves_);
 }
 
-Status Stepper::tick() {
+Status Stepper::tick(std::uint64_t most) {
   ticker_.restore(from_);
   leaves_.restore_again(from_leaves_, from_facts_);
   answers_.begin();
@@ -64,10 +64,10 @@ Status Stepper::tick() {
     watch_.before_tick(ticker_);
   }
   Status status = ticker_.tick_root(time_);
-  for (int count = 1; ticker_.is_asked(); ++count) {
+  for (root_ticks_ = 1; ticker_.is_asked() && root_ticks_ < most; ++root_ticks_) {
     const auto node = ticker_.take_request();
     if (!node || status != Status::Running || ticker_.faulted()) break;
-    if (count == kMostTicksAtOnce) {
+    if (root_ticks_ == kMostTicksAtOnce) {
       ticker_.set_fault(*node, "asked for another tick 10,000 times in one period");
       break;
     }

@@ -1,6 +1,8 @@
 // Ticks the engine from any state of a run, with any answers of its leaves: one for each thread.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -29,7 +31,11 @@ class Stepper {
   // In place of combinations: `tick` has these answers, once for each.
   void give(std::span<const LeafAnswer> answers) { answers_.give(answers); }
   // The root's status; Running also after a fault. What the tick did can be looked at until `fold`.
-  Status tick();
+  // It ticks the root so often at most; if a node then asks for more, it is not done.
+  Status tick(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+  bool is_done() const { return !ticker_.is_asked(); }
+  // How often the root was ticked: again if a node has asked for it.
+  std::uint64_t root_ticks() const { return root_ticks_; }
   bool next() { return answers_.next(); }
   // The state after a tick, with equal children in one order. Valid until the next call.
   const StateBytes& fold();
@@ -69,6 +75,7 @@ class Stepper {
   std::vector<ReadValues> from_read_;
   StateBytes property_bytes_, from_properties_;
   Nanoseconds time_{0};
+  std::uint64_t root_ticks_ = 0;
   StateBytes folded_, moved_;
 };
 

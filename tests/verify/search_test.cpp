@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "dialect/btcpp/rules.h"
 #include "verify/verified.h"
 
 namespace lockstep::host::test {
@@ -201,6 +202,25 @@ TEST_CASE("a limit that counts ends a search of any number of threads at the sam
     const Verified one(absolute(3, 8), "", limits), three(absolute(3, 8), "", of_three);
     CHECK_FALSE(one.found.is_complete());
     check_same(one.found, three.found);
+  }
+}
+
+TEST_CASE("a limit of transitions counts each tick of the root that a node asks for") {
+  // 10,000 ticks in one period for each combination of answers, up to a fault.
+  constexpr auto kEndless = "Repeat[num_cycles=-1](Fallback(a b))";
+  constexpr auto kMany = "Parallel(Repeat[num_cycles=300](AlwaysSuccess) a b c d)";
+  for (const auto* tree : {kEndless, kMany}) {
+    for (const std::uint64_t most : {100u, 20'000u}) {
+      const SearchLimits limits{.transitions = most}, of_three{.transitions = most, .jobs = 3};
+      const Verified one(tree, "", limits, 10, {}, btcpp::kRules);
+      const Verified three(tree, "", of_three, 10, {}, btcpp::kRules);
+      INFO(tree << ", " << most);
+      CHECK(one.found.end == SearchEnd::Transitions);
+      CHECK(one.found.root_ticks > most - 32);
+      CHECK(one.found.root_ticks < most + 1500);
+      CHECK(one.found.root_ticks > 10 * one.found.transitions);
+      check_same(one.found, three.found);
+    }
   }
 }
 

@@ -39,8 +39,8 @@ LeafModels models_of(const Tree& tree, std::string_view rows,
 }  // namespace
 
 Verified::Verified(std::string_view text, std::string_view rows, const SearchLimits& limits,
-                   double of_rate, std::vector<std::string> texts)
-    : tree(tree_from_text(text)),
+                   double of_rate, std::vector<std::string> texts, const LanguageRules& rules)
+    : tree(tree_from_text(text, rules)),
       properties(properties_of(tree, texts)),
       models(models_of(tree, rows, properties)),
       rate(of_rate),
