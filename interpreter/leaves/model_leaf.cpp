@@ -96,10 +96,8 @@ void ModelLeaves::restore_progress(std::uint32_t leaf) {
 
 void ModelLeaves::begin_tick() {
   for (const std::uint32_t leaf : touched_) {
-    LeafMark& mark = marks_[leaf];
-    mark.touched = mark.ticked = mark.ended = mark.faulted = mark.drifted = false;
-    mark.result = Status::Idle;
-    if (!mark.written.empty()) mark.written.clear();
+    marks_[leaf].touched = false;
+    marks_[leaf].clear();
   }
   touched_.clear();
   std::fill(asked_.begin(), asked_.end(), false);
@@ -111,6 +109,10 @@ void ModelLeaves::begin_tick() {
     mark(leaf).drifted = true;
     mark(leaf).held_progress = progress_[leaf];
   }
+}
+
+void ModelLeaves::clear_marks() {
+  for (const std::uint32_t leaf : touched_) marks_[leaf].clear();
 }
 
 // A number that only says how often something was counts no further than it matters.

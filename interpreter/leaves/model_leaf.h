@@ -38,6 +38,12 @@ struct LeafMark {
   double progress = 0;                      // after it
   double held_progress = 0;                 // before it, if it has drifted
   std::vector<std::uint32_t> written = {};  // of each output, in order: which value
+
+  void clear() {
+    ticked = ended = faulted = drifted = false;
+    result = Status::Idle;
+    if (!written.empty()) written.clear();
+  }
 };
 
 // The leaves of a run.
@@ -69,6 +75,8 @@ class ModelLeaves {
 
   // Before each tick of the tree. What is held may drift.
   void begin_tick();
+  // Within it: from here on, marks say only what is done from here on.
+  void clear_marks();
   // After it: what does not matter any more is 0, if it was so before the tick.
   void fold();
   std::span<const LeafMark> marks() const { return marks_; }

@@ -71,6 +71,7 @@ Status Stepper::tick(std::uint64_t most) {
       ticker_.set_fault(*node, "asked for another tick 10,000 times in one period");
       break;
     }
+    if (before_tick_again_) before_tick_again_(leaves_);
     status = ticker_.tick_root_again();
   }
   if (!watch_.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ class Stepper {
   // It ticks the root so often at most; if a node then asks for more, it is not done.
   Status tick(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
   bool is_done() const { return !ticker_.is_asked(); }
+  // `tick` calls it when it has ticked the root and is about to tick it again.
+  using BeforeTickAgain = std::function<void(ModelLeaves& leaves)>;
+  void set_before_tick_again(BeforeTickAgain call) { before_tick_again_ = std::move(call); }
   // How often the root was ticked: again if a node has asked for it.
   std::uint64_t root_ticks() const { return root_ticks_; }
   bool next() { return answers_.next(); }
@@ -76,6 +80,7 @@ class Stepper {
   StateBytes property_bytes_, from_properties_;
   Nanoseconds time_{0};
   std::uint64_t root_ticks_ = 0;
+  BeforeTickAgain before_tick_again_;
   StateBytes folded_, moved_;
 };
 

@@ -190,7 +190,13 @@ void Tracer::play(const TracedRun& run, const After& after) {
 LeafScripts Tracer::scripts(const TracedRun& run) {
   LeafScripts scripts;
   scripts.ticks = run.size();
+  // A leaf has a word for each tick of it, and several in a period where nodes ask for them.
+  stepper_.set_before_tick_again([&](ModelLeaves& leaves) {
+    add_words(scripts);
+    leaves.clear_marks();
+  });
   play(run, [&](Stepper&, Status, std::size_t) { add_words(scripts); });
+  stepper_.set_before_tick_again(nullptr);
   return scripts;
 }
 

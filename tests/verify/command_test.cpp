@@ -80,6 +80,23 @@ TEST_CASE("what verify has found comes again with run --leaves") {
   }
 }
 
+TEST_CASE("a run that shows a finding has all ticks of a leaf, also several in one period") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root BTCPP_format="4"><plugin name="motion"/>
+      <BehaviorTree ID="T"><Parallel><AsyncSequence><Advance name="x"/><Advance name="y"/>
+      </AsyncSequence><Advance name="a"/></Parallel></BehaviorTree></root>)");
+  const std::string out = directory.path("found");
+  for (const std::string property : {"a.running leads to a.failure", "never a.success"}) {
+    INFO(property);
+    const Outcome verified = run_lockstep({"verify", tree, "--property", property, "--out", out});
+    CHECK(verified.code == 1);
+    const auto from = verified.out.find("lockstep replay ") + 16;
+    const std::string recording = verified.out.substr(from, verified.out.find('\n', from) - from);
+    INFO(verified.out);
+    CHECK(run_lockstep({"log", "check", recording, "--property", property}).code == 1);
+  }
+}
+
 TEST_CASE("a tree without findings is verified, with what is assumed") {
   const TemporaryDirectory directory;
   const Outcome it = run_lockstep(
