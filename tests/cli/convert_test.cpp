@@ -178,6 +178,31 @@ TEST_CASE("convert warns of a Sleep that may be held") {
                  "tree.xml:4:1: warning: 'Sleep' is not quite the same"));
 }
 
+TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& condition, const std::string& to = "btcpp4") {
+    const std::string format = to == "btcpp4" ? "lockstep=\"1\"" : "BTCPP_format=\"4\"";
+    const std::string tree =
+        around(format, "<WhileDoElse>" + condition + "<Ours seconds=\"9\"/></WhileDoElse>");
+    const std::string file = directory.file("tree.xml", tree);
+    return contains(run_lockstep({"convert", "--to", to, file}).err,
+                    "tree.xml:3:1: warning: 'WhileDoElse' is not quite the same");
+  };
+  CHECK(told("<Wait seconds=\"1\"/>"));
+  CHECK(told("<Inverter><Sequence><Ours/><Wait seconds=\"1\"/></Sequence></Inverter>"));
+  CHECK(told("<Action ID=\"Ours\"/>"));
+  CHECK(told("<Sleep msec=\"10\"/>", "lockstep"));
+  for (const std::string condition :
+       {"<Ours/>", "<Condition ID=\"Ours\"/>", "<Check code=\"n == 1\"/>", "<AlwaysSuccess/>"}) {
+    CHECK_FALSE(told(condition));
+  }
+  const std::string modeled =
+      "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><WhileDoElse><Ours/><AlwaysSuccess/>"
+      "</WhileDoElse></BehaviorTree><TreeNodesModel><Action ID=\"Ours\"/></TreeNodesModel></root>";
+  const std::string file = directory.file("modeled.xml", modeled);
+  CHECK(contains(run_lockstep({"convert", "--to", "btcpp4", file}).err, "'WhileDoElse'"));
+}
+
 TEST_CASE("convert makes a list of the cases of a Switch, and back") {
   const TemporaryDirectory directory;
   const std::string their_nodes =

@@ -216,7 +216,8 @@ class Converter {
         add_attribute(token, it.theirs, "-1");
       }
     }
-    const bool differs = !pair_->is_different_when_held || may_be_held();
+    const bool differs = (!pair_->is_different_when_held || may_be_held()) &&
+                         (!pair_->has_condition_that_runs || condition_may_run(element));
     if (pair_->difference.empty() || !differs || report_.counted_only(Severity::Warning)) return;
     report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
                std::string(pair_->difference), Severity::Warning);
@@ -226,6 +227,35 @@ class Converter {
     return std::ranges::any_of(open_, [](const Open& it) {
       return it.tag == "ParallelAbsolute" || it.tag == "ParallelRelative";
     });
+  }
+
+  // Whether something in the first child may run for several ticks, as far as the file says it.
+  bool condition_may_run(std::uint32_t element) const {
+    const auto elements = document_.elements();
+    const std::uint32_t first = element + 1;
+    if (first >= elements[element].end) return false;
+    for (std::uint32_t node = first; node < elements[first].end; ++node) {
+      const std::string_view tag = elements[node].tag;
+      const Attribute* id = is_explicit_tag(tag) ? document_.find_attribute(node, "ID") : nullptr;
+      const std::string_view type = id == nullptr ? tag : id->value;
+      const NodeType* known = conversion_.from_nodes.find(type);
+      if (known != nullptr ? known->can_run : tag == "Action" || is_modeled_action(type)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool is_modeled_action(std::string_view type) const {
+    const auto elements = document_.elements();
+    for (const std::uint32_t part : children_in(elements, 0)) {
+      if (elements[part].tag != kModels) continue;
+      for (const std::uint32_t model : children_in(elements, part)) {
+        const Attribute* id = document_.find_attribute(model, "ID");
+        if (id != nullptr && id->value == type && elements[model].tag == "Action") return true;
+      }
+    }
+    return false;
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {

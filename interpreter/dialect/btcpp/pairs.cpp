@@ -41,6 +41,11 @@ constexpr std::string_view kDecides =
 constexpr std::string_view kStands =
     "while it is held, the time of a Wait stands still; that of a Sleep goes on";
 
+constexpr std::string_view kAsks =
+    "for BehaviorTree.CPP, an action that is the condition keeps its result, and a condition that "
+    "runs does not halt the branch; in lockstep's language the action begins again in the next "
+    "tick, and the branch is halted";
+
 constexpr std::string_view kOneEach =
     "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
 constexpr std::string_view kFirstResult = "after that it returns the first result";
@@ -101,7 +106,10 @@ constexpr NodePair kPairs[] = {
      .is_different_when_held = true},
     {.theirs = "SubTree", .ours = "SubTree", .words = kSubTreeWords},
     {.theirs = "IfThenElse", .ours = "IfThenElse"},
-    {.theirs = "WhileDoElse", .ours = "WhileDoElse"},
+    {.theirs = "WhileDoElse",
+     .ours = "WhileDoElse",
+     .difference = kAsks,
+     .has_condition_that_runs = true},
     {.theirs = "Script", .ours = "Script"},
     {.theirs = "ScriptCondition", .ours = "Check", .words = kCode},
     {.theirs = "AlwaysSuccess", .ours = "AlwaysSuccess"},

@@ -45,6 +45,7 @@ struct NodePair {
   std::span<const AttributePair> words = {};       // more of them, for hints alone
   std::string_view difference = {};                // in what they do; "" = none
   bool is_different_when_held = false;             // and only below a synchronized node
+  bool has_condition_that_runs = false;            // and only with such a first child
   std::string_view remark = {};  // of a hint: what is different, or what to do instead
 };
 
