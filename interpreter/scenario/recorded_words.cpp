@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <utility>
 
 #include "engine/writers.h"
 #include "recording/read/recording_parts.h"
@@ -64,22 +65,37 @@ class WordMaker {
     NodeIndex node;
     const LeafNode* leaf;
     std::vector<LeafWord>* words;
-    double progress = 0;  // that it had last
+    RecordedState before = {};  // in the tick before
+    std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
+
+  // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
+  // withheld is a word, but those behind which the leaf does not drift any more.
+  static void take_progress(const RecordedState& state, Leaf& it) {
+    const RecordedState& before = it.before;
+    if (it.words->empty() || before.status != Status::Running) return;
+    const bool has_moved = state.progress != before.progress;
+    if (before.ticked || !before.held) {
+      LeafWord& last = it.words->back();
+      if (has_moved && last.status == Status::Running && last.kind != LeafWord::Kind::Fault) {
+        last.progress = state.progress;
+      }
+      if (before.held) ++it.still;
+    } else if (!has_moved) {
+      ++it.still;
+    } else {
+      it.words->insert(it.words->end(), std::exchange(it.still, 0),
+                       {.kind = LeafWord::Kind::Held, .progress = before.progress});
+      it.words->push_back({.kind = LeafWord::Kind::Held, .progress = state.progress});
+    }
+  }
 
   void add(const RecordedTick& tick, Leaf& it) const {
     const RecordedState& state = tick.nodes[it.node];
-    // Progress is that before the tick: what the word before has led to.
-    if (!it.words->empty() && state.progress != it.progress) {
-      LeafWord& last = it.words->back();
-      if (state.held) {
-        it.words->push_back({.kind = LeafWord::Kind::Held, .progress = state.progress});
-      } else if (last.status == Status::Running && last.kind != LeafWord::Kind::Fault) {
-        last.progress = state.progress;
-      }
-    }
-    it.progress = state.progress;
+    take_progress(state, it);
+    it.before = state;
     if (!state.ticked) return;
+    it.still = 0;
     // One that is idle was halted after its tick.
     const bool runs = state.status == Status::Running || state.status == Status::Idle;
     LeafWord word{.status = runs ? Status::Running : state.status};

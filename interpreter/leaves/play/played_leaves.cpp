@@ -47,15 +47,18 @@ class PlayedLeaf final : public RemoteLeaf {
     progress_ = word->progress;
     return static_cast<lockstep_status>(word->status);
   }
-  void halt() override { is_held_ = false; }
+  void halt() override {
+    if (is_held_) pass_held_words();
+    is_held_ = false;
+  }
   void pause() override {
     is_held_ = true;
     held_at_ = tick_number();
   }
   void resume() override {
     progress_ = progress();
+    pass_held_words();
     is_held_ = false;
-    for (std::size_t count = held_words(); count > 0 && at_ + 1 < words_->size(); --count) ++at_;
   }
   // While it is held it may drift, by a word in each tick.
   double progress() override {
@@ -87,6 +90,10 @@ class PlayedLeaf final : public RemoteLeaf {
       ++count;
     }
     return count;
+  }
+
+  void pass_held_words() {
+    for (std::size_t count = held_words(); count > 0 && at_ + 1 < words_->size(); --count) ++at_;
   }
 
   void write(const LeafWord& word) {

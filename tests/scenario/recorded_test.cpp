@@ -1,0 +1,77 @@
+// A recording as a scenario: its leaves do what they did, so that the run is the same again.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+
+#include "support/program.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+struct RecordedRun {
+  std::string nodes;   // of the tree
+  std::string leaves;  // NAME.leaves or a leaf file; "": those of plugins
+  std::string name = "t.leaves.xml";
+};
+
+// The scenario that is made of the run, if the run is the same when it is played.
+std::string scenario_of(const RecordedRun& it, int seed = 0) {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<plugin name="fetch"/><BehaviorTree ID="T">)" + it.nodes +
+                                                       "</BehaviorTree></root>");
+  const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
+  std::vector<std::string> command = {
+      "run",         tree,     "--rate",   "10",     "--clock",
+      "virtual",     "--view", "none",     "--seed", std::to_string(seed),
+      "--max-ticks", "60",     "--record", run};
+  if (!it.leaves.empty()) {
+    command.insert(command.end(), {"--leaves", directory.file(it.name, it.leaves)});
+  }
+  const Outcome ran = run_lockstep(command);
+  INFO(ran.err);
+  REQUIRE(ran.code < 2);
+  const Outcome made = run_lockstep({"log", "scenario", run, "--save", file});
+  INFO(made.err);
+  REQUIRE(made.code == 0);
+  const std::string text = read_file(file);
+  std::string same = text;
+  same.replace(same.find("<scenario name"), 9, fmt::format("<scenario seed=\"{}\"", seed));
+  same.insert(same.find("<expect"), R"(<expect same-as="run.jsonl" tolerance="0.000001"/>)");
+  static_cast<void>(directory.file("t.test.xml", same));
+  const Outcome played = run_lockstep({"test", file, "--out", directory.path("failed")});
+  INFO(it.nodes << "\nseed " << seed << '\n' << read_file(run) << same << played.out << played.err);
+  CHECK(played.code == 0);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a leaf that moves and is then held does so in the scenario of its recording") {
+  const std::string text = scenario_of({R"(<ParallelAbsolute barriers="0.5;1">
+<Advance name="arm" step="0.1"/><Advance name="base" step="0.3"/></ParallelAbsolute>)",
+                                        ""});
+  CHECK(contains(text, R"(base" does="R0.3 R0.6 R0.9 S"/>)"));
+}
+
+TEST_CASE("the scenario of a recording is the run once more, whatever its leaves do by chance") {
+  const std::string nodes[] = {
+      R"(<ParallelAbsolute barriers="0.3;0.6"><Advance name="a"/><Advance name="b"/>
+<Advance name="c"/></ParallelAbsolute>)",
+      R"(<Repeat times="3"><ForceSuccess><Parallel success_count="1"><Advance name="a"/>
+<ParallelAbsolute barriers="0.3;0.6"><Advance name="b"/><Advance name="c"/></ParallelAbsolute>
+</Parallel></ForceSuccess></Repeat>)",
+      R"(<Retry attempts="3"><ParallelRelative delta="0.2"><Advance name="a"/>
+<Repeat times="2"><Advance name="b"/></Repeat></ParallelRelative></Retry>)",
+  };
+  for (const std::string& it : nodes) {
+    for (int seed = 0; seed < 12; ++seed) {
+      const std::string held = seed % 3 == 0 ? "still" : seed % 3 == 1 ? "-1..1" : "-2..-1";
+      scenario_of({it, fmt::format(R"(<leaves lockstep="1"><leaf of="Advance" ticks="1..7"
+result="success;failure" progress="grid:10" step="0..3" held="{}"/></leaves>)",
+                                   held)},
+                  seed);
+    }
+  }
+}
