@@ -11,6 +11,7 @@
 #include "engine/writers.h"
 #include "recording/read/recording_parts.h"
 #include "recording/read/recording_reader.h"
+#include "scenario/ended_results.h"
 
 namespace lockstep::host {
 namespace {
@@ -23,12 +24,16 @@ class WordMaker {
     std::map<std::string, const LeafNode*> by_path;
     for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
     std::map<std::string, NodeIndex> recorded;
+    std::vector<bool> conditions(header.nodes.size());
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       recorded[header.nodes[node].path] = node;
       const auto leaf = by_path.find(header.nodes[node].path);
       if (leaf == by_path.end()) continue;
+      const NodeType& type = *leaf->second->type;
+      conditions[node] = type.category == NodeCategory::Condition && !type.can_run;
       leaves_.push_back({node, leaf->second, &words.leaves[leaf->first]});
     }
+    results_.emplace(header, conditions);
     const auto writers_of = writers(tree);
     for (const RecordedKey& key : header.entries) {
       auto& of_key = writers_.emplace_back();
@@ -96,10 +101,9 @@ class WordMaker {
     it.before = state;
     if (!state.ticked) return;
     it.still = 0;
-    // One that is idle was halted after its tick.
-    const bool runs = state.status == Status::Running || state.status == Status::Idle;
-    LeafWord word{.status = runs ? Status::Running : state.status};
-    if (runs) word.progress = state.progress;
+    const Status status = results_->of(tick, it.node);
+    LeafWord word{.status = status};
+    if (status == Status::Running) word.progress = state.progress;
     for (const RecordedFault& fault : tick.faults) {
       if (fault.node == it.node) word.kind = LeafWord::Kind::Fault;
     }
@@ -127,6 +131,7 @@ class WordMaker {
   const RecordingHeader& header_;
   const Tree& tree_;
   RecordedWords& words_;
+  std::optional<EndedResults> results_;
   std::vector<Leaf> leaves_;
   std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
 };

@@ -55,15 +55,44 @@ TEST_CASE("a leaf that moves and is then held does so in the scenario of its rec
   CHECK(contains(text, R"(base" does="R0.3 R0.6 R0.9 S"/>)"));
 }
 
+TEST_CASE(
+    "a leaf that an ancestor has ended in its tick has the result that follows from the others") {
+  const auto script = [](const std::string& text) { return "@rate 10\n@ticks 5\n" + text; };
+  const std::string went_on = scenario_of(
+      {R"(<Parallel><Sequence><BatteryAbove name="c"/><Advance name="x"/></Sequence>
+<Advance name="y"/></Parallel>)",
+       script("T/Parallel/Sequence/c = S\nT/Parallel/Sequence/x = R0.1\nT/Parallel/y = R0.1 F\n"),
+       "t.leaves"});
+  CHECK(contains(went_on, R"(/c" does="S*2"/>)"));
+  CHECK(contains(went_on, R"(/y" does="R0.1 F"/>)"));
+  const std::string chosen = scenario_of(
+      {R"(<Parallel><Fallback><Advance name="a"/><IfThenElse><BatteryAbove name="c"/><Advance name="x"/>
+<Advance name="z"/></IfThenElse></Fallback><Advance name="y"/></Parallel>)",
+       script("T/Parallel/Fallback/a = F\nT/Parallel/Fallback/IfThenElse/c = F\n"
+              "T/Parallel/Fallback/IfThenElse/z = R0.1\nT/Parallel/y = F\n"),
+       "t.leaves"});
+  CHECK(contains(chosen, R"(/a" does="F"/>)"));
+  CHECK(contains(chosen, R"(/c" does="F"/>)"));
+  const std::string never_runs = scenario_of(
+      {R"(<Parallel><Inverter><BatteryAbove name="c"/></Inverter><Fallback><BatteryAbove name="d"/>
+<Advance name="x"/></Fallback><Advance name="y"/></Parallel>)",
+       script("T/Parallel/Inverter/c = F\nT/Parallel/Fallback/d = S\nT/Parallel/y = R0.1 F\n"),
+       "t.leaves"});
+  CHECK_FALSE(contains(never_runs, R"(c" does="R)"));
+}
+
 TEST_CASE("the scenario of a recording is the run once more, whatever its leaves do by chance") {
   const std::string nodes[] = {
       R"(<ParallelAbsolute barriers="0.3;0.6"><Advance name="a"/><Advance name="b"/>
-<Advance name="c"/></ParallelAbsolute>)",
+<Sequence memory="true"><Advance name="c"/><Advance name="d"/></Sequence></ParallelAbsolute>)",
       R"(<Repeat times="3"><ForceSuccess><Parallel success_count="1"><Advance name="a"/>
 <ParallelAbsolute barriers="0.3;0.6"><Advance name="b"/><Advance name="c"/></ParallelAbsolute>
 </Parallel></ForceSuccess></Repeat>)",
       R"(<Retry attempts="3"><ParallelRelative delta="0.2"><Advance name="a"/>
 <Repeat times="2"><Advance name="b"/></Repeat></ParallelRelative></Retry>)",
+      R"(<Parallel success_count="1"><ParallelAbsolute barriers="0.5"><Inverter><BatteryAbove/></Inverter>
+<Fallback><BatteryAbove/><Advance name="a"/></Fallback></ParallelAbsolute>
+<Sequence><BatteryAbove/><Advance name="b"/></Sequence></Parallel>)",
   };
   for (const std::string& it : nodes) {
     for (int seed = 0; seed < 12; ++seed) {
