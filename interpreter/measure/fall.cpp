@@ -16,6 +16,9 @@ void FallWatch::after_tick(const SynchronizedTick& tick) {
     if (runs_ && was_held_[child] && tick.progress[child] > last_[child] + kRounding) {
       if (!rise_while_held_) rise_while_held_ = Fall{child, tick.time};
     }
+    if (begins_at_0_ && !runs_ && tick.progress[child] > kRounding && !rise_before_) {
+      rise_before_ = Fall{child, tick.time};
+    }
     last_[child] = tick.progress[child];
     was_held_[child] = tick.held[child];
   }

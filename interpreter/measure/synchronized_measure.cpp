@@ -71,12 +71,13 @@ std::vector<std::string> child_names(const Tree& tree, NodeIndex node) {
   return is_group ? names_of(names) : names;
 }
 
-SynchronizedMeasure::SynchronizedMeasure(std::size_t children, Synchronization synchronization)
+SynchronizedMeasure::SynchronizedMeasure(std::size_t children, Synchronization synchronization,
+                                         bool is_group)
     : distance_({.children = children}),
       spread_({}),
       step_length_({.children = children}),
       synchronization_(synchronization),
-      falls_(children) {
+      falls_(children, !is_group) {
   for (std::size_t child = 0; child < children; ++child) {
     held_.emplace_back(MeasureTarget{.child = child});
   }
@@ -97,9 +98,9 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
 }
 
 std::optional<double> SynchronizedMeasure::bound() const {
-  if (falls_.while_ticked() || falls_.while_held() || falls_.rise_while_held() || left_out_) {
-    return std::nullopt;
-  }
+  const bool is_bounded = !falls_.while_ticked() && !falls_.while_held() &&
+                          !falls_.rise_while_held() && !falls_.rise_before();
+  if (!is_bounded || left_out_) return std::nullopt;
   return std::min(1.0, widest_ + step_length());
 }
 

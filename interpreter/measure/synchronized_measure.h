@@ -59,8 +59,9 @@ class HeldChildren {
 
 class SynchronizedMeasure {
  public:
-  SynchronizedMeasure(std::size_t children, Synchronization synchronization);
+  SynchronizedMeasure(std::size_t children, Synchronization synchronization, bool is_group);
 
+  void join() { falls_.join(); }  // the run, later than at its first tick
   void after_tick(const SynchronizedTick& tick);
   void run_ended(Nanoseconds time);
 
@@ -68,7 +69,8 @@ class SynchronizedMeasure {
   double largest_spread() const { return spread_.value({}); }
   double step_length() const { return step_length_.value({}); }
   // The spread cannot be larger: what the limits allowed, and the longest step. Nothing if progress
-  // fell, or rose while it was held, or a child that was left out may have joined from far behind.
+  // fell, or rose while it was held or before the first tick that counts, or a child that was left
+  // out may have joined from far behind.
   std::optional<double> bound() const;
   bool is_pool() const { return synchronization_ == Synchronization::Resources; }
   const FallWatch& falls() const { return falls_; }

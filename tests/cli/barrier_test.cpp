@@ -61,6 +61,45 @@ double barrier_measure(const BarrierRun& recorded, const std::string& measure) {
 
 }  // namespace
 
+TEST_CASE("the spread has no bound where the first tick of a node was not the last in its period") {
+  const auto tree = [](const std::string& beside) {
+    return "<root BTCPP_format=\"4\"><plugin name=\"motion\"/><BehaviorTree ID=\"Main\"><Parallel>"
+           "<ParallelAbsolute name=\"sync\" barriers=\"0.25;0.5\"><Advance name=\"a\" "
+           "step=\"0.01\"/><Advance name=\"b\" step=\"0.5\"/></ParallelAbsolute>" +
+           beside + "</Parallel></BehaviorTree></root>";
+  };
+  constexpr auto kAgain = "<AsyncSequence><AlwaysSuccess/><AlwaysSuccess/></AsyncSequence>";
+  constexpr auto kSaid = "'Main/Parallel/sync/a' rose in a period with several ticks";
+  for (const std::string beside : {kAgain, "<AlwaysSuccess/>"}) {
+    const BarrierRun recorded(tree(beside));
+    const std::string info = barrier_command({"log", "info", recorded.file}).out;
+    for (const std::string& text : {recorded.run.out + recorded.run.err, info}) {
+      INFO(text);
+      CHECK(contains(text, "largest spread 0.49"));
+      CHECK(contains(text, "(bound ") == (beside != kAgain));
+      CHECK(contains(text, kSaid) == (beside == kAgain));
+    }
+  }
+}
+
+TEST_CASE("the spread has a bound in a recording that begins within a run") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", barrier_project("<BehaviorTree ID=\"Main\"><ParallelAbsolute barriers=\"0.5;1\">"
+                                  "<Advance name=\"a\" step=\"0.001\"/><Advance name=\"b\" "
+                                  "step=\"0.002\"/></ParallelAbsolute></BehaviorTree>"));
+  const std::string file = directory.path("run.jsonl");
+  const Outcome run =
+      barrier_command({"run", tree, "--clock", "virtual", "--view", "none", "--record", file,
+                       "--record-rotate", "4s", "--record-keep", "1"});
+  INFO(run.err);
+  const Outcome info = barrier_command({"log", "info", directory.path("run.0003.jsonl")});
+  INFO(info.out << info.err);
+  CHECK(info.code == 0);
+  CHECK(contains(info.out, "(bound "));
+  CHECK_FALSE(contains(info.out, "several ticks"));
+}
+
 TEST_CASE("barrier: a run explains it like a synchronized node, and its recording says the same") {
   const BarrierRun recorded(kBarrierX1);
   CHECK(recorded.run.code == 0);

@@ -124,8 +124,9 @@ std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
   measures.reserve(nodes.size());
   for (const NodeIndex node : nodes) {
     const std::size_t count = children[node].size();
+    const RecordedNode& it = header.nodes[node];
     measures.push_back({RecordedProbe(header, node, std::move(children[node])),
-                        SynchronizedMeasure(count, header.nodes[node].synchronization)});
+                        SynchronizedMeasure(count, it.synchronization, !it.members.empty())});
   }
   return measures;
 }

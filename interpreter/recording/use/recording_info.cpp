@@ -108,7 +108,9 @@ std::string info_text(RecordingReader& reader, bool color) {
   std::uint64_t ticks = 0, faults = 0;
   RecordedTick last;
   while (const auto tick = reader.next()) {
-    ++ticks;
+    if (ticks++ == 0 && tick->tick > 0) {
+      for (RecordedMeasure& node : nodes) node.measure.join();
+    }
     faults += tick->faults.size();
     last = *tick;
     for (RecordedMeasure& node : nodes) node.after_tick(last);

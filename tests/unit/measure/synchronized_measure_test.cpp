@@ -17,7 +17,8 @@ struct Measured {
   Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0)
       : run(tree, leaves),
         probe(run.tree(), synchronized_nodes(run.tree()).at(place)),
-        measure(probe.children().size(), synchronization(run.tree().nodes[probe.node()])) {
+        measure(probe.children().size(), synchronization(run.tree().nodes[probe.node()]),
+                run.tree().is_group(probe.node())) {
     Nanoseconds now{0};
     for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
       status = run.tick(now);
