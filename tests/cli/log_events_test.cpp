@@ -57,7 +57,12 @@ TEST_CASE("log events: chosen by path, event and ticks, as text and JSON") {
         "\"value\":\"\"}\n"
         "{\"tick\":2,\"time_s\":0.2,\"event\":\"success\",\"what\":\"Test/Sequence/pull/base\","
         "\"value\":\"\"}\n");
-  CHECK(events(directory, {"--path", "nobody"}) == "");
+  CHECK(events(directory, {"--path", "done", "--to", "2"}) == "");
+  const std::string file = directory.path("run.jsonl.zst");
+  const Outcome typo = run_lockstep({"log", "events", file, "--path", "arm", "--path", "bse"});
+  CHECK(typo.code == 2);
+  CHECK(contains(typo.out, "start    Test/Sequence/pull/arm"));
+  CHECK(contains(typo.err, "--path bse: no node, entry or leaf that logs is called so"));
 }
 
 TEST_CASE("log events: an unknown event is refused with what there is") {

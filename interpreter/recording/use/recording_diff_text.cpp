@@ -80,12 +80,13 @@ Json json_of(const std::vector<ValueDifference>& values) {
   return json;
 }
 
-Json json_of(const RecordedState& state) {
-  return {{"status", to_string(state.status)},
-          {"progress", state.progress},
-          {"ticked", state.ticked},
-          {"held", state.held},
-          {"limit", std::isinf(state.limit) ? Json() : Json(state.limit)}};
+Json json_of(const RecordedState& state, bool has_limit) {
+  Json json = {{"status", to_string(state.status)},
+               {"progress", state.progress},
+               {"ticked", state.ticked},
+               {"held", state.held}};
+  if (has_limit) json["limit"] = std::isinf(state.limit) ? Json() : Json(state.limit);
+  return json;
 }
 
 Json json_of(const TickDifference& tick) {
@@ -98,7 +99,10 @@ Json json_of(const TickDifference& tick) {
   if (tick.time_a != tick.time_b) json["time_s"] = {{"a", tick.time_a}, {"b", tick.time_b}};
   json["nodes"] = Json::array();
   for (const NodeDifference& node : tick.nodes) {
-    json["nodes"].push_back({{"path", node.path}, {"a", json_of(node.a)}, {"b", json_of(node.b)}});
+    const bool has_limit = node.a.limit != 0 || node.b.limit != 0;
+    json["nodes"].push_back({{"path", node.path},
+                             {"a", json_of(node.a, has_limit)},
+                             {"b", json_of(node.b, has_limit)}});
   }
   if (!tick.faults_a.empty() || !tick.faults_b.empty()) {
     json["faults"] = {{"a", tick.faults_a}, {"b", tick.faults_b}};

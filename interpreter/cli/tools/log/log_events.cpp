@@ -1,13 +1,17 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
+#include "core/suggest.h"
 #include "leaves/models.h"
 #include "recording/use/recording_events.h"
 
@@ -22,11 +26,43 @@ struct LogEventsOptions {
 };
 
 // The end of the path is enough for a node: "arm" is "Main/pull/arm".
+bool means(const std::string& pattern, std::string_view what) {
+  return matches(pattern, what) || matches("*/" + pattern, what);
+}
+
+// The patterns that have meant nothing yet.
+class UnknownPaths {
+ public:
+  UnknownPaths(const std::vector<std::string>& patterns, const RecordingHeader& header)
+      : header_(header), patterns_(patterns) {
+    for (const RecordedNode& it : header.nodes) see(it.path);
+    for (const RecordedKey& it : header.entries) see(it.key);
+  }
+
+  // Also who logs, which may be a plugin.
+  void see(std::string_view what) {
+    std::erase_if(patterns_, [&](const std::string& it) { return means(it, what); });
+  }
+
+  int tell() const {
+    if (patterns_.empty()) return kExitSuccess;
+    std::vector<std::string_view> known;
+    for (const RecordedNode& it : header_.nodes) known.emplace_back(it.path);
+    for (const RecordedKey& it : header_.entries) known.emplace_back(it.key);
+    const std::string& first = patterns_.front();
+    print_error(fmt::format("--path {}: no node, entry or leaf that logs is called so", first),
+                suggest(first, known, "there are"));
+    return kExitUsage;
+  }
+
+ private:
+  const RecordingHeader& header_;
+  std::vector<std::string> patterns_;
+};
+
 bool is_chosen(const LogEventsOptions& options, const RecordingEvent& event) {
-  const auto means = [&](const std::string& pattern) {
-    return matches(pattern, event.what) || matches("*/" + pattern, event.what);
-  };
-  const bool is_of_path = options.paths.empty() || std::ranges::any_of(options.paths, means);
+  const auto is_meant = [&](const std::string& pattern) { return means(pattern, event.what); };
+  const bool is_of_path = options.paths.empty() || std::ranges::any_of(options.paths, is_meant);
   const bool is_of_kind =
       options.kinds.empty() || std::ranges::find(options.kinds, event.kind) != options.kinds.end();
   return is_of_path && is_of_kind;
@@ -43,7 +79,9 @@ int events(const LogEventsOptions& options) {
       lines.clear();
       return written == kExitSuccess;
     };
+    UnknownPaths unknown(options.paths, reader.header());
     each_event(reader, options.range, [&](const RecordingEvent& event) {
+      unknown.see(event.what);
       if (!is_chosen(options, event)) return true;
       lines += is_csv    ? event_csv(event)
                : is_json ? event_json(event)
@@ -52,7 +90,9 @@ int events(const LogEventsOptions& options) {
       return lines.size() < kFull || write();
     });
     if (written == kExitSuccess) write();
-    return written == kExitSuccess ? report_end(reader, options.range) : written;
+    if (written != kExitSuccess) return written;
+    const int code = report_end(reader, options.range);
+    return code == kExitSuccess ? unknown.tell() : code;
   });
 }
 
