@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/wording.h"
+#include "scenario/script_results.h"
 
 namespace lockstep::host {
 namespace {
@@ -36,7 +37,7 @@ class Auditor {
  public:
   Auditor(const RecordingHeader& header, const Tree& tree, const LeafModels& models,
           std::size_t most)
-      : header_(header), most_(most) {
+      : header_(header), tree_(tree), most_(most) {
     std::map<std::string, const LeafModel*> by_path;
     for (const LeafModel& model : models.leaves) by_path[tree.path(model.node)] = &model;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
@@ -68,7 +69,8 @@ class Auditor {
     }
     leaf.progress = state.progress;
     leaf.was_held = state.held;
-    if (state.ticked) {
+    const bool is_judged = !may_be_of_script(tree_, model.node, state.status, leaf.ticks == 0);
+    if (state.ticked && is_judged) {
       ++leaf.ticks;
       count(tick, state, leaf);
     }
@@ -99,6 +101,7 @@ class Auditor {
   }
 
   const RecordingHeader& header_;
+  const Tree& tree_;
   const std::size_t most_;
   std::vector<AuditedLeaf> leaves_;
   std::vector<LeafBreach> found_;

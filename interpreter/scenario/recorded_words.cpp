@@ -12,6 +12,7 @@
 #include "recording/read/recording_parts.h"
 #include "recording/read/recording_reader.h"
 #include "scenario/ended_results.h"
+#include "scenario/script_results.h"
 
 namespace lockstep::host {
 namespace {
@@ -98,10 +99,12 @@ class WordMaker {
   void add(const RecordedTick& tick, Leaf& it) const {
     const RecordedState& state = tick.nodes[it.node];
     take_progress(state, it);
+    const bool begins = it.before.status != Status::Running;
     it.before = state;
     if (!state.ticked) return;
     it.still = 0;
     const Status status = results_->of(tick, it.node);
+    if (may_be_of_script(tree_, it.leaf->node, status, begins)) return;
     LeafWord word{.status = status};
     if (status == Status::Running) word.progress = state.progress;
     for (const RecordedFault& fault : tick.faults) {

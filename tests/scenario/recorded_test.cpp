@@ -81,6 +81,21 @@ TEST_CASE(
   CHECK_FALSE(contains(never_runs, R"(c" does="R)"));
 }
 
+TEST_CASE("a result that a script of a leaf gives is no word of the leaf") {
+  const auto words = [](const std::string& hook, const std::string& step) {
+    return scenario_of(
+        {R"(<Sequence memory="true"><Script code="n := 0"/><Repeat times="2">
+<ForceSuccess><Advance name="a" step=")" +
+             step + "\" " + hook +
+             R"( on_success="n := 1" on_failure="n := 1"/></ForceSuccess></Repeat></Sequence>)",
+         ""});
+  };
+  CHECK(contains(words(R"(failure_if="n == 0")", "0.5"), R"(/a" does="R0.5 S"/>)"));
+  CHECK(contains(words(R"(success_if="n == 0")", "0.5"), R"(/a" does="R0.5 S"/>)"));
+  CHECK(contains(words(R"(skip_if="n == 1")", "0.5"), R"(/a" does="R0.5 S"/>)"));
+  CHECK(contains(words(R"(while="n == 0")", "0.5"), R"(/a" does="R0.5 S"/>)"));
+}
+
 TEST_CASE("the scenario of a recording is the run once more, whatever its leaves do by chance") {
   const std::string nodes[] = {
       R"(<ParallelAbsolute barriers="0.3;0.6"><Advance name="a"/><Advance name="b"/>

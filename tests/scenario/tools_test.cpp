@@ -80,6 +80,23 @@ TEST_CASE("log check says where the leaves of a recording broke their leaf file"
                  "had the result success, which the leaf file does not allow"));
 }
 
+TEST_CASE("log check does not take the result of a script for that of its leaf") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="Main"><Sequence memory="true"><Script code="n := 0"/><Retry attempts="3">
+<Advance name="a" step="0.5" failure_if="n == 0" on_failure="n := 1"/></Retry></Sequence>
+</BehaviorTree></root>)");
+  const std::string run = directory.path("run.jsonl");
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", run}).code ==
+        0);
+  const std::string leaves = directory.file(
+      "t.leaves.xml",
+      R"(<leaves lockstep="1"><leaf of="Advance" result="success" ticks="2"/></leaves>)");
+  const Outcome good = run_lockstep({"log", "check", run, "--leaves", leaves});
+  INFO(good.out << good.err);
+  CHECK(good.code == 0);
+}
+
 TEST_CASE("changes that no scenario notices are named") {
   const TemporaryDirectory directory;
   static_cast<void>(directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
