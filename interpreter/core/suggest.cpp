@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kLongestWord = 256;
 constexpr std::size_t kMostEdits = 8;
 constexpr std::size_t kMostCandidates = 10'000;
-// The largest table of distances for one word: some tenths of a millisecond. All names of a large
-// robot take a tenth of it.
-constexpr std::size_t kMostCells = 200'000;
+// The largest table of distances for one word: less than a millisecond. All names of a large robot
+// take a fifth of it.
+constexpr std::size_t kMostCells = 100'000;
 
 constexpr char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

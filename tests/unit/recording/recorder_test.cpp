@@ -105,19 +105,21 @@ TEST_CASE("a disk that is too slow loses ticks, the recording says which, the re
 
 TEST_CASE("ticks lost at the end are reported before the closing line") {
   BlockedDisk disk;
+  std::uint64_t lost = 0;
   {
     SteppedRun run("Sequence(a)", "a=R");
     Recorder recorder(run.tree(), {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
     run.start(recorder, true);
-    while (recorder.lost() < 10) run.tick();
+    while ((lost = recorder.lost()) < 10) run.tick();
     disk.unblock();
     run.end();
   }
   const std::string text = disk.text();
-  const std::size_t gap = text.find("{\"lost\":{\"ticks\":10,\"from\":");
+  // Before the disk is full, the thread that writes may be late, which is a gap of its own.
+  const std::size_t gap = text.rfind("{\"lost\":{\"ticks\":");
   REQUIRE(gap != std::string::npos);
   CHECK(text.compare(text.find('\n', gap) + 1, 7, "{\"end\":") == 0);
-  CHECK(text.ends_with("\"skipped\":0,\"lost\":10}}\n"));
+  CHECK(text.ends_with("\"skipped\":0,\"lost\":" + std::to_string(lost) + "}}\n"));
 }
 
 TEST_CASE("on the virtual clock the run waits for the disk instead") {
