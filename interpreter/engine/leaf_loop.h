@@ -122,7 +122,8 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     const Activity before = *activity;
     if constexpr (!kRuns) {
       if (!is_ready(before, *leaf)) break;
-      leaf->started = true;
+      // What is not written to has not to go back from the cache to the memory.
+      if (!leaf->started) leaf->started = true;
     } else if (before != Activity::Running) {
       if (stays_held(before, chosen)) continue;
       break;
