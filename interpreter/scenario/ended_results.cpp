@@ -1,60 +1,47 @@
 #include "scenario/ended_results.h"
 
-#include <algorithm>
-#include <iterator>
+#include <map>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace lockstep::host {
 
-struct EndedResults::Kind {
-  std::string_view name;
-  Rule rule;
-  bool may_run = true;  // also where none of its children does
-};
-
-EndedResults::EndedResults(const RecordingHeader& header, const std::vector<bool>& conditions)
-    : never_runs_(conditions), children_(header.nodes.size()) {
-  std::vector<bool> may_run(header.nodes.size());
+EndedResults::EndedResults(const RecordingHeader& header, const Tree& tree)
+    : never_runs_(header.nodes.size()), children_(header.nodes.size()) {
+  std::map<std::string, const NodeType*> types;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    types[tree.path(node)] = tree.labels[node].type;
+  }
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
     const RecordedNode& it = header.nodes[node];
-    const Kind& kind = kind_of(it.kind);
+    const auto found = types.find(it.path);
+    const NodeType* const type = found == types.end() ? nullptr : found->second;
     parents_.push_back(it.parent);
-    rules_.push_back(kind.rule);
-    may_run[node] = kind.may_run;
+    rules_.push_back(rule_of(type));
+    never_runs_[node] = type != nullptr && !type->can_run;
     if (it.parent) children_[*it.parent].push_back(node);
   }
   for (NodeIndex node = static_cast<NodeIndex>(header.nodes.size()); node-- > 0;) {
-    if (children_[node].empty() || may_run[node]) continue;
-    never_runs_[node] =
-        std::ranges::all_of(children_[node], [&](NodeIndex child) { return never_runs_[child]; });
+    const bool may_run = !never_runs_[node];
+    if (may_run && parents_[node]) never_runs_[*parents_[node]] = false;
   }
 }
 
-const EndedResults::Kind& EndedResults::kind_of(const std::string& name) {
-  static constexpr Kind kKinds[] = {
-      {"Sequence", Rule::AllOf, false},
-      {"ReactiveSequence", Rule::AllOf, false},
-      {"SequenceWithMemory", Rule::AllOf, false},
-      {"AsyncSequence", Rule::AllOf},
-      {"Fallback", Rule::OneOf, false},
-      {"ReactiveFallback", Rule::OneOf, false},
-      {"AsyncFallback", Rule::OneOf},
-      {"IfThenElse", Rule::Choice, false},
-      {"WhileDoElse", Rule::Choice, false},
-      {"Inverter", Rule::Opposite, false},
+EndedResults::Rule EndedResults::rule_of(const NodeType* type) {
+  if (type == nullptr) return Rule::Other;
+  if (type->goes_on_after == Status::Success) return Rule::AllOf;
+  if (type->goes_on_after == Status::Failure) return Rule::OneOf;
+  if (type->inverts) return Rule::Opposite;
+  static constexpr std::pair<std::string_view, Rule> kOthers[] = {
+      {"IfThenElse", Rule::Choice},
+      {"WhileDoElse", Rule::Choice},
       {"Retry", Rule::Retries},
       {"RetryUntilSuccessful", Rule::Retries},
-      {"Repeat", Rule::Repeats},
-      {"KeepRunningUntilFailure", Rule::Repeats},
-      {"Check", Rule::Other, false},
-      {"Parallel", Rule::Other, false},
-      {"ForceSuccess", Rule::Other, false},
-      {"ForceFailure", Rule::Other, false},
-      {"SubTree", Rule::Other, false},
-      {"", Rule::Other},
   };
-  const auto found = std::ranges::find(kKinds, name, &Kind::name);
-  return found == std::end(kKinds) ? *std::prev(std::end(kKinds)) : *found;
+  for (const auto& [id, rule] : kOthers)
+    if (id == type->id) return rule;
+  return Rule::Other;
 }
 
 Status EndedResults::of(const RecordedTick& tick, NodeIndex node) const {

@@ -4,17 +4,17 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "engine/tree.h"
 #include "recording/recording.h"
 
 namespace lockstep::host {
 
 class EndedResults {
  public:
-  // Conditions: the leaves, by index, that are never running.
-  EndedResults(const RecordingHeader& header, const std::vector<bool>& conditions);
+  // Nodes that the tree has not at the same path may do anything.
+  EndedResults(const RecordingHeader& header, const Tree& tree);
 
   // Its status when it had been ticked. For a node that is idle it follows from what its ancestors
   // and siblings did: a node is halted only while it runs, and forgotten only if it was skipped.
@@ -23,9 +23,8 @@ class EndedResults {
   Status of(const RecordedTick& tick, NodeIndex node) const;
 
  private:
-  enum class Rule : std::uint8_t { AllOf, OneOf, Choice, Opposite, Retries, Repeats, Other };
-  struct Kind;
-  static const Kind& kind_of(const std::string& name);
+  enum class Rule : std::uint8_t { AllOf, OneOf, Choice, Opposite, Retries, Other };
+  static Rule rule_of(const NodeType* type);
   Status result_in(NodeIndex parent, NodeIndex node) const;
   Status below(const RecordedTick& tick, NodeIndex parent, NodeIndex node) const;
   bool is_last_ticked(const RecordedTick& tick, NodeIndex parent, NodeIndex node) const;

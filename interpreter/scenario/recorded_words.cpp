@@ -21,20 +21,16 @@ namespace {
 class WordMaker {
  public:
   WordMaker(const RecordingHeader& header, const Tree& tree, RecordedWords& words)
-      : header_(header), tree_(tree), words_(words) {
+      : header_(header), tree_(tree), words_(words), results_(header, tree) {
     std::map<std::string, const LeafNode*> by_path;
     for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
     std::map<std::string, NodeIndex> recorded;
-    std::vector<bool> conditions(header.nodes.size());
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       recorded[header.nodes[node].path] = node;
       const auto leaf = by_path.find(header.nodes[node].path);
       if (leaf == by_path.end()) continue;
-      const NodeType& type = *leaf->second->type;
-      conditions[node] = type.category == NodeCategory::Condition && !type.can_run;
       leaves_.push_back({node, leaf->second, &words.leaves[leaf->first]});
     }
-    results_.emplace(header, conditions);
     const auto writers_of = writers(tree);
     for (const RecordedKey& key : header.entries) {
       auto& of_key = writers_.emplace_back();
@@ -103,7 +99,7 @@ class WordMaker {
     it.before = state;
     if (!state.ticked) return;
     it.still = 0;
-    const Status status = results_->of(tick, it.node);
+    const Status status = results_.of(tick, it.node);
     if (may_be_of_script(tree_, it.leaf->node, status, begins)) return;
     LeafWord word{.status = status};
     if (status == Status::Running) word.progress = state.progress;
@@ -134,7 +130,7 @@ class WordMaker {
   const RecordingHeader& header_;
   const Tree& tree_;
   RecordedWords& words_;
-  std::optional<EndedResults> results_;
+  const EndedResults results_;
   std::vector<Leaf> leaves_;
   std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
 };
