@@ -122,7 +122,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     const Activity before = *activity;
     if constexpr (!kRuns) {
       if (!is_ready(before, *leaf)) break;
-      // What is not written to has not to go back from the cache to the memory.
+      // A slot that nobody writes to stays as it is in the cache.
       if (!leaf->started) leaf->started = true;
     } else if (before != Activity::Running) {
       if (stays_held(before, chosen)) continue;

@@ -7,21 +7,11 @@
 #include "bench/bench_study.h"
 #include "bench/bench_tree.h"
 #include "runtime/run.h"
+#include "support/step_clock.h"
 
 namespace {
 
 using namespace lockstep::host;
-
-// Counts from 0: what it takes to read a real clock differs from machine to machine.
-class StepClock final : public Clock {
- public:
-  Nanoseconds now() override { return time_ += Nanoseconds(1); }
-  void sleep_until(Nanoseconds) override {}
-  bool is_real() const override { return true; }
-
- private:
-  Nanoseconds time_{0};
-};
 
 enum class Watched : bool { No, Yes };  // as `lockstep run` does on the wall clock
 
@@ -83,7 +73,7 @@ bool measure_ticks(const Case& it) {
   const std::string leaves = BenchTree::repeated(fmt::format("<{}/>", it.leaf), kLeaves);
   const BenchTree tree(
       fmt::format("<{0} {1}>{2}{3}</{0}>", it.control, it.attributes, it.first, leaves));
-  StepClock clock;
+  test::StepClock clock;
   LeafWatch watch({.budget = std::chrono::hours(1), .clock = &clock});
   Run run(tree.tree(), {.watch = it.watched == Watched::Yes ? &watch : nullptr});
   for (int i = 0; i < 3; ++i) run.tick(Nanoseconds(0));

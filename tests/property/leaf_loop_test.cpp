@@ -7,22 +7,13 @@
 
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
+#include "support/step_clock.h"
 
 namespace lockstep::host::test {
 namespace {
 
 constexpr std::uint64_t kLoopTrees = 2000;
 constexpr int kLoopTicks = 30;
-
-class StepClock final : public Clock {
- public:
-  Nanoseconds now() override { return time_ += Nanoseconds(1); }
-  void sleep_until(Nanoseconds) override {}
-  bool is_real() const override { return true; }
-
- private:
-  Nanoseconds time_{0};
-};
 
 struct LoopTick {
   Status status;
