@@ -12,7 +12,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kLoopTrees = 2000;
+constexpr std::uint64_t kLoopTrees = 5000;
 constexpr int kLoopTicks = 30;
 
 struct LoopTick {
@@ -20,6 +20,7 @@ struct LoopTick {
   EventLog events;
   RunState run;
   std::vector<double> progress;
+  std::vector<Value> entries;
 
   friend bool operator==(const LoopTick&, const LoopTick&) = default;
 };
@@ -39,9 +40,12 @@ std::vector<LoopTick> ticks_of(const LoopRun& it, LeafWatch* watch) {
     run.events.clear();
     it.write(run, tick);
     const Status status = run.tick(tick * from_seconds(it.period));
-    ticks.push_back({status, run.events, run.ticker().run_state(), {}});
+    ticks.push_back({status, run.events, run.ticker().run_state(), {}, {}});
     for (NodeIndex node = 0; node < it.tree.nodes.size(); ++node) {
       ticks.back().progress.push_back(run.ticker().progress(node));
+    }
+    for (const Entry& entry : run.ticker().blackboard().entries) {
+      ticks.back().entries.push_back(entry.value);
     }
   }
   return ticks;
