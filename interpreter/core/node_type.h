@@ -125,6 +125,8 @@ struct NodeType {
   bool latches = false;                 // a parallel: a child with actions is not ticked again
   bool begins_child_once = false;       // no child begins again, but for the first of several
   bool keeps_first_child = false;       // the first child is ticked again without a reset
+  bool has_branches = false;            // the result of the first child chooses another one
+  Status repeats_after = Status::Idle;  // a decorator that begins its child again after this result
   bool inverts = false;                 // a decorator that swaps Success and Failure
   bool can_run = false;                 // Running is its own result, not only a child's
   bool limits_time = false;             // a decorator that fails, and halts its child, after a time

@@ -2,8 +2,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace lockstep::host {
 
@@ -33,14 +31,8 @@ EndedResults::Rule EndedResults::rule_of(const NodeType* type) {
   if (type->goes_on_after == Status::Success) return Rule::AllOf;
   if (type->goes_on_after == Status::Failure) return Rule::OneOf;
   if (type->inverts) return Rule::Opposite;
-  static constexpr std::pair<std::string_view, Rule> kOthers[] = {
-      {"IfThenElse", Rule::Choice},
-      {"WhileDoElse", Rule::Choice},
-      {"Retry", Rule::Retries},
-      {"RetryUntilSuccessful", Rule::Retries},
-  };
-  for (const auto& [id, rule] : kOthers)
-    if (id == type->id) return rule;
+  if (type->has_branches) return Rule::Choice;
+  if (type->repeats_after == Status::Failure) return Rule::Retries;
   return Rule::Other;
 }
 

@@ -96,7 +96,8 @@ constexpr NodeKind kIf{
                     "else the third. The result is that of the branch; Failure without a third "
                     "child.",
              .arity = {2, 3},
-             .begins_child_once = kRule == Rule::Plain},
+             .begins_child_once = kRule == Rule::Plain,
+             .has_branches = true},
     .tick = tick_if<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
@@ -110,7 +111,8 @@ constexpr NodeKind kWhile{
                     "child, else the third. The branch that is left is halted. Failure without a "
                     "third child.",
              .arity = {2, 3},
-             .keeps_first_child = kRule == Rule::Strict},
+             .keeps_first_child = kRule == Rule::Strict,
+             .has_branches = true},
     .tick = tick_while<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),

@@ -14,6 +14,7 @@ const NodeKind kKeepRunningUntilFailure{
              .category = NodeCategory::Decorator,
              .doc = "Running until its child fails; a child that succeeds is started again.",
              .arity = {1, 1},
+             .repeats_after = Status::Success,
              .can_run = true},
     .tick = tick_keep_running,
     .progress = decorator::child_progress};

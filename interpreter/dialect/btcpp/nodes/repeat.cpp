@@ -89,6 +89,7 @@ const NodeKind kRepeat{
              .arity = {1, 1},
              .parameters = kRepeatParameters,
              .progress_share = ProgressShare::EachRound,
+             .repeats_after = Status::Success,
              .can_run = true},
     .tick = tick_repeat<Status::Success>,
     .progress = progress_of_repeat,
@@ -105,6 +106,7 @@ const NodeKind kRetryUntilSuccessful{
                     "times.",
              .arity = {1, 1},
              .parameters = kRetryParameters,
+             .repeats_after = Status::Failure,
              .can_run = true},
     .tick = tick_repeat<Status::Failure>,
     .progress = decorator::child_progress,  // of this attempt
