@@ -44,36 +44,40 @@ double seconds_so_far() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-// Seconds for one call: the best of some, once for all rows.
-double floor_of_a_call() {
-  constexpr int kCalls = 10000;
-  static const double floor = [] {
-    const FloorOfCalls calls(kCalls);
-    double best = 1;
-    for (int i = 0; i < 1000; ++i) {
-      const double begin = seconds_so_far();
-      calls.call();
-      best = std::min(best, seconds_so_far() - begin);
-    }
-    return best / kCalls;
-  }();
-  return floor;
+double seconds_of(std::size_t times, const auto& action) {
+  const double begin = seconds_so_far();
+  for (std::size_t i = 0; i < times; ++i) action();
+  return seconds_so_far() - begin;
 }
 
-// One item is one node; `floors` says how many of those calls it is worth.
-void set_items(benchmark::State& state, const BenchTree& bench, double seconds) {
-  const auto items = state.iterations() * static_cast<std::int64_t>(bench.tree().nodes.size());
-  state.SetItemsProcessed(items);
-  state.counters["floors"] = seconds / static_cast<double>(items) / floor_of_a_call();
+// How many of those calls a node of a tick is worth. The speed of a machine changes within a
+// second, so ticks and calls take turns; the fastest of each count.
+double in_floors(Run& run, std::size_t nodes) {
+  constexpr std::size_t kCalls = 1000, kTurns = 2000;
+  const FloorOfCalls calls(nodes);
+  const std::size_t times = std::max<std::size_t>(1, kCalls / nodes);
+  const std::size_t turns = std::max<std::size_t>(20, kTurns * kCalls / (nodes * times));
+  double ticks = 1e9, floor = 1e9;
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    ticks = std::min(
+        ticks, seconds_of(times, [&] { benchmark::DoNotOptimize(run.tick(Nanoseconds(0))); }));
+    floor = std::min(floor, seconds_of(times, [&] { calls.call(); }));
+  }
+  return ticks / floor;
 }
 
-// Ticks the whole tree.
+// One item is one node.
+void set_items(benchmark::State& state, const BenchTree& bench) {
+  state.SetItemsProcessed(state.iterations() *
+                          static_cast<std::int64_t>(bench.tree().nodes.size()));
+}
+
+// Ticks the whole tree; `floors` says what a node costs.
 void tick_all(benchmark::State& state, const BenchTree& bench, LeafWatch* watch = nullptr) {
   Run run(bench.tree(), {.watch = watch});
-  const double begin = seconds_so_far();
   for (auto _ : state) benchmark::DoNotOptimize(run.tick(Nanoseconds(0)));
-  set_items(state, bench, seconds_so_far() - begin);
+  set_items(state, bench);
+  state.counters["floors"] = in_floors(run, bench.tree().nodes.size());
 }
 
 void flat(benchmark::State& state, const char* control, const char* attributes, const char* leaf) {
@@ -247,19 +251,16 @@ void observe(benchmark::State& state, const BenchTree& bench, Observer* observer
   constexpr int kTicks = 400;  // whose changes are in a queue at once
   Observed observed(bench.tree(), observer);
   int ticks = 0;
-  double seconds = 0, begin = seconds_so_far();
   for (auto _ : state) {
     observed.tick();
     if (!emptied || ++ticks < kTicks) continue;
     state.PauseTiming();
-    seconds += seconds_so_far() - begin;
     observed.end();
     emptied();
     ticks = 0;
-    begin = seconds_so_far();
     state.ResumeTiming();
   }
-  set_items(state, bench, seconds + seconds_so_far() - begin);
+  set_items(state, bench);
   observed.end();
 }
 
