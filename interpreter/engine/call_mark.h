@@ -107,7 +107,8 @@ class CallMark {
     return around;
   }
   void leave(const Look& around) {
-    leave();
+    ForkGuard::check();
+    leave_alone();
     if (around.function == PluginFunction::None) return;
     set(*around.site, around.function);
     if (around.is_bounded) set_bounded();
@@ -117,8 +118,8 @@ class CallMark {
     serial_.store(serial_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     set(site, function);
   }
-  [[gnu::always_inline]] void leave() {
-    ForkGuard::check();
+  // The caller has looked whether this is a forked child.
+  [[gnu::always_inline]] void leave_alone() {
     function_.store(static_cast<std::uint8_t>(PluginFunction::None), std::memory_order_release);
   }
   // Other code ensures that this call returns in time.

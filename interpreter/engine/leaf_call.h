@@ -42,17 +42,21 @@ class LeafCall {
   [[gnu::always_inline]] static Result in_line(NodeContext& context, const LeafSlot& leaf,
                                                Result (*function)(void*)) {
     CallMark& mark = *context.in_line_;
-    return context.timer_ != nullptr ? marked<kFunction, true>(context, mark, leaf, function)
-                                     : marked<kFunction, false>(context, mark, leaf, function);
+    bool is_usual = true;
+    return context.timer_ != nullptr
+               ? marked<kFunction, true>(context, mark, leaf, function, is_usual)
+               : marked<kFunction, false>(context, mark, leaf, function, is_usual);
   }
   static bool can_be_in_line(const NodeContext& context) { return context.in_line_ != nullptr; }
 
  private:
   friend class LeafLoop;
 
+  // `is_usual`: nothing has happened but that the leaf has returned.
   template <PluginFunction kFunction, bool kTimed, class Result>
   [[gnu::always_inline]] static Result marked(NodeContext& context, CallMark& mark,
-                                              const LeafSlot& leaf, Result (*function)(void*));
+                                              const LeafSlot& leaf, Result (*function)(void*),
+                                              bool& is_usual);
   static std::uint32_t place_of(const NodeContext& context, const LeafSlot& leaf) {
     return static_cast<std::uint32_t>(&leaf - context.leaves_.data());
   }
@@ -74,7 +78,7 @@ class LeafCall {
 
 template <PluginFunction kFunction, bool kTimed, class Result>
 inline Result LeafCall::marked(NodeContext& context, CallMark& mark, const LeafSlot& leaf,
-                               Result (*function)(void*)) {
+                               Result (*function)(void*), bool& is_usual) {
   mark.enter_alone(*leaf.site, kFunction);
   constexpr bool kHasResult = !std::is_void_v<Result>;
   [[maybe_unused]] std::conditional_t<kHasResult, Result, int> result = -1;
@@ -87,7 +91,10 @@ inline Result LeafCall::marked(NodeContext& context, CallMark& mark, const LeafS
   } catch (...) {
     note_exception(context, leaf);
   }
-  mark.leave();
+  is_usual = context.is_usual_.is_set();
+  if (!is_usual) [[unlikely]]
+    ForkGuard::check();
+  mark.leave_alone();
   if constexpr (kTimed) {
     context.timer_->note(place_of(context, leaf), kFunction, mark);
   }

@@ -81,7 +81,7 @@ class LeafLoop {
     return While::kHolds && before == Activity::Paused && !chosen.next();
   }
   // From 0 to 1, but not -0: the bits of such numbers are ordered as the numbers are.
-  static bool is_usual(double progress) {
+  static bool is_in_range(double progress) {
     return std::bit_cast<std::uint64_t>(progress) <= std::bit_cast<std::uint64_t>(1.0);
   }
 
@@ -113,10 +113,9 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
   const auto here = [&] {
     return static_cast<NodeIndex>(last_tick - context.state_.last_tick.data());
   };
-  // A call may end the calls in line, also by a fault: then the next child is not called so.
   const auto pass = [&] {
     ++leaf, ++activity, ++last_tick;
-    return leaf != last && context.in_line_ != nullptr;
+    return leaf != last;
   };
   do {
     const Activity before = *activity;
@@ -127,15 +126,19 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     } else if (before != Activity::Running) {
       if (stays_held(before, chosen)) continue;
       break;
-    } else if (!chosen.next() || leaf->failed()) {
+    } else if (!chosen.next() || leaf->is_faulty()) {
       break;
     }
-    const auto result =
-        LeafCall::marked<PluginFunction::Tick, kTimed>(context, mark, *leaf, leaf->type->tick);
-    if (leaf->error != nullptr || result != static_cast<int>(kGoesOn)) [[unlikely]] {
+    bool is_usual = true;
+    const auto result = LeafCall::marked<PluginFunction::Tick, kTimed>(context, mark, *leaf,
+                                                                       leaf->type->tick, is_usual);
+    if (!is_usual || result != static_cast<int>(kGoesOn)) [[unlikely]] {
+      context.is_usual_.set();
       const Status status = LeafCall::complete(context, here(), *leaf, result);
       if (status != kGoesOn) return {here(), status};
-      continue;
+      if (context.in_line_ != nullptr) continue;
+      pass();
+      break;
     }
     if constexpr (!kRuns) *activity = static_cast<Activity>(kGoesOn);
     *last_tick = context.state_.tick_number;
@@ -154,21 +157,29 @@ NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex en
   const auto here = [&] { return static_cast<NodeIndex>(activity - all); };
   const auto pass = [&] {
     ++leaf, ++activity, ++progress;
-    return leaf != last && context.in_line_ != nullptr;
+    return leaf != last;
   };
   do {
-    if (status_of(*activity) != Status::Running || leaf->failed()) break;
+    if (status_of(*activity) != Status::Running || leaf->is_faulty()) break;
     double reported = 0.0;
+    bool is_usual = true;
     if (leaf->kept_progress != nullptr) {
       reported = leaf->read_progress();
     } else if (leaf->type->progress == nullptr) {
       break;
     } else {
       reported = LeafCall::marked<PluginFunction::Progress, kTimed>(context, mark, *leaf,
-                                                                    leaf->type->progress);
+                                                                    leaf->type->progress, is_usual);
     }
-    const bool is_plain = leaf->error == nullptr && is_usual(reported);
-    *progress = is_plain ? reported : LeafCall::spoiled_progress(context, here(), reported);
+    if (is_usual && is_in_range(reported)) [[likely]] {
+      *progress = reported;
+      continue;
+    }
+    context.is_usual_.set();
+    *progress = LeafCall::spoiled_progress(context, here(), reported);
+    if (context.in_line_ != nullptr) continue;
+    pass();
+    break;
   } while (pass());
   return here();
 }

@@ -167,8 +167,13 @@ void NodeContext::set_fault(NodeIndex node, std::string message) {
   }
   if (state_.faulted) return;  // the first is the cause
   state_.faulted = state_.interrupted = true;
-  in_line_ = nullptr;
+  end_calls_in_line();
   state_.fault = std::move(fault);
+}
+
+void NodeContext::end_calls_in_line() {
+  in_line_ = nullptr;
+  is_usual_.clear();
 }
 
 void NodeContext::keep_ancestors_running(NodeIndex node) {

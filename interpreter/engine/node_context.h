@@ -15,6 +15,7 @@
 #include "engine/leaf_slot.h"
 #include "engine/leaf_watch.h"
 #include "engine/run_view.h"
+#include "system/fork_guard.h"
 
 namespace lockstep::host {
 
@@ -143,6 +144,8 @@ class NodeContext : public RunView {
   NodeScripts& scripts() { return scripts_; }                    // of parameters, and around ticks
   Groups& groups() { return groups_; }                           // barriers and pools
   const NodeWatches* watches() const { return watches_.get(); }  // null: nobody watches nodes
+  // A leaf has set an error.
+  void note_error() { is_usual_.clear(); }
   // Tells who watches the node what it returns. Gives that, or what is to be in its place.
   Status tell_result(NodeIndex node, Status status);
 
@@ -156,6 +159,7 @@ class NodeContext : public RunView {
   Status fail(NodeIndex node);
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
+  void end_calls_in_line();
   void keep_ancestors_running(NodeIndex node);
   void note_failed_leaf(NodeIndex node);
   bool has_failed_leaf(NodeIndex child);
@@ -177,6 +181,9 @@ class NodeContext : public RunView {
   // The mark of the ticking thread, while a leaf is called with nothing around it but this mark and
   // `timer_`; else null.
   CallMark* in_line_ = nullptr;
+  // Cleared by what a leaf in line may do that is not the usual: an error, or the end of the calls
+  // in line. Also in a forked child.
+  ForkGuard::Byte is_usual_;
   std::unique_ptr<NodeWatches> watches_;  // null: nobody has ever watched nodes
   bool notes_halts_;                      // somebody is told of halts: scripts, or who watches
 };

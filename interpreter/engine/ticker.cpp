@@ -34,7 +34,8 @@ void Ticker::begin_calls() {
   mark.set_tick(state_.tick_number - 1);
   const bool is_careful = watch_ != nullptr && watch_->looks_after_each_call();
   const bool gives_back = board_.lock != nullptr;  // around each call
-  in_line_ = state_.interrupted || is_careful || gives_back ? nullptr : &mark;
+  in_line_ =
+      state_.interrupted || is_careful || gives_back || !is_usual_.is_guarded() ? nullptr : &mark;
   if (watch_ != nullptr) watch_->begin_calls();
 }
 
@@ -62,7 +63,7 @@ void Ticker::watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch) {
   if (watches_ == nullptr) watches_ = std::make_unique<NodeWatches>(tree_);
   watches_->watch(nodes, watch);
   nodes_ = watches_->nodes();
-  in_line_ = nullptr;  // in a tick: a loop over leaves goes on with other nodes
+  end_calls_in_line();  // in a tick: a loop over leaves goes on with other nodes
   scripts_.use(watches_->hooked());
   notes_halts_ = tree_.has_halt_hooks || watch != nullptr;
 }

@@ -3,6 +3,8 @@
 // time.
 #pragma once
 
+#include <cstdint>
+
 namespace lockstep::host {
 
 class ForkGuard {
@@ -15,6 +17,27 @@ class ForkGuard {
     if (is_child()) [[unlikely]]
       in_child_();
   }
+
+  // A byte that is set, until it is cleared; in a forked child the kernel clears it. So one look at
+  // it says that this process is no child, and whatever its owner lets it say.
+  class Byte {
+   public:
+    // Before arm(), it is of ordinary memory.
+    Byte();
+    ~Byte();
+    Byte(const Byte&) = delete;
+    Byte& operator=(const Byte&) = delete;
+
+    // False: there are thousands of others, so the kernel does not clear this one.
+    bool is_guarded() const { return byte_ != &own_ || alive_ == &kAlive; }
+    bool is_set() const { return *byte_ != 0; }
+    void set() { *byte_ = 1; }
+    void clear() { *byte_ = 0; }
+
+   private:
+    std::uint8_t own_ = 1;
+    std::uint8_t* byte_;
+  };
 
  private:
   static constexpr unsigned char kAlive = 1;

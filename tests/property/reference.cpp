@@ -16,7 +16,8 @@ class Leaf : public ReferenceNode {
  public:
   Leaf(Reference& tree, const Plan& its_plan, std::uint32_t place)
       : ReferenceNode(tree, its_plan),
-        leaf_(parse_leaf_script(its_plan.script), place, &world.tick, &events, &error_) {}
+        leaf_(parse_leaf_script(its_plan.script), place, &world.tick, &events,
+              [this](const char* reason) { error_ = reason; }) {}
 
   Status on_tick(bool first) override {
     const bool bare = plan.kind == "bare";

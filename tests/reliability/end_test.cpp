@@ -1,5 +1,7 @@
 // What plugins do when they are loaded and when all is over, in every command: no command ends well
 // before its work is done, and none ends without naming who kept it from ending.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -187,6 +189,36 @@ TEST_CASE("a child that a leaf forks off never comes back into the run") {
         CHECK(contains(with.err, "the leaf 'Main/plan/"));
         CHECK(contains(with.err, "and the child came back from the call; the child was ended"));
       }
+    }
+  }
+}
+
+// From the second tick on, leaves that are next to each other are called in one loop.
+TEST_CASE("a child that a leaf forks off among others in a later tick ends before the next leaf") {
+  const TemporaryDirectory directory;
+  for (const std::string function : {"tick", "progress"}) {
+    for (const bool is_timed : {true, false}) {
+      INFO(function << (is_timed ? ", timed" : ""));
+      const std::string leaf =
+          "<Misbehave name=\"{}\" how=\"{}\" where=\"{}\" at=\"3\" ticks=\"5\"/>";
+      const std::string tree =
+          directory.file("tree.xml",
+                         "<root lockstep=\"1\"><plugin name=\"hostile\"/><BehaviorTree ID=\"Main\">"
+                         "<ParallelAbsolute barriers=\"0.5\">" +
+                             fmt::format(fmt::runtime(leaf), "first", "", function) +
+                             fmt::format(fmt::runtime(leaf), "forks", "fork", function) +
+                             fmt::format(fmt::runtime(leaf), "next", "print", function) +
+                             "</ParallelAbsolute></BehaviorTree></root>");
+      const Outcome outcome =
+          run({.arguments = {"run", tree, "--plugin-path", LOCKSTEP_HOSTILE_DIRECTORY, "--rate",
+                             "500", "--view", "none", "--tick-budget", is_timed ? "1000" : "0"}});
+      INFO(outcome.err);
+      CHECK(outcome.code == 0);
+      CHECK(contains(outcome.err, "/forks'"));
+      CHECK(contains(outcome.err, "and the child came back from the call; the child was ended"));
+      const std::string printed = outcome.out + outcome.err;
+      CHECK(contains(printed, "printed by a leaf"));
+      CHECK(printed.find("printed by a leaf") == printed.rfind("printed by a leaf"));
     }
   }
 }

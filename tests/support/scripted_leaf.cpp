@@ -44,7 +44,7 @@ void ScriptedLeaf::told(Call call) {
   log_->push_back({call, number_});
   if (script_.fails_in != call) return;
   if (script_.throws) throw std::runtime_error("thrown by the script");
-  *error_ = "error of the script";
+  set_error_("error of the script");
 }
 
 void ScriptedLeaf::start() {
@@ -53,7 +53,7 @@ void ScriptedLeaf::start() {
   progress_ = 0;
   paused_at_.reset();
   if (!script_.growth.empty()) return;
-  if (next_step().letter == 'x') *error_ = "error of the script";
+  if (next_step().letter == 'x') set_error_("error of the script");
   if (next_step().letter == 't') throw std::runtime_error("thrown by the script");
 }
 
@@ -88,7 +88,7 @@ std::int32_t ScriptedLeaf::tick() {
     case 'T':
       throw std::runtime_error("thrown by the script");
     case 'X':
-      *error_ = "error of the script";
+      set_error_("error of the script");
       return LOCKSTEP_SUCCESS;
     default:
       return static_cast<std::int32_t>(status_letters().find(step.letter));

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "lockstep/leaf.h"
 #include "support/leaf_script.h"
@@ -12,15 +14,15 @@ namespace lockstep::host::test {
 
 class ScriptedLeaf {
  public:
-  // `tree_tick` counts from 1 (0 before the first); `error` is where an error is left for the
-  // caller. All must outlive the leaf.
+  using SetError = std::function<void(const char*)>;
+  // `tree_tick` counts from 1 (0 before the first). All must outlive the leaf.
   ScriptedLeaf(LeafScript script, std::uint32_t number, const std::uint32_t* tree_tick,
-               EventLog* log, const char** error)
+               EventLog* log, SetError set_error)
       : script_(std::move(script)),
         number_(number),
         tree_tick_(tree_tick),
         log_(log),
-        error_(error) {}
+        set_error_(std::move(set_error)) {}
 
   void start();
   std::int32_t tick();
@@ -45,7 +47,7 @@ class ScriptedLeaf {
   std::uint32_t number_;
   const std::uint32_t* tree_tick_;
   EventLog* log_;
-  const char** error_;
+  SetError set_error_;
   std::size_t ticks_ = 0;  // in all activations
   std::size_t activation_ticks_ = 0;
   double progress_ = 0;

@@ -46,7 +46,11 @@ ScriptedRun::ScriptedRun(Tree tree, std::string_view leaves, FaultPolicy policy,
       throw std::invalid_argument("no script for leaf '" + leaf_name(number) + "'");
     }
     LeafSlot& slot = slots_[number];
-    leaves_.emplace_back(script->second, number, &tree_tick_, &events, &slot.error);
+    leaves_.emplace_back(script->second, number, &tree_tick_, &events,
+                         [this, &slot](const char* reason) {
+                           slot.set_error(reason);
+                           ticker_.note_error();
+                         });
     slot.type = tree_.leaves[number].type->leaf;
     slot.self = &leaves_.back();
   }
@@ -98,7 +102,7 @@ void ScriptedRun::restart() {
   ticker_.reset();
   plugin_nodes_.restart();
   for (ScriptedLeaf& leaf : leaves_) leaf.rewind();
-  for (LeafSlot& slot : slots_) slot.error = nullptr;
+  for (LeafSlot& slot : slots_) slot.set_error(nullptr);
   events.clear();
   tree_tick_ = 0;
 }

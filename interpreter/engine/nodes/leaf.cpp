@@ -44,7 +44,7 @@ void guarded(NodeContext& context, NodeIndex self, PluginFunction function, Call
 bool take_error(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   if (leaf.error == nullptr) return false;
   context.set_fault(self, leaf.error);
-  leaf.error = nullptr;
+  leaf.set_error(nullptr);
   return true;
 }
 
@@ -296,7 +296,7 @@ std::optional<double> look_at_progress(NodeContext& context, NodeIndex node) {
       reported = -1.0;
     }
   }
-  leaf.error = error;
+  leaf.set_error(error);
   return reported >= 0.0 && reported <= 1.0 ? std::optional(reported) : std::nullopt;
 }
 

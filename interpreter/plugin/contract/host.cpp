@@ -14,6 +14,7 @@
 #include "core/value_types.h"
 #include "core/version.h"
 #include "core/wording.h"
+#include "engine/node_context.h"
 #include "lockstep/value_types.h"
 #include "plugin/contract/boards.h"
 #include "plugin/contract/held.h"
@@ -493,13 +494,14 @@ Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
 void take_error(const lockstep_caller& caller, const Shortened& message) {
   lockstep_caller& it = mine(&caller);
   if (it.slot->error != nullptr) return;
+  if (it.run->node_context != nullptr) it.run->node_context->note_error();
   if (it.rest == nullptr) it.rest.reset(new (std::nothrow) CallerRest);
   if (it.rest == nullptr) {
-    it.slot->error = "an error, and no memory is left for its text";
+    it.slot->set_error("an error, and no memory is left for its text");
     return;
   }
   it.rest->error = with_entry(caller, message);
-  it.slot->error = it.rest->error.c_str();
+  it.slot->set_error(it.rest->error.c_str());
 }
 
 const Value* read_port(const lockstep_caller& caller, std::uint32_t port) {

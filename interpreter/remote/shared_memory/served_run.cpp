@@ -226,7 +226,7 @@ void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& 
     write_answer({.outcome = Outcome::TooLarge, .result = answer.result}, message);
     message.put(RemoteEntries::kNone);
   }
-  object.slot.error = nullptr;
+  object.slot.set_error(nullptr);
   const bool creates = function == PluginFunction::Create;
   if (is_destroy(function) || (creates && answer.result == 0)) objects_.erase(object.number);
 }

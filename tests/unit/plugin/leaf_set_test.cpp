@@ -231,7 +231,7 @@ TEST_CASE("set_error keeps a copy of the first message until it is taken") {
   message[0] = 'X';
   host.set_error(fixture.leaf(), "second");
   CHECK(std::string(slot.error) == "first");
-  slot.error = nullptr;
+  slot.set_error(nullptr);
   host.set_error(fixture.leaf(), nullptr);
   CHECK(std::string(slot.error) == "unknown error");
 }
@@ -242,10 +242,10 @@ TEST_CASE("a long error is cut after 500 bytes, between characters, and the rest
   LeafSlot& slot = fixture.set->slots()[0];
   host.set_error(fixture.leaf(), std::string(500, 'a').c_str());
   CHECK(std::string(slot.error) == std::string(500, 'a'));
-  slot.error = nullptr;
+  slot.set_error(nullptr);
   host.set_error(fixture.leaf(), std::string(501, 'a').c_str());
   CHECK(std::string(slot.error) == std::string(500, 'a') + " ... (1 more bytes)");
-  slot.error = nullptr;
+  slot.set_error(nullptr);
   host.set_error(fixture.leaf(), (std::string(499, 'a') + "\u00e9z").c_str());
   CHECK(std::string(slot.error) == std::string(499, 'a') + " ... (3 more bytes)");
 }
