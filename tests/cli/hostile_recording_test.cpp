@@ -17,7 +17,7 @@ constexpr double kMaxReadSeconds = 60, kMaxTimes = 100;
 constexpr double kMaxReadSeconds = 5, kMaxTimes = 17;
 #endif
 constexpr double kAlways = 30;  // MB, whatever is read
-constexpr std::size_t kMegabytes = 8;
+constexpr std::size_t kMegabytes = 4;
 
 const std::string kHeadLines =
     R"({"lockstep_recording":1,"tree":"M","file":"f","version":"0","rate_hz":100.0,)"
