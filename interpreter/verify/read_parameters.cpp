@@ -1,7 +1,6 @@
 #include "verify/read_parameters.h"
 
 #include <algorithm>
-#include <ranges>
 #include <set>
 
 #include "engine/blackboard.h"
@@ -59,11 +58,12 @@ void ReadParameters::give(SavedRun& run, std::span<const ReadValues> values, Tic
     return status_of(run.run.activity[tree_.bound[place].node]) == Status::Running &&
            !run.parameters.values[place].known;
   };
-  const auto places =
-      std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(tree_.bound.size()));
-  if (values.empty() && std::ranges::none_of(places, is_missing)) return;
+  const auto places = static_cast<std::uint32_t>(tree_.bound.size());
+  std::uint32_t place = 0;
+  while (place != places && !is_missing(place)) ++place;
+  if (values.empty() && place == places) return;
   ticker.restore(run);
-  for (const std::uint32_t place : places) {
+  for (; place != places; ++place) {
     if (is_missing(place)) ticker.parameters().read_bound(place);
   }
   for (const ReadValues& it : values) ticker.parameters().set(it.place, it.values);

@@ -56,8 +56,9 @@ void look_at_leafhost(const Patient& patient, Symptoms& symptoms) {
 }
 
 bool is_program(const char* name) {
-  std::istringstream path(std::getenv("PATH") != nullptr ? std::getenv("PATH") : "");
-  for (std::string directory; std::getline(path, directory, ':');)
+  const char* const path = std::getenv("PATH");
+  std::istringstream directories(path != nullptr ? path : "");
+  for (std::string directory; std::getline(directories, directory, ':');)
     if (access((directory + "/" + name).c_str(), X_OK) == 0) return true;
   return false;
 }

@@ -23,7 +23,10 @@ class GivenLeaves {
   const std::string& path() const { return path_; }
   const std::string& text() const { return text_; }
   // The rate and the number of ticks that the file asks for.
-  std::optional<double> rate() const { return file_ != nullptr ? file_->rate : scripts_.rate; }
+  std::optional<double> rate() const {
+    if (file_ != nullptr) return file_->rate;
+    return scripts_.rate;
+  }
   std::optional<std::uint64_t> ticks() const { return scripts_.ticks; }
 
   // All leaves of the definition are played from now on.

@@ -69,7 +69,7 @@ bool convert_number(From from, To& to) {
     if (!(from >= -kEnd && from < kEnd) || from != std::trunc(from)) return false;
     return convert_number(static_cast<std::int64_t>(from), to);
   } else {
-    to = static_cast<To>(from);
+    to = static_cast<To>(from);  // NOLINT(bugprone-signed-char-misuse)
     return static_cast<From>(to) == from && (to < To{}) == (from < From{});
   }
 }
