@@ -132,6 +132,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     bool is_usual = true;
     const auto result = LeafCall::marked<PluginFunction::Tick, kTimed>(context, mark, *leaf,
                                                                        leaf->type->tick, is_usual);
+    // Also an error, a fault, or the end of the calls in line.
     if (!is_usual || result != static_cast<int>(kGoesOn)) [[unlikely]] {
       context.is_usual_.set();
       const Status status = LeafCall::complete(context, here(), *leaf, result);
