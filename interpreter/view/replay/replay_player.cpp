@@ -76,7 +76,8 @@ void ReplayPlayer::type(Key key) {
 
 void ReplayPlayer::jump() {
   std::uint64_t tick = 0;
-  std::from_chars(typed_->data(), typed_->data() + typed_->size(), tick);
+  const std::string& digits = *typed_;
+  std::from_chars(digits.data(), digits.data() + digits.size(), tick);
   if (tick < timeline_.first_tick() || tick > timeline_.last_tick()) {
     notice_ = fmt::format("no tick {}: the recording has {} to {}", tick, timeline_.first_tick(),
                           timeline_.last_tick());
