@@ -114,8 +114,8 @@ class TreeWatch {
     }
     if (it.own) return LOCKSTEP_IDLE;  // it calls its hooks itself
     TreeNode& node = this->node(index);
-    NodeStatus status = node.lockstep_status_.load(std::memory_order_relaxed);
-    if (isStatusCompleted(status)) set(index, status = NodeStatus::IDLE);
+    const NodeStatus before = node.lockstep_status_.load(std::memory_order_relaxed);
+    if (isStatusCompleted(before)) set(index, NodeStatus::IDLE);
     const auto* const hooks = node.lockstep_watch_.get();
     if (hooks != nullptr && hooks->before) {
       const NodeStatus decided = hooks->before(node);
