@@ -9,7 +9,6 @@
 #include "cli/command.h"
 #include "core/language.h"
 #include "core/version.h"
-#include "core/wording.h"
 #include "loading/plugin_directories.h"
 #include "lockstep/leaf.h"
 #include "recording/lines.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "core/value_types.h"
+#include "core/value_types.h"  // IWYU pragma: keep: a concept
 #include "core/wording.h"
 
 namespace lockstep::host {

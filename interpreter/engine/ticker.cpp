@@ -1,7 +1,6 @@
 #include "engine/ticker.h"
 
 #include "engine/groups.h"
-#include "engine/node_ports.h"
 #include "engine/node_scripts.h"
 #include "engine/node_watch.h"
 

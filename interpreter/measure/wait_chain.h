@@ -8,7 +8,6 @@
 
 #include "core/resource_set.h"
 #include "core/status.h"
-#include "engine/tree.h"
 #include "measure/hindrance.h"
 
 namespace lockstep::host {

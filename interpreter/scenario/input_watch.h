@@ -6,7 +6,8 @@
 
 #include "leaves/play/played_leaves.h"
 #include "runtime/observer.h"
-#include "scenario/judge.h"
+#include "scenario/performance.h"
+#include "scenario/rehearsal.h"
 
 namespace lockstep::host {
 

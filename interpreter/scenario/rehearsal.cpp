@@ -9,6 +9,7 @@
 #include "core/wording.h"
 #include "document/reporter.h"
 #include "measure/live_ticks.h"
+#include "measure/measure_spec.h"
 #include "measure/measuring.h"
 
 namespace lockstep::host {

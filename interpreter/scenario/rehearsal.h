@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/measure_spec.h"
+#include "measure/measure.h"
 #include "scenario/cast.h"
 #include "scenario/stage.h"
 

@@ -9,7 +9,6 @@
 
 #include "core/pre_order.h"
 #include "core/suggest.h"
-#include "core/value.h"
 #include "core/wording.h"
 #include "document/document.h"
 #include "document/file.h"

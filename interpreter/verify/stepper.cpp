@@ -1,7 +1,5 @@
 #include "verify/stepper.h"
 
-#include "engine/groups.h"
-
 namespace lockstep::host {
 namespace {
 

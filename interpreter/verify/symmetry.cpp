@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "engine/nodes/kinds.h"
-#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "core/wording.h"
-#include "engine/resources.h"
 #include "engine/synchronized.h"
 #include "measure/stall.h"
 #include "summary/standstill_text.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "document/cursor.h"
-
 namespace lockstep::host {
 namespace {
 

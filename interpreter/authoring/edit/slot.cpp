@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "authoring/edit/element_text.h"
+
 namespace lockstep::host {
 namespace {
 

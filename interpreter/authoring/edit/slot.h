@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "authoring/edit/element_text.h"
+#include "document/document.h"
 
 namespace lockstep::host {
 

@@ -12,7 +12,6 @@
 #include "authoring/edit/slot.h"
 #include "authoring/edit/unknown_uses.h"
 #include "authoring/edit/value_text.h"
-#include "core/pre_order.h"
 #include "core/wording.h"
 
 namespace lockstep::host {

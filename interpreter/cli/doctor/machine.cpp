@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "cli/doctor/symptoms.h"
-#include "core/clock.h"
 #include "core/wording.h"
 
 namespace lockstep::host {

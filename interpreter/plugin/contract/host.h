@@ -13,7 +13,6 @@
 #include "core/random.h"
 #include "core/shortened.h"
 #include "core/value.h"
-#include "engine/call_mark.h"
 #include "engine/leaf_slot.h"
 #include "lockstep/changes.h"
 #include "lockstep/leaf.h"

@@ -8,7 +8,6 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/outputs.h"
 #include "cli/tools/log/log.h"
 #include "compression/decompressed.h"
 #include "recording/read/recording_json.h"

@@ -9,7 +9,6 @@
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/outputs.h"
 #include "cli/tools/log/log.h"
 #include "core/suggest.h"
 #include "leaves/models.h"

@@ -8,9 +8,10 @@
 
 #include "leaves/play/played_leaves.h"
 #include "loading/load.h"
-#include "recording/read/recording_reader.h"
 
 namespace lockstep::host {
+
+struct RecordingHeader;
 
 class RecordedTree {
  public:
