@@ -218,6 +218,16 @@ const EVENTFUL = `<Parallel>
   <Repeat times="120"><Script code="count := count + 1"/></Repeat>
 </Parallel>`;
 
+const monitorOf = (run) => {
+  const { origin, hash } = new URL(run.link);
+  return { origin, headers: { "X-Lockstep-Token": hash.replace("#token=", "") } };
+};
+
+async function order(run, what) {
+  const { origin, headers } = monitorOf(run);
+  assert.equal((await fetch(`${origin}/control`, { method: "POST", headers, body: JSON.stringify(what) })).status, 204);
+}
+
 // What a page says of the whole run.
 async function told(page) {
   const all = { lanes: [], events: {} };
@@ -241,10 +251,8 @@ test("the page of a run that has ended is that of its recording", async () => {
   const recording = path("eventful.jsonl");
   const run = await start("run", tree(EVENTFUL), "--set", "count=0", "--record", recording, "--monitor-control", "--monitor-paused");
   const page = await open(run.link, { viewport: { width: 1280, height: 1600 } });
-  await page.getByRole("button", { name: "resume" }).click();
-  await page.waitForFunction(() => Number(document.querySelector("input.tick").value) > 50);
-  await page.getByRole("button", { name: "pause", exact: false }).first().click();
-  await state(page, "paused").waitFor();
+  await order(run, { do: "step", ticks: 60 }); // no pause that the end of the run could outrun
+  await page.locator(`input[aria-valuetext^="tick 59,"]`).waitFor();
   await page.reload(); // from here on it has the recording, then what happens
   await page.getByRole("button", { name: "resume" }).click();
   await state(page, "ended: success").waitFor();
@@ -275,10 +283,9 @@ for (const clock of ["virtual", "wall"]) {
     const recording = path(`${clock}.jsonl`);
     const run = await start("run", tree(EVENTFUL), "--set", "count=0", "--clock", clock, "--monitor-control", "--monitor-paused",
       "--record", recording);
-    const { origin, hash } = new URL(run.link);
-    const headers = { "X-Lockstep-Token": hash.replace("#token=", "") };
+    const { origin, headers } = monitorOf(run);
     const events = await fetch(`${origin}/events`, { headers });
-    await fetch(`${origin}/control`, { method: "POST", headers, body: `{"do":"resume"}` });
+    await order(run, { do: "resume" });
     const live = new model.Run(), recorded = new model.Run();
     const lines = (await events.text()).split("\n").filter((line) => line.startsWith("data: ") && line !== "data: {}");
     for (const line of lines) {
