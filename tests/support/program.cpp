@@ -134,7 +134,7 @@ bool Process::read_more() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   constexpr int kPatience = 600'000;  // it takes ten times as long
 #else
-  constexpr int kPatience = 60'000;
+  constexpr int kPatience = 200'000;  // milliseconds; a build says nothing for a minute and more
 #endif
   REQUIRE(poll(files, 2, kPatience) > 0);
   if (files[0].revents != 0 && !append(out_, outcome_.out)) {
