@@ -31,10 +31,36 @@ std::string directory() {
   return is_ours ? path : std::string();
 }
 
-// False: its run has ended, without being able to remove it.
+// Whether the path is still that of this open file: between `open` and `flock`, another program may
+// have removed it.
+bool is_at(const FileDescriptor& file, const std::string& path) {
+  struct stat opened {
+  }, found{};
+  return fstat(file.number(), &opened) == 0 && lstat(path.c_str(), &found) == 0 &&
+         opened.st_dev == found.st_dev && opened.st_ino == found.st_ino;
+}
+
+// False: its run has ended without being able to remove it, which is done here, or is about to lock
+// it, and then makes it again.
 bool is_locked(const std::string& path) {
   const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  return file.number() >= 0 && flock(file.number(), LOCK_SH | LOCK_NB) != 0;
+  if (file.number() < 0) return false;
+  if (flock(file.number(), LOCK_SH | LOCK_NB) != 0) return true;
+  if (flock(file.number(), LOCK_EX | LOCK_NB) == 0 && is_at(file, path)) unlink(path.c_str());
+  return false;
+}
+
+// The file, locked by this program only; of no number if there can be none.
+FileDescriptor make_locked(const std::string& path) {
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW;
+  constexpr int kMostTries = 100;
+  for (int i = 0; i < kMostTries; ++i) {
+    FileDescriptor file(open(path.c_str(), kFlags, S_IRUSR | S_IWUSR));
+    // Waits for who lists the runs at this moment.
+    if (file.number() < 0 || flock(file.number(), LOCK_EX) != 0) break;
+    if (is_at(file, path)) return file;
+  }
+  return FileDescriptor();
 }
 
 }  // namespace
@@ -47,10 +73,7 @@ std::vector<RegisteredRun> registered_runs() {
   for (const auto& entry : fs::directory_iterator(path, error)) {
     const auto process = parse_int(entry.path().filename().string());
     if (!process) continue;
-    if (!is_locked(entry.path())) {
-      fs::remove(entry.path(), error);
-      continue;
-    }
+    if (!is_locked(entry.path())) continue;
     RegisteredRun run{
         .process = static_cast<pid_t>(*process), .link = {}, .tree_file = {}, .socket = {}};
     std::ifstream file(entry.path());
@@ -67,9 +90,8 @@ Registration::Registration(const std::string& tree_file, const std::string& sock
   const std::string path = directory();
   if (path.empty()) return;
   path_ = fmt::format("{}/{}", path, getpid());
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW;
-  file_ = FileDescriptor(open(path_.c_str(), kFlags, S_IRUSR | S_IWUSR));
-  if (file_.number() < 0 || flock(file_.number(), LOCK_EX | LOCK_NB) != 0) return;
+  file_ = make_locked(path_);
+  if (file_.number() < 0) return;
   std::error_code error;
   tree_file_ = fs::absolute(tree_file, error).string();
   if (!socket.empty()) socket_ = fs::absolute(socket, error).string();
