@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Counts the instructions of a tick for each leaf, and of a study for each tick, and compares
-them with a table.
+"""Counts the instructions of a tick for each leaf, of a study for each tick, and of loading for
+each leaf, and compares them with a table.
 
     instructions_test.py DRIVER TABLE COMPILER [--write]
+    instructions_test.py DRIVER
 
-The table holds for one compiler, C library and processor; elsewhere the test is skipped. A case
-fails when it takes 2 % more than the table says. --write writes the table.
+Without a table the counts are printed. The table holds for one compiler, C library and processor;
+elsewhere the test is skipped. A case fails when it takes 2 % more than the table says. --write
+writes the table.
 """
 import glob
 import os
@@ -36,7 +38,14 @@ def counts(driver):
         return found
 
 
+def as_rows(found):
+    return "".join(f"{count:7.1f}  {name}\n" for name, count in found.items())
+
+
 def main():
+    if len(sys.argv) == 2:
+        print(as_rows(counts(sys.argv[1])), end="")
+        return 0
     driver, table, compiler = sys.argv[1:4]
     here = f"{compiler}, {' '.join(platform.libc_ver())}, {platform.machine()}"
     if shutil.which("valgrind") is None:
@@ -44,8 +53,7 @@ def main():
         return 77
     if "--write" in sys.argv:
         with open(table, "w", encoding="ascii") as file:
-            file.write(f"{here}\n")
-            file.writelines(f"{count:7.1f}  {name}\n" for name, count in counts(driver).items())
+            file.write(f"{here}\n{as_rows(counts(driver))}")
         return 0
     with open(table, encoding="ascii") as file:
         there, *rows = file.read().splitlines()
