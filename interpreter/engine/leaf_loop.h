@@ -39,13 +39,14 @@ class LeafLoop {
                                                 double limit) {
     return tick_while<Status::Running>(context, child, end, Below{reached, limit});
   }
-  // Stores the progress of those that run, also of one that is held. Returns the first child of
-  // which it does not.
+  // Stores the progress of those that run, also of one that is held, and lowers `least` to it.
+  // Returns the first child of which it does not.
   [[gnu::always_inline]] static NodeIndex read_progress(NodeContext& context, NodeIndex child,
-                                                        NodeIndex end, double* progress) {
+                                                        NodeIndex end, double* progress,
+                                                        double& least) {
     if (!begins_at(context, child)) return child;
-    return context.timer_ != nullptr ? read_row<true>(context, child, end, progress)
-                                     : read_row<false>(context, child, end, progress);
+    return context.timer_ != nullptr ? read_row<true>(context, child, end, progress, least)
+                                     : read_row<false>(context, child, end, progress, least);
   }
 
  private:
@@ -97,7 +98,7 @@ class LeafLoop {
                                          While chosen);
   template <bool kTimed>
   [[gnu::noinline]] static NodeIndex read_row(NodeContext& context, NodeIndex child, NodeIndex end,
-                                              double* progress);
+                                              double* progress, double& least);
 };
 
 // All pointers go from leaf to leaf together, so that they stay in registers over the calls.
@@ -147,15 +148,18 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
   return {here(), Status::Idle};
 }
 
+// The least number stays in a register over the calls, as its bits.
 template <bool kTimed>
-NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex end,
-                             double* progress) {
+NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex end, double* progress,
+                             double& least) {
   CallMark& mark = *context.in_line_;
   const LeafSlot* leaf = &context.leaf(child);
-  const Activity* const all = context.state_.activity.data();
-  const Activity* activity = all + child;
+  const Activity* activity = context.state_.activity.data() + child;
   const LeafSlot* const last = leaf + (end_of_row(context, child, end) - child);
-  const auto here = [&] { return static_cast<NodeIndex>(activity - all); };
+  auto lowest = std::bit_cast<std::uint64_t>(least);
+  const auto here = [&] {
+    return static_cast<NodeIndex>(activity - context.state_.activity.data());
+  };
   const auto pass = [&] {
     ++leaf, ++activity, ++progress;
     return leaf != last;
@@ -172,16 +176,19 @@ NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex en
       reported = LeafCall::marked<PluginFunction::Progress, kTimed>(context, mark, *leaf,
                                                                     leaf->type->progress, is_usual);
     }
-    if (is_usual && is_in_range(reported)) [[likely]] {
-      *progress = reported;
-      continue;
+    if (!is_usual || !is_in_range(reported)) [[unlikely]] {
+      context.is_usual_.set();
+      reported = LeafCall::spoiled_progress(context, here(), reported);
+      is_usual = false;
     }
-    context.is_usual_.set();
-    *progress = LeafCall::spoiled_progress(context, here(), reported);
-    if (context.in_line_ != nullptr) continue;
+    *progress = reported;
+    lowest = std::min(lowest, std::bit_cast<std::uint64_t>(reported));
+    if (is_usual || context.in_line_ != nullptr) [[likely]]
+      continue;
     pass();
     break;
   } while (pass());
+  least = std::bit_cast<double>(lowest);
   return here();
 }
 

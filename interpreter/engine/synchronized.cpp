@@ -31,8 +31,10 @@ bool is_constant(const Tree& tree, NodeIndex node, Synchronization wanted) {
 }  // namespace
 
 double snapshot_of(NodeContext& context, NodeIndex child) {
-  double progress = 0;
-  if (LeafLoop::read_progress(context, child, child + 1, &progress) != child) return progress;
+  double progress = 0, least = 1;
+  if (LeafLoop::read_progress(context, child, child + 1, &progress, least) != child) {
+    return progress;
+  }
   const Activity activity = context.activity(child);
   if (activity == Activity::Skipped) return kLeftOut;
   if (activity == Activity::Failure && context.is_latched(child)) return 1.0;

@@ -77,19 +77,13 @@ inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
 double snapshot_of(NodeContext& context, NodeIndex child);
 
-// The least progress of the children that were not left out; 1 if all were. Four at a time: a
-// comparison waits for the one before it.
+// The least progress of the children that were not left out; 1 if all were.
 inline double least_progress(std::span<const double> progress) {
-  constexpr std::size_t kAtOnce = 4;
-  double least[kAtOnce] = {1.0, 1.0, 1.0, 1.0};
-  std::size_t i = 0;
-  for (; i + kAtOnce <= progress.size(); i += kAtOnce) {
-    for (std::size_t j = 0; j < kAtOnce; ++j) {
-      least[j] = progress[i + j] < least[j] ? progress[i + j] : least[j];
-    }
+  double least = 1.0;
+  for (const double number : progress) {
+    if (number < least) least = number;
   }
-  for (; i < progress.size(); ++i) least[0] = progress[i] < least[0] ? progress[i] : least[0];
-  return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+  return least;
 }
 inline bool is_left_out(double progress) {
   return std::isnan(progress);

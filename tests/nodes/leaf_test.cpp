@@ -67,6 +67,8 @@ constexpr TickRow kLeafRows[] = {
   {"an error in resume is a fault; the leaf is not ticked",
    "ParallelAbsolute[barriers=.5](a b)", "a=R.1R.6 b=R.6!resume",
    "R[a b] R[a] pause[b] X{tick a, resume b, halt a, halt b}=b"},
+  {"a progress of -0 is 0: those that are ahead wait for it",
+   "ParallelAbsolute[barriers=.5](a b)", "a=R-0 b=R.6", "R[a b] R[a] pause[b] R[a]"},
 };
 
 struct FaultRow {

@@ -220,7 +220,7 @@ double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double re
   }
   constexpr double kRounding = 1e-9;  // of a sum of shares; not reported
   if (reported < -kRounding || reported > 1 + kRounding) context.note_out_of_range(self, reported);
-  return std::clamp(reported, 0.0, 1.0);
+  return std::clamp(reported, 0.0, 1.0) + 0.0;  // -0 is 0
 }
 
 double progress_of_leaf(NodeContext& context, NodeIndex self) {

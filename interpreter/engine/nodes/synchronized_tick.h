@@ -11,20 +11,20 @@
 
 namespace lockstep::host::synchronized {
 
-// One snapshot before any child is ticked; returns its minimum. In two steps, since the least
-// number so far would have to survive each call.
+// One snapshot before any child is ticked; returns its minimum, 1 if all were left out.
 inline double take_snapshot(NodeContext& context, NodeIndex self) {
   const NodeIndex end = context.end_of(self);
-  const std::span<double> numbers = context.child_states<double>(self);
-  double* number = numbers.data();
+  double* number = context.child_states<double>(self).data();
+  double least = 1.0;
   for (NodeIndex child = self + 1; child != end; child = context.end_of(child), ++number) {
-    const NodeIndex stop = LeafLoop::read_progress(context, child, end, number);
+    const NodeIndex stop = LeafLoop::read_progress(context, child, end, number, least);
     number += stop - child;
     child = stop;
     if (child == end) break;
     *number = snapshot_of(context, child);
+    if (*number < least) least = *number;
   }
-  return least_progress(numbers);
+  return least;
 }
 
 // A child is held whose progress is not less than `held_from`, but never a guard.
