@@ -83,9 +83,9 @@ void NodeContext::note_failed_leaf(NodeIndex node) {
 
 // It stays marked, so that its next tick is a Failure.
 void NodeContext::halt_failed(NodeIndex node) {
-  if (!leaf(node).started || status(node) != Status::Running) return;
+  if (!leaf(node).started() || status(node) != Status::Running) return;
   nodes_[node].kind->halt(*this, node);
-  leaf(node).started = false;
+  leaf(node).set_started(false);
   leaf(node).mark(LeafSlot::kFailed, true);
 }
 

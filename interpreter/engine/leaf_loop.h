@@ -72,9 +72,10 @@ class LeafLoop {
   }
 
   // Nothing but the call belongs to the tick.
-  static bool is_ready(Activity before, const LeafSlot& leaf) {
-    if (before == Activity::Running) return (leaf.marks & ~LeafSlot::kStarts) == 0;
-    return before != Activity::Paused && leaf.marks == 0;
+  static bool is_ready(const Activity& before, const LeafSlot& leaf) {
+    if (leaf.marks == 0) [[likely]]
+      return true;
+    return leaf.marks == LeafSlot::kStarts && before == Activity::Running;
   }
   // One that has failed as a program is not held: its progress is 0.
   template <class While>
@@ -119,13 +120,10 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     return leaf != last;
   };
   do {
-    const Activity before = *activity;
     if constexpr (!kRuns) {
-      if (!is_ready(before, *leaf)) break;
-      // A slot that nobody writes to stays as it is in the cache.
-      if (!leaf->started) leaf->started = true;
-    } else if (before != Activity::Running) {
-      if (stays_held(before, chosen)) continue;
+      if (!is_ready(*activity, *leaf)) break;
+    } else if (*activity != Activity::Running) {
+      if (stays_held(*activity, chosen)) continue;
       break;
     } else if (!chosen.next() || leaf->is_faulty()) {
       break;

@@ -20,16 +20,16 @@ struct LeafSlot {
   const CallSite* site = nullptr;          // names it when a call crashes or hangs
   const double* kept_progress = nullptr;   // where it keeps its progress; null: it is called
   const char* error = nullptr;             // of the host's set_error: the reason, valid until taken
-  std::uint8_t marks = kStarts;            // of those below; none: nothing is asked before its tick
-  bool started = false;                    // the activation began, so it has to be halted
+  std::uint8_t marks = kStarts | kRests;   // of those below; none: its tick is a call of `tick`
   bool out_of_range = false;               // it has reported a progress outside [0, 1] in this run
   bool went_on = false;                    // its progress has risen in this run while it was held
   ChildAccess access = ChildAccess::None;  // of a control node or decorator
 
   // kError: it has an error. kFailed: a tolerated fault in this activation, which ends in a
   // Failure. kUnreset: the activation begins from a result that its parent has not ended. kStarts:
-  // it may begin with a call.
-  static constexpr std::uint8_t kFailed = 1, kUnreset = 2, kStarts = 4, kError = 8;
+  // it may begin with a call. kRests: it has nothing to halt. kHeld: it was, and may still be.
+  static constexpr std::uint8_t kFailed = 1, kUnreset = 2, kStarts = 4, kError = 8, kRests = 16,
+                                kHeld = 32;
   void mark(std::uint8_t with, bool is_so) {
     marks = static_cast<std::uint8_t>(is_so ? marks | with : marks & ~with);
   }
@@ -41,6 +41,9 @@ struct LeafSlot {
   bool is_faulty() const { return (marks & (kFailed | kError)) != 0; }
   bool failed() const { return (marks & kFailed) != 0; }
   bool unreset() const { return (marks & kUnreset) != 0; }
+  // The activation began, so it has to be halted.
+  bool started() const { return (marks & kRests) == 0; }
+  void set_started(bool is_so) { mark(kRests, !is_so); }
 
   // A thread of the leaf may store it at this moment.
   double read_progress() const {

@@ -88,13 +88,13 @@ std::optional<Status> NodeScripts::ask_while(NodeIndex node, const HookedNode& h
   if (goes_on == Truth::Error) return Status::Failure;
   if (runs) context_.halt(node);
   // If that was a fault, the node counts as running until the end of the run, which is to come.
-  if (hooked.of_plugin) context_.leaf(node).started = false;
+  if (hooked.of_plugin) context_.leaf(node).set_started(false);
   return Status::Skipped;
 }
 
 Status NodeScripts::finish(NodeIndex node, const HookedNode& hooked, Status status) {
   if (!is_complete(status) || context_.faulted()) return status;
-  if (hooked.of_plugin) context_.leaf(node).started = false;  // nothing to halt
+  if (hooked.of_plugin) context_.leaf(node).set_started(false);  // nothing to halt
   const Hook first = status == Status::Success ? Hook::OnSuccess : Hook::OnFailure;
   for (const Hook hook : {first, Hook::Post}) {
     const std::uint32_t script = hooked.script(hook);

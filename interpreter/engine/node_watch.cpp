@@ -14,7 +14,7 @@ Status decide(NodeContext& context, NodeIndex self, const NodeKind& kind, bool b
   if (!begins) context.halt(self);
   if (context.faulted()) return Status::Running;
   if (begins && kind.decided != nullptr) kind.decided(context, self, status);
-  if (context.tree().labels[self].type->leaf != nullptr) context.leaf(self).started = false;
+  if (context.tree().labels[self].type->leaf != nullptr) context.leaf(self).set_started(false);
   if (compares_progress(synchronization(context.node(self)))) {
     context.state<SynchronizedState>(self).succeeded = status == Status::Success;
   }

@@ -13,7 +13,7 @@ void Ticker::save(SavedRun& into) const {
   into.held_leaves = held_leaves_;
   into.leaves.clear();
   for (const LeafSlot& leaf : leaves_) {
-    into.leaves.push_back({leaf.started, leaf.failed(), leaf.out_of_range, leaf.went_on});
+    into.leaves.push_back({leaf.started(), leaf.failed(), leaf.out_of_range, leaf.went_on});
   }
 }
 
@@ -54,8 +54,9 @@ void Ticker::restore(const SavedRun& from) {
   held_leaves_ = from.held_leaves;
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     const SlotState& leaf = from.leaves[i];
-    leaves_[i].started = leaf.started;
+    leaves_[i].set_started(leaf.started);
     leaves_[i].mark(LeafSlot::kFailed, leaf.failed);
+    leaves_[i].mark(LeafSlot::kHeld, held(tree_.leaves[i].node));
     leaves_[i].out_of_range = leaf.out_of_range;
     leaves_[i].went_on = leaf.went_on;
   }

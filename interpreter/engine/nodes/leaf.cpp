@@ -60,7 +60,7 @@ void call(NodeContext& context, NodeIndex self, void (*function)(void*)) {
 
 // A control node that halts its children itself; those that it leaves are halted after it.
 void halt_before_children(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
-  if (leaf.started && leaf.type->halt != nullptr) {
+  if (leaf.started() && leaf.type->halt != nullptr) {
     const Reach reach(leaf, ChildAccess::Tick);
     guarded(context, self, PluginFunction::Halt,
             [](const LeafSlot& it) { it.type->halt(it.self); });
@@ -81,7 +81,7 @@ void halt_leaf(NodeContext& context, NodeIndex self) {
     context.halt_range(self + 1, context.end_of(self));
     if (context.faulted() && !context.in_last_halt()) return;  // halted at the end of the run
   }
-  if (leaf.started) call<PluginFunction::Halt>(context, self, leaf.type->halt);
+  if (leaf.started()) call<PluginFunction::Halt>(context, self, leaf.type->halt);
   leaf.mark(LeafSlot::kFailed, false);
 }
 
@@ -99,7 +99,7 @@ Status out(NodeContext& context, NodeIndex self) {
 }
 
 [[gnu::noinline]] void start(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
-  leaf.started = false;
+  leaf.set_started(false);
   if (leaf.unreset()) {
     leaf.mark(LeafSlot::kUnreset, false);
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
@@ -109,7 +109,7 @@ Status out(NodeContext& context, NodeIndex self) {
   } else {
     call<PluginFunction::Start>(context, self, leaf.type->start);
   }
-  leaf.started = !is_out(context, leaf);
+  leaf.set_started(!is_out(context, leaf));
 }
 
 [[gnu::noinline]] void resume(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
@@ -120,11 +120,11 @@ Status out(NodeContext& context, NodeIndex self) {
 bool prepare(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   const Activity before = context.activity(self);
   if (before == Activity::Running) return !leaf.failed();
+  leaf.mark(LeafSlot::kHeld, false);
   if (before == Activity::Paused) {
     resume(context, self, leaf);
   } else if (leaf.type->start == nullptr && !leaf.unreset()) {
-    leaf.mark(LeafSlot::kStarts, false);
-    leaf.started = true;
+    leaf.mark(LeafSlot::kStarts | LeafSlot::kRests, false);
   } else {
     start(context, self, leaf);
   }
@@ -201,6 +201,7 @@ void pause(NodeContext& context, NodeIndex self) {
 }
 
 void pause_leaf(NodeContext& context, NodeIndex self) {
+  context.leaf(self).mark(LeafSlot::kHeld, true);
   pause(context, self);
   if (!context.faulted()) context.watch_held(self);
 }
