@@ -1,5 +1,6 @@
 // Leaves that their parent calls in a loop do what they do when each is called by itself: on the
-// random trees of both languages, where two of three actions have no function but tick.
+// random trees of both languages, where a third of the actions has no function but tick, and
+// another third all but start.
 #include "engine/leaf_loop.h"
 
 #include <catch2/catch.hpp>
@@ -7,6 +8,7 @@
 
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
+#include "support/scripted_types.h"
 #include "support/step_clock.h"
 
 namespace lockstep::host::test {
@@ -52,14 +54,11 @@ std::vector<LoopTick> ticks_of(const LoopRun& it, LeafWatch* watch) {
 }
 
 void check_loop(LoopRun it, std::uint64_t seed) {
-  static const NodeType kBare{.id = "Bare",
-                              .category = NodeCategory::Action,
-                              .doc = "",
-                              .arity = {0, 0},
-                              .leaf = &kBareAction};
+  constexpr const NodeType* kTypes[] = {&kScriptedActionType, &kBareActionType,
+                                        &kStartlessActionType};
   for (std::size_t leaf = 0; leaf < it.tree.leaves.size(); ++leaf) {
-    if (it.tree.leaves[leaf].type->leaf != &kScriptedAction || (seed + leaf) % 3 == 0) continue;
-    it.tree.leaves[leaf].type = &kBare;
+    if (it.tree.leaves[leaf].type->leaf != &kScriptedAction) continue;
+    it.tree.leaves[leaf].type = kTypes[(seed + leaf) % std::size(kTypes)];
   }
   it.policy = seed % 2 == 0 ? FaultPolicy::Stop : FaultPolicy::Fail;
   LeafWatch alone({.budget = {}, .looks_after_each_call = true});

@@ -29,11 +29,18 @@ lockstep_leaf_type full(lockstep_leaf_kind kind, const char* id) {
   return type;
 }
 
+lockstep_leaf_type startless(lockstep_leaf_kind kind, const char* id) {
+  lockstep_leaf_type type = full(kind, id);
+  type.start = nullptr;
+  return type;
+}
+
 }  // namespace
 
 const lockstep_leaf_type kScriptedAction = full(LOCKSTEP_ACTION, "Scripted");
 const lockstep_leaf_type kScriptedCondition = full(LOCKSTEP_CONDITION, "ScriptedCondition");
 const lockstep_leaf_type kBareAction = bare(LOCKSTEP_ACTION, "Bare");
+const lockstep_leaf_type kStartlessAction = startless(LOCKSTEP_ACTION, "Startless");
 
 const LeafScript::Step& ScriptedLeaf::next_step() const {
   const auto& steps = script_.steps;

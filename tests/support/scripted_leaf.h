@@ -59,5 +59,7 @@ extern const lockstep_leaf_type kScriptedAction;
 extern const lockstep_leaf_type kScriptedCondition;
 // An action without any function but tick: nothing of it is logged but its ticks.
 extern const lockstep_leaf_type kBareAction;
+// An action with all functions but start.
+extern const lockstep_leaf_type kStartlessAction;
 
 }  // namespace lockstep::host::test

@@ -22,5 +22,11 @@ const NodeType kBareActionType{.id = "Bare",
                                .can_run = true,
                                .has_progress = false,
                                .leaf = &kBareAction};
+const NodeType kStartlessActionType{.id = "Startless",
+                                    .category = NodeCategory::Action,
+                                    .doc = "",
+                                    .arity = {0, 0},
+                                    .can_run = true,
+                                    .leaf = &kStartlessAction};
 
 }  // namespace lockstep::host::test

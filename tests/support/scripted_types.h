@@ -7,6 +7,7 @@ namespace lockstep::host::test {
 
 extern const NodeType kScriptedActionType;
 extern const NodeType kScriptedConditionType;
-extern const NodeType kBareActionType;  // an action that has no function but tick
+extern const NodeType kBareActionType;       // an action that has no function but tick
+extern const NodeType kStartlessActionType;  // an action that has no start
 
 }  // namespace lockstep::host::test
