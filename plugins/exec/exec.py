@@ -30,21 +30,28 @@ def read(pid, name):
 
 
 def started_by(mark):
-    "The processes of a command: those with its mark, and what these have started without it."
+    """The processes of a command: those with its mark, and what these have started without it. Each comes before what it
+    has started: a shell whose command is ended goes on with the next one."""
     pids = [int(name) for name in os.listdir("/proc") if name.isdigit() and int(name) != os.getpid()]
     found = {pid for pid in pids if mark.encode() in read(pid, "environ").split(b"\0")}
     parents = {pid: int(stat.rpartition(b")")[2].split()[1]) for pid in pids if (stat := read(pid, "stat"))}
     while more := {pid for pid, parent in parents.items() if parent in found and pid not in found}:
         found |= more
-    return found
+
+    def depth(pid):
+        return 1 + depth(parents[pid]) if pid in found else 0
+    return sorted(found, key=depth)
 
 
 def send(number, mark):
-    for pid in started_by(mark):
+    "True if there was a process."
+    pids = started_by(mark)
+    for pid in pids:
         try:
             os.kill(pid, number)
         except OSError:
             pass
+    return bool(pids)
 
 
 class Exec(Action):
@@ -119,7 +126,9 @@ class Exec(Action):
         end = time.monotonic() + GRACE
         while self.process.poll() is None and time.monotonic() < end:
             time.sleep(0.005)
-        send(signal.SIGKILL, self.mark)
+        end = time.monotonic() + GRACE
+        while send(signal.SIGKILL, self.mark) and time.monotonic() < end:
+            time.sleep(0.001)  # what they started meanwhile
         self.process.wait()
         self.process.stdout.close()
 

@@ -68,6 +68,24 @@ command="(trap '' TERM; sleep 2.5; touch ')" +
   CHECK(!std::filesystem::exists(survivor));
 }
 
+TEST_CASE("a shell that is halted does not go on with its next command") {
+  const TemporaryDirectory directory;
+  const std::string survivor = directory.path("survivor");
+  const Outcome outcome = run_lockstep(
+      {"run",
+       directory.file(
+           "tree.xml",
+           R"(<root lockstep="1"><plugin name="exec" program="exec.py"/><BehaviorTree ID="Main">
+<Fallback><Timeout seconds="0.5"><Exec shell="true" command="for i in $(seq 80); do (trap '' TERM;
+sleep 96; : >')" +
+               survivor + R"(') &amp; done; wait"/></Timeout><AlwaysSuccess/></Fallback>
+</BehaviorTree></root>)"),
+       "--timeout", "8"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(!std::filesystem::exists(survivor));
+}
+
 TEST_CASE("the output of a command is its progress, and a command that is halted ends") {
   const TemporaryDirectory directory;
   const Outcome outcome = run_lockstep(
