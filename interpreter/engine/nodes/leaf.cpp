@@ -99,8 +99,9 @@ Status out(NodeContext& context, NodeIndex self) {
 }
 
 [[gnu::noinline]] void start(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
+  const bool is_unreset = leaf.unreset();
   leaf.set_started(false);
-  if (leaf.unreset()) {
+  if (is_unreset) {
     leaf.mark(LeafSlot::kUnreset, false);
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
   } else if (LeafCall::can_be_in_line(context) && context.end_of(self) == self + 1) {
