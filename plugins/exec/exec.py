@@ -7,7 +7,7 @@ import shlex
 import signal
 import subprocess
 import time
-from collections import deque
+from collections import defaultdict, deque
 
 from lockstep_leaf import Action, Output, Port, serve
 
@@ -37,10 +37,13 @@ def started_by(mark):
     parents = {pid: int(stat.rpartition(b")")[2].split()[1]) for pid in pids if (stat := read(pid, "stat"))}
     while more := {pid for pid, parent in parents.items() if parent in found and pid not in found}:
         found |= more
-
-    def depth(pid):
-        return 1 + depth(parents[pid]) if pid in found else 0
-    return sorted(found, key=depth)
+    children = defaultdict(list)
+    for pid in found:
+        children[parents.get(pid)].append(pid)  # of none: it ended meanwhile
+    ordered = [pid for pid in found if parents.get(pid) not in found]
+    for pid in ordered:
+        ordered += children[pid]
+    return ordered
 
 
 def send(number, mark):
