@@ -72,10 +72,10 @@ class LeafLoop {
   }
 
   // Nothing but the call belongs to the tick.
-  static bool is_ready(const Activity& before, const LeafSlot& leaf) {
+  static bool is_ready(const Activity& activity, const LeafSlot& leaf) {
     if (leaf.marks == 0) [[likely]]
       return true;
-    return leaf.marks == LeafSlot::kStarts && before == Activity::Running;
+    return leaf.marks == LeafSlot::kStarts && activity == Activity::Running;
   }
   // One that has failed as a program is not held: its progress is 0.
   template <class While>

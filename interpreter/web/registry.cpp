@@ -34,8 +34,8 @@ std::string directory() {
 // Whether the path is still that of this open file: between `open` and `flock`, another program may
 // have removed it.
 bool is_at(const FileDescriptor& file, const std::string& path) {
-  struct stat opened {
-  }, found{};
+  struct stat opened {};
+  struct stat found {};
   return fstat(file.number(), &opened) == 0 && lstat(path.c_str(), &found) == 0 &&
          opened.st_dev == found.st_dev && opened.st_ino == found.st_ino;
 }
