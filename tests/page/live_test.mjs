@@ -298,3 +298,27 @@ for (const clock of ["virtual", "wall"]) {
     assert.ok(live.events.all.length > 800, `${live.events.all.length} events`);
   });
 }
+
+// How many pixels of the chart have the color of a line of its children.
+const inked = (page) => page.evaluate(() => {
+  const canvas = document.querySelector(".chart canvas");
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    const [red, green, blue] = [data[at], data[at + 1], data[at + 2]];
+    if (data[at + 3] > 200 && Math.max(red, green, blue) - Math.min(red, green, blue) > 60) ++count;
+  }
+  return count;
+});
+
+test("a run that is stepped from its first tick has a chart, also before the parallel begins", async () => {
+  const { page } = await watch(tree(`<Sequence memory="true"><Wait seconds="0.02"/>
+    <ParallelAbsolute barriers="0.5"><Advance step="0.1"/><Advance step="0.05"/></ParallelAbsolute></Sequence>`));
+  for (let tick = 0; tick < 9; ++tick) {
+    await page.getByRole("button", { name: "one tick", exact: true }).click();
+    await page.locator(`input[max="${tick}"][aria-valuetext^="tick ${tick},"]`).waitFor();
+  }
+  const count = await inked(page);
+  assert.ok(count > 300, `${count} pixels of lines`);
+  await page.context().close();
+});

@@ -130,3 +130,33 @@ test("a page that misses lines has the counts of the program, and says what it h
   assert.equal(late.countsOf(1).failed, 5);
   assert.deepEqual(late.events.all, []);
 });
+
+test("the next event is not the next tick where a leaf writes, fails or is held again and again", () => {
+  const lines = [];
+  for (let tick = 0; tick < 20; ++tick) {
+    lines.push({ tick, time_s: tick / 10, entries: tick < 12 ? [[0, `${tick}`]] : [],
+      nodes: [running(1, 0, tick % 2), ...(tick === 15 ? [[2, "failure", 0, 1, 0]] : [])] });
+  }
+  const { events } = runOf(...lines);
+  assert.deepEqual([events.nextLine(0), events.nextLine(1), events.nextLine(2)], [1, 2, 15]);
+  assert.deepEqual([events.previousLine(19), events.previousLine(15), events.previousLine(1)], [15, 2, 0]);
+});
+
+// What a store has of it.
+const shown = (run, span = null) => ({ run, line: run.last, looking: { span } });
+
+test("each span has a width: before the first tick, after one, of a part that begins late, without a rate", () => {
+  const late = 1e9;
+  const idle = [0, "idle", 0, 0, 0];
+  const empty = runOf(), once = runOf({ tick: 0, time_s: 0, nodes: [idle] });
+  const part = runOf({ tick: 7, time_s: late, full: true, nodes: [running(0, 0), running(1, 0)] });
+  const done = runOf({ tick: 7, time_s: late, full: true, nodes: [[0, "success", 1, 1, 0]] });
+  const free = new model.Run();
+  for (const line of [{ ...HEADER, rate_hz: 0 }, { tick: 0, time_s: 3, nodes: [running(0, 0)] }]) free.feed(JSON.stringify(line));
+  for (const run of [empty, once, part, done, free]) {
+    for (const [from, to] of [model.spanShown(shown(run)), model.chartSpan(shown(run), 0)]) {
+      assert.ok(to - from >= Math.max(1e-3, run.period) * 0.99, `${from} to ${to}`);
+      assert.ok(to - from < 10, `${from} to ${to}`);
+    }
+  }
+});

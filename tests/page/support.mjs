@@ -33,7 +33,8 @@ export function lockstep(...args) {
 export async function loadModel() {
   const { outputFiles } = await require("esbuild").build({
     stdin: {
-      contents: ["run", "moment", "waiting", "thin", "lanes"].map((name) => `export * from "./src/model/${name}";`).join("\n"),
+      contents: ["model/run", "model/moment", "model/waiting", "model/thin", "model/lanes", "store/span", "view/chart/data"]
+        .map((name) => `export * from "./src/${name}";`).join("\n"),
       resolveDir: join(SOURCE, "interpreter/web/page"),
     },
     bundle: true, write: false, format: "esm",

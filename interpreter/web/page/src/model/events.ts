@@ -14,12 +14,17 @@ export interface RunEvent {
   text: string; // without the node
   level?: string; // of a log
   explained?: boolean; // of a hold: the text says why
+  again?: boolean; // the same happened at most two lines before, as where a leaf writes an entry in each tick
 }
 
-// Those that the keys for the next and the previous event stop at.
+// Those that the keys for the next and the previous event stop at, at the first line of a row of them.
 const LANDMARKS: ReadonlySet<EventKind> = new Set<EventKind>([
   "success", "failure", "hold", "release", "fault", "entry", "overrun", "lost", "end",
 ]);
+
+function isLandmark({ kind, again }: RunEvent): boolean {
+  return LANDMARKS.has(kind) && !again;
+}
 
 // The run of the events, at the moment in which they happen.
 interface Happening {
@@ -33,11 +38,14 @@ interface Happening {
 
 export class Events {
   all: RunEvent[] = [];
+  private readonly latest = new Map<string, number>(); // the last line of each kind of event of a node or an entry
 
   constructor(private readonly run: Happening) {}
 
-  private add(kind: EventKind, node: number | null, text: string, level?: string) {
-    this.all.push({ line: Math.max(0, this.run.last), kind, node, text, level });
+  private add(kind: EventKind, node: number | null, text: string, level?: string, what: number | null = node) {
+    const line = Math.max(0, this.run.last), key = `${kind} ${what}`, before = this.latest.get(key);
+    this.latest.set(key, line);
+    this.all.push({ line, kind, node, text, level, again: before !== undefined && line - before <= 2 });
   }
 
   change(node: number, before: number, after: number) {
@@ -65,7 +73,7 @@ export class Events {
   }
   entry(entry: number, value: string | null) {
     const key = this.run.header?.entries?.[entry]?.key ?? "?";
-    this.add("entry", null, `${key} = ${value ?? "(too long to be recorded)"}`);
+    this.add("entry", null, `${key} = ${value ?? "(too long to be recorded)"}`, undefined, entry);
   }
   log([who, level, text]: LogLine) {
     this.add("log", null, `${who}: ${text}`, level);
@@ -103,13 +111,13 @@ export class Events {
   }
   nextLine(line: number): number | null {
     for (let place = this.placeAfter(line); place < this.all.length; ++place) {
-      if (LANDMARKS.has(this.all[place].kind)) return this.all[place].line;
+      if (isLandmark(this.all[place])) return this.all[place].line;
     }
     return null;
   }
   previousLine(line: number): number | null {
     for (let place = this.placeAfter(line - 1); place-- > 0; ) {
-      if (LANDMARKS.has(this.all[place].kind)) return this.all[place].line;
+      if (isLandmark(this.all[place])) return this.all[place].line;
     }
     return null;
   }

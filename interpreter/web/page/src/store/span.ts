@@ -7,10 +7,18 @@ interface Shown {
   readonly looking: { readonly span: [number, number] | null };
 }
 
-function wholeSpan(shown: Shown): [number, number] {
-  const { run } = shown;
-  const first = run.times[0] ?? 0, last = run.times[run.last] ?? 0;
-  return [first, Math.max(last, first + Math.max(run.period, 1e-3))];
+// The least width of a span: charts and rulers divide by it, and count marks up to its end.
+function leastWidth(run: Run, from: number): number {
+  return Math.max(run.period, 1e-3, Math.abs(from) * 1e-9);
+}
+
+// A span of at least a period.
+export function spanOf(run: Run, from: number, to: number): [number, number] {
+  return [from, Math.max(to, from + leastWidth(run, from))];
+}
+
+export function wholeSpan({ run }: { readonly run: Run }): [number, number] {
+  return spanOf(run, run.times[0] ?? 0, run.times[run.last] ?? 0);
 }
 
 export function spanShown(shown: Shown): [number, number] {
@@ -21,8 +29,7 @@ export function spanShown(shown: Shown): [number, number] {
 export function zoomed(shown: Shown, factor: number, around: number, by = 0): [number, number] | null {
   const [first, last] = wholeSpan(shown);
   const [from, to] = spanShown(shown);
-  const least = Math.max(shown.run.period * 5, 1e-3);
-  const width = Math.max(least, (to - from) * factor);
+  const width = Math.max(5 * leastWidth(shown.run, first), (to - from) * factor);
   if (width >= last - first) return null;
   const part = (around - from) / (to - from);
   const begin = around - part * width + by * width;

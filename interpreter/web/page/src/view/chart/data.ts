@@ -2,6 +2,7 @@
 import { HELD, STATUS } from "../../model/columns";
 import { RUNNING } from "../../model/recording";
 import type { Run } from "../../model/run";
+import { spanOf, wholeSpan } from "../../store/span";
 import type { Store } from "../../store/store";
 
 export const MOST_SERIES = 12;
@@ -16,13 +17,13 @@ export function chartSpan(store: Store, keeper: number): [number, number] {
   let begin = Math.max(0, states.placeAt(store.line));
   while (begin > 0 && !runs(begin)) --begin;
   while (begin < states.length && !runs(begin)) ++begin;
-  if (begin >= states.length) return [run.times[0] ?? 0, run.times[run.last] ?? 1];
+  if (begin >= states.length) return wholeSpan(store);
   let end = begin;
   while (begin > 0 && runs(begin - 1)) --begin;
   while (end < states.length && runs(end)) ++end;
   const from = run.times[states.lines[begin]], to = run.times[end < states.length ? states.lines[end] : run.last];
   const margin = Math.max((to - from) * 0.03, run.period);
-  return [Math.max(run.times[0], from - margin), to + margin];
+  return spanOf(run, Math.max(run.times[0], from - margin), to + margin);
 }
 
 // The lines to draw: all, or the first and last of each column.
