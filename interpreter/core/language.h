@@ -59,6 +59,6 @@ constexpr std::optional<Hook> hook_named(std::string_view attribute, const Langu
 }
 
 // The version of what trees mean: docs/language.md has what each has changed. Recordings name it.
-inline constexpr std::uint64_t kLawVersion = 2;
+inline constexpr std::uint64_t kLawVersion = 3;
 
 }  // namespace lockstep::host

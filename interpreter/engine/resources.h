@@ -75,7 +75,7 @@ void ask(NodeContext& context, NodeIndex member);
 bool keeps(NodeContext& context, NodeIndex member);
 // Decides so.
 void keep(NodeContext& context, NodeIndex member);
-// The child of a member was skipped, so others may have its resources in this tick.
+// The child of a member was skipped without having run: others may have its resources in this tick.
 void give_back(NodeContext& context, NodeIndex member);
 
 }  // namespace resources

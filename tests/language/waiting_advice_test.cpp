@@ -245,5 +245,50 @@ TEST_CASE("members that may never run: the others wait for them for ever") {
   check_rows(kRows);
 }
 
+TEST_CASE("members that begin again after a failure: a barrier that ignores idle ones may open") {
+  constexpr std::string_view kWait = R"(<barrier name="b" barriers="0.5"/>)";
+  constexpr std::string_view kIgnore = R"(<barrier name="b" barriers="0.5" idle="ignore"/>)";
+  constexpr std::string_view kNote =
+      "3:1 note: after a failure of 'm', 'b' does not wait for it while 'w' runs";
+  constexpr Row kRows[] = {
+      {"a Wait in front of it", kIgnore,
+       R"(<Parallel><Retry attempts="9"><Sequence memory="true"><Wait name="w" seconds="0.03"/>
+<SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Sequence></Retry>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel>)",
+       kNote, "success"},
+      {"a Delay around it", kIgnore,
+       R"(<Parallel><Retry attempts="9"><Delay name="w" seconds="0.03">
+<SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Delay></Retry>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel>)",
+       kNote, "success"},
+      {"in a Repeat, and farther out", kIgnore,
+       R"(<Parallel><ForceSuccess><Repeat times="2"><Sequence memory="true"><Delay name="w" seconds="0.03"><AlwaysSuccess/></Delay><Parallel>
+<SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Parallel></Sequence></Repeat></ForceSuccess>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel>)",
+       kNote, "success"},
+      {"not with idle=wait: it stays closed", kWait,
+       R"(<Parallel><Retry attempts="9"><Sequence memory="true"><Wait seconds="0.03"/>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Sequence></Retry>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel>)",
+       "", "success"},
+      {"not without the Retry", kIgnore, R"(<Parallel><Sequence memory="true"><Wait seconds="0.03"/>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Sequence>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel>)",
+       "", "success"},
+      {"not with a Retry around the barrier", kIgnore,
+       R"(<Retry attempts="9"><Sequence memory="true"><Wait seconds="0.03"/><Parallel>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel></Sequence></Retry>)",
+       "", "success"},
+      {"not with a Wait behind it, or around the Retry", kIgnore,
+       R"(<Parallel><Sequence memory="true"><Wait seconds="0.03"/><Retry attempts="9">
+<Sequence memory="true"><SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
+<Wait seconds="0.03"/></Sequence></Retry></Sequence>
+<SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></Parallel>)",
+       "", "success"},
+  };
+  check_rows(kRows);
+}
+
 }  // namespace
 }  // namespace lockstep::host::test

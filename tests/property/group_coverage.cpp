@@ -103,6 +103,7 @@ constexpr std::array kSeldomSeen{
     "a member keeps its resources when its entry has others",
     "an entry names no resource of the pool",
     "a gate is closed: an outer UseResources",
+    "a member is skipped after it has run",
 };
 
 }  // namespace

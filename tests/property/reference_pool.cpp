@@ -165,9 +165,14 @@ Status UseResources::on_tick(bool first) {
   // What a barrier holds inside withholds the ticks itself.
   if (!is_granted_ && is_open_) return deny();
   // "Granted: tick the child, return its status."
+  const bool has_run = child().runs();
   const Status result = child().tick();
-  // As if the node were not there: members after it may have its resources.
-  if (result == Status::Skipped) {
+  // "A member whose child returns Skipped after it has run has used its resources in that tick, so
+  // they are free in the next one; one that is skipped without having run in this activation gives
+  // them back at once"
+  if (result == Status::Skipped && has_run) {
+    note("a member is skipped after it has run");
+  } else if (result == Status::Skipped) {
     note("a member is skipped and gives back what it owned");
     pool().take_back(owned_);
   }

@@ -16,7 +16,8 @@ void warn_of_keepers(const Definition& definition, const Reporter& report);
 // Notes pools whose members are held, so that their turn may never come.
 void note_unfairness(const Definition& definition, const Reporter& report);
 
-// Notes members of barriers that a decorator, a branch or a script may keep from running for ever.
+// Notes members of barriers that a decorator, a branch or a script may keep from running for ever,
+// and those that a barrier leaves out after a failure.
 void note_idle_members(const Definition& definition, const Reporter& report);
 
 }  // namespace lockstep::host

@@ -52,8 +52,10 @@ Status tick_child(NodeContext& context, NodeIndex self) {
     raise_priority(context, self, use);
     if (context.hold_firmly(self + 1)) return Status::Running;
   }
+  const bool has_run = context.status(self + 1) == Status::Running;
   const Status status = context.tick(self + 1);
-  if (status == Status::Skipped) resources::give_back(context, self);
+  // A child that ran until now has used the resources in this tick.
+  if (status == Status::Skipped && !has_run) resources::give_back(context, self);
   return status;
 }
 

@@ -38,7 +38,7 @@ std::string record(std::string_view tree, std::string_view leaves, std::uint64_t
 
 constexpr const char* kWholeRecording =
     R"({"lockstep_recording":1,"tree":"Test","file":"trees/a.xml","version":"0.1.0",)"
-    R"("law":2,"rate_hz":10.0,"clock":"virtual","seed":18446744073709551615,)"
+    R"("law":3,"rate_hz":10.0,"clock":"virtual","seed":18446744073709551615,)"
     R"("arguments":{"barriers":"0.5;1"},"nodes":[)"
     R"({"index":0,"path":"Test/ParallelAbsolute","kind":"ParallelAbsolute",)"
     R"("name":"ParallelAbsolute","parent":null,"barriers":[0.5,1.0]},)"
@@ -327,7 +327,7 @@ TEST_CASE("info measures a recording as the run was measured") {
   const std::string info = info_text(reader);
   CHECK(info ==
         "Test from trees/a.xml, recorded by lockstep 0.1.0\n"
-        "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615, law 2\n"
+        "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615, law 3\n"
         "  argument barriers = 0.5;1\n"
         "  the tree after tick 3:\n"
         "    ParallelAbsolute (ParallelAbsolute barriers=0.5;1): success\n"
