@@ -16,16 +16,12 @@ bool GlobalUpdatedGoal::check() {
   return std::exchange(is_first_, false) || is_updated;
 }
 
-// A child that runs works for the goal before, and begins again. One that fails is started again
-// with the next tick.
+// A child that runs is not begun again for another goal: it sees that goal itself.
 Status GoalUpdatedController::tick() {
-  is_due_ |= changed();
-  is_due_ |= last_tick_.is_after_gap(tick_number());
-  const bool is_running = child_status() == Status::Running;
-  if (!is_due_ && !is_running) return Status::Running;
-  if (is_due_ && is_running) halt_child();
+  const bool is_another = changed();
+  if (!begins() && !is_another && !child_runs()) return Status::Running;
   const Status status = tick_child();
-  is_due_ = status == Status::Failure;
+  if (status == Status::Failure) reset();
   return status;
 }
 

@@ -5,7 +5,7 @@
 
 #include <lockstep/leaf.hpp>
 
-#include "last_tick.hpp"
+#include "beginning.hpp"
 
 namespace nav {
 
@@ -36,14 +36,9 @@ class GlobalUpdatedGoal : public lockstep::Condition<AnyGoalPorts> {
   bool is_first_ = true;
 };
 
-class GoalUpdatedController : public lockstep::Decorator<AnyGoalPorts> {
+class GoalUpdatedController : public Beginning<AnyGoalPorts> {
  public:
   Status tick() override;
-  void halt() override { is_due_ = true; }
-
- private:
-  LastTick last_tick_;
-  bool is_due_ = true;
 };
 
 struct PathTimerPorts : lockstep::Ports {

@@ -7,30 +7,47 @@ namespace nav {
 
 using Status = lockstep::Status;
 
+Status RateController::tick() {
+  const double period = 1 / hz.get();
+  const bool is_first = begins();
+  if (is_first) began_ = now();
+  const bool is_due = is_first || child_runs() || now() - began_ >= period - kRounding;
+  if (!is_due) return Status::Running;
+  const Status status = tick_child();
+  if (status == Status::Success) began_ = now();
+  return status;
+}
+
 // For another goal the child is started at once.
 Status SpeedController::tick() {
-  if (changed()) begin();
-  return tick_at(rate());
+  const double rate_now = rate();
+  const bool is_another = changed();
+  const bool is_first = begins() || is_another;
+  if (is_first) began_ = now(), period_ = 1 / max_rate.get();
+  const bool is_over = now() - began_ >= period_ - kRounding;
+  if (!is_first && !is_over && !child_runs()) return Status::Running;
+  if (is_over) began_ = now(), period_ = 1 / rate_now;
+  return tick_child();
 }
 
 double SpeedController::rate() const {
-  const double least = min_speed.get(), range = max_speed.get() - least;
-  const double above = std::abs(speed.get()) - least;
-  const double share = range > 0 ? std::clamp(above / range, 0.0, 1.0) : above >= 0 ? 1.0 : 0.0;
-  return min_rate.get() + share * (max_rate.get() - min_rate.get());
+  const double low = min_rate.get(), high = max_rate.get();
+  const double above = std::abs(speed.get()) - min_speed.get();
+  const double range = max_speed.get() - min_speed.get();
+  if (range == 0) return above >= 0 ? high : low;
+  return std::max(low, std::min(high, low + above / range * (high - low)));
 }
 
-// A child that fails is started again with the next tick.
 Status DistanceController::tick() {
   const double to_x = x.get(), to_y = y.get();
-  is_first_ |= last_tick_.is_after_gap(tick_number());
-  if (is_first_) from_x_ = to_x, from_y_ = to_y;
-  const double way = std::hypot(to_x - from_x_, to_y - from_y_);
-  const bool is_due = is_first_ || way >= distance.get() - kRounding;
-  if (!is_due && child_status() != Status::Running) return Status::Running;
+  const bool is_first = begins();
+  if (is_first) from_x_ = to_x, from_y_ = to_y;
+  const double distance_done = std::hypot(to_x - from_x_, to_y - from_y_);
+  const bool is_due = is_first || child_runs() || distance_done >= distance.get() - kRounding;
+  if (!is_due) return Status::Running;
   const Status status = tick_child();
-  is_first_ = status == Status::Failure;
   if (status == Status::Success) from_x_ = to_x, from_y_ = to_y;
+  if (status == Status::Failure) reset();
   return status;
 }
 

@@ -47,6 +47,7 @@ struct LeafFunctions {
     type.create = create;
     type.destroy = destroy;
     type.start = start;
+    type.start_unreset = start;
     type.tick = tick;
     type.halt = halt;
     type.flags = LOCKSTEP_REAL_TIME;

@@ -257,6 +257,7 @@ constexpr const char* kDoc =
 
 lockstep_leaf_type base_type() {
   lockstep_leaf_type type = LeafFunctions<RosAction>::type("RosAction", kDoc);
+  type.start_unreset = nullptr;  // a goal that was reached is not sent again
   static const PortList ports(kOwnPorts);
   ports.give_to(type);
   return type;

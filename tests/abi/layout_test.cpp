@@ -184,7 +184,7 @@ SIZE_IS(lockstep_ticks, 16);
 MEMBER_AT(lockstep_ticks, struct_size, 0);
 MEMBER_AT(lockstep_ticks, number, 8);
 
-SIZE_IS(lockstep_place, 120);
+SIZE_IS(lockstep_place, 128);
 MEMBER_AT(lockstep_place, struct_size, 0);
 MEMBER_AT(lockstep_place, name, 8);
 MEMBER_AT(lockstep_place, path, 16);
@@ -200,6 +200,7 @@ MEMBER_AT(lockstep_place, unset, 88);
 MEMBER_AT(lockstep_place, ask_for_tick, 96);
 MEMBER_AT(lockstep_place, wake, 104);
 MEMBER_AT(lockstep_place, data, 112);
+MEMBER_AT(lockstep_place, language, 120);
 
 SIZE_IS(lockstep_words, 24);
 MEMBER_AT(lockstep_words, struct_size, 0);

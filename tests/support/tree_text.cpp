@@ -28,7 +28,9 @@ bool is_choice(const Parameter& parameter, const Value& value) {
 class Builder {
  public:
   Builder(std::string_view text, const LanguageRules& rules)
-      : all_(text), rest_(text), rules_(rules) {}
+      : all_(text), rest_(text), rules_(rules) {
+    definition_.rules = &rules;
+  }
 
   Definition build() {
     node(0);

@@ -33,7 +33,6 @@ class PlayedLeaf final : public RemoteLeaf {
     // A value that it writes at its start is there before other nodes look.
     if (const LeafWord* word = current()) write(*word);
   }
-  void start_unreset() override { start(); }
 
   lockstep_status tick() override {
     const LeafWord* const word = current();
@@ -209,7 +208,6 @@ class ModelLeafOfRun final : public RemoteLeaf {
       : RemoteLeaf(caller), run_(run), number_(number) {}
 
   void start() override { run_.begin(caller_, number_); }
-  void start_unreset() override { start(); }
   lockstep_status tick() override {
     const Status status = run_.leaves().tick(number_);
     if (const char* error = run_.error(number_)) fail(error);
@@ -279,6 +277,7 @@ void PlayedLeaves::take_over(Definition& definition) {
         type.leaf.behavior_count = type.node.leaf->behavior_count;
         type.leaf.behavior = type.node.leaf->behavior;
       }
+      type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
       if (!type.node.has_progress) type.leaf.progress = nullptr;
       type.node.mock = nullptr;
       type.node.leaf = &type.leaf;

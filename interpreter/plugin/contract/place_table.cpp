@@ -36,6 +36,11 @@ const char* id(const lockstep_caller* caller) {
   return caller->type == nullptr ? nullptr : caller->type->leaf->id;
 }
 
+const char* language(const lockstep_caller* caller) {
+  const Tree* const tree = caller->run == nullptr ? nullptr : caller->run->tree;
+  return tree == nullptr ? nullptr : tree->rules->root_attribute.data();  // of a literal
+}
+
 const char* path(const lockstep_caller* caller) {
   return caller->who;
 }
@@ -200,7 +205,8 @@ const lockstep_place& place_table() {
                                          .unset = unset,
                                          .ask_for_tick = ask_for_tick,
                                          .wake = wake,
-                                         .data = data};
+                                         .data = data,
+                                         .language = language};
   return kTable;
 }
 

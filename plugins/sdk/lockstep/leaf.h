@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_ABI_MAJOR 1u
-#define LOCKSTEP_ABI_MINOR 4u
+#define LOCKSTEP_ABI_MINOR 5u
 
 #if defined(_WIN32)
 #define LOCKSTEP_EXPORT __declspec(dllexport)
@@ -378,6 +378,11 @@ typedef struct lockstep_place {
   /* Since 1.4. [any] lockstep_leaf_type::data of the node's type: of the one that describe returned
    * for its element. */
   const void* (*data)(const lockstep_caller* caller);
+
+  /* Since 1.5. [any] The language of the tree, by the attribute of its root: "lockstep" or
+   * "BTCPP_format". In the second one a child may be ticked again in the same tick, and a parent
+   * resets its children: start_unreset. NULL: in a separate process, which has no control nodes. */
+  const char* (*language)(const lockstep_caller* caller);
 } lockstep_place;
 
 #define LOCKSTEP_PLACE "lockstep.place"

@@ -58,6 +58,9 @@ class ActionFunctions : public Leaf {
   virtual Status tick() = 0;
   // The first tick of an activation is about to come. The object may have been active before.
   virtual void start() {}
+  // In place of start(), when the node has completed and its parent, which keeps its result, ticks
+  // it again. An action without an override is not ticked then.
+  virtual void start_unreset() {}
   // Stop now: the activation ends without a result. May come while paused.
   virtual void halt() {}
   // Hold still, keep the position: no ticks for a while.

@@ -8,6 +8,7 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "../leaf.h"
 #include "../ticks.h"
@@ -105,6 +106,17 @@ class Services {
     const auto* const ticks = host_extension<lockstep_ticks>(LOCKSTEP_TICKS);
     if (ticks != nullptr) return ticks->number(caller_.id);
     return static_cast<std::uint64_t>(std::llround(now() / tick_period()));
+  }
+
+  // The language of the tree, by the attribute of its root: "lockstep" or "BTCPP_format". Empty
+  // with an older host, and in a separate process.
+  std::string_view language() const {
+    constexpr std::size_t kSize =
+        offsetof(lockstep_place, language) + sizeof(lockstep_place::language);
+    const auto* const place = host_extension<lockstep_place>(LOCKSTEP_PLACE);
+    const bool is_known = place != nullptr && place->struct_size >= kSize;
+    const char* const attribute = is_known ? place->language(caller_.id) : nullptr;
+    return attribute != nullptr ? attribute : "";
   }
 
   // The caller's own stream of random numbers: 64 bits, or uniform in [0, 1) or [low, high). The

@@ -23,6 +23,9 @@ class Children {
   Status tick(std::uint32_t child) const {
     return static_cast<Status>(table_.tick(caller_, child));
   }
+  Status tick_unreset(std::uint32_t child) const {
+    return static_cast<Status>(table_.tick_unreset(caller_, child));
+  }
   void halt(std::uint32_t child) const { table_.halt(caller_, child); }
   void pause(std::uint32_t child) const { table_.pause(caller_, child); }
   std::optional<Status> status(std::uint32_t child) const {
@@ -59,8 +62,8 @@ class ControlFunctions : public ActionFunctions {
   const detail::Children children_;
 };
 
-// Children are counted from 0. tick_child, halt_child and pause_child belong into tick(); each
-// child is ticked at most once in a tick.
+// Children are counted from 0. tick_child, tick_child_unreset, halt_child and pause_child belong
+// into tick(); each child is ticked at most once in a tick, except in trees for BehaviorTree.CPP.
 template <class PortsOfNode = NoPorts>
 class Control : public ControlFunctions, public PortsOfNode {
  public:
@@ -71,6 +74,9 @@ class Control : public ControlFunctions, public PortsOfNode {
 
   std::uint32_t child_count() const { return children_.count(); }
   Status tick_child(std::uint32_t child) { return children_.tick(child); }
+  // The same, but an action that has completed in this activation of the node is not begun again:
+  // it gives its result once more. docs/plugins.md has what other children do.
+  Status tick_child_unreset(std::uint32_t child) { return children_.tick_unreset(child); }
   // Ends the child's activation, if it runs.
   void halt_child(std::uint32_t child) { children_.halt(child); }
   // Holds the child, if it runs, until it is ticked again.

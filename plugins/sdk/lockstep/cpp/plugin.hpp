@@ -66,6 +66,10 @@ struct LeafFunctions {
     LeafAccess::before_start(*static_cast<T*>(leaf));
     call(leaf, &T::start);
   }
+  static void start_unreset(void* leaf) {
+    LeafAccess::before_start(*static_cast<T*>(leaf));
+    call(leaf, &T::start_unreset);
+  }
   static void halt(void* leaf) { call(leaf, &T::halt); }
   static void pause(void* leaf) { call(leaf, &T::pause); }
   static void resume(void* leaf) { call(leaf, &T::resume); }
@@ -107,6 +111,9 @@ constexpr void add_optional_functions(lockstep_leaf_type& type) {
   constexpr bool kKeepsProgress = LeafAccess::keeps_progress<T>();
   if constexpr (kKeepsProgress || is_overridden<decltype(&T::start), Nothing>) {
     type.start = &Functions::start;
+  }
+  if constexpr (is_overridden<decltype(&T::start_unreset), Nothing>) {
+    type.start_unreset = &Functions::start_unreset;
   }
   if constexpr (is_overridden<decltype(&T::halt), Nothing>) type.halt = &Functions::halt;
   if constexpr (is_overridden<decltype(&T::pause), Nothing>) type.pause = &Functions::pause;
