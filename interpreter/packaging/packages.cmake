@@ -21,6 +21,9 @@ if(LOCKSTEP_TOOLS)
   install(FILES ${generated}/fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME lockstep.fish)
 endif()
 
+# Relative to the file itself, since `cmake --install --prefix` comes after it was written.
+file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" prefix_from_pkgconfig "${prefix_from_pkgconfig}")
 foreach(part lockstep lockstep-runtime)
   configure_file(interpreter/packaging/${part}.pc.in ${CMAKE_BINARY_DIR}/${part}.pc @ONLY)
 endforeach()

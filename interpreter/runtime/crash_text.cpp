@@ -155,7 +155,7 @@ void put_hints(const Crash& crash, SignalText& text) {
   const bool is_local = crash.call.site != nullptr && crash.call.site->origin->is_local;
   if (is_inside_call(crash) || crash.is_foreign_thread || crash.kind == CrashKind::Hang) {
     if (!is_local || crash.is_foreign_thread) {
-      text << "  hint: with --isolate, the run survives a crash of this plugin\n";
+      text << "  hint: with --isolate --on-fault fail, the run survives a crash of this plugin\n";
     }
     text << kForAuthor;
     return;

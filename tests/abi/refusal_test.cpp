@@ -28,6 +28,7 @@ const Case kCases[] = {
   {"entry_too_small", "exports a constant of 4 bytes, expected a lockstep_plugin", "define lockstep_plugin_entry as in docs/plugins.md"},
   {"wrong_abi", "was built for plugin ABI 2.3, this program has 1.5", "build it with the lockstep/leaf.h of this version"},
   {"undefined_symbol", "cannot be loaded: undefined symbol: a_function_that_nobody_has", "link the plugin with the library that defines it; functions of lockstep are reached through the host table only"},
+  {"static_tls", "cannot be loaded: cannot allocate memory in static TLS block", "thread-local variables of it, or of a library that it needs, must have their place when the program starts: set GLIBC_TUNABLES=glibc.rtld.optional_static_tls=4194304, or name the library in LD_PRELOAD"},
   {"plugin_too_small", "has a lockstep_plugin with struct_size 24, expected at least 96", "set it to sizeof(lockstep_plugin)"},
   {"plugin_too_large", "has a lockstep_plugin with struct_size 4000, expected at most 104", "set it to sizeof(lockstep_plugin)"},
   {"no_plugin_name", "has no name", "set lockstep_plugin::name"},

@@ -43,6 +43,14 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --component sdk --prefix ${WORK}/prefix)
+# The file for pkg-config finds what is installed with it, wherever that is.
+file(GLOB_RECURSE file ${WORK}/prefix/lockstep.pc)
+file(STRINGS ${file} prefix REGEX "^prefix=")
+get_filename_component(pcfiledir ${file} DIRECTORY)
+string(REPLACE "prefix=\${pcfiledir}" "${pcfiledir}" prefix "${prefix}")
+if(NOT EXISTS ${prefix}/include/lockstep/leaf.h)
+  message(FATAL_ERROR "${file} names the prefix ${prefix}")
+endif()
 check_plugin(c++ sweep)
 check_plugin(c countdown)
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/audience.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
@@ -20,6 +22,7 @@ class Adviser {
   void advise() {
     for (std::uint32_t node = 0; node < definition_.nodes.size(); ++node) {
       const NodeType& type = *at(node).type;
+      if (at(node).children > 1) namesakes(node);
       if (definition_.forgets(at(node))) {
         if (conduct_.empty()) conduct_ = conducts();
         type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
@@ -150,6 +153,26 @@ class Adviser {
     }
   }
 
+  // Names that the tree gives: of a SubTree it may be that of its tree.
+  void namesakes(std::uint32_t node) const {
+    std::vector<std::string_view> names;
+    for (const std::uint32_t child : children_in(definition_.nodes, node)) {
+      const DefinitionNode& it = at(child);
+      if (it.name == it.type->id || it.type->category == NodeCategory::SubTree) continue;
+      names.push_back(it.name);
+    }
+    std::ranges::sort(names);
+    const auto twice = std::ranges::adjacent_find(names);
+    if (twice == names.end()) return;
+    std::uint32_t last = node;
+    for (const std::uint32_t child : children_in(definition_.nodes, node)) {
+      if (at(child).name == *twice) last = child;
+    }
+    add(last, Severity::Note,
+        fmt::format("'{}' is also the name of a child before it", brief(*twice)),
+        "paths tell them apart by '#2', which changes when the order does: give each its own name");
+  }
+
   // A decorator or SubTree has its child's progress.
   void without_progress(std::uint32_t child, std::uint32_t keeper) const {
     std::uint32_t source = child;
@@ -175,6 +198,8 @@ class Adviser {
       if (script.code->uses()[name].is_assigned) valued[script.entries[name]] = true;
     });
     std::vector<bool> told = valued;  // one warning an entry
+    // A script fails without a value; a port may have a default.
+    if (definition_.rules->strict_types) unwritten_in_scripts(valued, told);
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       const std::string& name = definition_.entries[entry].name;
       if (told[entry] || may_be_empty(parameter, name)) return;
@@ -185,7 +210,6 @@ class Adviser {
                        unwritten_hint(&parameter, name, definition_.entries[entry].typing, valued),
                        Severity::Warning);
     });
-    if (definition_.rules->strict_types) unwritten_in_scripts(valued, told);
   }
 
   // The entry of a port of any type, which the tree leaves out: it looks whether there is a value.

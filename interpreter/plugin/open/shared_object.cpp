@@ -33,6 +33,11 @@ std::string hint_for(std::string_view error) {
     return "link the plugin with the library that defines it; functions of lockstep are reached "
            "through the host table only";
   }
+  if (error.find("static TLS") != error.npos) {
+    return "thread-local variables of it, or of a library that it needs, must have their place "
+           "when the program starts: set GLIBC_TUNABLES=glibc.rtld.optional_static_tls=4194304, or "
+           "name the library in LD_PRELOAD";
+  }
   return "'ldd' lists the libraries that it needs and which of them are missing";
 }
 
