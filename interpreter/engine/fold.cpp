@@ -10,9 +10,11 @@
 namespace lockstep::host {
 namespace {
 
-bool has_member(const Tree& tree, NodeIndex first, NodeIndex last) {
+// Whether a group looks at a member below the node after it has ended.
+bool is_looked_into(const Tree& tree, NodeIndex node) {
   return std::ranges::any_of(tree.members, [&](const Member& member) {
-    return first <= member.node && member.node < last;
+    const bool is_below = node <= member.node && member.node < tree.nodes[node].end;
+    return is_below && tree.nodes[member.group].kind->reads_ended_members;
   });
 }
 
@@ -31,11 +33,11 @@ void Ticker::fold() {
   state_.now = Nanoseconds(0);
 }
 
-// Its next tick would do so. A barrier looks at the members below a node that has ended.
+// Its next tick would do so.
 void Ticker::forget_below_ended() {
   for (NodeIndex node = 0; node < nodes_[0].end; ++node) {
     if (!has_ended(status(node)) || nodes_[node].end == node + 1) continue;
-    if (has_member(tree_, node, nodes_[node].end)) continue;
+    if (is_looked_into(tree_, node)) continue;
     forget_descendants(node);
     node = nodes_[node].end - 1;
   }

@@ -28,6 +28,13 @@ enum class Unreset : std::uint8_t {
   KeepsResult,  // it is not ticked
 };
 
+// What the bytes that a node keeps mean at the place of an equal node.
+enum class IfMoved : std::uint8_t {
+  Differs,
+  Same,
+  FromChild,  // the same, but that they begin with the number of a child, or with 0
+};
+
 struct NodeKind {
   NodeType type;
   // One tick. Returns Running, Success, Failure or Skipped. Does not allocate; does not throw
@@ -57,6 +64,17 @@ struct NodeKind {
   bool reads_entries = false;    // before each tick: its parameters are Tree::bound
   bool chooses_to_read = false;  // not before each tick: it calls reread where it needs them
   bool counts_writes = false;    // its first port names an entry whose Entry::writes it looks at
+  // What it reads beside that, what it keeps itself, and the results and the progress of its
+  // children. A state of a search keeps it for those that read it, and for nobody else, so one that
+  // is missing here is a wrong proof: tests/property/fold_test.cpp.
+  bool reads_own_hold = false;         // whether its last tick was withheld
+  bool reads_hold_of_members = false;  // of a group: whether a synchronized parallel withheld them
+  // Of a group: the statuses of its members and of all around them, also where a node around them
+  // has ended.
+  bool reads_ended_members = false;
+  // Whether equal children may change places (verify/symmetry.h).
+  IfMoved if_moved = IfMoved::Differs;
+  bool has_any_order = false;  // its children get their ticks whatever the others do
   // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(NodeContext& context, NodeIndex self) = nullptr;
 };

@@ -41,6 +41,14 @@ double snapshot_of(NodeContext& context, NodeIndex child) {
   return context.progress(child);
 }
 
+// Whatever holds the outermost node decides: what is below it gets no tick without that.
+bool is_held_by_parallel(const RunView& run, NodeIndex node) {
+  const auto& labels = run.tree().labels;
+  if (!run.held(node)) return false;
+  while (run.held(labels[node].parent) && labels[node].parent != node) node = labels[node].parent;
+  return compares_progress(synchronization(run.node(labels[node].parent)));
+}
+
 const Member* barrier_member(const Tree& tree, NodeIndex node) {
   const auto it = std::ranges::find(tree.members, node, &Member::node);
   if (it == tree.members.end()) return nullptr;

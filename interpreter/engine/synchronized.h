@@ -89,6 +89,9 @@ inline bool is_left_out(double progress) {
   return std::isnan(progress);
 }
 
+// Whether a synchronized parallel has withheld the last tick of a running node and may do so again.
+bool is_held_by_parallel(const RunView& run, NodeIndex node);
+
 // The membership of a node that holds its child at a barrier beside the tree; null: it does not.
 const Member* barrier_member(const Tree& tree, NodeIndex node);
 // Whether a member of a barrier beside the tree is held in this tick.

@@ -156,27 +156,22 @@ class StateCode::ByteReader {
 
 namespace {
 
-// A node may keep beside its activity when it was held.
-bool keeps_pause(const Tree& tree, NodeIndex node, const LeafModels& models) {
-  const Node& it = tree.nodes[node];
-  const NodeType& type = *tree.labels[node].type;
-  if (type.leaf == nullptr) return it.kind->pause != nullptr;
-  return models.leaves[it.params].drifts();
+std::vector<bool> drifting(const LeafModels& models) {
+  std::vector<bool> found;
+  for (const LeafModel& it : models.leaves) found.push_back(it.drifts());
+  return found;
 }
 
 }  // namespace
 
 StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
                      std::vector<bool> watched, const Symmetry& symmetry)
-    : tree_(tree), models_(models), fresh_(fresh), order_(tree, symmetry) {
+    : tree_(tree), fresh_(fresh), holds_(tree, drifting(models)), order_(tree, symmetry) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
     if (models.entries[slot]) entries_.push_back(slot);
   }
   for (NodeIndex node = 0; node < watched.size(); ++node) {
     if (watched[node]) watched_.push_back(node);
-  }
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    keeps_pause_.push_back(keeps_pause(tree, node, models_));
   }
 }
 
@@ -215,21 +210,6 @@ void StateCode::read(ByteReader& reader, std::vector<ReadValues>& all) const {
   }
 }
 
-// A node that is held and would not be told apart from one that runs is one that runs: the next
-// tick holds it again. Not below one that stays held, since nobody looks below it.
-void StateCode::find_held(const Ticker& ticker) {
-  kept_.activity = ticker.run_state().activity;
-  NodeIndex stays_until = 0;
-  for (NodeIndex node = 0; node < kept_.activity.size(); ++node) {
-    if (kept_.activity[node] != Activity::Paused || node < stays_until) continue;
-    if (keeps_pause_[node]) {
-      stays_until = tree_.nodes[node].end;
-    } else {
-      kept_.activity[node] = Activity::Running;
-    }
-  }
-}
-
 void StateCode::write(const KeptState& state, Writer& writer) {
   writer.runs(reinterpret_cast<const std::byte*>(state.activity.data()), state.activity.size());
   writer.runs(reinterpret_cast<const std::byte*>(state.words.data()),
@@ -239,7 +219,8 @@ void StateCode::write(const KeptState& state, Writer& writer) {
 
 void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
                        std::span<const std::byte> properties, Children children, StateBytes& into) {
-  find_held(ticker);
+  kept_.activity = ticker.run_state().activity;
+  holds_.forget_others(ticker, kept_.activity);
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (has_ended(status_of(seen_[i]))) kept_.activity[watched_[i]] = seen_[i];
   }

@@ -11,6 +11,7 @@
 #include "engine/ticker.h"
 #include "leaves/model_leaf.h"
 #include "verify/child_order.h"
+#include "verify/read_holds.h"
 
 namespace lockstep::host {
 
@@ -48,17 +49,15 @@ class StateCode {
  private:
   class Writer;
   class ByteReader;
-  void find_held(const Ticker& ticker);
   static void write(const KeptState& state, Writer& writer);
   void read(ByteReader& reader, KeptState& state) const;
   void write(const std::vector<ReadValues>& all, Writer& writer) const;
   void read(ByteReader& reader, std::vector<ReadValues>& all) const;
 
   const Tree& tree_;
-  const LeafModels& models_;
   const SavedRun& fresh_;
   std::vector<std::uint32_t> entries_;  // the slots that are in the state
-  std::vector<bool> keeps_pause_;       // of each node: it is not the same held or not
+  const ReadHolds holds_;
   std::vector<NodeIndex> watched_;
   std::vector<Activity> seen_;    // of those, before the fold
   std::vector<ReadValues> read_;  // before the fold, where entries say something else

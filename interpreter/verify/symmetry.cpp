@@ -4,31 +4,16 @@
 #include <cstring>
 #include <numeric>
 
-#include "engine/nodes/kinds.h"
-
 namespace lockstep::host {
 namespace {
 
 // Labels number what may move in 16 bits: leaves and the children that are held.
 constexpr std::size_t kMostMoving = 30'000;
 
-// These tick all of their children in each tick, or those that are not held or over.
-bool is_parallel(const NodeKind* kind) {
-  return kind == &kParallel || kind == &kParallelAbsolute || kind == &kParallelRelative;
-}
-
-bool keeps_child(const NodeKind* kind) {
-  constexpr const NodeKind* kKinds[] = {&kSequence, &kFallback, &kIfThenElse, &kWhileDoElse,
-                                        &kSwitch};
-  return std::ranges::find(kKinds, kind) != std::ranges::end(kKinds);
-}
-
-// All that such a kind keeps means the same at another place, but for that child.
+// All that such a kind keeps means the same at another place, but for the number of a child.
 bool can_move(const NodeKind* kind) {
-  constexpr const NodeKind* kKinds[] = {&kRepeat, &kRetry,    &kTimeout, &kDelay,
-                                        &kRate,   &kCooldown, &kRunOnce, &kWait};
-  return (kind->state_size == 0 && kind->state_per_child == 0) || is_parallel(kind) ||
-         keeps_child(kind) || std::ranges::find(kKinds, kind) != std::ranges::end(kKinds);
+  return kind->if_moved != IfMoved::Differs ||
+         (kind->state_size == 0 && kind->state_per_child == 0);
 }
 
 bool uses_entries(const Parameter& it) {
@@ -52,7 +37,7 @@ class EqualChildrenFinder {
   std::vector<EqualChildren> find() {
     std::vector<EqualChildren> found;
     for (NodeIndex node = tree_.nodes[0].end; node-- > 0;) {
-      if (is_parallel(tree_.nodes[node].kind) && !may_fault_[node]) add_classes(node, found);
+      if (tree_.nodes[node].kind->has_any_order && !may_fault_[node]) add_classes(node, found);
     }
     return found;
   }
@@ -188,7 +173,8 @@ Symmetry::Symmetry(const Tree& tree, const LeafModels& models, const std::vector
     }
   }
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (moves_[node] && keeps_child(tree.nodes[node].kind)) keepers_.push_back(node);
+    if (moves_[node] && tree.nodes[node].kind->if_moved == IfMoved::FromChild)
+      keepers_.push_back(node);
   }
 }
 

@@ -300,4 +300,16 @@ TEST_CASE("UseResources: a priority rises to twice what all members can wait") {
   CHECK(run.ticker().state<ResourceUse>(waits).priority == 2 * 2 * 5);
 }
 
+TEST_CASE("UseResources: a run that its owner has paused goes on") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b)) "
+      "resources[name=p]",
+      "a=RRR b=RRR");
+  run.tick(Nanoseconds(0));
+  CHECK(who_owns(run) == "1.");
+  run.ticker().pause(0);
+  run.tick(Nanoseconds(0));
+  CHECK(who_owns(run) == "-2");
+}
+
 }  // namespace lockstep::host::test

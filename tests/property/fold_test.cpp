@@ -1,11 +1,13 @@
-// A run whose state is folded after each tick does what the same run does that is not: on the
-// random trees of both languages. A wrong fold would be a wrong proof.
+// A run whose state is folded after each tick, and says of a node that it is held only where some
+// node reads that, does what the same run does that is not: on the random trees of both languages.
+// A state that forgets what some node reads would be a wrong proof.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
+#include "property/folded_run.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -86,7 +88,7 @@ void check_folded(ScriptedRun& plain, ScriptedRun& folded, double period, const 
     write(folded, tick);
     const Nanoseconds step = from_seconds(period);
     REQUIRE(seen_in(folded, tick == 0 ? Nanoseconds(0) : step) == seen_in(plain, tick * step));
-    folded.ticker().fold();
+    fold(folded);
   }
 }
 
@@ -112,6 +114,16 @@ TEST_CASE("every node kind that keeps something says how it is folded") {
   for (const NodeKind* mock : {&kMockAction, &kMockCondition, &kMockControl, &kMockDecorator}) {
     CHECK((mock->fold != nullptr) == (mock->state_size + mock->state_per_child > 0));
   }
+}
+
+TEST_CASE("a node kind that notes when it is held says so") {
+  for (const LanguageRules* rules : languages()) {
+    for (const NodeKind* kind : rules->kinds) {
+      INFO(kind->type.id);
+      CHECK((kind->pause != nullptr) == kind->reads_own_hold);
+    }
+  }
+  CHECK(kMockAction.reads_own_hold);
 }
 
 TEST_CASE("an endless run goes through a few states") {

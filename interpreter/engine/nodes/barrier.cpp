@@ -265,7 +265,8 @@ const NodeKind kBarrier{
     .state_size = sizeof(BarrierState),
     .state_per_child = sizeof(double) + sizeof(MemberState),
     .fold = fold_barrier,
-    .chooses_to_read = true};
+    .chooses_to_read = true,
+    .reads_ended_members = true};
 
 const NodeKind kSyncProgress{
     .type = {.id = "SyncProgress",

@@ -101,7 +101,8 @@ constexpr NodeKind kIf{
     .tick = tick_if<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
-    .fold = fold::dead_when_idle};
+    .fold = fold::dead_when_idle,
+    .if_moved = IfMoved::FromChild};
 
 template <Rule kRule>
 constexpr NodeKind kWhile{
@@ -116,6 +117,7 @@ constexpr NodeKind kWhile{
     .tick = tick_while<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
-    .fold = fold::dead_when_idle};
+    .fold = fold::dead_when_idle,
+    .if_moved = IfMoved::FromChild};
 
 }  // namespace lockstep::host::branches

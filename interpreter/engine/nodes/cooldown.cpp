@@ -47,6 +47,7 @@ const NodeKind kCooldown{
     .tick = tick_cooldown,
     .progress = decorator::child_progress,
     .state_size = sizeof(CooldownState),
-    .fold = fold_cooldown};
+    .fold = fold_cooldown,
+    .if_moved = IfMoved::Same};
 
 }  // namespace lockstep::host

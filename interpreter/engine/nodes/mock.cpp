@@ -77,7 +77,8 @@ const NodeKind kMockAction{
     .progress = action_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause,
-    .fold = fold_mock_action};
+    .fold = fold_mock_action,
+    .reads_own_hold = true};
 const NodeKind kMockCondition{.type = {.id = "", .category = NodeCategory::Condition, .doc = ""},
                               .tick = tick_mock_condition,
                               .progress = condition_progress};

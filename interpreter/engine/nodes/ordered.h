@@ -103,7 +103,8 @@ constexpr NodeKind kind(std::string_view id, std::string_view doc) {
                 .tick = tick<kGoOn, kMemory>,
                 .progress = kIsSequence ? progress_of_sequence : progress_of_fallback,
                 .state_size = sizeof(State),
-                .fold = fold::dead_when_idle};
+                .fold = fold::dead_when_idle,
+                .if_moved = IfMoved::FromChild};
   if (kMemory == Memory::ByParameter) kind.type.parameters = kParameters;
   return kind;
 }

@@ -52,6 +52,8 @@ const NodeKind kParallel{
     .tick = tick_parallel,
     .progress = progress_of_parallel,
     .state_per_child = sizeof(double),
-    .fold = fold::dead};
+    .fold = fold::dead,
+    .if_moved = IfMoved::Same,
+    .has_any_order = true};
 
 }  // namespace lockstep::host

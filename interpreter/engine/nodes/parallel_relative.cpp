@@ -50,6 +50,8 @@ const NodeKind kParallelRelative{
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
     .fold = fold::dead,
-    .decided = synchronized::decided};
+    .decided = synchronized::decided,
+    .if_moved = IfMoved::Same,
+    .has_any_order = true};
 
 }  // namespace lockstep::host

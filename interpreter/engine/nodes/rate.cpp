@@ -49,6 +49,8 @@ const NodeKind kRate{
     .progress = decorator::child_progress,
     .state_size = sizeof(RateState),
     .pause = timed::pause,
-    .fold = fold_rate};
+    .fold = fold_rate,
+    .reads_own_hold = true,
+    .if_moved = IfMoved::Same};
 
 }  // namespace lockstep::host

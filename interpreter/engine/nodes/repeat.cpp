@@ -73,6 +73,7 @@ const NodeKind kRepeat{
     .progress = progress_of_repeat,
     .state_size = sizeof(RepeatState),
     .fold = fold_repeat,
+    .if_moved = IfMoved::Same,
     .round = round_of_repeat};
 
 const NodeKind kRetry{
@@ -88,6 +89,7 @@ const NodeKind kRetry{
     .progress = decorator::child_progress,
     .state_size = sizeof(RepeatState),
     .fold = fold::dead_when_idle,
+    .if_moved = IfMoved::Same,
     .round = round_of_repeat};
 
 }  // namespace lockstep::host

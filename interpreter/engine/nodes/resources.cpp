@@ -30,14 +30,6 @@ std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
   return resources::check_list(given, kNames);
 }
 
-// True if a synchronized parallel has withheld the last tick of the running node, and may do so
-// again. Such a member asks when a tick reaches it.
-bool is_held_by_parallel(const NodeContext& context, NodeIndex node) {
-  const auto& labels = context.tree().labels;
-  while (context.held(node)) node = labels[node].parent;
-  return context.node(node).children > 1;
-}
-
 // Lets those keep their resources that may. Of all others that ask, their numbers.
 std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
                                   std::span<const Member> members) {
@@ -48,7 +40,7 @@ std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
     if (context.status(member.node) != Status::Running) continue;
     if (resources::keeps(context, member.node)) {
       resources::keep(context, member.node);
-    } else if (!is_held_by_parallel(context, member.node) &&
+    } else if (!is_held_by_parallel(context, member.node) &&  // else a tick that reaches it asks
                context.parameters().read(member.node).empty()) {
       numbers[count++] = member.number;
     }
@@ -86,6 +78,7 @@ const NodeKind kResources{
     .progress = [](NodeContext&, NodeIndex) { return 0.0; },
     .state_size = sizeof(ResourcePool),
     .state_per_child = sizeof(std::uint32_t),
-    .fold = fold::dead};
+    .fold = fold::dead,
+    .reads_hold_of_members = true};
 
 }  // namespace lockstep::host

@@ -16,6 +16,7 @@ const NodeKind kRunOnce{
     .tick = run_once::tick,
     .progress = decorator::child_progress,
     .state_size = sizeof(run_once::State),
-    .fold = fold::live};
+    .fold = fold::live,
+    .if_moved = IfMoved::Same};
 
 }  // namespace lockstep::host

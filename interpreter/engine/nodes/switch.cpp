@@ -86,6 +86,7 @@ const NodeKind kSwitch{
     .tick = tick_switch,
     .progress = progress_of_switch,
     .state_size = sizeof(SwitchState),
-    .fold = fold::dead_when_idle};
+    .fold = fold::dead_when_idle,
+    .if_moved = IfMoved::FromChild};
 
 }  // namespace lockstep::host

@@ -34,6 +34,8 @@ const NodeKind kTimeout{
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause,
-    .fold = timed::fold_by_clock};
+    .fold = timed::fold_by_clock,
+    .reads_own_hold = true,
+    .if_moved = IfMoved::Same};
 
 }  // namespace lockstep::host

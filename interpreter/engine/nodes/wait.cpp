@@ -38,6 +38,8 @@ const NodeKind kWait{.type = {.id = "Wait",
                      .progress = progress_of_wait,
                      .state_size = sizeof(timed::State),
                      .pause = timed::pause,
-                     .fold = timed::fold};
+                     .fold = timed::fold,
+                     .reads_own_hold = true,
+                     .if_moved = IfMoved::Same};
 
 }  // namespace lockstep::host
