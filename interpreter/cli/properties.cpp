@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "cli/console.h"
-#include "measure/live_properties.h"
 
 namespace lockstep::host {
 namespace {
@@ -91,9 +90,9 @@ std::optional<std::vector<Property>> read_properties(const PropertyOptions& opti
 
 std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
                                                     const PropertyOptions& options,
-                                                    const Tree& tree) {
+                                                    const PropertyNames& names) {
   if (options.texts.empty() && options.files.empty()) return of_file;
-  auto more = read_properties(options, property_names(tree));
+  auto more = read_properties(options, names);
   if (!more) return std::nullopt;
   std::ranges::move(*more, std::back_inserter(of_file));
   return of_file;

@@ -27,6 +27,6 @@ std::optional<std::vector<Property>> read_properties(const PropertyOptions& opti
 // Those of a tree file, and then these.
 std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
                                                     const PropertyOptions& options,
-                                                    const Tree& tree);
+                                                    const PropertyNames& names);
 
 }  // namespace lockstep::host

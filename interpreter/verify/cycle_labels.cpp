@@ -14,11 +14,18 @@ constexpr std::size_t kStatesAgain = 8192, kStatesOfPart = 32;
 
 class CycleLabels {
  public:
-  CycleLabels(const Graph& graph, const StateStore& store, Crew& crew, const Expanders& expanders)
-      : graph_(graph), store_(store), crew_(crew), expanders_(expanders), components_(graph) {}
+  CycleLabels(const Graph& graph, const StateStore& store, Crew& crew, const Expanders& expanders,
+              SearchRoom& room)
+      : graph_(graph),
+        store_(store),
+        crew_(crew),
+        expanders_(expanders),
+        room_(room),
+        memory_(room.memory),
+        components_(graph) {}
 
-  CycleGraph find(int signal) {
-    CycleGraph found{nullptr, signal};
+  CycleGraph find() {
+    CycleGraph found;
     std::vector<StateId> states = states_in_cycles();
     if (states.empty()) return found;
     found.graph = std::make_unique<Graph>();
@@ -30,15 +37,20 @@ class CycleLabels {
       made_.add(expanders_[0]->first_state());
     }
     EdgeMerger merger(expanders_, *found.graph);
-    for (std::size_t first = 0; first < states.size() && found.signal == 0;) {
+    for (std::size_t first = 0; first < states.size();) {
+      room_.memory = memory_ + found.graph->memory() + made_.memory() + merger.memory();
+      room_.of_round = 0;
+      found.cut = room_.why_over();
+      if (found.cut) break;
       // At a limit there are states that were made, and not looked at.
       const std::size_t there =
           store_.keeps_hashes() ? std::min(made_.size(), states.size()) : states.size();
       const std::size_t count = std::min(kStatesAgain, there - first);
       const auto round = std::span(states).subspan(first, count);
       if (store_.keeps_hashes()) made_.forget_before(round.front());
-      found.signal = do_round(round, merger, *found.graph);
-      first += count;
+      const std::size_t done = do_round(round, merger, *found.graph, found.cut);
+      if (found.cut) break;
+      first += done;
     }
     add_loops_until(static_cast<StateId>(graph_.expanded()), *found.graph);
     return found;
@@ -68,22 +80,27 @@ class CycleLabels {
     return states;
   }
 
-  // Returns the signal that has cut it.
-  int do_round(std::span<const StateId> states, EdgeMerger& merger, Graph& into) {
+  // Returns how many it has done.
+  std::size_t do_round(std::span<const StateId> states, EdgeMerger& merger, Graph& into,
+                       std::optional<SearchEnd>& cut) {
     std::vector<Part> parts((states.size() + kStatesOfPart - 1) / kStatesOfPart);
     std::atomic<std::size_t> next{0};
     crew_.work([&](unsigned thread) {
-      for (std::size_t i = next++; i < parts.size(); i = next++) {
+      while (!room_.is_round_full()) {
+        const std::size_t i = next++;
+        if (i >= parts.size()) return;
         const std::size_t first = i * kStatesOfPart;
         expand(states.subspan(first, std::min(kStatesOfPart, states.size() - first)), thread,
                parts[i]);
       }
     });
     auto state = states.begin();
+    parts.resize(std::min<std::size_t>(next, parts.size()));
     for (const Part& part : parts) {
       std::size_t first_edge = 0;
       for (const Chunk::State& it : part.chunk.states) {
-        if (it.cut) return it.signal;
+        cut = it.cut;
+        if (cut) return 0;
         add_loops_until(*state, into);
         merger.add(part.chunk, first_edge, it.edges, {}, {});
         add_equals(*state++, into);
@@ -93,7 +110,7 @@ class CycleLabels {
         if (id == made_.size()) made_.add(bytes);
       }
     }
-    return 0;
+    return static_cast<std::size_t>(state - states.begin());
   }
 
   void expand(std::span<const StateId> states, unsigned thread, Part& part) {
@@ -106,7 +123,7 @@ class CycleLabels {
       if (is_made && part.made_here.insert(to).second) part.made.emplace_back(to, goal);
       return to < graph_.expanded() && components_.of(from) == components_.of(to);
     };
-    expanders_[thread]->expand_again(store_, states, bytes_of, is_wanted, part.chunk);
+    expanders_[thread]->expand_again(store_, states, bytes_of, is_wanted, room_, part.chunk);
   }
 
   // The states before this one are in no cycle of several states.
@@ -132,6 +149,8 @@ class CycleLabels {
   const StateStore& store_;
   Crew& crew_;
   const Expanders& expanders_;
+  SearchRoom& room_;
+  const std::size_t memory_;  // before
   Components components_;
   ByteRows made_;  // states that are found again
   std::vector<Edge> loops_;
@@ -140,8 +159,8 @@ class CycleLabels {
 }  // namespace
 
 CycleGraph label_cycles(const Graph& graph, const StateStore& store, Crew& crew,
-                        const Expanders& expanders, int signal) {
-  return CycleLabels(graph, store, crew, expanders).find(signal);
+                        const Expanders& expanders, SearchRoom& room) {
+  return CycleLabels(graph, store, crew, expanders, room).find();
 }
 
 }  // namespace lockstep::host

@@ -12,11 +12,10 @@ namespace lockstep::host {
 struct CycleGraph {
   // The edges of all cycles, with all that labels say; null: those of the search have it.
   std::unique_ptr<Graph> graph;
-  int signal = 0;  // why some edges are missing
+  std::optional<SearchEnd> cut = {};  // why some edges are missing
 };
 
-// `signal`: has stopped the search, so no tick is made any more; 0: none has.
 CycleGraph label_cycles(const Graph& graph, const StateStore& store, Crew& crew,
-                        const Expanders& expanders, int signal);
+                        const Expanders& expanders, SearchRoom& room);
 
 }  // namespace lockstep::host

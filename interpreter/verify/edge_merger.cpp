@@ -32,4 +32,10 @@ std::uint32_t EdgeMerger::label_of(const Chunk& chunk, std::uint32_t own_number)
   return label;
 }
 
+std::size_t EdgeMerger::memory() const {
+  std::size_t bytes = edges_.capacity() * sizeof edges_[0];
+  for (const auto& it : labels_) bytes += it.capacity() * sizeof it[0];
+  return bytes;
+}
+
 }  // namespace lockstep::host

@@ -23,6 +23,7 @@ class EdgeMerger {
            std::span<const StateId> numbers, std::optional<std::uint32_t> label_of_end);
   // The number that a label of a thread has in the graph.
   std::uint32_t label_of(const Chunk& chunk, std::uint32_t own_number);
+  std::size_t memory() const;
 
  private:
   const Expanders& expanders_;

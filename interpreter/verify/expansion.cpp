@@ -7,8 +7,9 @@
 namespace lockstep::host {
 namespace {
 
-constexpr std::uint64_t kTicksBetweenLooks = 1000;
-constexpr std::uint64_t kTicksBetweenSignals = 32;  // to look at one is quick
+constexpr std::uint64_t kTicksBetweenCuts = 1000;
+constexpr std::uint64_t kTicksBetweenLooks = 64;            // at what depends on the machine
+constexpr std::size_t kLeastRound = std::size_t{1} << 20u;  // bytes
 
 void sort_edges(Chunk& chunk, std::size_t first) {
   const auto begin = chunk.edges.begin() + static_cast<std::ptrdiff_t>(first);
@@ -26,6 +27,22 @@ void Chunk::clear() {
   root_ticks = 0;
 }
 
+std::size_t Chunk::memory() const {
+  return 2 * fresh.memory() + fresh.size() * kLaterBytesOfState + edges.size() * sizeof edges[0] +
+         states.size() * sizeof states[0];
+}
+
+std::optional<SearchEnd> SearchRoom::why_over() const {
+  if (limits.stop_signal && limits.stop_signal() != 0) return SearchEnd::Signal;
+  if (limits.time && monotonic_now() - began > *limits.time) return SearchEnd::Time;
+  if (memory + of_round > limits.memory) return SearchEnd::Memory;
+  return std::nullopt;
+}
+
+bool SearchRoom::is_round_full() const {
+  return of_round > std::max(kLeastRound, limits.memory / 8);
+}
+
 Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                    Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits)
     : limits_(limits),
@@ -35,33 +52,58 @@ Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const P
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
     if (models.entries[slot]) values_.emplace_back(slot, std::set<std::string>());
   }
+  stepper_.set_gives_up([this] { return is_over(kTicksBetweenLooks); });
 }
 
-void Expander::expand(const StateStore& known, StateId first, StateId last, Nanoseconds began,
-                      Chunk& into) {
+void Expander::begin(const StateStore& known, SearchRoom& room, Chunk& into) {
   known_ = &known;
-  began_ = began;
-  most_root_ticks_ = limits_.transitions;
+  room_ = &room;
+  chunk_ = &into;
+  counted_ = 0;
+  over_.reset();
   into.clear();
+}
+
+void Expander::count_memory() {
+  const std::size_t memory = chunk_->memory();
+  room_->of_round += memory - counted_;
+  counted_ = memory;
+}
+
+// After so many ticks more.
+bool Expander::is_over(std::uint64_t ticks) {
+  ticks_since_look_ += ticks;
+  if (over_ || ticks_since_look_ < kTicksBetweenLooks) return over_.has_value();
+  ticks_since_look_ = 0;
+  count_memory();
+  over_ = room_->why_over();
+  return over_.has_value();
+}
+
+void Expander::expand(const StateStore& known, StateId first, StateId last, SearchRoom& room,
+                      Chunk& into) {
+  begin(known, room, into);
+  most_root_ticks_ = limits_.transitions;
   into.first = first;
   for (StateId state = first; state < last; ++state) {
     labeller_.shape().clear(end_);
     for_each_tick(
         state, known[state], into,
         [&](const Step& step, Status status) { take(step, status, into); },
-        [&](Chunk::State& at) { return why_cut(at, into); });
+        [&] { return why_cut(into); });
     const bool some_are_held =
         std::ranges::any_of(end_.bits, [](std::byte it) { return it != std::byte{0}; });
     if (some_are_held) into.states.back().end = labels_.add(end_);
-    if (into.states.back().cut) return;
+    if (into.states.back().cut) break;
   }
+  count_memory();
 }
 
 void Expander::expand_again(const StateStore& known, std::span<const StateId> states,
-                            const BytesOf& bytes_of, const EdgeWanted& is_wanted, Chunk& into) {
-  known_ = &known;
+                            const BytesOf& bytes_of, const EdgeWanted& is_wanted, SearchRoom& room,
+                            Chunk& into) {
+  begin(known, room, into);
   most_root_ticks_ = std::numeric_limits<std::uint64_t>::max();
-  into.clear();
   for (const StateId state : states) {
     const auto take_again = [&](const Step& step, Status status) {
       if (status != Status::Running || stepper_.ticker().faulted()) return;
@@ -71,10 +113,10 @@ void Expander::expand_again(const StateStore& known, std::span<const StateId> st
       if (to == kNoState || !is_wanted(step.from, to, goal)) return;
       into.edges.push_back({to, labels_.add(labeller_.with_moves(stepper_))});
     };
-    for_each_tick(state, bytes_of(state), into, take_again,
-                  [](const Chunk::State&) { return std::nullopt; });
-    if (into.states.back().cut) return;
+    for_each_tick(state, bytes_of(state), into, take_again, [] { return std::nullopt; });
+    if (into.states.back().cut) break;
   }
+  count_memory();
 }
 
 template <class Take, class Cut>
@@ -84,26 +126,22 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   const std::size_t first_edge = into.edges.size();
   Chunk::State& at = into.states.emplace_back();
   if (!labeller_.shape().moving_leaves.empty()) at.equals = labels_.add(labeller_.equals(stepper_));
-  std::uint64_t next_signal = kTicksBetweenSignals, next_look = kTicksBetweenLooks;
-  std::size_t most_edges = first_edge + 10 * kTicksBetweenLooks;
+  std::uint64_t next_cut = kTicksBetweenCuts;
+  std::size_t most_edges = first_edge + 10 * kTicksBetweenCuts;
   Step step{state, 0};
   do {
     const std::optional<Status> status = tick(at, into);
     if (!status) break;
     take(step, *status);
     ++step.combination;
-    if (at.root_ticks >= next_signal) {
-      next_signal = at.root_ticks + kTicksBetweenSignals;
-      if (limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0)
-        at.cut = SearchEnd::Signal;
-    }
-    if (at.cut || at.root_ticks < next_look) continue;
-    next_look = at.root_ticks + kTicksBetweenLooks;
+    if (!at.cut && is_over(stepper_.root_ticks())) at.cut = over_;
+    if (at.cut || at.root_ticks < next_cut) continue;
+    next_cut = at.root_ticks + kTicksBetweenCuts;
     if (into.edges.size() > most_edges) {
       sort_edges(into, first_edge);
-      most_edges = 2 * into.edges.size() + kTicksBetweenLooks;
+      most_edges = 2 * into.edges.size() + kTicksBetweenCuts;
     }
-    at.cut = why_cut(at);
+    at.cut = why_cut();
   } while (!at.cut && stepper_.next());
   sort_edges(into, first_edge);
   at.edges = into.edges.size();
@@ -111,7 +149,7 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   at.news = into.news.size();
 }
 
-// Nothing if the limit of ticks ends it.
+// Nothing if a limit ends it.
 std::optional<Status> Expander::tick(Chunk::State& at, Chunk& into) {
   const std::uint64_t left = most_root_ticks_ - std::min(most_root_ticks_, into.root_ticks);
   const Status status = stepper_.tick(std::max<std::uint64_t>(1, left));
@@ -119,20 +157,15 @@ std::optional<Status> Expander::tick(Chunk::State& at, Chunk& into) {
   into.root_ticks += stepper_.root_ticks();
   ++at.transitions;
   if (stepper_.is_done()) return status;
-  at.cut = SearchEnd::Transitions;
+  at.cut = over_.value_or(SearchEnd::Transitions);
   return std::nullopt;
 }
 
 // Cuts off one state with very many answers. Where a chunk begins does not depend on the threads,
 // so what counts states and ticks ends at the same one.
-std::optional<SearchEnd> Expander::why_cut(Chunk::State& at, const Chunk& chunk) {
+std::optional<SearchEnd> Expander::why_cut(const Chunk& chunk) const {
   if (known_->size() + chunk.fresh.size() > limits_.states) return SearchEnd::States;
   if (chunk.root_ticks > limits_.transitions) return SearchEnd::Transitions;
-  if (limits_.stop_signal && (at.signal = limits_.stop_signal()) != 0) return SearchEnd::Signal;
-  if (limits_.time && monotonic_now() - began_ > *limits_.time) return SearchEnd::Time;
-  const std::size_t memory =
-      chunk.fresh.memory() + chunk.edges.capacity() * sizeof(Edge) + labels_.memory();
-  if (memory > limits_.memory) return SearchEnd::Memory;
   return std::nullopt;
 }
 
@@ -170,7 +203,8 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
 void Expander::tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
                     const std::string& text) {
   if (!told_.insert({kind, which}).second) return;
-  into.news.push_back({kind, static_cast<std::uint32_t>(which), step.combination, text});
+  into.news.push_back({kind, static_cast<std::uint32_t>(which), step.combination, text,
+                       stepper_.answers().asked()});
 }
 
 // An entry with more and more values has no end of states.

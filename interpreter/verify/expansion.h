@@ -3,6 +3,7 @@
 // number of threads.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <set>
 #include <string>
@@ -30,6 +31,20 @@ struct News {
   std::uint32_t which;        // a status, node, property or entry
   std::uint32_t combination;  // of answers
   std::string text = {};
+  std::vector<LeafAnswer> answers = {};  // those, but of an EntryValue
+};
+
+// What a search may take of the machine. All threads look at it.
+struct SearchRoom {
+  const SearchLimits& limits;
+  Nanoseconds began;
+  std::size_t memory = 0;                // taken before the round
+  std::atomic<std::size_t> of_round{0};  // by its chunks, so far
+
+  // Why nothing may go on.
+  std::optional<SearchEnd> why_over() const;
+  // A round ends early where its chunks take much of what there is.
+  bool is_round_full() const;
 };
 
 // A row of states. What they lead to and was not known when the row was begun is in `fresh`.
@@ -42,7 +57,6 @@ struct Chunk {
     bool ends = false;                           // some tick ends the run
     std::optional<std::uint32_t> end = {};       // a label of all that these hold, if they do
     std::optional<SearchEnd> cut = {};           // why not all of its ticks were made
-    int signal = 0;
   };
   static constexpr StateId kFresh = 0x80000000;  // of an edge: its goal is in `fresh`
 
@@ -55,6 +69,7 @@ struct Chunk {
   std::vector<News> news;
 
   void clear();
+  std::size_t memory() const;  // that is used, and will be when it is put to the others
 };
 
 // One for each thread.
@@ -66,13 +81,14 @@ class Expander {
 
   StateBytes first_state() { return stepper_.first_state(); }
   // All ticks from these states. They can be cut by limits: then the chunk ends there.
-  void expand(const StateStore& known, StateId first, StateId last, Nanoseconds began, Chunk& into);
+  void expand(const StateStore& known, StateId first, StateId last, SearchRoom& room, Chunk& into);
   // The same once more, for all that labels say of the edges for which `is_wanted`. All of their
-  // goals are known. A signal cuts them.
+  // goals are known. No limit of states or ticks cuts them.
   using BytesOf = std::function<std::span<const std::byte>(StateId)>;
   using EdgeWanted = std::function<bool(StateId from, StateId to, const StateBytes& goal)>;
   void expand_again(const StateStore& known, std::span<const StateId> states,
-                    const BytesOf& bytes_of, const EdgeWanted& is_wanted, Chunk& into);
+                    const BytesOf& bytes_of, const EdgeWanted& is_wanted, SearchRoom& room,
+                    Chunk& into);
 
   const LabelTable& labels() const { return labels_; }
   const LabelShape& label_shape() const { return labeller_.shape(); }
@@ -87,11 +103,18 @@ class Expander {
   void tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
             const std::string& text = {});
   void look_at_values(const Step& step, Chunk& into);
-  std::optional<SearchEnd> why_cut(Chunk::State& at, const Chunk& chunk);
+  std::optional<SearchEnd> why_cut(const Chunk& chunk) const;
+  void begin(const StateStore& known, SearchRoom& room, Chunk& into);
+  bool is_over(std::uint64_t ticks);
+  void count_memory();
 
   const SearchLimits& limits_;
   const StateStore* known_ = nullptr;
-  Nanoseconds began_{0};
+  SearchRoom* room_ = nullptr;
+  Chunk* chunk_ = nullptr;   // that is made
+  std::size_t counted_ = 0;  // of its memory
+  std::uint64_t ticks_since_look_ = 0;
+  std::optional<SearchEnd> over_ = {};  // why nothing goes on
   Stepper stepper_;
   Labeller labeller_;
   LabelTable labels_;

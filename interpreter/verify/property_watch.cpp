@@ -4,6 +4,7 @@
 
 #include "engine/blackboard.h"
 #include "engine/synchronized.h"
+#include "measure/live_properties.h"
 #include "measure/synchronized_measure.h"
 
 namespace lockstep::host {
@@ -13,7 +14,8 @@ constexpr std::byte kDecided{1};
 
 }  // namespace
 
-PropertyWatch::PropertyWatch(const Tree& tree, std::span<const Property> properties) {
+PropertyWatch::PropertyWatch(const Tree& tree, std::span<const Property> properties)
+    : first_fact_(tree.slots.size()) {
   for (const Property& it : properties) {
     parts_.push_back({&it, state_size_, std::vector<SeenNode>(it.nodes().size()),
                       std::make_unique<bool[]>(it.comparisons().size())});
@@ -55,7 +57,8 @@ void PropertyWatch::before_tick(Ticker& ticker) {
   }
 }
 
-void PropertyWatch::look(Part& part, std::byte* compared, Ticker& ticker) {
+void PropertyWatch::look(Part& part, std::byte* compared, Ticker& ticker,
+                         std::span<const FactState> facts) {
   const auto nodes = part.property->nodes();
   for (std::size_t place = 0; place < nodes.size(); ++place) {
     SeenNode& seen = part.seen[place];
@@ -65,6 +68,13 @@ void PropertyWatch::look(Part& part, std::byte* compared, Ticker& ticker) {
   }
   const auto comparisons = part.property->comparisons();
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
+    if (comparisons[i].entry >= first_fact_) {
+      const FactState fact = facts[comparisons[i].entry - first_fact_];
+      part.compared[i] = fact == FactState::Unknown
+                             ? comparisons[i].holds_without_value()
+                             : comparisons[i].holds_for(Value(fact == FactState::True), room_);
+      continue;
+    }
     const Value& value = ticker.blackboard().entries[comparisons[i].entry].value;
     if (!std::holds_alternative<NoValue>(value)) {
       compared[i] = static_cast<std::byte>(comparisons[i].holds_for(value, room_));
@@ -73,7 +83,8 @@ void PropertyWatch::look(Part& part, std::byte* compared, Ticker& ticker) {
   }
 }
 
-void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, bool has_ended) {
+void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts,
+                               bool has_ended) {
   violated_.clear();
   for (const Used& it : used_) {
     if (!ticker.ticked(it.keeper)) continue;
@@ -86,7 +97,7 @@ void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, bool has_ended)
     if (*decided == kDecided) continue;
     const std::size_t count = part.property->comparisons().size();
     std::byte* const own = decided + 1 + count;
-    look(part, decided + 1, ticker);
+    look(part, decided + 1, ticker, facts);
     PropertyVerdict verdict = part.property->step(
         own, {.nodes = part.seen, .comparisons = std::span(part.compared.get(), count)});
     if (verdict == PropertyVerdict::Open && has_ended) verdict = part.property->at_end(own);
@@ -104,6 +115,20 @@ bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {
   const std::byte* const own = decided + 1 + part.property->comparisons().size();
   return !part.property->is_of_last_tick() &&
          part.property->at_end(own) == PropertyVerdict::Violated;
+}
+
+PropertyNames names_with_facts(const Tree& tree, std::span<const FactRow> facts) {
+  PropertyNames names = property_names(tree);
+  for (const FactRow& it : facts) {
+    names.entries.push_back({.key = "fact:" + it.name, .type = "bool", .is_strict = true});
+  }
+  return names;
+}
+
+bool names_fact(const Property& property, const Tree& tree) {
+  return std::ranges::any_of(property.comparisons(), [&](const EntryComparison& it) {
+    return it.entry >= tree.slots.size();
+  });
 }
 
 std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree) {

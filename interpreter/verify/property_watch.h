@@ -1,5 +1,6 @@
 // The properties of a tree while a search ticks it: what they look at is read from the engine,
-// exactly as recordings have it, and all that they remember is some bytes of the state.
+// exactly as recordings have it, and all that they remember is some bytes of the state. They may
+// also name facts of the models of leaves, {fact:charged}, which no run has.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "engine/ticker.h"
+#include "leaves/model_leaf.h"
 #include "property/property.h"
 
 namespace lockstep::host {
@@ -22,8 +24,9 @@ class PropertyWatch {
   std::size_t state_size() const { return state_size_; }
   void begin(std::byte* state) const;
   void before_tick(Ticker& ticker);
-  // After a tick, before its state is folded. `has_ended`: the root has a result.
-  void after_tick(std::byte* state, Ticker& ticker, bool has_ended);
+  // After a tick, before its state is folded. `has_ended`: no tick comes any more.
+  void after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts,
+                  bool has_ended);
 
   // The properties that the last tick has violated, by their place.
   std::span<const std::size_t> violated() const { return violated_; }
@@ -46,14 +49,19 @@ class PropertyWatch {
     std::size_t child;
   };
 
-  void look(Part& part, std::byte* compared, Ticker& ticker);
+  void look(Part& part, std::byte* compared, Ticker& ticker, std::span<const FactState> facts);
 
+  const std::size_t first_fact_;  // of what is compared, behind the entries
   std::vector<Part> parts_;
   std::vector<Used> used_;
   std::size_t state_size_ = 0;
   std::vector<std::size_t> violated_;
   std::string room_;
 };
+
+// The names of a tree, and behind its entries the facts of a leaf file.
+PropertyNames names_with_facts(const Tree& tree, std::span<const FactRow> facts);
+bool names_fact(const Property& property, const Tree& tree);
 
 // The nodes whose statuses they look at, with all above them.
 std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree);

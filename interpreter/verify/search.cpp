@@ -19,7 +19,11 @@ class Searcher {
  public:
   Searcher(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
            Nanoseconds period, const SearchLimits& limits)
-      : tree_(tree), limits_(limits), crew_(std::max(1u, limits.jobs)), result_(tree) {
+      : tree_(tree),
+        limits_(limits),
+        crew_(std::max(1u, limits.jobs)),
+        result_(tree),
+        room_{limits, monotonic_now()} {
     result_.store = StateStore(limits.hash_bits);
     result_.rising_answers = limits.rising_answers;
     if (limits.symmetry) result_.symmetry = Symmetry(tree, models, nodes_of(properties, tree));
@@ -37,14 +41,16 @@ class Searcher {
     for (StateId done = 0; done < result_.store.size();) {
       const StateId last =
           std::min(static_cast<StateId>(result_.store.size()), done + states_of_round());
-      if (!do_round(done, last)) break;
-      done = last;
+      const StateId next = do_round(done, last);
+      if (next == done) break;
+      done = next;
       if (result_.store.keeps_hashes()) result_.store.forget_before(done);
     }
+    chunks_ = {};
     if (limits_.cycles) label_edges_of_cycles();
     for (const auto& it : expanders_) result_.coverage.add(it->coverage());
     result_.coverage.spread(result_.symmetry);
-    result_.took = monotonic_now() - began_;
+    result_.took = monotonic_now() - room_.began;
     return std::move(result_);
   }
 
@@ -69,19 +75,21 @@ class Searcher {
     return limits_.transitions - std::min(limits_.transitions, result_.root_ticks);
   }
 
-  // False: a limit was reached.
-  bool do_round(StateId first, StateId last) {
-    if (has_ended(first) || is_over(first)) return false;
+  // Returns the first state that it has not looked at: `first` if a limit was reached.
+  StateId do_round(StateId first, StateId last) {
+    if (has_ended(first) || is_over(first)) return first;
     const StateId count = (last - first + kStatesOfChunk - 1) / kStatesOfChunk;
     if (chunks_.size() < count) chunks_.resize(count);
     std::atomic<StateId> next{0}, cut{count};  // chunks; nothing behind one that is cut counts
     std::atomic<std::uint64_t> ticks{0};       // nor behind those that use up the limit
     const auto work = [&](unsigned thread) {
-      for (StateId i = 0; ticks <= ticks_left() && (i = next++) < count && i <= cut;) {
+      while (ticks <= ticks_left() && !room_.is_round_full()) {
+        const StateId i = next++;
+        if (i >= count || i > cut) return;
         const StateId from = first + i * kStatesOfChunk;
         chunks_[i].thread = thread;
         expanders_[thread]->expand(result_.store, from, std::min(last, from + kStatesOfChunk),
-                                   began_, chunks_[i]);
+                                   room_, chunks_[i]);
         ticks += chunks_[i].root_ticks;
         if (!chunks_[i].states.back().cut) continue;
         for (StateId least = cut; i < least && !cut.compare_exchange_weak(least, i);) {
@@ -90,10 +98,11 @@ class Searcher {
     };
     // To wake the others takes longer than one chunk does.
     count == 1 ? work(0) : crew_.work(work);
-    for (StateId i = 0; i < count; ++i) {
-      if (is_over(first + i * kStatesOfChunk) || !put_together(chunks_[i])) return false;
+    const StateId made = std::min<StateId>(next, count);
+    for (StateId i = 0; i < made; ++i) {
+      if (is_over(first + i * kStatesOfChunk) || !put_together(chunks_[i])) return first;
     }
-    return true;
+    return std::min(last, first + made * kStatesOfChunk);
   }
 
   // --- in the order of the states ----------------------------------------------------------------
@@ -117,8 +126,8 @@ class Searcher {
       }
       if (it.ends) result_.graph.ends[chunk.first + i] = true;
       if (it.cut) {
-        result_.end = *it.cut;
-        result_.signal = it.signal;
+        if (*it.cut == SearchEnd::Signal) result_.signal = limits_.stop_signal();
+        stop(*it.cut);
         return false;
       }
       merger_->add(chunk, begin.edges, it.edges, numbers_, it.end);
@@ -137,15 +146,21 @@ class Searcher {
   }
 
   void label_edges_of_cycles() {
-    CycleGraph cycles =
-        label_cycles(result_.graph, result_.store, crew_, expanders_, result_.signal);
+    // Also where the search was at a limit, something is left for them.
+    SearchLimits limits = limits_;
+    if (limits.time) *limits.time += *limits.time / 20;
+    limits.memory +=
+        std::min(limits.memory / 8, std::numeric_limits<std::size_t>::max() - limits.memory);
+    SearchRoom room{limits, room_.began, memory()};
+    CycleGraph cycles = label_cycles(result_.graph, result_.store, crew_, expanders_, room);
     result_.cycles = std::move(cycles.graph);
-    result_.signal = cycles.signal;
-    if (cycles.signal != 0) stop(SearchEnd::Signal);
+    if (!cycles.cut) return;
+    if (*cycles.cut == SearchEnd::Signal) result_.signal = limits_.stop_signal();
+    stop(*cycles.cut);
   }
 
   void take(const News& news, StateId from) {
-    const Occurrence here{{from, news.combination}, depth() + 1};
+    const Occurrence here{{from, news.combination}, depth() + 1, news.answers};
     switch (news.kind) {
       case News::Kind::Result:
         if (auto& first = result_.results[news.which]; !first) first = here;
@@ -182,19 +197,27 @@ class Searcher {
 
   // Before a round, this looks at all that depends on the machine.
   bool has_ended(StateId state) {
-    if (limits_.stop_signal && (result_.signal = limits_.stop_signal()) != 0) {
-      return stop(SearchEnd::Signal);
+    room_.memory = memory();
+    room_.of_round = 0;
+    if (const auto end = room_.why_over()) {
+      if (*end == SearchEnd::Signal) result_.signal = limits_.stop_signal();
+      return stop(*end);
     }
     const Nanoseconds now = monotonic_now();
-    if (limits_.time && now - began_ > *limits_.time) return stop(SearchEnd::Time);
-    const std::size_t memory = result_.memory();
-    if (memory > limits_.memory) return stop(SearchEnd::Memory);
     if (limits_.tell && now - told_ > std::chrono::milliseconds(100)) {
       told_ = now;
       limits_.tell({result_.store.size(), result_.store.size() - state, result_.transitions,
-                    depth(), memory});
+                    depth(), room_.memory});
     }
     return false;
+  }
+
+  // All of it, with what is to come.
+  std::size_t memory() const {
+    std::size_t bytes = result_.memory() + merger_->memory();
+    bytes += result_.store.size() * kLaterBytesOfState;
+    for (const auto& it : expanders_) bytes += it->labels().memory();
+    return bytes;
   }
 
   bool stop(SearchEnd end) {
@@ -212,7 +235,7 @@ class Searcher {
   std::vector<StateId> numbers_;  // of the fresh states of a chunk
   std::map<std::uint32_t, std::set<std::string>> values_;
   StateId next_depth_ = 0;
-  const Nanoseconds began_ = monotonic_now();
+  SearchRoom room_;
   Nanoseconds told_{0};
 };
 

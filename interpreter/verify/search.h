@@ -15,7 +15,8 @@ namespace lockstep::host {
 
 struct Occurrence {
   Step step;
-  std::uint32_t ticks = 0;  // of a run until then, this one too
+  std::uint32_t ticks = 0;               // of a run until then, this one too
+  std::vector<LeafAnswer> answers = {};  // of the step
 };
 
 struct SearchResult {

@@ -11,6 +11,9 @@
 
 namespace lockstep::host {
 
+// What the questions of a verdict take for each state, most of it to find components of the graph.
+inline constexpr std::size_t kLaterBytesOfState = 64;
+
 struct SearchProgress {
   std::uint64_t states = 0, waiting = 0, transitions = 0;
   std::uint32_t depth = 0;

@@ -3,7 +3,7 @@
 namespace lockstep::host {
 namespace {
 
-constexpr std::uint64_t kMostTicksAtOnce = 10'000;
+constexpr std::uint64_t kMostTicksAtOnce = 10'000, kTicksBetweenQuestions = 256;
 const Symmetry kNoSymmetry;
 
 SavedRun saved(const Ticker& ticker) {
@@ -63,6 +63,7 @@ Status Stepper::tick(std::uint64_t most) {
   }
   Status status = ticker_.tick_root(time_);
   for (root_ticks_ = 1; ticker_.is_asked() && root_ticks_ < most; ++root_ticks_) {
+    if (gives_up_ && root_ticks_ % kTicksBetweenQuestions == 0 && gives_up_()) break;
     const auto node = ticker_.take_request();
     if (!node || status != Status::Running || ticker_.faulted()) break;
     if (root_ticks_ == kMostTicksAtOnce) {
@@ -73,7 +74,8 @@ Status Stepper::tick(std::uint64_t most) {
     status = ticker_.tick_root_again();
   }
   if (!watch_.empty()) {
-    watch_.after_tick(property_bytes_.data(), ticker_, status != Status::Running);
+    const bool is_over = status != Status::Running || ticker_.faulted();
+    watch_.after_tick(property_bytes_.data(), ticker_, leaves_.facts(), is_over);
   }
   return status;
 }

@@ -35,6 +35,8 @@ class Stepper {
   // It ticks the root so often at most; if a node then asks for more, it is not done.
   Status tick(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
   bool is_done() const { return !ticker_.is_asked(); }
+  // `tick` asks it now and then while nodes ask for more: true, and it is not done.
+  void set_gives_up(std::function<bool()> gives_up) { gives_up_ = std::move(gives_up); }
   // `tick` calls it when it has ticked the root and is about to tick it again.
   using BeforeTickAgain = std::function<void(ModelLeaves& leaves)>;
   void set_before_tick_again(BeforeTickAgain call) { before_tick_again_ = std::move(call); }
@@ -81,6 +83,7 @@ class Stepper {
   Nanoseconds time_{0};
   std::uint64_t root_ticks_ = 0;
   BeforeTickAgain before_tick_again_;
+  std::function<bool()> gives_up_;
   StateBytes folded_, moved_;
 };
 

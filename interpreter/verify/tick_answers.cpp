@@ -78,7 +78,7 @@ void TickAnswers::begin() {
   at_ = 0;
   if (!is_given_) return;
   digits_.clear();
-  is_used_.assign(given_.size(), false);
+  next_given_.assign(children_of_.size(), 0);
 }
 
 bool TickAnswers::next() {
@@ -99,7 +99,7 @@ bool TickAnswers::next() {
 std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
   if (count <= 1) return 0;
   if (at_ == digits_.size()) {
-    digits_.push_back({is_given_ ? given(asker) : least(asker), count, asker});
+    digits_.push_back({is_given_ ? given(asker, count) : least(asker), count, asker});
     note(digits_.back());
   }
   return digits_[at_++].value;
@@ -150,13 +150,13 @@ void TickAnswers::undo(const Digit& digit) {
   }
 }
 
-std::uint32_t TickAnswers::given(std::uint32_t asker) {
-  for (std::size_t i = 0; i < given_.size(); ++i) {
-    if (is_used_[i] || given_[i].asker != asker) continue;
-    is_used_[i] = true;
-    return given_[i].value;
+std::uint32_t TickAnswers::given(std::uint32_t asker, std::uint32_t count) {
+  std::size_t& next = next_given_[asker];
+  while (next < given_.size() && given_[next].asker != asker) ++next;
+  if (next == given_.size() || given_[next].value >= count) {
+    throw std::logic_error("a tick asks for more than it did before");
   }
-  throw std::logic_error("a tick asks for more than it did before");
+  return given_[next++].value;
 }
 
 std::vector<LeafAnswer> TickAnswers::asked() const {

@@ -63,7 +63,7 @@ class TickAnswers final : public Answers {
   std::uint32_t least(std::uint32_t asker) const;
   void note(Digit& digit);
   void undo(const Digit& digit);
-  std::uint32_t given(std::uint32_t asker);
+  std::uint32_t given(std::uint32_t asker, std::uint32_t count);
 
   const Tree& tree_;
   const Symmetry& symmetry_;
@@ -76,7 +76,7 @@ class TickAnswers final : public Answers {
   std::size_t at_ = 0;
   bool is_given_ = false;
   std::vector<LeafAnswer> given_;
-  std::vector<bool> is_used_;  // of those
+  std::vector<std::size_t> next_given_;  // of each asker: where its next one may be
 };
 
 }  // namespace lockstep::host

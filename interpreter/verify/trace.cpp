@@ -84,10 +84,11 @@ Trail Tracer::begin(std::vector<NodeIndex> nodes) {
   return {{}, first, first, std::move(nodes)};
 }
 
-Status Tracer::tick(std::span<const std::byte> state, const Step& step) {
-  stepper_.load(state, step.from == 0);
+Status Tracer::tick(std::span<const std::byte> state, const GuidedStep& step) {
+  stepper_.load(state, step.step.from == 0);
+  if (!step.answers.empty()) stepper_.give(step.answers);
   Status status = stepper_.tick();
-  for (std::uint32_t i = 0; i < step.combination; ++i) {
+  for (std::uint32_t i = 0; i < step.step.combination && step.answers.empty(); ++i) {
     stepper_.next();
     status = stepper_.tick();
   }
@@ -127,7 +128,7 @@ void Tracer::go(Trail& trail, std::span<const StateId> way) {
 // The run does in its places what the search does in others.
 void Tracer::go(Trail& trail, const GuidedStep& step) {
   for (const Swap& it : step.swaps) swap(trail.nodes, it);
-  Outcome wanted = outcome(tick(trail.searched, step.step));
+  Outcome wanted = outcome(tick(trail.searched, step));
   TracedTick next{trail.now, step.step.from == 0, stepper_.answers().asked()};
   trail.searched = wanted.searched;
   if (!found_.symmetry.empty()) {

@@ -23,6 +23,7 @@ struct GuidedStep {
   Step step;
   Swaps swaps = {};
   Swap after = {};
+  std::vector<LeafAnswer> answers = {};  // of the step; empty: they are found again
 };
 
 // A run along steps of a search, as far as it has come. Where equal children have changed places in
@@ -46,6 +47,9 @@ class Tracer {
   Trail begin(std::vector<NodeIndex> nodes = {});
   void go(Trail& trail, std::span<const GuidedStep> steps);
   void go(Trail& trail, const Step& step) { go(trail, GuidedStep{step}); }
+  void go(Trail& trail, const Occurrence& it) {
+    go(trail, GuidedStep{.step = it.step, .answers = it.answers});
+  }
   // From the first of these states of the search on to each other one, by the first tick that does.
   void go(Trail& trail, std::span<const StateId> way);
   // Rounds of a cycle until everything is where it was.
@@ -54,6 +58,11 @@ class Tracer {
   // After each tick; its state is not folded yet.
   using After = std::function<void(Stepper&, Status status, std::size_t tick)>;
   void play(const TracedRun& run, const After& after);
+  // All ticks from a state of the search, as long as `call` is true. False: some are missing.
+  bool for_each_tick(StateId from, const std::function<bool(const Stepper&)>& call);
+  // One of the ticks of a run; then `ticker` is as it was behind it.
+  Status tick(const TracedTick& tick);
+  const Ticker& ticker() const { return stepper_.ticker(); }
 
   // The scripts say what each leaf does in this run.
   LeafScripts scripts(const TracedRun& run);
@@ -66,8 +75,7 @@ class Tracer {
   Step first_step(std::span<const std::byte> state, StateId from, StateId to);
   template <class IsWanted>
   Step find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted);
-  Status tick(std::span<const std::byte> state, const Step& step);
-  Status tick(const TracedTick& tick);
+  Status tick(std::span<const std::byte> state, const GuidedStep& step);
   Outcome outcome(Status status);
   void go(Trail& trail, const GuidedStep& step);
   void swap(std::vector<NodeIndex>& nodes, const Swap& swap) const;

@@ -69,7 +69,7 @@ class VerdictMaker {
   TracedRun run_to(const Occurrence& it) {
     Trail trail = tracer_.begin();
     tracer_.go(trail, found_.way_to(it.step.from));
-    tracer_.go(trail, it.step);
+    tracer_.go(trail, it);
     return std::move(trail.run);
   }
 

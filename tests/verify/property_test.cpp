@@ -90,4 +90,14 @@ TEST_CASE("one property that is violated does not hide another") {
   CHECK(it.findings() == "property/x, property/y");
 }
 
+TEST_CASE("a property may name a fact of the leaf file") {
+  constexpr auto kRows = R"(<fact name="charged" changes="never"/><leaf path="*/c" fact="charged"/>
+    <leaf path="*/a" result="success" sets="charged=true"/>)";
+  const Verified it("Sequence[memory=true](Fallback[memory=true](c? a) b)", kRows, {}, 10,
+                    {"never b.running and {fact:charged} != true", "never {fact:charged} == false",
+                     "{fact:charged} == true only after c.ticked"});
+  CHECK(it.findings() == "property/never {fact:charged} == false");
+  CHECK_THROWS(Verified("a", "", {}, 10, {"never {fact:charged} == true"}));
+}
+
 }  // namespace lockstep::host::test

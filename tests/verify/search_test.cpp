@@ -102,6 +102,28 @@ TEST_CASE("what a limit stops is bounded, and the first ticks are complete") {
   CHECK(signal.found.signal == 2);
 }
 
+TEST_CASE("a limit of memory counts what a round takes, and what the verdict needs") {
+  const std::string tree = absolute(6, 20);
+  constexpr std::size_t kMost = std::size_t{4} << 20u;
+  const Verified it(tree, R"(<leaf path="*" step="0..3"/>)", {.memory = kMost, .symmetry = false});
+  CHECK(it.found.end == SearchEnd::Memory);
+  CHECK(it.found.memory() < kMost);
+}
+
+TEST_CASE("a limit of time also counts within the many ticks of one period") {
+  std::string children;
+  for (int i = 0; i < 3; ++i) {
+    children += "Repeat[num_cycles=-1](RetryUntilSuccessful[num_attempts=3](Fallback(Sequence(a" +
+                std::to_string(i) + " b" + std::to_string(i) + ") c" + std::to_string(i) + "))) ";
+  }
+  const Verified it("Parallel(" + children + ")", "", {.time = std::chrono::milliseconds(100)}, 10,
+                    {}, btcpp::kRules);
+  CHECK(it.found.end == SearchEnd::Time);
+  CHECK_FALSE(it.found.faults.empty());
+  // So that no tick before it is made again to show it.
+  for (const auto& [node, fault] : it.found.faults) CHECK_FALSE(fault.second.answers.empty());
+}
+
 TEST_CASE("an entry with more and more values stops the search, and is named") {
   const Verified it(
       "Sequence[memory=true](Script[code=n:=0] Repeat(Sequence(Script[code=n=n+1] a)))", "",

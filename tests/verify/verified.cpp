@@ -3,15 +3,24 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "measure/live_properties.h"
+#include "verify/property_watch.h"
 
 namespace lockstep::host::test {
 namespace {
 
-std::vector<Property> properties_of(const Tree& tree, const std::vector<std::string>& texts) {
+std::unique_ptr<LeafFile> file_of(std::string_view rows, Diagnostics& diagnostics) {
+  const std::string text = "<leaves lockstep=\"1\">" + std::string(rows) + "</leaves>";
+  return read_leaf_file("t.leaves.xml", text, diagnostics);
+}
+
+std::vector<Property> properties_of(const Tree& tree, std::string_view rows,
+                                    const std::vector<std::string>& texts) {
+  Diagnostics diagnostics;
+  const auto file = file_of(rows, diagnostics);
+  const auto facts = file == nullptr ? std::vector<FactRow>() : file->facts;
   std::vector<Property> properties;
   for (const std::string& text : texts) {
-    auto property = Property::parse(text, property_names(tree));
+    auto property = Property::parse(text, names_with_facts(tree, facts));
     if (!property) throw std::invalid_argument(property.error().message);
     properties.push_back(std::move(*property));
   }
@@ -28,8 +37,7 @@ LeafModels models_of(const Tree& tree, std::string_view rows,
   }
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems;
-  const std::string text = "<leaves lockstep=\"1\">" + std::string(rows) + "</leaves>";
-  const auto file = read_leaf_file("t.leaves.xml", text, diagnostics);
+  const auto file = file_of(rows, diagnostics);
   LeafModels models = make_models(tree, file.get(), diagnostics, problems, observed);
   if (diagnostics.has_errors()) throw std::invalid_argument(diagnostics.all()[0].message);
   if (!problems.empty()) throw std::invalid_argument(problems[0].message);
@@ -41,7 +49,7 @@ LeafModels models_of(const Tree& tree, std::string_view rows,
 Verified::Verified(std::string_view text, std::string_view rows, const SearchLimits& limits,
                    double of_rate, std::vector<std::string> texts, const LanguageRules& rules)
     : tree(tree_from_text(text, rules)),
-      properties(properties_of(tree, texts)),
+      properties(properties_of(tree, rows, texts)),
       models(models_of(tree, rows, properties)),
       rate(of_rate),
       found(search(tree, models, properties, from_seconds(1 / rate), limits)),

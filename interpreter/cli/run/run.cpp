@@ -19,6 +19,7 @@
 #include "cli/run/watchers.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "measure/live_properties.h"
 #include "plugin/contract/plugin_clock.h"
 #include "recording/part_names.h"
 #include "recording/write/recorder.h"
@@ -453,8 +454,8 @@ int run(RunCommandOptions options) {
   return_freed_memory();
   if (!options.leaves.empty() && !leaves.give(runnable.tree)) return kExitUsage;
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
-  auto properties =
-      all_properties(std::move(runnable.properties), options.properties, runnable.tree);
+  auto properties = all_properties(std::move(runnable.properties), options.properties,
+                                   property_names(runnable.tree));
   if (!properties) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);

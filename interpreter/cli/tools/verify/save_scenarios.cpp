@@ -5,17 +5,20 @@
 #include "cli/console.h"
 #include "scenario/recorded_words.h"
 #include "scenario/scenario_writer.h"
+#include "verify/property_watch.h"
 
 namespace lockstep::host {
 namespace {
 
 // The scenario expects that a property holds which some behavior violates. For the rest it
 // expects what came: a person has to say what should come.
-ScenarioText text_of(const Finding& finding, const std::vector<Property>& properties) {
+ScenarioText text_of(const Finding& finding, const std::vector<Property>& properties,
+                     const Tree& tree) {
   ScenarioText text{.name = "verify: " + finding.name,
                     .comments = {"found by verify: " + finding.message}};
   for (const Property& property : properties) {
-    if (finding.name == "property/" + property.name()) text.expected.push_back(property.text());
+    const bool is_meant = finding.name == "property/" + property.name();
+    if (is_meant && !names_fact(property, tree)) text.expected.push_back(property.text());
   }
   return text;
 }
@@ -33,7 +36,7 @@ bool save_scenarios(const std::string& path, const VerifyReport& report, const T
       print_error("--save: " + words.error);
       return false;
     }
-    scenarios += to_text(words, text_of(finding, properties));
+    scenarios += to_text(words, text_of(finding, properties, tree));
   }
   if (scenarios.empty()) return true;
   const auto saved = add_to_scenario_file(path, report.tree, scenarios);

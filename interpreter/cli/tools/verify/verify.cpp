@@ -19,6 +19,7 @@
 #include "document/reporter.h"
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
+#include "verify/property_watch.h"
 #include "verify/verifiable.h"
 
 namespace lockstep::host {
@@ -119,12 +120,15 @@ class VerifyCommand {
     const Runnable runnable = make_runnable(std::move(*loaded));
     const auto file = read_leaves(options_.leaves, diagnostics_);
     if (!file) return refuse();
-    auto properties = all_properties(runnable.properties, options_.properties, runnable.tree);
+    auto properties =
+        all_properties(runnable.properties, options_.properties,
+                       names_with_facts(runnable.tree, *file != nullptr ? (*file)->facts
+                                                                        : std::vector<FactRow>()));
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const LeafModels models =
-        make_models(runnable.tree, file->get(), diagnostics_, problems, observed());
+        make_models(runnable.tree, file->get(), diagnostics_, problems, observed(runnable.tree));
     places.report(problems, diagnostics_);
     if (diagnostics_.has_errors()) return refuse();
     print_diagnostics(diagnostics_, Severity::Warning);
@@ -149,14 +153,14 @@ class VerifyCommand {
   }
 
   // The entries and progress that the properties compare.
-  Observed observed() const {
+  Observed observed(const Tree& tree) const {
     Observed observed;
     for (const Property& property : properties_) {
       for (const ProgressComparison& it : property.progress_comparisons()) {
         observed.progress.push_back({it.node, it.constant});
       }
       for (const EntryComparison& it : property.comparisons()) {
-        observed.entries.push_back(it.entry);
+        if (it.entry < tree.slots.size()) observed.entries.push_back(it.entry);
       }
     }
     return observed;
