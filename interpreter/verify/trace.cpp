@@ -188,6 +188,16 @@ void Tracer::play(const TracedRun& run, const After& after) {
   for (std::size_t i = 0; i < run.size(); ++i) after(stepper_, tick(run[i]), i);
 }
 
+bool Tracer::for_each_tick(StateId from, const std::function<bool(const Stepper&)>& call) {
+  stepper_.load(state_of(from), from == 0);
+  bool goes_on = true;
+  do {
+    stepper_.tick();
+    goes_on = call(stepper_);
+  } while (goes_on && stepper_.next());
+  return goes_on;
+}
+
 LeafScripts Tracer::scripts(const TracedRun& run) {
   LeafScripts scripts;
   scripts.ticks = run.size();

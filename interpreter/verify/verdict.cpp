@@ -11,6 +11,7 @@
 #include "measure/stall.h"
 #include "summary/standstill_text.h"
 #include "verify/fair_cycle.h"
+#include "verify/fixed_conditions.h"
 #include "verify/holds.h"
 
 namespace lockstep::host {
@@ -121,6 +122,12 @@ class VerdictMaker {
                        ? "it can never end"
                        : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
     trap.more = why_it_stands(trap);
+    if (!found_.store.keeps_hashes()) {
+      const auto place = [&](NodeIndex node) { return at(node); };
+      for (auto& line : false_for_ever(tree_, models_, tracer_, reached, place)) {
+        trap.more.push_back(std::move(line));
+      }
+    }
     if (ticks == 0) {
       trap.more.push_back("if it is to run for ever, say so in the leaf file: <tree ends=\"no\"/>");
     }

@@ -1,4 +1,5 @@
 // Each kind of finding on a small tree that has it, and on one like it that has not.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "verify/verified.h"
@@ -171,6 +172,26 @@ TEST_CASE("a leaf that drifts while it is held") {
                     {.symmetry = false});
   CHECK(it.found.is_complete());
   CHECK(it.found.store.size() > 9);
+}
+
+TEST_CASE("a trap names the conditions that are false for ever, and the entries that they read") {
+  const Verified it(
+      "Sequence[memory=true](Script[code=open:=false] "
+      "Repeat(Inverter(Sequence(Check[code=open] AlwaysSuccess))) a[skip_if=open])");
+  REQUIRE(it.finding("trap") != nullptr);
+  const auto& more = it.finding("trap")->more;
+  const auto line = std::ranges::find_if(
+      more, [](const std::string& text) { return text.starts_with("false for ever: "); });
+  REQUIRE(line != more.end());
+  CHECK(line->ends_with("Check, which reads {open} (false)"));
+  // Not one that a leaf may still make true.
+  const Verified other(
+      "Sequence[memory=true](Script[code=open:=false] Parallel(Repeat(Inverter(Check[code=open])) "
+      "Repeat(Inverter(a[on_success=open=true]))))",
+      R"(<tree ends="yes"/>)");
+  if (const Finding* trap = other.finding("trap")) {
+    for (const std::string& text : trap->more) CHECK_FALSE(text.starts_with("false for ever: "));
+  }
 }
 
 }  // namespace lockstep::host::test
