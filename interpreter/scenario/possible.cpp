@@ -3,7 +3,7 @@
 #include "core/clock.h"
 #include "engine/synchronized.h"
 #include "leaves/models.h"
-#include "verify/search.h"
+#include "verify/chance_runs.h"
 #include "verify/verifiable.h"
 
 namespace lockstep::host {
@@ -25,6 +25,7 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
       tree, models, {}, period,
       {.states = kMostStates, .transitions = kMostTransitions, .symmetry = false, .cycles = false});
   if (!found.is_complete()) return std::nullopt;
+  if (find_contradiction(tree, models, {}, period, found, usual_chance(found))) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
   Stepper stepper(tree, models, {}, period, found.symmetry, found.rising_answers);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/wording.h"
+#include "verify/chance_runs.h"
 #include "verify/verdict.h"
 #include "verify/verifiable.h"
 
@@ -77,6 +78,9 @@ std::vector<Surprise> verify_scenario(const Rehearsal& rehearsal, const Stage& s
     surprises.back().more.push_back("lockstep verify shows a run to it");
   }
   add_results(rehearsal, found, surprises);
+  const auto wrong = find_contradiction(tree, models, properties, from_seconds(1 / rehearsal.rate),
+                                        found, usual_chance(found));
+  if (wrong) surprises.push_back({place, to_text(*wrong), {"this is a bug in lockstep"}});
   if (!found.is_complete() && surprises.empty()) {
     surprises.push_back({place,
                          fmt::format("not verified: nothing found in the first {}, and there are "

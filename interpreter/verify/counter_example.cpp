@@ -5,11 +5,13 @@
 #include <cerrno>
 #include <cstring>
 
+#include "measure/live_properties.h"
 #include "recording/write/recorder.h"
 #include "runtime/deadlines.h"
 #include "runtime/loop.h"
 #include "system/descriptors.h"
 #include "system/output_file.h"
+#include "verify/same_tick.h"
 
 namespace lockstep::host {
 namespace {
@@ -30,9 +32,68 @@ std::optional<Problem> write_text(const std::string& path, const std::string& te
   return std::nullopt;
 }
 
+// The property that the finding is about, or none. No run knows facts.
+std::vector<Property> property_of(const Tree& tree, const Finding& finding,
+                                  std::span<const Property> properties) {
+  std::vector<Property> found;
+  for (const Property& it : properties) {
+    const bool is_meant = finding.name == "property/" + it.name();
+    if (is_meant && !names_fact(it, tree)) found.push_back(it);
+  }
+  return found;
+}
+
+// Sees whether a run shows what was found.
+class Confirmation final : public Observer {
+ public:
+  Confirmation(const Tree& tree, const Finding& finding, Tracer& tracer,
+               std::span<const Property> properties)
+      : finding_(finding),
+        tracer_(tracer),
+        checks_(property_of(tree, finding, properties)),
+        live_(tree, checks_) {}
+
+  void before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) override {
+    live_.before_tick(ticker);
+  }
+  void after_tick(Ticker& ticker, const TickReport& report) override {
+    live_.after_tick(ticker, report.tick);
+    if (!wrong_.empty() || ticks_ == finding_.run.size()) return;
+    const Status status = tracer_.tick(finding_.run[ticks_++]);
+    std::string wrong = difference(ticker, tracer_.ticker());
+    if (wrong.empty() && status != report.status) {
+      wrong = fmt::format("the tree is {}; in the search, it is {}", to_string(report.status),
+                          to_string(status));
+    }
+    if (!wrong.empty()) wrong_ = fmt::format("in tick {}, {}", report.tick, wrong);
+  }
+  void run_ended(Ticker&, const RunEnd& end) override {
+    const bool by_itself = end.reason == StopReason::Completed || end.reason == StopReason::Fault;
+    if (by_itself) checks_.end(RunIsOver::ByItself);
+  }
+
+  // "" if it has shown it.
+  std::string wrong() const {
+    if (!wrong_.empty()) return wrong_;
+    if (ticks_ != finding_.run.size()) return fmt::format("it ends after {} ticks", ticks_);
+    const bool is_shown = finding_.repeats || checks_.all().empty() ||
+                          checks_.verdict(0) == PropertyVerdict::Violated;
+    return is_shown ? "" : "it does not violate the property";
+  }
+
+ private:
+  const Finding& finding_;
+  Tracer& tracer_;
+  PropertyChecks checks_;
+  LiveProperties live_;
+  std::size_t ticks_ = 0;
+  std::string wrong_;
+};
+
 // Returns "" or why it cannot be written.
 std::string record(const Tree& tree, const LeafScripts& scripts, const std::string& path,
-                   const Finding& finding, const CounterExampleOptions& options) {
+                   const Finding& finding, Confirmation& confirmation,
+                   const CounterExampleOptions& options) {
   Recorder recorder(tree, {.path = path,
                            .run = {.tree_file = options.tree_file,
                                    .rate_hz = options.rate,
@@ -41,7 +102,7 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
   if (!recorder.error().empty()) return recorder.error();
   VirtualClock clock;
   Run run(tree, {.period = deadline_of(1, options.rate), .virtual_time = true});
-  Observer* const observers[] = {&recorder};
+  Observer* const observers[] = {&recorder, &confirmation};
   LoopOptions loop;
   loop.rate = options.rate;
   loop.max_ticks = scripts.ticks;
@@ -53,6 +114,7 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
 
 Result<CounterExample> write_counter_example(const Tree& tree, const Finding& finding,
                                              Tracer& tracer, PlayedLeaves& played,
+                                             std::span<const Property> properties,
                                              const CounterExampleOptions& options) {
   CounterExample files{options.stem + ".jsonl", options.stem + ".leaves"};
   LeafScripts scripts = tracer.scripts(finding.run);
@@ -61,8 +123,10 @@ Result<CounterExample> write_counter_example(const Tree& tree, const Finding& fi
     return tl::unexpected(std::move(*error));
   }
   played.set_scripts(scripts);
-  std::string error = record(tree, scripts, files.recording, finding, options);
+  Confirmation confirmation(tree, finding, tracer, properties);
+  std::string error = record(tree, scripts, files.recording, finding, confirmation, options);
   if (!error.empty()) return problem(std::move(error));
+  files.contradiction = confirmation.wrong();
   return files;
 }
 

@@ -12,6 +12,8 @@ namespace lockstep::host {
 
 struct CounterExample {
   std::string recording, leaves;  // their names
+  // What the run of the recording does otherwise than the search, which is a bug in lockstep.
+  std::string contradiction = {};
 };
 
 struct CounterExampleOptions {
@@ -21,9 +23,12 @@ struct CounterExampleOptions {
   std::map<std::string, std::string, std::less<>> arguments = {};
 };
 
-// `played` are the leaves of the tree. Nothing, and why, if a file cannot be written.
+// `played` are the leaves of the tree. The recording is that of a run from its beginning, without
+// the states of the search, and must show the finding: each tick of it is compared. Nothing, and
+// why, if a file cannot be written.
 Result<CounterExample> write_counter_example(const Tree& tree, const Finding& finding,
                                              Tracer& tracer, PlayedLeaves& played,
+                                             std::span<const Property> properties,
                                              const CounterExampleOptions& options);
 
 }  // namespace lockstep::host

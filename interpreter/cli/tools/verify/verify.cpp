@@ -19,6 +19,7 @@
 #include "document/reporter.h"
 #include "runtime/outlet.h"
 #include "runtime/stop_signals.h"
+#include "verify/chance_runs.h"
 #include "verify/property_watch.h"
 #include "verify/verifiable.h"
 
@@ -185,12 +186,24 @@ class VerifyCommand {
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
     report.place_of = [&](NodeIndex node) { return places.at(node); };
-    Tracer tracer(runnable.tree, models, properties_, from_seconds(1 / rate), found);
+    const Nanoseconds period = from_seconds(1 / rate);
+    Tracer tracer(runnable.tree, models, properties_, period, found);
+    ChanceLimits chance = usual_chance(found);
+    chance.stop_signal = StopSignals::received;
+    if (const auto wrong =
+            find_contradiction(runnable.tree, models, properties_, period, found, chance)) {
+      report.internal_error = to_text(*wrong);
+    }
     // A verdict may have taken long, so it is printed also where its files cannot be written.
     const bool has_files = write_files(runnable, rate, tracer, verdict, report) &&
                            (options_.save.empty() ||
                             save_scenarios(options_.save, report, runnable.tree, properties_));
     const int failed = write_results(written(report));
+    if (!report.internal_error.empty()) {
+      print_error(report.internal_error,
+                  "this is a bug in lockstep: please report it with the tree and the leaf file");
+      return kExitInternal;
+    }
     if (!has_files) return kExitUsage;
     return first_failure(failed, exit_code(found, verdict));
   }
@@ -223,12 +236,18 @@ class VerifyCommand {
       std::error_code error;
       std::filesystem::create_directories(options_.out, error);
       options.stem = stem_of(finding);
-      auto files = write_counter_example(runnable.tree, finding, tracer, played_, options);
+      auto files =
+          write_counter_example(runnable.tree, finding, tracer, played_, properties_, options);
       if (!files) {
         print_error(files.error().message, files.error().hint);
         return false;
       }
       report.files[finding.name] = *files;
+      if (!files->contradiction.empty() && report.internal_error.empty()) {
+        report.internal_error =
+            fmt::format("internal error: the run that is to show the finding {} contradicts it: {}",
+                        finding.name, files->contradiction);
+      }
     }
     return true;
   }
@@ -327,8 +346,9 @@ extern const Command kVerifyCommand{
     "a\n"
     "script of the leaves with which `lockstep run --leaves` does the same again.\n"
     "Exit code: 0 all is verified, 1 there are findings, 2 usage, 3 invalid tree or leaf file, or\n"
-    "something that cannot be verified, 4 plugin refused, 124 a limit was reached and nothing was\n"
-    "found, or nothing with --compact, 128 + N signal N, likewise.\n"
+    "something that cannot be verified, 4 plugin refused, 9 a run contradicts the search (a bug\n"
+    "in lockstep), 124 a limit was reached and nothing was found, or nothing with --compact,\n"
+    "128 + N signal N, likewise.\n"
     "\n"
     "Examples:\n"
     "  lockstep verify trees/door_pulling.xml\n"

@@ -42,7 +42,10 @@ std::string to_junit(const VerifyReport& report) {
       add(it.name, fmt::format("<skipped message=\"{}\"/>", in_xml("accepted: " + it.accepted)));
     }
   }
-  if (!report.found.is_proof()) {
+  if (!report.internal_error.empty()) {
+    ++failures;
+    add("internal error", fmt::format("<failure message=\"{}\"/>", in_xml(report.internal_error)));
+  } else if (!report.found.is_proof()) {
     ++skipped;
     add("all behaviors", fmt::format("<skipped message=\"{}\"/>", in_xml(conclusion(report))));
   }
@@ -63,6 +66,11 @@ std::string to_sarif(const VerifyReport& report) {
          .location = std::move(location),
          .message = it.name + ": " + it.message,
          .hint = it.accepted.empty() ? joined(it.more, "; ") : "accepted: " + it.accepted});
+  }
+  if (!report.internal_error.empty()) {
+    messages.push_back({.severity = Severity::Error,
+                        .location = {.file = report.tree},
+                        .message = report.internal_error});
   }
   if (messages.empty() && !report.found.is_proof()) {
     messages.push_back({.severity = Severity::Note,

@@ -40,6 +40,7 @@ std::string loss_text(const SearchResult& found) {
 }  // namespace
 
 std::string conclusion(const VerifyReport& report) {
+  if (!report.internal_error.empty()) return report.internal_error;
   const std::size_t count = count_findings(report.verdict);
   if (count > 0) return fmt::format("not verified: {}", counted(count, "finding"));
   const SearchResult& found = report.found;

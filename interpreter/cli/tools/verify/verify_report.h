@@ -17,10 +17,12 @@ struct VerifyReport {
   std::string tree, leaves;  // files; "": there is no leaf file
   std::size_t leaf_count = 0;
   std::map<std::string, CounterExample> files = {};  // of findings, by their names
+  std::string internal_error = {};  // a run contradicts the search: nothing of it is told as true
   std::function<SourceLocation(NodeIndex)> place_of = {};
 };
 
-// "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …".
+// "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …",
+// "internal error: …".
 std::string conclusion(const VerifyReport& report);
 std::string to_text(const VerifyReport& report);
 std::string to_json(const VerifyReport& report);

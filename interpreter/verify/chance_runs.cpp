@@ -1,0 +1,240 @@
+#include "verify/chance_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/random.h"
+#include "measure/live_properties.h"
+#include "runtime/run.h"
+#include "verify/same_tick.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::uint64_t kFewestTicks = 20, kMostTicks = 1000;
+
+// As `run --leaves` has them: the first leaf's random numbers choose for all.
+class ChanceAnswers final : public Answers {
+ public:
+  explicit ChanceAnswers(std::uint64_t seed) : random_(seed, 1) {}
+
+  std::uint32_t choose(std::uint32_t count, std::uint32_t asker) override {
+    const auto answer = static_cast<std::uint32_t>(random_.next_double() * count);
+    if (count > 1) asked.push_back({asker, answer});
+    return answer;
+  }
+  std::vector<LeafAnswer> asked;  // in this tick
+
+ private:
+  RandomStream random_;
+};
+
+class PlainRun {
+ public:
+  PlainRun(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+           std::uint64_t seed)
+      : board_(tree),
+        answers_(seed),
+        leaves_(tree, models, board_, answers_),
+        ticker_(tree, leaves_.slots(), board_),
+        places_(places_of(properties, tree)),
+        checks_(at(places_, properties)),
+        live_(tree, checks_) {}
+
+  Status tick(Nanoseconds now, std::uint64_t number) {
+    answers_.asked.clear();
+    leaves_.begin_tick();
+    ticker_.set_now(now);
+    live_.before_tick(ticker_);
+    Status status = ticker_.tick_root();
+    for (int more = 1; status == Status::Running && !ticker_.faulted(); ++more) {
+      const auto asks = ticker_.take_request();
+      if (!asks) break;
+      if (more == Run::kMostTicksAtOnce) {
+        ticker_.set_fault(*asks, "asked for another tick 10,000 times in one period");
+      } else {
+        status = ticker_.tick_root_again();
+      }
+    }
+    note(live_.after_tick(ticker_, number));
+    if (status != Status::Running || ticker_.faulted()) note(checks_.end(RunIsOver::ByItself));
+    leaves_.fold();
+    return status;
+  }
+  const Ticker& ticker() const { return ticker_; }
+  const ModelLeaves& leaves() const { return leaves_; }
+  std::span<const LeafAnswer> asked() const { return answers_.asked; }
+  std::span<const std::size_t> violated() const { return violated_; }
+
+ private:
+  // No run knows facts.
+  static std::vector<std::size_t> places_of(std::span<const Property> properties,
+                                            const Tree& tree) {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      if (!names_fact(properties[i], tree)) places.push_back(i);
+    }
+    return places;
+  }
+  static std::vector<Property> at(std::span<const std::size_t> places,
+                                  std::span<const Property> properties) {
+    std::vector<Property> found;
+    for (const std::size_t it : places) found.push_back(properties[it]);
+    return found;
+  }
+  void note(std::span<const std::size_t> violated) {
+    for (const std::size_t it : violated) violated_.push_back(places_[it]);
+  }
+
+  Blackboard board_;
+  ChanceAnswers answers_;
+  ModelLeaves leaves_;
+  Ticker ticker_;
+  const std::vector<std::size_t> places_;  // of the properties that are checked
+  PropertyChecks checks_;
+  LiveProperties live_;
+  std::vector<std::size_t> violated_;
+};
+
+class Judge {
+ public:
+  Judge(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
+        Nanoseconds period, const SearchResult& found)
+      : tree_(tree),
+        models_(models),
+        properties_(properties),
+        period_(period),
+        found_(found),
+        stepper_(tree, models, properties, period, found.symmetry, false),
+        ticks_(std::min<std::uint64_t>(found.complete_depth(), most_ticks(found))) {}
+
+  // Gives what contradicts the search; "" if nothing does. `goes_on` is asked before each tick.
+  template <class GoesOn>
+  std::string look_at(std::uint64_t seed, const GoesOn& goes_on) {
+    PlainRun run(tree_, models_, properties_, seed);
+    state_ = stepper_.first_state();
+    for (std::uint64_t tick = 0; tick < ticks_ && goes_on(); ++tick) {
+      const Status status = run.tick(static_cast<std::int64_t>(tick) * period_, tick);
+      const bool is_over = status != Status::Running || run.ticker().faulted();
+      std::string wrong = wrong_in(run, status, tick, is_over);
+      if (!wrong.empty()) return fmt::format("in tick {}, {}", tick, wrong);
+      if (is_over) break;
+    }
+    return "";
+  }
+
+ private:
+  // In a complete search no state is farther, and cycles are seen after a while.
+  static std::uint64_t most_ticks(const SearchResult& found) {
+    if (!found.is_complete()) return kMostTicks;
+    return std::min(kMostTicks, kFewestTicks + 2 * std::uint64_t{found.depths.size()});
+  }
+
+  std::string wrong_in(const PlainRun& run, Status status, std::uint64_t tick, bool is_over) {
+    std::string wrong = result(run, status, tick);
+    if (wrong.empty()) wrong = coverage(run.ticker());
+    if (wrong.empty()) wrong = step(run, tick == 0, is_over);
+    return wrong;
+  }
+
+  // What the verdict says of results, faults and properties.
+  std::string result(const PlainRun& run, Status status, std::uint64_t tick) const {
+    const Ticker& ticker = run.ticker();
+    const auto has_come = [&](const std::optional<Occurrence>& it) {
+      return it && it->ticks <= tick + 1;
+    };
+    if (!run.leaves().broken().empty() && !found_.broken) return run.leaves().broken();
+    for (const std::size_t it : run.violated()) {
+      if (!found_.violated.contains(it)) {
+        return fmt::format("property '{}' is violated", properties_[it].name());
+      }
+    }
+    if (const Fault* fault = ticker.fault()) {
+      if (found_.faults.contains(fault->node)) return "";
+      return fmt::format("'{}' {}", tree_.path(fault->node), fault->message);
+    }
+    if (status == Status::Running || has_come(found_.results[index_of(status)])) return "";
+    return fmt::format("the tree ends with {}", to_string(status));
+  }
+
+  std::string coverage(const Ticker& ticker) const {
+    if (ticker.faulted()) return "";
+    for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
+      if (!ticker.ticked(node)) continue;
+      if (!found_.coverage.was_ticked(node)) {
+        return fmt::format("'{}' is ticked", tree_.path(node));
+      }
+      if (!found_.coverage.has_been(node, ticker.status(node))) {
+        return fmt::format("'{}' is {}", tree_.path(node), to_string(ticker.status(node)));
+      }
+    }
+    return "";
+  }
+
+  // The same tick from the state of the search, and whether that knows the next one.
+  std::string step(const PlainRun& run, bool is_first, bool is_over) {
+    stepper_.load(state_, is_first);
+    stepper_.give(run.asked());
+    try {
+      stepper_.tick();
+    } catch (const std::logic_error& error) {
+      return error.what();
+    }
+    std::string wrong = difference(run.ticker(), stepper_.ticker());
+    if (!wrong.empty() || is_over) return wrong;
+    const StateBytes& sorted = stepper_.fold();
+    if (!found_.store.keeps_hashes() && found_.store.find(sorted, hash_of(sorted)) == kNoState) {
+      return "the tree comes to a state that the search has not";
+    }
+    state_ = stepper_.in_place();
+    return "";
+  }
+
+  const Tree& tree_;
+  const LeafModels& models_;
+  const std::span<const Property> properties_;
+  const Nanoseconds period_;
+  const SearchResult& found_;
+  Stepper stepper_;
+  const std::uint64_t ticks_;  // of a run
+  StateBytes state_;
+};
+
+}  // namespace
+
+ChanceLimits usual_chance(const SearchResult& found) {
+  constexpr Nanoseconds kLeast = std::chrono::milliseconds(100), kMost = std::chrono::seconds(2);
+  return {.time = std::clamp(found.took / 20, kLeast, kMost)};
+}
+
+std::string to_text(const Contradiction& contradiction) {
+  return fmt::format("internal error: a run contradicts this proof; the seed is {}: {}",
+                     contradiction.seed, contradiction.what);
+}
+
+std::optional<Contradiction> find_contradiction(const Tree& tree, const LeafModels& models,
+                                                std::span<const Property> properties,
+                                                Nanoseconds period, const SearchResult& found,
+                                                const ChanceLimits& limits) {
+  const Nanoseconds began = monotonic_now();
+  std::uint32_t asked = 0;
+  bool is_late = false;
+  const auto goes_on = [&] {
+    constexpr std::uint32_t kTicksBetweenLooks = 16;
+    if (asked++ % kTicksBetweenLooks == 0) {
+      is_late = is_late || monotonic_now() - began > limits.time ||
+                (limits.stop_signal && limits.stop_signal() != 0);
+    }
+    return !is_late;
+  };
+  Judge judge(tree, models, properties, period, found);
+  for (std::uint64_t seed = 0; seed < limits.runs && !is_late; ++seed) {
+    std::string what = judge.look_at(seed, goes_on);
+    if (!what.empty()) return Contradiction{seed, std::move(what)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace lockstep::host
