@@ -174,9 +174,8 @@ TEST_CASE("a fold that forgets too much or nothing, or what is read, is seen for
   constexpr std::uint64_t kMost = 2000;
   Mutants mutants(kLockstepRules);
   // A Rate that is held, and asked again after that before its time is over, is rare.
-  mutants.try_on(
-      {tree_from_text("ParallelAbsolute[barriers=.5;1](a Repeat(Rate[seconds=.5](b)))"),
-       "a+.1 b=R.6RS..."});
+  mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Repeat(Rate[seconds=.5](b)))"),
+                  "a+.1 b=R.6R.6S..."});
   for (std::uint64_t seed = 0; seed < kMost && !mutants.are_dead(); ++seed) {
     for (const Trial& trial : {random_trial(seed), random_group_trial(seed)}) {
       const auto tree = tree_of(trial).tree;
