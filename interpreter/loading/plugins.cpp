@@ -52,6 +52,10 @@ bool is_there(const PluginRequest& request, const std::vector<std::string>& dire
   return !is_plugin_name(request.name) || find_plugin_file(request.name, directories);
 }
 
+std::optional<Nanoseconds> limit_of(const std::optional<double>& seconds) {
+  return seconds ? std::optional(from_seconds(*seconds)) : std::nullopt;
+}
+
 }  // namespace
 
 bool is_plugin_file(const std::string& plugin) {
@@ -63,6 +67,8 @@ IsolationOptions isolation_options(const PluginOptions& options) {
   return {.leafhost = leafhost_path(options),
           .hang_limit = from_seconds(options.hang_limit),
           .halt_limit = is_limited ? std::optional(from_seconds(options.halt_limit)) : std::nullopt,
+          .condition_wait = limit_of(options.condition_wait),
+          .condition_age = limit_of(options.condition_age),
           .all = options.isolate,
           .run_programs = options.run_programs,
           .only_described = options.only_described};

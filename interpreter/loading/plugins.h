@@ -1,6 +1,7 @@
 // Finds and loads the plugins that the options or a tree name, and makes the catalog of nodes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct PluginOptions {
   bool isolate = false;                  // --isolate
   double hang_limit = 10;                // --hang-limit, in seconds; 0 = never
   double halt_limit = 1;                 // --halt-limit, in seconds; 0 = never
+  // --condition-wait, --condition-age, in seconds; nothing: of the period
+  std::optional<double> condition_wait = {}, condition_age = {};
   // --run-programs: else a program is not started, and its leaves are read from a file beside it.
   bool run_programs = false;
   // For programs that run no leaves: no code of a plugin enters this process.

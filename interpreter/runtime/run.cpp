@@ -30,7 +30,8 @@ Run::Run(const Tree& tree, const RunOptions& options)
             .workers = options.virtual_time ? &workers_ : nullptr,
             .processes = options.virtual_time ? nullptr : &processes_,
             .end_budget = options.end_budget,
-            .wake_up = options.virtual_time ? nullptr : &wake_up_},
+            .wake_up = options.virtual_time ? nullptr : &wake_up_,
+            .budget = &budget_},
       watch_(options.watch),
       leaves_((prepare(), tree), blackboard_, time_, options.seed, options.log, boards_.get()),
       ticker_(tree, leaves_.slots(), blackboard_, options.on_fault, options.watch) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/tick_budget.h"
 #include "engine/blackboard.h"
 #include "engine/leaf_watch.h"
 #include "engine/ticker.h"
@@ -103,6 +104,7 @@ class Run {
   Workers workers_;
   ProcessLeaves processes_;
   WakeUp wake_up_;
+  TickBudget budget_;
   const bool may_wake_;
   const bool exactly_once_;
   LeafTime time_;

@@ -136,6 +136,16 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
+  app.add_option("--condition-wait", options.load.plugins.condition_wait,
+                 "On the wall clock, wait S seconds in each tick for conditions of programs; then "
+                 "they keep their last result (default: a fifth of the period, at most 0.002)")
+      ->type_name("S")
+      ->check(number_between(0.0, 10.0));
+  app.add_option("--condition-age", options.load.plugins.condition_age,
+                 "How old that result may be: after S seconds the condition is Running, with a "
+                 "warning (default: 5 periods)")
+      ->type_name("S")
+      ->check(number_between(0.0, 1e6));
 }
 
 void define_property_options(CLI::App& app, RunCommandOptions& options) {

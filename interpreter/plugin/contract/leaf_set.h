@@ -23,6 +23,7 @@ class BoardsOfRun;
 class Workers;
 class ProcessLeaves;
 class EndBudget;
+class TickBudget;
 class WakeUp;
 
 // The time of a run as its leaves see it; the owner of the run updates it.
@@ -34,6 +35,7 @@ struct LeafTime {
   ProcessLeaves* processes = nullptr;  // those that are looked at while they are held
   EndBudget* end_budget = nullptr;     // null: each process has its own patience
   WakeUp* wake_up = nullptr;           // null: nobody waits between two ticks
+  TickBudget* budget = nullptr;        // null: each that waits in a tick has its own patience
 };
 
 // Lines that leaves log: the path of the leaf (or the plugin's name, from create_run), level, text.

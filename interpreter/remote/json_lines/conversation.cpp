@@ -91,7 +91,7 @@ void Conversation::begin(const lockstep_caller& run) {
 
 std::uint32_t Conversation::add(const lockstep_caller& leaf) {
   const Lock lock(mutex_);
-  leaves_.push_back({.caller = &leaf});
+  leaves_.push_back({.caller = &leaf, .is_condition = leaf.type->leaf->kind == LOCKSTEP_CONDITION});
   return static_cast<std::uint32_t>(leaves_.size());
 }
 
@@ -432,14 +432,17 @@ std::string Conversation::take_answer(Leaf& leaf) {
         leaf.caller == nullptr ? "" : leaf.caller->who,
         owed == Asked::Nothing ? "was not asked" : fmt::format("is to answer {}", name_of(owed)));
   }
-  if (std::exchange(leaf.owes_tick, false)) return {};  // it was halted meanwhile
+  const bool is_halted = std::exchange(leaf.owes_tick, false);  // meanwhile
+  if (is_halted && !leaf.is_condition) return {};
   if (owed == Asked::Pause) {
     --leaf.pauses;
     return {};
   }
-  leaf.asked = Asked::Nothing;
+  if (!is_halted) leaf.asked = Asked::Nothing;
   if (!is_status) return {};
   leaf.news.status = reply_.status;
+  leaf.news.answered = monotonic_now();
+  if (is_halted) return {};
   if (reply_.progress) leaf.progress = *reply_.progress;
   if (reply_.sets_ports) leaf.news.set = line_;
   return {};

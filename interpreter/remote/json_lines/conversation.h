@@ -52,8 +52,9 @@ class Conversation {
     lockstep_status status = 0;  // 0: no answer to tick
     std::string set = {};        // the line that has "set", or ""
     std::string error = {};
-    bool is_asked = false;  // it owes an answer
-    Nanoseconds since{0};   // when it was asked
+    bool is_asked = false;    // it owes an answer
+    Nanoseconds since{0};     // when it was asked
+    Nanoseconds answered{0};  // when the answer to tick came
   };
   News take(std::uint32_t leaf);
   // Takes only the error of the news; the rest stays for the next tick.
@@ -102,6 +103,7 @@ class Conversation {
  private:
   struct Leaf {
     const lockstep_caller* caller = nullptr;  // null: removed
+    bool is_condition = false;                // an answer is news, also after a halt
     Asked asked = Asked::Nothing;  // the last but pauses; a tick before a halt is `owes_tick`
     bool owes_tick = false;
     std::uint32_t pauses = 0;  // that it owes an answer

@@ -31,6 +31,7 @@ struct Hello::Reader {
     std::string kind = "action";
     std::vector<std::string> more_ports;
     bool progress = false, pause = false, answers_pause = false, real_time = false;
+    bool has_ticks = false;  // more than one
     value.object().read(
         {{"id", into_text(leaf.id)},
          {"kind", into(kind), kMayLack},
@@ -46,10 +47,18 @@ struct Hello::Reader {
          {"behavior",
           [&](JsonValue behavior) {
             behavior.object().each_field([&](std::string_view word, JsonValue said) {
-              tables().add_behavior(word, said.text());
+              const std::string_view text = said.text();
+              has_ticks |= word == "ticks" && text != "1" && text != "1..1";
+              tables().add_behavior(word, text);
             });
           },
           kMayLack}});
+    if (has_ticks && kind == "condition") {
+      throw JsonError(
+          fmt::format("the behavior of '{}' has more than one tick, but a condition "
+                      "never runs: leave 'ticks' out",
+                      leaf.id));
+    }
     if (!more_ports.empty()) tables().set_more_ports(joined(more_ports, ";"));
     leaf.kind = number_of("kind of a leaf", kind,
                           {{"action", LOCKSTEP_ACTION}, {"condition", LOCKSTEP_CONDITION}});

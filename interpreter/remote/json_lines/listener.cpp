@@ -84,7 +84,7 @@ void Listener::listen() {
       descriptors.push_back({it->process().end(), POLLIN, 0});
     }
     await(descriptors, first_deadline(known));
-    if (!is_over_.load()) nanosleep(&kGather, nullptr);
+    if (!is_over_.load() && !hurries_.load()) nanosleep(&kGather, nullptr);
     eventfd_t rings = 0;
     eventfd_read(bell_.number(), &rings);
     for (std::size_t i = 0; i < known.size(); ++i) {

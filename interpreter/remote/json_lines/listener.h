@@ -25,13 +25,24 @@ class Listener {
   // There is something to write, or a deadline that it does not know. One system call at most until
   // it is awake.
   void wake();
+  // While there is one, a tick waits for an answer: nothing is gathered.
+  class Hurry {
+   public:
+    explicit Hurry(Listener& listener) : hurries_(listener.hurries_) { hurries_.store(true); }
+    ~Hurry() { hurries_.store(false); }
+    Hurry(const Hurry&) = delete;
+    Hurry& operator=(const Hurry&) = delete;
+
+   private:
+    std::atomic<bool>& hurries_;
+  };
 
  private:
   void listen();
   std::vector<Conversation*> conversations();
 
   FileDescriptor bell_;
-  std::atomic<bool> is_over_{false}, is_woken_{false};
+  std::atomic<bool> is_over_{false}, is_woken_{false}, hurries_{false};
   Mutex mutex_;
   std::vector<Conversation*> conversations_ LOCKSTEP_GUARDED_BY(mutex_);
   std::thread thread_;

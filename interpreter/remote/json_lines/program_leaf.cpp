@@ -25,7 +25,9 @@ ProgramLeaf::ProgramLeaf(const lockstep_caller& caller, Conversation& conversati
       conversation_(conversation),
       hold_(hold),
       listener_(listener),
-      number_(conversation.add(caller)) {}
+      number_(conversation.add(caller)),
+      is_condition_(caller.type->leaf->kind == LOCKSTEP_CONDITION),
+      last_(*caller.time, conversation.options()) {}
 
 void ProgramLeaf::end() {
   if (!conversation_.is_gone()) {
@@ -36,6 +38,10 @@ void ProgramLeaf::end() {
     send(Asked::Nothing);
   }
   conversation_.remove(number_);
+}
+
+bool ProgramLeaf::has_error() const {
+  return caller_.slot->error != nullptr;
 }
 
 double ProgramLeaf::now() const {
@@ -91,12 +97,13 @@ bool ProgramLeaf::create() {
 // It is sent with the first tick, which may be later than this: when the last halt is answered.
 void ProgramLeaf::start() {
   has_begun_ = false;
-  conversation_.forget(number_);
+  if (!is_condition_) conversation_.forget(number_);
 }
 
 lockstep_status ProgramLeaf::tick() {
   if (fail_if_gone()) return LOCKSTEP_RUNNING;
-  return is_waiting() ? tick_and_wait() : tick_without_waiting();
+  if (is_waiting()) return tick_and_wait();
+  return is_condition_ ? tick_condition() : tick_without_waiting();
 }
 
 void ProgramLeaf::ask_tick() {
@@ -107,28 +114,75 @@ void ProgramLeaf::ask_tick() {
     has_begun_ = true;
   }
   request_.begin("tick", number_).field("now", now()).ports(caller_, sent_).end();
-  if (caller_.slot->error == nullptr) send(Asked::Tick);
+  if (!has_error()) send(Asked::Tick);
 }
 
 lockstep_status ProgramLeaf::tick_and_wait() {
   ask_tick();
-  if (caller_.slot->error != nullptr || !await(Asked::Tick)) return LOCKSTEP_RUNNING;
+  if (has_error() || !await(Asked::Tick)) return LOCKSTEP_RUNNING;
   return take(conversation_.take(number_));
 }
 
 lockstep_status ProgramLeaf::tick_without_waiting() {
   const auto news = conversation_.take(number_);
   if (news.is_asked) {
-    note_late(news);
+    end_if_hanging(news.since);
+    note_late(news.since);
     return fail_if_gone() ? LOCKSTEP_RUNNING : take({.error = news.error});
   }
   const lockstep_status status = take(news);
-  if (caller_.slot->error == nullptr && status == LOCKSTEP_RUNNING) ask_tick();
+  if (!has_error() && status == LOCKSTEP_RUNNING) ask_tick();
   return status;
 }
 
+// Each activation asks anew. A question that is still open was asked by an earlier tick, which has
+// waited for it; its answer becomes the last result when it comes.
+lockstep_status ProgramLeaf::tick_condition() {
+  auto news = conversation_.take(number_);
+  bool is_open = news.is_asked;
+  if (!keep_result(news)) return LOCKSTEP_RUNNING;
+  if (!is_open) {
+    news.since = monotonic_now();
+    is_open = !ask_and_await_answer();
+    if (has_error() || !keep_result(conversation_.take(number_))) return LOCKSTEP_RUNNING;
+  }
+  if (!is_open) return last_.status();
+  end_if_hanging(news.since);
+  if (fail_if_gone()) return LOCKSTEP_RUNNING;
+  const Nanoseconds now = monotonic_now();
+  const lockstep_status status = last_.at(now);
+  if (status != LOCKSTEP_RUNNING) return status;
+  if (const std::string late = last_.warning(now); !late.empty()) {
+    host_table().log(&caller_, LOCKSTEP_LOG_WARNING, late.c_str());
+  }
+  return LOCKSTEP_RUNNING;
+}
+
+// False: the leaf has an error.
+bool ProgramLeaf::keep_result(Conversation::News news) {
+  const bool is_answered = news.status != 0;
+  const Nanoseconds when = news.answered;
+  const lockstep_status status = take(std::move(news));
+  if (has_error()) return false;
+  if (is_answered) last_.keep(status, when);
+  return true;
+}
+
+// False: the time that this tick may wait is over.
+bool ProgramLeaf::ask_and_await_answer() {
+  const Listener::Hurry hurry(*listener_);
+  ask_tick();
+  if (has_error()) return false;
+  const Nanoseconds began = monotonic_now();
+  const bool is_there = conversation_.await(number_, Asked::Tick, last_.patience());
+  last_.note_wait(monotonic_now() - began);
+  return !fail_if_gone() && is_there;
+}
+
 lockstep_status ProgramLeaf::take(Conversation::News news) {
-  if (!news.error.empty()) {
+  if (news.error.empty() && is_condition_ && news.status == LOCKSTEP_RUNNING) {
+    fail(kRunningCondition);
+  } else if (!news.error.empty()) {
     fail(news.error);
   } else if (!news.set.empty()) {
     set_ports(std::move(news.set));
@@ -157,21 +211,23 @@ void ProgramLeaf::set_ports(std::string line) {
   if (!wrong.empty()) fail(wrong);
 }
 
-// Nothing is wrong yet: the leaf has the progress that it had.
-void ProgramLeaf::note_late(const Conversation::News& news) {
-  const Nanoseconds waited = monotonic_now() - news.since;
+void ProgramLeaf::end_if_hanging(Nanoseconds since) {
   const auto limit = conversation_.hang_limit();
-  if (limit && waited > *limit) {
+  if (limit && monotonic_now() - since > *limit) {
     conversation_.give_up(fmt::format("did not answer '{}' for {:g} s; it was killed", caller_.who,
                                       to_seconds(*limit)));
-  } else if (waited > kLate && told_late_ != news.since) {
-    told_late_ = news.since;
-    host_table().log(&caller_, LOCKSTEP_LOG_WARNING,
-                     fmt::format("its program is late: no answer for {:g} s; until then it stays "
-                                 "running",
-                                 to_seconds(kLate))
-                         .c_str());
   }
+}
+
+// Nothing is wrong yet: the leaf has the progress that it had.
+void ProgramLeaf::note_late(Nanoseconds since) {
+  if (conversation_.is_gone() || monotonic_now() - since <= kLate || told_late_ == since) return;
+  told_late_ = since;
+  host_table().log(&caller_, LOCKSTEP_LOG_WARNING,
+                   fmt::format("its program is late: no answer for {:g} s; until then it stays "
+                               "running",
+                               to_seconds(kLate))
+                       .c_str());
 }
 
 void ProgramLeaf::halt() {
@@ -211,7 +267,8 @@ std::string ProgramLeaf::trouble() {
   if (conversation_.is_gone()) return why_gone();
   auto news = conversation_.take_error(number_);
   if (!news.error.empty() || !news.is_asked || hold_ == Hold::Signal) return std::move(news.error);
-  note_late(news);
+  end_if_hanging(news.since);
+  note_late(news.since);
   return why_gone();
 }
 

@@ -1,5 +1,6 @@
 // A leaf whose work a program does. On the virtual clock each tick waits for the answer. On the
-// wall clock none does: a tick takes the answer that is there, and until then the leaf is running.
+// wall clock an action takes the answer that is there, and until then it is running; a condition
+// waits a short time, and then has its last result.
 #pragma once
 
 #include <vector>
@@ -10,6 +11,7 @@
 #include "lockstep/leaf.h"
 #include "remote/json_lines/conversation.h"
 #include "remote/json_lines/hold.h"
+#include "remote/json_lines/last_result.h"
 #include "remote/json_lines/listener.h"
 #include "remote/json_lines/request.h"
 #include "remote/remote_plugin.h"
@@ -21,6 +23,9 @@ class ProgramLeaf : public RemoteLeaf {
   // `listener` is that of the conversation, on the wall clock; else null.
   ProgramLeaf(const lockstep_caller& caller, Conversation& conversation, Hold hold,
               Listener* listener);
+
+  static constexpr const char* kRunningCondition =
+      "is a condition and answered 'running', expected 'success' or 'failure'";
 
   bool create();  // false: the caller has an error
   void start() override;
@@ -36,20 +41,27 @@ class ProgramLeaf : public RemoteLeaf {
   bool is_waiting() const { return listener_ == nullptr; }
   lockstep_status tick_and_wait();
   lockstep_status tick_without_waiting();
+  lockstep_status tick_condition();
+  bool keep_result(Conversation::News news);
+  bool ask_and_await_answer();
   void ask_tick();
   void send(Conversation::Asked asked);  // the request
   lockstep_status take(Conversation::News news);
   void set_ports(std::string line);
   bool await(Conversation::Asked asked);
-  void note_late(const Conversation::News& news);
+  void end_if_hanging(Nanoseconds since);
+  void note_late(Nanoseconds since);
   std::string why_gone();  // "" while it is there
   bool fail_if_gone();
+  bool has_error() const;
   double now() const;
 
   Conversation& conversation_;
   const Hold hold_;
   Listener* const listener_;
   const std::uint32_t number_;
+  const bool is_condition_;
+  LastResult last_;  // of a condition
   Request request_;
   std::vector<Value> sent_;
   bool has_begun_ = true;  // false: `start` is to be sent before the next tick

@@ -217,13 +217,16 @@ _ANSWERS = {None: "running", True: "success", False: "failure", Skipped: "skippe
             "running": "running", "success": "success", "failure": "failure", "skipped": "skipped"}
 
 
-def _status(result):
+def _status(leaf, result):
     "The word for what a tick has returned."
+    running = "" if leaf._kind == "condition" else "None (running), "
     try:
-        return _ANSWERS[result]
+        status = _ANSWERS[result]
     except (KeyError, TypeError):
-        raise ValueError(f"tick returned {result!r}, expected None (running), True (success) or "
-                         "False (failure)") from None
+        status = None
+    if status is None or (running == "" and status == "running"):
+        raise ValueError(f"tick returned {result!r}, expected {running}True (success) or False (failure)")
+    return status
 
 
 def _progress(leaf):
@@ -272,7 +275,7 @@ class _Server:
     def tick(self, leaf, request):
         self.update(leaf, request)
         result = leaf.tick()
-        answer = {"leaf": leaf._number, "status": _status(result)}
+        answer = {"leaf": leaf._number, "status": _status(leaf, result)}
         if hasattr(leaf, "progress"):
             answer["progress"] = _progress(leaf)
         if leaf._set:

@@ -14,7 +14,7 @@ from . import _native as native
 
 _KINDS = {"action": 1, "condition": 2}
 _DIRECTIONS = {"input": 1, "output": 2, "inout": 3}
-_MAY_RUN, _REAL_TIME, _OPTIONAL, _FIXED = 2, 1, 1, 4
+_REAL_TIME, _OPTIONAL, _FIXED = 1, 1, 4
 _RESULTS = {word: number for number, word in enumerate(native.STATUSES)}
 
 # Whose leaves this thread makes: the state of a tree.
@@ -83,12 +83,11 @@ class _Class:
         self.elements = [_Element(fact["ports"], {})]  # those that are described come after it, by their constants:
         self.described, self.describing, self.refusal = {}, threading.Lock(), None
         kind = _KINDS[fact["kind"]]
-        may_run = _MAY_RUN if fact["kind"] == "condition" else 0  # as of a program
         self.table = native.sized(
             native.LeafType, kind=kind, id=native.bytes_of(fact["id"]), doc=native.bytes_of(fact["doc"]),
             create=native.CREATE(self.create), destroy=native.CALL(self.destroy),
             start=native.CALL(self.caller_of(self.start)),
-            tick=native.TICK(self.caller_of(self.tick, native.RUNNING)), flags=may_run | (_REAL_TIME if fact.get("real_time") else 0))
+            tick=native.TICK(self.caller_of(self.tick, native.RUNNING)), flags=_REAL_TIME if fact.get("real_time") else 0)
         for name in ("halt", "pause", "resume"):
             if hasattr(cls, name):
                 setattr(self.table, name, native.CALL(self.caller_of(_do(name))))
@@ -176,7 +175,7 @@ class _Class:
             leaf.start()
 
     def tick(self, leaf):
-        result = _RESULTS[lockstep_leaf._status(leaf.tick())]
+        result = _RESULTS[lockstep_leaf._status(leaf, leaf.tick())]
         if leaf._set:
             values, leaf._set = leaf._set, {}
             for name, value in values.items():
