@@ -29,6 +29,7 @@
 #include "runtime/stall_fail.h"
 #include "runtime/stop_signals.h"
 #include "summary/property_observer.h"
+#include "summary/repeated_halts.h"
 #include "summary/standstills.h"
 #include "summary/statistics.h"
 #include "system/freed_memory.h"
@@ -103,6 +104,12 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
         watch_(tree_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(tree_),
+        repeated_halts_(tree_,
+                        [this](NodeIndex node, const std::string& text) {
+                          if (!repeated_halts_budget_.take(monotonic_now())) return;
+                          log(tree_.path(node), text);
+                          view_.print("warning: " + text);
+                        }),
         description_(describe_run(runnable.arguments)),
         watchers_(tree_, options, description_, std::move(sockets),
                   [this](const std::string& line) { view_.print(line); }) {
@@ -239,12 +246,17 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     return counts && end.reason == StopReason::Completed ? kExitProperty : exit_code_of(end);
   }
 
+  // A warning for those who record and watch.
+  void log(const std::string& who, const std::string& text) {
+    if (recorder_) recorder_->log(who, "warning", text);
+    watchers_.log(who, "warning", text);
+  }
+
   void watch_properties(std::vector<Property> properties) {
     properties_.emplace(tree_, std::move(properties), [this](const Property& it, const auto& when) {
       const std::string who = it.has_name() ? fmt::format("property {}", it.name()) : "property";
       const std::string text = fmt::format("violated {}: {}", when, it.text());
-      if (recorder_) recorder_->log(who, "warning", text);
-      watchers_.log(who, "warning", text);
+      log(who, text);
       view_.print(fmt::format("warning: {} is {}", who, text));
     });
   }
@@ -253,8 +265,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     std::optional<Nanoseconds> limit;
     if (options_.stall > 0) limit = from_seconds(options_.stall);
     standstills_.emplace(tree_, limit, [this](NodeIndex node, const auto& lines) {
-      if (recorder_) recorder_->log(tree_.path(node), "warning", joined(lines, "; "));
-      watchers_.log(tree_.path(node), "warning", joined(lines, "; "));
+      log(tree_.path(node), joined(lines, "; "));
       tell_standstill(lines);
     });
     if (options_.stall_fail <= 0) return;
@@ -291,7 +302,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
   std::span<Observer* const> observers() {
-    observers_ = {&statistics_};
+    observers_ = {&statistics_, &repeated_halts_};
     if (standstills_) observers_.push_back(&*standstills_);  // before those that it tells
     if (properties_) observers_.push_back(&*properties_);    // likewise
     if (recorder_) observers_.push_back(&*recorder_);
@@ -312,6 +323,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     }
     if (standstills_) standstills_->add_to(summary);
     if (properties_) properties_->add_to(summary);
+    repeated_halts_.add_to(summary);
     watch_.add_to(summary);
     settle_messages(summary.notes);
     if (std::string late = end_budget_.note(); !late.empty()) summary.notes.push_back(late);
@@ -339,6 +351,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   View view_;
   RunWatch watch_;
   Statistics statistics_;
+  LineBudget repeated_halts_budget_{ConsolePlain::kBurstOfFaults};
+  RepeatedHalts repeated_halts_;
   const RunDescription description_;
   std::optional<Recorder> recorder_;
   Watchers watchers_;
