@@ -29,10 +29,6 @@ void make_id(void* id) {
   }
 }
 
-Clock::duration seconds(double value) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
-}
-
 }  // namespace
 
 ActionClient::ActionClient(const ActionType& type, std::string action)
@@ -98,7 +94,7 @@ void ActionClient::send_again() {
   replaced_.reset();
   wish_ = Wish::None;
   is_canceling_ = is_resumed_ = false;
-  deadline_ = Clock::now() + seconds(goal_.server_timeout);
+  deadline_ = Clock::now() + lockstep::bounded(std::chrono::duration<double>(goal_.server_timeout));
   if (!is_made_) return fail("there is no client of '" + action_ + "': " + why_not_made_);
   poll_for_server(Clock::now());
 }

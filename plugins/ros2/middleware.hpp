@@ -1,6 +1,7 @@
 // The node of this process, and the one thread that makes all calls of ROS.
 #pragma once
 
+#include <lockstep/duration.h>
 #include <rcl/rcl.h>
 
 #include <atomic>

@@ -36,8 +36,7 @@ void ServiceClient::send(Call call) {
   call_ = std::move(call);
   is_open_ = true;
   is_sent_ = false;
-  deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                 std::chrono::duration<double>(call_.timeout));
+  deadline_ = Clock::now() + lockstep::bounded(std::chrono::duration<double>(call_.timeout));
   if (!is_made_) {
     lines_.add("there is no client of '" + service_ + "': " + why_not_made_);
     return end(Outcome::Failed);

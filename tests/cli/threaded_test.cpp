@@ -1,5 +1,6 @@
 // Threaded leaves on the virtual clock: they sleep in the run's time, and a run is the same every
 // time.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <sstream>
 
@@ -19,7 +20,10 @@ class Threaded {
                                 nodes + "</BehaviorTree></root>");
   }
   Outcome run(std::vector<std::string> more = {}) const {
-    more.insert(more.begin(), {"run", tree_, "--plugin", kPlugin, "--clock", "virtual"});
+    more.insert(more.begin(), {"run", tree_, "--plugin", kPlugin});
+    if (std::ranges::find(more, "--clock") == more.end()) {
+      more.insert(more.end(), {"--clock", "virtual"});
+    }
     return run_lockstep(more);
   }
   std::string recorded(const std::vector<std::string>& more = {}) const {
@@ -56,6 +60,19 @@ std::string without_logs(const std::string& recording) {
 }
 
 }  // namespace
+
+TEST_CASE("a sleep without end lasts on both clocks, and one of no time ends at once") {
+  for (const char* clock : {"virtual", "wall"}) {
+    for (const char* seconds : {"1e10", "1e12", "1e300"}) {
+      const Threaded tree(std::string(R"(<Sleeps steps="1" seconds=")") + seconds + "\"/>");
+      const Outcome outcome = tree.run({"--clock", clock, "--max-ticks", "20"});
+      INFO(clock << ' ' << seconds << outcome.err);
+      CHECK(outcome.code == 124);
+    }
+    const Threaded tree(R"(<Sleeps steps="1" seconds="-1e300"/>)");
+    CHECK(tree.run({"--clock", clock, "--timeout", "10"}).code == 0);
+  }
+}
 
 TEST_CASE("on the virtual clock a threaded leaf sleeps in the time of the run") {
   const Outcome outcome = Threaded("<Sleeps steps=\"10\" seconds=\"60\"/>").run({"--rate", "10"});

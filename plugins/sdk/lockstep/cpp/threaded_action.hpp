@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "../duration.h"
 #include "action.hpp"
 
 namespace lockstep {
@@ -44,17 +45,19 @@ class Token {
     return !stop_;
   }
 
-  // A sleep that a halt ends, in real time or that of the virtual clock. False: halted, return now.
+  // A sleep that a halt ends, in real time or that of the virtual clock; the longest one is
+  // kLongestWait. False: halted, return now.
   template <class Rep, class Period>
   bool sleep_for(std::chrono::duration<Rep, Period> duration) {
+    const std::chrono::nanoseconds time = bounded(duration);
     if (worker_ != nullptr) {
-      const double end = workers_->now(worker_) + std::chrono::duration<double>(duration).count();
+      const double end = workers_->now(worker_) + std::chrono::duration<double>(time).count();
       while (!stop_requested() && !workers_->wait(worker_, end)) {  // woken
       }
       return !stop_requested();
     }
     std::unique_lock<std::mutex> lock(mutex_);
-    return !changed_.wait_for(lock, duration, [this] { return stop_; });
+    return !changed_.wait_for(lock, time, [this] { return stop_; });
   }
 
   // On the virtual clock the thread waits here for the next tick; else it goes on at once. For work

@@ -33,7 +33,9 @@ class RosWork {
     while (!is_done() && Clock::now() < end) executor_->spin_once(std::chrono::milliseconds(10));
   }
 
-  void begin_wait(std::chrono::milliseconds most) { deadline_ = Clock::now() + most; }
+  void begin_wait(std::chrono::milliseconds most) {
+    deadline_ = Clock::now() + ::lockstep::bounded(most);
+  }
   bool has_waited_long() const { return Clock::now() >= deadline_; }
 
  private:

@@ -1,6 +1,8 @@
 // A leaf for tests that takes the place of another node: BehaviorTreeFactory::addSubstitutionRule.
 #pragma once
 
+#include <lockstep/duration.h>
+
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -47,7 +49,8 @@ class TestNode : public StatefulActionNode {
  protected:
   NodeStatus onStart() override {
     if (lockstep_test_->async_delay.count() <= 0) return onCompleted();
-    lockstep_end_ = std::chrono::steady_clock::now() + lockstep_test_->async_delay;
+    lockstep_end_ =
+        std::chrono::steady_clock::now() + lockstep::bounded(lockstep_test_->async_delay);
     return NodeStatus::RUNNING;
   }
   NodeStatus onRunning() override {

@@ -1,6 +1,9 @@
 // Substitution rules: which nodes of a tree are replaced when it is made, and by what.
 #pragma once
 
+#include <lockstep/duration.h>
+
+#include <chrono>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -40,7 +43,9 @@ inline TestNodeConfig test_from_json(const std::string& name, const PlainJson& j
   config.success_script = json.text("success_script");
   config.failure_script = json.text("failure_script");
   config.post_script = json.text("post_script");
-  config.async_delay = std::chrono::milliseconds(static_cast<int>(json.number("async_delay")));
+  const std::chrono::duration<double, std::milli> delay(json.number("async_delay"));
+  config.async_delay =
+      std::chrono::duration_cast<std::chrono::milliseconds>(::lockstep::bounded(delay));
   return config;
 }
 

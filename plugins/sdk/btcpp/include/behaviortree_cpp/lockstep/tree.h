@@ -2,6 +2,7 @@
 // bt_factory.h where all of lockstep is installed.
 #pragma once
 
+#include <lockstep/duration.h>
 #include <lockstep/runtime.h>
 
 #include <chrono>
@@ -73,7 +74,8 @@ class Tree {
   // True: emitWakeUpSignal() of the tree or of a node has ended it.
   template <class Rep, class Period>
   bool sleep(std::chrono::duration<Rep, Period> duration) {
-    return lockstep_sleep(std::chrono::duration_cast<std::chrono::microseconds>(duration));
+    return lockstep_sleep(
+        std::chrono::duration_cast<std::chrono::microseconds>(lockstep::bounded(duration)));
   }
   // From any thread.
   void emitWakeUpSignal();

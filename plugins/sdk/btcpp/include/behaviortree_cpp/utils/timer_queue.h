@@ -2,6 +2,8 @@
 // which does not wait, nodes of a tree want ticks to count.
 #pragma once
 
+#include <lockstep/duration.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
@@ -36,7 +38,8 @@ class TimerQueue {
   // Its number, for cancel.
   std::uint64_t add(std::chrono::milliseconds delay, Handler handler) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    timers_.push_back({Clock::now() + delay, ++last_, false, std::move(handler)});
+    timers_.push_back(
+        {Clock::now() + lockstep::bounded(delay), ++last_, false, std::move(handler)});
     changed_.notify_all();
     return last_;
   }

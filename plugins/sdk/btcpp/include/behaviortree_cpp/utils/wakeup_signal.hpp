@@ -1,6 +1,8 @@
 // Ends a sleep from another thread.
 #pragma once
 
+#include <lockstep/duration.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -13,7 +15,7 @@ class WakeUpSignal {
   // True: the signal came before the time was over.
   bool waitFor(std::chrono::microseconds time) {
     std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, time, [this] { return has_come_; });
+    changed_.wait_for(lock, lockstep::bounded(time), [this] { return has_come_; });
     return std::exchange(has_come_, false);
   }
   void emitSignal() {
