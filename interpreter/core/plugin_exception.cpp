@@ -1,5 +1,7 @@
 #include "core/plugin_exception.h"
 
+#include <unwind.h>
+
 #include <fmt/format.h>
 
 namespace lockstep::host {
@@ -23,6 +25,10 @@ std::string describe_exception() {
   } catch (...) {
     return "threw an exception that is not a std::exception";
   }
+}
+
+void ready_to_catch() {
+  _Unwind_Backtrace([](_Unwind_Context*, void*) { return _URC_END_OF_STACK; }, nullptr);
 }
 
 }  // namespace lockstep::host

@@ -13,6 +13,11 @@ namespace lockstep::host {
 // Within a catch block: "threw an exception: out of reach". Its words are shortened.
 std::string describe_exception();
 
+// Before the first plugin is loaded. The exceptions of a plugin that brings its own C++ runtime are
+// caught by functions of ours that belong to another unwinder: this one must have begun, or the
+// process aborts.
+void ready_to_catch();
+
 // An exception that was already described; describe_exception() returns that description.
 class PluginException : public std::exception {
  public:

@@ -7,6 +7,7 @@
 
 #include "core/audience.h"
 #include "core/parameter_value.h"
+#include "core/plugin_exception.h"
 #include "core/suggest.h"
 #include "core/utf8.h"
 #include "core/wording.h"
@@ -149,6 +150,7 @@ const char* lockstep_last_error(void) {
 
 lockstep_project* lockstep_project_new(void) {
   return guarded([] {
+    ready_to_catch();  // also what the program's own leaves throw
     auto project = std::make_unique<lockstep_project>();
     project->options.plugins.program_directory = program_directory();
     project->options.plugins.run_programs = true;

@@ -9,6 +9,7 @@
 #include <set>
 #include <string_view>
 
+#include "core/plugin_exception.h"
 #include "core/wording.h"
 #include "engine/call_mark.h"
 #include "plugin/open/elf_file.h"
@@ -61,6 +62,7 @@ Result<SharedObject> open_shared_object(const std::string& path) {
   if (auto refusal = inspect_elf_file(path)) return tl::unexpected(std::move(*refusal));
   // A name without a slash would be searched in the system's library directories.
   const std::string file = path.find('/') == path.npos ? "./" + path : path;
+  ready_to_catch();
   SharedObject object;
   const FloatMode mode = FloatMode::current();
   {
