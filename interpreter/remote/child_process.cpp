@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -73,10 +72,6 @@ int high_copy(int descriptor) {
   return fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
 }
 
-int open_pidfd(pid_t process) {
-  return static_cast<int>(syscall(SYS_pidfd_open, process, 0));
-}
-
 }  // namespace
 
 std::string error_text(int error) {
@@ -89,10 +84,6 @@ std::string describe_end(int code, int status) {
   const char* const text = sigdescr_np(status);
   if (name == nullptr) return fmt::format("was killed by signal {}", status);
   return fmt::format("was killed by SIG{} ({})", name, text == nullptr ? "" : text);
-}
-
-FileDescriptor ChildProcess::own_end() {
-  return FileDescriptor(open_pidfd(getpid()));
 }
 
 std::string ChildProcess::start(const std::string& program, std::vector<std::string> arguments,
@@ -115,8 +106,8 @@ std::string ChildProcess::start(const std::string& program, std::vector<std::str
     const Lock lock(mutex_);
     pid_ = pid;
   }
-  descriptor_ = FileDescriptor(open_pidfd(pid));
-  if (descriptor_.number() >= 0) return {};
+  end_ = ProcessEnd(pid);
+  if (end_.descriptor() >= 0) return {};
   const std::string reason = error_text(errno);
   kill();
   reap();
@@ -149,6 +140,7 @@ std::string ChildProcess::reap() {
   // be somebody else's.
   while (waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
   }
+  end_.await();
   const Lock lock(mutex_);
   ::kill(-pid_, SIGKILL);
   while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED) != 0 && errno == EINTR) {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "system/file_descriptor.h"
 #include "system/mutex.h"
+#include "system/process_end.h"
 
 namespace lockstep::host {
 
@@ -26,10 +26,6 @@ class ChildProcess {
   struct Given {
     int ours, theirs;
   };
-  // A descriptor that is readable when this process has ended, for a child that is not to outlive
-  // it; none on failure.
-  static FileDescriptor own_end();
-
   // Runs `program` with `arguments`, the first of which is its name. Beside what it is given it
   // finds 0 (empty), 1 and 2 (our standard error). Returns "" or the reason of a failure. The
   // caller keeps the descriptors.
@@ -44,7 +40,7 @@ class ChildProcess {
 
   pid_t number() const;  // -1: none, or reaped
   // Becomes readable when the process has ended.
-  int descriptor() const { return descriptor_.number(); }
+  int descriptor() const { return end_.descriptor(); }
   // Sends SIGKILL to it, even if it has left its group, and to that group, unless it has been
   // reaped. May be called from any thread.
   void kill();
@@ -54,7 +50,7 @@ class ChildProcess {
  private:
   mutable Mutex mutex_;
   pid_t pid_ LOCKSTEP_GUARDED_BY(mutex_) = -1;  // -1: none, or reaped
-  FileDescriptor descriptor_;
+  ProcessEnd end_;
 };
 
 }  // namespace lockstep::host

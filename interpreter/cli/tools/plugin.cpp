@@ -99,6 +99,7 @@ std::string text_of(const Conformance& found, const std::string& file, std::stri
   for (const ConformanceStep& step : found.steps) {
     text += fmt::format("{} {}\n", step.is_good ? "ok   " : "wrong", printable(step.text));
   }
+  if (!found.has_started) return text + fmt::format("{}: was not examined\n", printable(file));
   return text + (found.is_good()
                      ? fmt::format("{}: ok\n", printable(file))
                      : fmt::format("{}: does not keep {}\n", printable(file), contract));
@@ -175,16 +176,16 @@ std::function<int()> define_plugin(CLI::App& app) {
 
 }  // namespace
 
-extern const Command kPluginCommand{
-    "plugin", "Check a plugin, a shared object or a program",
-    "Exit code: 0 it keeps the contract, 4 it does not, 3 a tree of --tree is wrong, 2 usage.\n"
-    "\n"
-    "Examples:\n"
-    "  lockstep plugin check build/grip.so\n"
-    "  lockstep plugin check ./grip.py\n"
-    "  lockstep plugin check grip --plugin-path leaves\n"
-    "  lockstep plugin check ./grip.py --save\n"
-    "  lockstep plugin check ./grip.py --list --save",
-    define_plugin};
+extern const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a program",
+                                    "Exit code: 0 it keeps the contract, 4 it does not, or does "
+                                    "not start, 3 a tree of --tree is wrong, 2 usage.\n"
+                                    "\n"
+                                    "Examples:\n"
+                                    "  lockstep plugin check build/grip.so\n"
+                                    "  lockstep plugin check ./grip.py\n"
+                                    "  lockstep plugin check grip --plugin-path leaves\n"
+                                    "  lockstep plugin check ./grip.py --save\n"
+                                    "  lockstep plugin check ./grip.py --list --save",
+                                    define_plugin};
 
 }  // namespace lockstep::host

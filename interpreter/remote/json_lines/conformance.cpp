@@ -135,6 +135,7 @@ class Examiner {
   bool begin() {
     const Nanoseconds started = monotonic_now();
     auto line = conversation_.start(path_);
+    result_.has_started = conversation_.process().has_started();
     if (!line) return refuse("it ", line.error());
     const Nanoseconds took = monotonic_now() - started;
     result_.first_line = *line;

@@ -16,7 +16,8 @@ struct ConformanceStep {
 
 struct Conformance {
   std::vector<ConformanceStep> steps;
-  std::string first_line;  // of the program; "" without
+  std::string first_line;   // of the program; "" without
+  bool has_started = true;  // else nothing is known about it
   bool is_good() const { return std::ranges::all_of(steps, &ConformanceStep::is_good); }
 };
 

@@ -5,7 +5,6 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "core/clock.h"
 #include "remote/json_lines/orphans.h"
 #include "system/pipe.h"
+#include "system/process_end.h"
 
 namespace lockstep::host {
 namespace {
@@ -84,13 +84,12 @@ void end_orphans() {
 
 class Guard {
  public:
-  explicit Guard(pid_t program)
-      : program_(program), end_(static_cast<int>(syscall(SYS_pidfd_open, program, 0))) {}
+  explicit Guard(pid_t program) : program_(program), end_(program) {}
 
   // Returns when the host has let go of the program, or has died.
   void watch() {
     pollfd ends[3] = {
-        {Given::kControl, POLLIN, 0}, {Given::kParent, POLLIN, 0}, {end_.number(), POLLIN, 0}};
+        {Given::kControl, POLLIN, 0}, {Given::kParent, POLLIN, 0}, {end_.descriptor(), POLLIN, 0}};
     while (true) {
       poll(ends, 3, patience());
       if (ends[1].revents != 0) return;
@@ -134,7 +133,7 @@ class Guard {
   }
 
   pid_t program_;
-  FileDescriptor end_;
+  ProcessEnd end_;
   std::optional<Nanoseconds> deadline_;
 };
 
@@ -159,7 +158,8 @@ int guard_program(const std::string& path) {
   dup2(nothing.number(), Given::kRequests);
   dup2(nothing.number(), Given::kAnswers);
   report(GuardianReport::What::Started, *program);
-  Guard(*program).watch();
+  Guard guard(*program);
+  guard.watch();
   kill(-*program, SIGKILL);
   end_orphans();
   return 0;

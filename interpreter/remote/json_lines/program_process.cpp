@@ -14,6 +14,7 @@
 #include "remote/json_lines/guardian.h"
 #include "remote/json_lines/orphans.h"
 #include "system/pipe.h"
+#include "system/process_end.h"
 
 namespace lockstep::host {
 namespace {
@@ -42,7 +43,7 @@ bool await(std::initializer_list<int> descriptors, std::optional<Nanoseconds> pa
 
 std::string ProgramProcess::start(const std::string& leafhost, const std::string& path) {
   Pipe requests, answers, control;
-  const FileDescriptor parent = ChildProcess::own_end();
+  const FileDescriptor parent = ProcessEnd::own();
   if (parent.number() < 0 || !requests.open_sockets(SOCK_STREAM) || !answers.open() ||
       !control.open_sockets(SOCK_SEQPACKET)) {
     return error_text(errno);
@@ -67,6 +68,11 @@ std::string ProgramProcess::start(const std::string& leafhost, const std::string
   const Lock lock(mutex_);
   group_ = report.number;
   return {};
+}
+
+bool ProgramProcess::has_started() {
+  const Lock lock(mutex_);
+  return group_ > 0;
 }
 
 ProgramProcess::~ProgramProcess() {

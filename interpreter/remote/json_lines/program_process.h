@@ -22,6 +22,7 @@ class ProgramProcess {
   // Starts the program in `path`, under a guardian, which is `leafhost`. "" or why it does not
   // start.
   std::string start(const std::string& leafhost, const std::string& path);
+  bool has_started();
   ProgramProcess() = default;
   // Ends what is left of it.
   ~ProgramProcess();

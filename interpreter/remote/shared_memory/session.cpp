@@ -10,6 +10,7 @@
 #include "plugin/contract/leaf_set.h"
 #include "remote/shared_memory/leafhost_descriptors.h"
 #include "system/own_thread.h"
+#include "system/process_end.h"
 
 namespace lockstep::host {
 namespace {
@@ -25,7 +26,7 @@ std::string Session::start(const IsolationOptions& options, const std::string& p
   hang_limit_ = options.hang_limit;
   const FileDescriptor memory(Channel::create_memory());
   bell_ = FileDescriptor(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  const FileDescriptor end = ChildProcess::own_end();
+  const FileDescriptor end = ProcessEnd::own();
   if (memory.number() < 0 || bell_.number() < 0 || end.number() < 0 ||
       !channel_.open(memory.number(), Channel::Side::Host)) {
     return error_text(errno);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <memory>
 
 #include "cli/console.h"
@@ -86,23 +87,32 @@ void read_lines(int descriptor, Part& part) {
   }
 }
 
+// By its path: behind /proc/self/exe there may be another program, as valgrind's.
+std::string own_program() {
+  std::error_code error;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", error);
+  return !error && std::filesystem::exists(path, error) ? path.string() : "/proc/self/exe";
+}
+
 std::optional<std::size_t> run_part(const std::string& file, const PluginOptions& options,
                                     std::size_t first, Conformance& result) {
   Pipe findings;
   if (!findings.open()) {
     result.steps.push_back({false, "cannot be examined: there is no pipe"});
+    result.has_started = false;
     return std::nullopt;
   }
   ChildProcess child;
   const ChildProcess::Given given[] = {{findings.writing.number(), kFindings}};
   const std::string failure =
-      child.start("/proc/self/exe",
+      child.start(own_program(),
                   {"lockstep", "plugin", "check", file, "--hang-limit",
                    fmt::format("{}", options.hang_limit), "--from-leaf", fmt::format("{}", first)},
                   given);
   findings.writing = FileDescriptor();
   if (!failure.empty()) {
     result.steps.push_back({false, "cannot be examined: no process starts: " + failure});
+    result.has_started = false;
     return std::nullopt;
   }
   Part part(result, first);
