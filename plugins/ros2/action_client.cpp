@@ -3,6 +3,7 @@
 #include <rcl/error_handling.h>
 #include <rcl_action/wait.h>
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -18,12 +19,12 @@ constexpr auto kSettling = 50ms;
 constexpr auto kBetweenLooks = 200ms;
 constexpr auto kCancelLimit = 1s;
 
-constexpr std::size_t kIdSize = 16;
+constexpr std::size_t kMostUnanswered = 16;
 
-void make_id(void* id) {
+void make_id(void* id, std::size_t size) {
   static std::random_device device;
   auto* const bytes = static_cast<unsigned char*>(id);
-  for (std::size_t i = 0; i < kIdSize; i += sizeof(unsigned)) {
+  for (std::size_t i = 0; i < size; i += sizeof(unsigned)) {
     const unsigned bits = device();
     std::memcpy(bytes + i, &bits, sizeof bits);
   }
@@ -187,7 +188,10 @@ void ActionClient::poll_for_server(Clock::time_point now) {
 
 void ActionClient::poll_goal(Clock::time_point now) {
   if (wish_ == Wish::Cancel && now >= cancel_until_) {
-    lines_.add("the server of '" + action_ + "' has not ended the goal within 1 s of the cancel");
+    const bool is_accepted = state_ == State::IsAccepted;
+    lines_.add("the server of '" + action_ + "' has not " + (is_accepted ? "ended" : "accepted") +
+               " the goal within 1 s of the cancel");
+    if (!is_accepted) leave_unanswered();
     return end(Outcome::Canceled);
   }
   if (now < next_look_) return;
@@ -196,7 +200,7 @@ void ActionClient::poll_goal(Clock::time_point now) {
 }
 
 void ActionClient::send_goal() {
-  make_id(goal_.request->get());
+  make_id(goal_.request->get(), kIdSize);
   next_look_ = Clock::now() + kBetweenLooks;
   ++sent_;
   state_ = State::IsSent;
@@ -225,6 +229,25 @@ bool ActionClient::send_cancel(const void* id, std::int64_t& call) {
   rcl_action_cancel_request_t request = rcl_action_get_zero_initialized_cancel_request();
   std::memcpy(&request.goal_info.goal_id, id, kIdSize);
   return rcl_action_send_cancel_request(&client_, &request, &call) == RCL_RET_OK;
+}
+
+// The goal has been halted, and the server may still accept it. The cancel comes to a server that
+// does one after the other when it has accepted; if it comes too early, another one follows.
+void ActionClient::leave_unanswered() {
+  if (unanswered_.size() == kMostUnanswered) unanswered_.erase(unanswered_.begin());
+  Unanswered& it = unanswered_.emplace_back(Unanswered{goal_call_, {}});
+  std::memcpy(it.id.data(), goal_.request->get(), kIdSize);
+  std::int64_t call = 0;
+  if (!send_cancel(it.id.data(), call)) rcl_reset_error();
+}
+
+void ActionClient::take_late_answer(std::int64_t call, bool is_accepted) {
+  const auto it = std::find_if(unanswered_.begin(), unanswered_.end(),
+                               [call](const Unanswered& goal) { return goal.call == call; });
+  if (it == unanswered_.end()) return;
+  std::int64_t cancel = 0;
+  if (is_accepted && !send_cancel(it->id.data(), cancel)) rcl_reset_error();
+  unanswered_.erase(it);
 }
 
 // A goal before it, which it was to replace, does not stay at work.
@@ -281,8 +304,11 @@ void ActionClient::take_goal_response() {
     rcl_reset_error();
     return;
   }
-  if (state_ != State::IsSent || id.sequence_number != goal_call_) return;
-  if (!*goal_response_.at<bool>(type_.accepted)) return reject();
+  const bool is_accepted = *goal_response_.at<bool>(type_.accepted);
+  if (state_ != State::IsSent || id.sequence_number != goal_call_) {
+    return take_late_answer(id.sequence_number, is_accepted);
+  }
+  if (!is_accepted) return reject();
   replaced_.reset();
   state_ = State::IsAccepted;
   ask_for_result();

@@ -3,10 +3,12 @@
 
 #include <rcl_action/rcl_action.h>
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "middleware.hpp"
 #include "triple_buffer.hpp"
@@ -82,6 +84,8 @@ class ActionClient final : public Waitable {
   void ask_for_result();
   void ask_to_cancel();
   bool send_cancel(const void* id, std::int64_t& call);
+  void leave_unanswered();
+  void take_late_answer(std::int64_t call, bool is_accepted);
   void reject();
   void take_goal_response();
   void take_result();
@@ -90,6 +94,13 @@ class ActionClient final : public Waitable {
   void take_status();
   bool is_own(const Message& message) const;
   void fail(const std::string& what);
+
+  static constexpr std::size_t kIdSize = 16;
+  // A goal that was halted before the server has accepted it.
+  struct Unanswered {
+    std::int64_t call;
+    std::array<unsigned char, kIdSize> id;
+  };
 
   const ActionType& type_;
   const std::string action_;
@@ -102,7 +113,8 @@ class ActionClient final : public Waitable {
   Wish wish_ = Wish::None;
   bool is_canceling_ = false, is_resumed_ = false;
   Goal goal_;
-  std::optional<Goal> next_;           // waits until the one before has ended
+  std::optional<Goal> next_;  // waits until the one before has ended
+  std::vector<Unanswered> unanswered_;
   std::shared_ptr<Message> replaced_;  // by the goal that the server has not accepted yet
   unsigned sent_ = 0;
   std::int64_t goal_call_ = 0, result_call_ = 0, cancel_call_ = 0;

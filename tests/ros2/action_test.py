@@ -99,6 +99,41 @@ class Action(World):
         self.assertTrue(any(line.startswith("canceled") for line in server.lines), server.lines)
         self.assertNotEqual(run.returncode, 0)
 
+    def test_halted_before_it_is_accepted_it_is_canceled_then(self):
+        server = self.server("--action", "/count", "--accept-after", 500)
+        self.run_tree(f'<Timeout seconds="0.2">{count("c", "/count", 1000)}</Timeout>')
+        server.wait_for("goal 1000")
+        server.wait_for("cancel")
+        self.assertTrue(any(line.startswith("canceled") for line in server.lines), server.lines)
+
+    def test_accepted_long_after_the_halt_it_does_not_stay_at_work(self):
+        server = self.server("--action", "/count", "--accept-after", 2000)
+        run = self.run_tree(f"""<Sequence memory="true">
+          <Inverter><Timeout seconds="0.2">{count("c", "/count", 1000)}</Timeout></Inverter>
+          <Wait seconds="3"/></Sequence>""")
+        self.assertIn("has not accepted the goal within 1 s of the cancel", run.err)
+        server.wait_for("cancel")
+
+    def test_halted_twice_before_the_first_goal_is_accepted(self):
+        server = self.server("--action", "/count", "--accept-after", 600)
+        goal = f'<Timeout seconds="0.1">{count("c", "/count", 1000)}</Timeout>'
+        self.run_tree(f"""<Sequence memory="true"><Inverter>{goal}</Inverter>
+          <Inverter>{goal}</Inverter><Wait seconds="2"/></Sequence>""")
+        server.wait_for("cancel")
+        goals = [line for line in server.lines if line.startswith("goal")]
+        ended = [line for line in server.lines if line.startswith("canceled")]
+        self.assertEqual(len(goals), len(ended), server.lines)
+
+    def test_halted_while_it_connects_it_sends_no_goal(self):
+        run = self.start(f"""<Sequence memory="true">
+          <Inverter><Timeout seconds="0.3">{count("c", "/count", 1000)}</Timeout></Inverter>
+          <Wait seconds="2"/>{count("d", "/count", 3)}</Sequence>""")
+        time.sleep(0.8)
+        server = self.server("--action", "/count")
+        _, err = run.communicate(timeout=20)
+        self.assertEqual(run.returncode, 0, err)
+        self.assertEqual([line for line in server.lines if line.startswith("goal")], ["goal 3"])
+
     def test_refused_cancel_is_said(self):
         self.server("--action", "/count", "--refuse")
         run = self.run_tree(f'<Timeout seconds="0.5">{count("c", "/count", 1000)}</Timeout>')

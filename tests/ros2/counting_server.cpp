@@ -6,6 +6,7 @@
 //   --quit N     lets somebody else cancel the goal at the step N
 //   --preempt    a goal aborts the one before it, as one of Nav2 does
 //   --reject-order N: takes no goal with this order
+//   --accept-after N: answers a goal after N ms
 //   --hold-service NAME, --hold-topic NAME: stands while it is true
 // It prints one line for each thing that happens to it.
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "example_interfaces/action/fibonacci.hpp"
@@ -33,7 +35,7 @@ using SetBool = example_interfaces::srv::SetBool;
 struct Options {
   std::string node = "counting_server_" + std::to_string(getpid());
   std::string action = "/count", hold_service, hold_topic;
-  int step = 20, abort_at = -1, die_at = -1, quit_at = -1, reject_order = -1;
+  int step = 20, abort_at = -1, die_at = -1, quit_at = -1, reject_order = -1, accept_after = 0;
   bool keeps = false, rejects = false, refuses = false, preempts = false;
 };
 
@@ -52,6 +54,7 @@ Options read_options(int argc, char** argv) {
     if (word == "--die") options.die_at = number();
     if (word == "--quit") options.quit_at = number();
     if (word == "--reject-order") options.reject_order = number();
+    if (word == "--accept-after") options.accept_after = number();
     if (word == "--preempt") options.preempts = true;
     if (word == "--keep") options.keeps = true;
     if (word == "--reject") options.rejects = true;
@@ -72,6 +75,7 @@ class CountingServer : public rclcpp::Node {
         this, options_.action,
         [this](const rclcpp_action::GoalUUID&, std::shared_ptr<const Fibonacci::Goal> goal) {
           say("goal " + std::to_string(goal->order));
+          std::this_thread::sleep_for(std::chrono::milliseconds(options_.accept_after));
           const bool is_rejected = options_.rejects || goal->order == options_.reject_order;
           return is_rejected ? rclcpp_action::GoalResponse::REJECT
                              : rclcpp_action::GoalResponse::ACCEPT_AND_EXECUTE;
