@@ -53,18 +53,19 @@ struct Hello::Reader {
             });
           },
           kMayLack}});
-    if (has_ticks && kind == "condition") {
-      throw JsonError(
-          fmt::format("the behavior of '{}' has more than one tick, but a condition "
-                      "never runs: leave 'ticks' out",
-                      leaf.id));
-    }
     if (!more_ports.empty()) tables().set_more_ports(joined(more_ports, ";"));
     leaf.kind = number_of("kind of a leaf", kind,
                           {{"action", LOCKSTEP_ACTION}, {"condition", LOCKSTEP_CONDITION}});
     leaf.flags = real_time ? LOCKSTEP_REAL_TIME : 0;
-    // On the wall clock, its answer comes later.
-    if (leaf.kind == LOCKSTEP_CONDITION) leaf.flags |= LOCKSTEP_MAY_RUN;
+    if (leaf.kind == LOCKSTEP_CONDITION) {
+      leaf.flags |= LOCKSTEP_MAY_RUN;  // on the wall clock, its answer may be late
+      if (has_ticks) {
+        throw JsonError(
+            fmt::format("the behavior of '{}' has more than one tick, but a condition "
+                        "never runs: leave 'ticks' out",
+                        leaf.id));
+      }
+    }
     if (!progress) leaf.progress = nullptr;
     Hold its = hold;
     if (hold == Hold::AsItSays) its = pause || answers_pause ? Hold::Message : Hold::None;
