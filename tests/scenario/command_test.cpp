@@ -317,6 +317,19 @@ TEST_CASE("a tree for BehaviorTree.CPP has its scenarios beside it") {
   CHECK(contains(run_lockstep({"test", inside}).err, "has no scenarios"));
 }
 
+// As a StatefulActionNode does: a PipelineSequence does not reset it.
+TEST_CASE("a played action that has completed keeps its result until its parent resets it") {
+  const TemporaryDirectory directory;
+  directory.file("t.xml", R"(<root BTCPP_format="4"><plugin name="nav_control"/>
+    <BehaviorTree ID="Main"><PipelineSequence><A/><B/></PipelineSequence></BehaviorTree></root>)");
+  const std::string file = directory.file("t.test.xml", scenarios(R"(<scenario name="a">
+    <leaf of="A" does="S F"/><leaf of="B" does="R R S"/><expect result="success" ticks="3"/>
+    </scenario>)"));
+  const Outcome it = run_lockstep({"test", file});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+}
+
 TEST_CASE("the substitution rules of BehaviorTree.CPP say what leaves do") {
   const TemporaryDirectory directory;
   directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="Main"><Sequence>
