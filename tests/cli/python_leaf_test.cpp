@@ -130,6 +130,17 @@ TEST_CASE("what the author of a leaf in Python gets wrong is said in a sentence"
       contains(say("    force: dict\n" + tick), "the port 'force' is a <class 'dict'>, expected"));
 }
 
+TEST_CASE("plugin check says nothing of the protocol of a program that does not start") {
+  const TemporaryDirectory directory;
+  const std::string program = directory.file("grip.py", "#!/nowhere/python\n");
+  chmod(program.c_str(), 0755);
+  const Outcome outcome = run_lockstep({"plugin", "check", program});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 4);
+  CHECK(contains(outcome.out, "it does not start: No such file or directory"));
+  CHECK(contains(outcome.out, "grip.py: was not examined\n"));
+}
+
 TEST_CASE("lines that a leaf writes from several threads stay whole") {
   const PythonLeaves leaves;
   const std::string file = leaves.directory.file("grip.py", R"(#!/usr/bin/python3

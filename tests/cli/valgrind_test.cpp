@@ -24,3 +24,26 @@ TEST_CASE("valgrind finds no error and no leak in a run: what it finds is the pl
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.out, "success after 10 ticks"));
 }
+
+TEST_CASE("under valgrind, which has no pidfd_open, plugins of other processes start and end") {
+  const std::string valgrind = "/usr/bin/valgrind";
+  const bool is_sanitized = std::string(LOCKSTEP_PRELOAD) != "";
+  if (is_sanitized || !std::filesystem::exists(valgrind)) return;
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", R"(<root lockstep="1"><plugin name="motion" isolate="true"/>)"
+                  R"(<plugin name="conditions" program="conditions.py"/><BehaviorTree ID="Main">)"
+                  R"(<Sequence><IsUp/><Advance step="0.1"/></Sequence></BehaviorTree></root>)");
+  const Outcome outcome =
+      run({.arguments = {"-q", LOCKSTEP_BINARY_DIR "/lockstep", "run", tree, "--plugin-path",
+                         LOCKSTEP_SOURCE_DIR "/tests/programs", "--clock", "virtual"},
+           .program = valgrind});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "success after 10 ticks"));
+  const Outcome checked = run({.arguments = {"-q", LOCKSTEP_BINARY_DIR "/lockstep", "plugin",
+                                             "check", LOCKSTEP_BINARY_DIR "/plugins/motion.so"},
+                               .program = valgrind});
+  CHECK(checked.code == 0);
+  CHECK(contains(checked.out, "motion.so: ok"));
+}
