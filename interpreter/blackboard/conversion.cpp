@@ -27,13 +27,8 @@ std::optional<FromText<Number>> read_item(std::string_view text, Number /*type*/
 }
 
 std::optional<FromText<Flag>> read_item(std::string_view text, Flag /*type*/) {
-  for (const std::string_view word : {"1", "true", "TRUE", "True"}) {
-    if (text == word) return FromText<Flag>{{true}, false};
-  }
-  for (const std::string_view word : {"0", "false", "FALSE", "False"}) {
-    if (text == word) return FromText<Flag>{{false}, false};
-  }
-  return std::nullopt;
+  const auto flag = parse_flag(text);
+  return flag ? std::optional(FromText<Flag>{{*flag}, false}) : std::nullopt;
 }
 
 std::optional<FromText<std::string>> read_item(std::string_view text, const std::string& /*type*/) {

@@ -35,9 +35,9 @@ std::optional<Number> parse_digits(std::string_view text) {
 // One overload for each alternative of Value. `out` is empty; false: the text is not a value.
 
 bool parse(std::string_view text, bool& out) {
-  text = trim(text);
-  out = text == "true" || text == "1";
-  return out || text == "false" || text == "0";
+  const auto flag = parse_flag(trim(text));
+  out = flag.value_or(false);
+  return flag.has_value();
 }
 
 bool parse(std::string_view text, Flag& out) {
@@ -229,6 +229,16 @@ std::string_view to_string(ValueType type) {
 
 std::string_view expected_text(ValueType type) {
   return row(type).expected;
+}
+
+std::optional<bool> parse_flag(std::string_view text) {
+  for (const std::string_view word : {"1", "true", "True", "TRUE"}) {
+    if (text == word) return true;
+  }
+  for (const std::string_view word : {"0", "false", "False", "FALSE"}) {
+    if (text == word) return false;
+  }
+  return std::nullopt;
 }
 
 std::optional<double> parse_double(std::string_view text) {

@@ -70,6 +70,8 @@ std::string to_text(const Value& value);
 void append_text(const Value& value, std::string& out);
 
 // A finite decimal number that is the whole of `text`, or nothing.
+// The words for yes and no: true, True, TRUE, 1; false, False, FALSE, 0.
+std::optional<bool> parse_flag(std::string_view text);
 std::optional<double> parse_double(std::string_view text);
 std::optional<std::int64_t> parse_int(std::string_view text);
 

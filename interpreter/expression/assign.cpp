@@ -101,6 +101,7 @@ std::optional<double> number_in_script(std::string_view text, const ScriptEnums*
     const auto word = enums->find(text);
     if (word != enums->end()) return word->second;
   }
+  if (const auto flag = parse_flag(text)) return *flag ? 1 : 0;
   const auto number = number_from_text(text);
   return number ? std::optional(number->value) : std::nullopt;
 }

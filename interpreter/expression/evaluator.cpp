@@ -46,6 +46,14 @@ bool take(const Operand& operand, bool& holds) {
   return operand.kind == Operand::Kind::Whole && (operand.whole == 0 || operand.whole == 1);
 }
 
+// A yes or no that came from outside may be a text.
+bool take_condition(const Operand& operand, bool& holds) {
+  if (operand.kind != Operand::Kind::Text) return take(operand, holds);
+  const auto flag = parse_flag(*operand.text);
+  holds = flag.value_or(false);
+  return flag.has_value();
+}
+
 // How far a program has run.
 struct Reached {
   const Instruction* at;
@@ -171,7 +179,7 @@ class Machine {
         return combine_bits();
       case Operation::And:
       case Operation::Or:
-        return wrong_operands();
+        return combine();
       case Operation::Compare:
       case Operation::CompareNext:
         return compare();
@@ -302,6 +310,16 @@ class Machine {
                             sign_of(it_->operation, it_->relation), Evaluator::kLongestText));
   }
 
+  bool combine() {
+    bool left = false;
+    bool right = false;
+    if (!take_condition(before_last(), left) || !take_condition(last(), right)) {
+      return wrong_operands();
+    }
+    const bool holds = it_->operation == Operation::And ? left && right : left || right;
+    return replace_two(Operand::of(holds ? 1.0 : 0.0));
+  }
+
   bool combine_bits() {
     std::int64_t left = 0;
     std::int64_t right = 0;
@@ -353,7 +371,11 @@ class Machine {
 
   bool change_one() {
     double number = 0;
-    if (!take(last(), number)) return wrong_operand(last());
+    bool flag = false;
+    const bool is_flag = it_->operation == Operation::Not && last().kind == Operand::Kind::Text &&
+                         take_condition(last(), flag);
+    if (is_flag) number = flag ? 1 : 0;
+    if (!is_flag && !take(last(), number)) return wrong_operand(last());
     if (it_->operation == Operation::Complement) {
       const auto whole = to_whole(std::trunc(number));
       if (!whole) return wrong_operand(last());
@@ -370,9 +392,9 @@ class Machine {
     double number = 0;
     bool is_number = take(last(), number);
     if (last().kind == Operand::Kind::Text) {
-      const auto found = number_from_text(*last().text);
+      const auto found = number_in_script(*last().text, nullptr);
       is_number = found.has_value();
-      if (found) number = found->value;
+      number = found.value_or(0);
     }
     if (!is_number) return wrong_operand(last());
     --top_;
@@ -421,8 +443,7 @@ class Machine {
 }
 
 [[gnu::noinline]] std::string no_condition(const Operand& operand) {
-  return fmt::format("a condition is 0, 1 or a number that is not negative and not whole, not {}",
-                     operand.shown());
+  return fmt::format("a condition is {}, not {}", kCondition, operand.shown());
 }
 
 }  // namespace
@@ -457,7 +478,7 @@ Truth Evaluator::test(const Expression& expression, std::span<Entry* const> entr
   const Operand* const last = run(expression, entries);
   if (last == nullptr) return Truth::Error;
   bool holds = false;
-  if (take(*last, holds)) return holds ? Truth::Yes : Truth::No;
+  if (take_condition(*last, holds)) return holds ? Truth::Yes : Truth::No;
   error_ = no_condition(*last);
   return Truth::Error;
 }

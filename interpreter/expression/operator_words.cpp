@@ -41,14 +41,15 @@ std::string_view operands_of(Operation operation) {
       return "two whole numbers";
     case Operation::And:
     case Operation::Or:
-      return "two conditions: 0, 1 or a number that is not negative and not whole";
+      return "two conditions: true, false, 0, 1 or a number that is not negative and not whole";
     case Operation::Compare:
     case Operation::CompareNext:
       return "two numbers or two texts, or a number and the text of one";
     case Operation::Negate:
+      return "a number";
     case Operation::Not:
     case Operation::JumpIfZero:
-      return "a number";
+      return "a number, true or false";
     case Operation::Complement:
       return "a number of at most 63 bits";
     default:

@@ -231,7 +231,17 @@ std::int64_t bits_of(const Value& value) {
   return whole_of(real_of(value));
 }
 
+// The texts that say yes or no.
+const std::map<std::string, bool> kFlags = {{"true", true},   {"True", true},   {"TRUE", true},
+                                            {"1", true},      {"false", false}, {"False", false},
+                                            {"FALSE", false}, {"0", false}};
+
 bool condition_of(const Value& value) {
+  if (is_text(value)) {
+    const auto flag = kFlags.find(std::get<std::string>(value));
+    if (flag == kFlags.end()) throw Failed();
+    return flag->second;
+  }
   if (const auto whole = held_whole(value)) {
     if (*whole != 0 && *whole != 1) throw Failed();
     return *whole == 1;
@@ -299,7 +309,9 @@ class Walk {
 
   bool asks(const Term& term) {
     const Value value = value_of(term);
-    return (is_text(value) ? front_of(std::get<std::string>(value)) : real_of(value)) != 0;
+    if (!is_text(value)) return real_of(value) != 0;
+    const auto& text = std::get<std::string>(value);
+    return kFlags.contains(text) ? kFlags.at(text) : front_of(text) != 0;
   }
 
   // Of a text: the number that it means.
@@ -308,7 +320,8 @@ class Walk {
     const auto& text = std::get<std::string>(value);
     if (text == "true" || text == "false") return text == "true" ? 1 : 0;
     const auto word = enums_.find(text);
-    return word != enums_.end() ? word->second : front_of(text);
+    if (word != enums_.end()) return word->second;
+    return kFlags.contains(text) ? kFlags.at(text) : front_of(text);
   }
 
   template <class T>
@@ -347,6 +360,7 @@ class Walk {
   }
 
   static Value one(char sign, const Value& value) {
+    if (sign == '!' && is_text(value)) return condition_of(value) ? 0.0 : 1.0;
     const double real = real_of(value);
     if (sign == '-') return -real;
     if (sign == '!') return real != 0 ? 0.0 : 1.0;

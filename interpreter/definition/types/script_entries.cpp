@@ -110,7 +110,7 @@ class Declarer {
   // By the start value alone.
   static void declare_started(BlackboardEntry& it, std::string_view text) {
     if (it.is_present) return;
-    const bool is_flag = text == "true" || text == "false";
+    const bool is_flag = !parse_double(text) && parse_flag(text);
     make(it, is_flag ? ValueType::Bool : literal_type(text), nullptr);
     auto value = parse_value(it.type, text);
     if (!value) {  // not finite

@@ -134,7 +134,8 @@ TEST_CASE("bits are those of whole numbers") {
 }
 
 TEST_CASE("conditions are 0, 1 or reals that are not negative, and both sides are asked") {
-  const std::string two = "two conditions: 0, 1 or a number that is not negative and not whole";
+  const std::string two =
+      "two conditions: true, false, 0, 1 or a number that is not negative and not whole";
   const ValueRow rows[] = {
       {"1&&1", "1.0"},
       {"1&&0", "0.0"},
@@ -146,15 +147,25 @@ TEST_CASE("conditions are 0, 1 or reals that are not negative, and both sides ar
       {"0&&2", "'&&' takes " + two + ", not 0 and 2"},
       {"1||-1", "'||' takes " + two + ", not 1 and -1"},
       {"0&&-0.5", "'&&' takes " + two + ", not 0 and -0.5"},
-      {"1||'true'", "'||' takes " + two + ", not 1 and the text 'true'"},
+      {"0||'True'", "1.0"},
+      {"'TRUE'&&'1'", "1.0"},
+      {"'false'||'False'", "0.0"},
+      {"'FALSE'||'0'", "0.0"},
+      {"true_text&&flag", "1.0"},
+      {"1||'yes'", "'||' takes " + two + ", not 1 and the text 'yes'"},
+      {"'1.0'&&1", "'&&' takes " + two + ", not the text '1.0' and 1"},
       {"0&&missing", "there is no entry 'missing'; 'missing := …' makes it"},
       {"1||missing", "there is no entry 'missing'; 'missing := …' makes it"},
       {"!0", "1.0"},
       {"!0.5", "0.0"},
       {"!-3", "0.0"},
       {"!(0/0)", "0.0"},
-      {"!''", "'!' takes a number, not the text ''"},
-      {"!empty", "'!' takes a number, not an entry without value"},
+      {"!true_text", "0.0"},
+      {"!'False'", "1.0"},
+      {"!!'1'", "1.0"},
+      {"!'2'", "'!' takes a number, true or false, not the text '2'"},
+      {"!''", "'!' takes a number, true or false, not the text ''"},
+      {"!empty", "'!' takes a number, true or false, not an entry without value"},
       {"-'a'", "'-' takes a number, not the text 'a'"},
   };
   check_values(rows);
@@ -196,7 +207,8 @@ TEST_CASE("comparisons are of texts by bytes, of numbers almost, of a number and
       {"'RED'==RED", "1.0"},
       {"red_text==2", "1.0"},
       {"red_text=='RED'", "1.0"},
-      {"'TRUE'==1", "'==' takes " + operands + ", not the text 'TRUE' and 1"},
+      {"'TRUE'==1", "1.0"},
+      {"'False'==flag", "0.0"},
       {"''<1", "'<' takes " + operands + ", not the text '' and 1"},
       {"1>=text", "'>=' takes " + operands + ", not 1 and the text 'abc'"},
       {"empty==empty",
@@ -219,9 +231,10 @@ TEST_CASE("?: asks a number, or a text that begins with one") {
       {"0/0?'y':'n'", "'y'"},
       {"'1x'?'y':'n'", "'y'"},
       {"'0'?'y':'n'", "'n'"},
-      {"text?'y':'n'", "'?' takes a number, not the text 'abc'"},
-      {"'true'?'y':'n'", "'?' takes a number, not the text 'true'"},
-      {"empty?1:2", "'?' takes a number, not an entry without value"},
+      {"true_text?'y':'n'", "'y'"},
+      {"'False'?'y':'n'", "'n'"},
+      {"text?'y':'n'", "'?' takes a number, true or false, not the text 'abc'"},
+      {"empty?1:2", "'?' takes a number, true or false, not an entry without value"},
       {"1?whole:missing", "2"},
   };
   check_values(rows);
@@ -233,7 +246,7 @@ TEST_CASE("a condition of a node is a number that means yes or no") {
     std::string result;
   };
   const std::string wrong =
-      "a condition is 0, 1 or a number that is not negative and not whole, not ";
+      "a condition is true, false, 0, 1 or a number that is not negative and not whole, not ";
   const ConditionRow rows[] = {
       {"1", "yes"},
       {"0", "no"},
@@ -245,7 +258,12 @@ TEST_CASE("a condition of a node is a number that means yes or no") {
       {"x:=1", "yes"},
       {"2", wrong + "2"},
       {"-0.5", wrong + "-0.5"},
-      {"'true'", wrong + "the text 'true'"},
+      {"'true'", "yes"},
+      {"true_text", "yes"},
+      {"'False'", "no"},
+      {"'0'", "no"},
+      {"'2'", wrong + "the text '2'"},
+      {"text", wrong + "the text 'abc'"},
       {"empty", wrong + "an entry without value"},
       {"missing", "there is no entry 'missing'; 'missing := …' makes it"},
   };
