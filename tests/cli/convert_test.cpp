@@ -64,6 +64,12 @@ std::string around(const std::string& root, const std::string& node) {
   return "<root " + root + ">\n<BehaviorTree ID=\"Main\">\n" + node + "\n</BehaviorTree></root>\n";
 }
 
+std::string nested(int levels) {
+  std::string node = "<AlwaysSuccess/>";
+  for (int level = 1; level < levels; ++level) node = "<Inverter>" + node + "</Inverter>";
+  return node;
+}
+
 }  // namespace
 
 TEST_CASE("convert keeps comments and order, and writes XML") {
@@ -82,7 +88,7 @@ TEST_CASE("converted there and back, a tree runs as before") {
   const std::string ours = directory.file("ours.xml", kOurs);
   const Outcome there = run_lockstep({"convert", "--to", "btcpp4", ours});
   CHECK(there.code == 0);
-  CHECK(there.err.empty());
+  CHECK(contains(there.err, "warning: BehaviorTree.CPP 4.8.4 and later refuse the ID 'Main tree'"));
   CHECK(contains(there.out, "<root BTCPP_format=\"4\" main"));
   const std::string theirs = directory.file("theirs.xml", there.out);
   CHECK(ticks(theirs) == ticks(ours));
@@ -164,6 +170,51 @@ TEST_CASE("convert says scripts and branches in the other language's words") {
   const Outcome there = run_lockstep({"convert", directory.file("ours.xml", here.out)});
   CHECK(there.code == 0);
   CHECK(there.out == theirs);
+}
+
+TEST_CASE("convert writes the operators and texts of scripts as the other language has them") {
+  const TemporaryDirectory directory;
+  const std::string our_nodes =
+      "<Sequence memory=\"true\"><Script code='k := 0; s := \"or\"'/>\n"
+      "<Check code=\"k == 0 and (s == 'or' or k > 5)\"/><AlwaysSuccess skip_if=\"k &lt; 1 "
+      "or not_k\" "
+      "on_end='s := \"a\"'/></Sequence>";
+  const Outcome there =
+      run_lockstep({"convert", directory.file("ours.xml", around("lockstep=\"1\"", our_nodes))});
+  INFO(there.err);
+  CHECK(there.code == 0);
+  CHECK(contains(there.out, "code=\"k := 0; s := 'or'\""));
+  CHECK(contains(there.out, "code=\"k == 0 &amp;&amp; (s == 'or' || k > 5)\""));
+  CHECK(contains(there.out, "_skipIf=\"k &lt; 1 || not_k\" _post=\"s := 'a'\""));
+  const Outcome back = run_lockstep({"convert", directory.file("theirs.xml", there.out)});
+  CHECK(back.code == 0);
+  CHECK(contains(back.out, "code=\"k == 0 &amp;&amp; (s == 'or' || k > 5)\""));
+}
+
+TEST_CASE("convert keeps processing instructions where BehaviorTree.CPP takes them") {
+  const TemporaryDirectory directory;
+  const std::string ours = directory.file(
+      "ours.xml",
+      "<?xml version=\"1.0\"?><?style a?><root lockstep=\"1\"><?x y?><BehaviorTree ID=\"Main\">"
+      "<AlwaysSuccess/></BehaviorTree></root><?z?>");
+  const Outcome there = run_lockstep({"convert", ours});
+  CHECK(there.code == 0);
+  CHECK(there.out ==
+        "<?xml version=\"1.0\"?><?style a?><root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\">"
+        "<AlwaysSuccess/></BehaviorTree></root>");
+  CHECK(contains(there.err, "note: '<?x y?>' is left out"));
+}
+
+TEST_CASE("convert writes 256 levels for BehaviorTree.CPP") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", around("lockstep=\"1\"", nested(256)));
+  const Outcome there = run_lockstep({"convert", tree});
+  CHECK(there.code == 0);
+  const std::string theirs = directory.file("theirs.xml", there.out);
+  CHECK(run_lockstep({"check", theirs}).code == 0);
+  const std::string deeper =
+      directory.file("deeper.xml", around("BTCPP_format=\"4\"", nested(257)));
+  CHECK(contains(run_lockstep({"check", deeper}).err, "nested deeper than 256 levels"));
 }
 
 TEST_CASE("convert warns of a Sleep that may be held") {
@@ -250,6 +301,9 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
       {"<Wait/>", "3:1: error: a leaf called 'Wait' cannot"},
       {"<A x=\"{a.b}\"/>", "3:4: error: the key 'a.b' cannot"},
       {"<A name=\"a/b\"/>", "3:4: error: the name 'a/b' cannot"},
+      {"<A _skipIf=\"x == and\"/>", "3:18: error: an entry called 'and' cannot"},
+      {"<Script code=\"or := 1\"/>", "3:15: error: an entry called 'or' cannot"},
+      {"<ScriptCondition code=\"1 &lt; @x\"/>", "3:31: error: the entry '@x' cannot"},
   };
   for (const Row& row : rows) {
     INFO(row.node);
@@ -276,6 +330,8 @@ TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
       {"<Switch on=\"x\" cases=\"1;2\"><A/><A/></Switch>",
        "hint: add <AlwaysFailure/> as its last child"},
       {"<Wait seconds=\"0.0005\"/>", "3:7: error: seconds=\"0.0005\" cannot"},
+      {"<Check code='x == \"it&apos;s\"'/>", "3:19: error: the text \"it's\" cannot"},
+      {nested(257), "3:2561: error: a node 257 levels below its tree cannot"},
   };
   for (const Row& row : rows) {
     INFO(row.node);

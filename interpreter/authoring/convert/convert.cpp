@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
+#include "authoring/convert/script_text.h"
 #include "authoring/convert/switch_node.h"
 #include "authoring/edit/text_edit.h"
 #include "authoring/edit/value_text.h"
@@ -28,6 +30,8 @@ using btcpp::NodePair;
 using btcpp::Side;
 
 constexpr std::string_view kModels = "TreeNodesModel";
+// BehaviorTree.CPP 4.10 refuses elements that are deeper below BehaviorTree.
+constexpr std::size_t kMostLevels = 256;
 
 class Converter {
  public:
@@ -61,6 +65,7 @@ class Converter {
   };
 
   void convert(const XmlToken& token) {
+    const bool is_prolog = std::exchange(is_prolog_, false);
     switch (token.kind) {
       case TokenKind::OpenTag:
         return open(token);
@@ -75,6 +80,10 @@ class Converter {
         return;
       case TokenKind::Comment:
         return comment(token);
+      case TokenKind::Instruction:
+        is_prolog_ = is_prolog;
+        if (!to_ours() && !is_prolog) leave_out_instruction(token);
+        return;
       default:
         return;
     }
@@ -95,6 +104,11 @@ class Converter {
     if (element >= document_.elements().size()) {  // a second root
       open_.back().is_left_out = true;
     } else if (open_.size() > 2 && !is_left_out() && !is_in_models()) {
+      if (!to_ours() && open_.size() == 3 + kMostLevels) {
+        cannot(place_of(element), fmt::format("a node {} levels below its tree", kMostLevels + 1),
+               fmt::format("it takes {}: make a tree of a part, and a SubTree in its place",
+                           kMostLevels));
+      }
       convert_node(element, token);
     } else if (open_.size() == 2) {
       convert_child_of_root(element);
@@ -123,6 +137,7 @@ class Converter {
     constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin", "arg", kModels};
     if (std::ranges::find(kBoth, tag) != std::end(kBoth)) {
       if (to_ours() && tag == "BehaviorTree") check_tree(element);
+      if (!to_ours() && tag == "BehaviorTree") warn_of_id(element);
       if (!to_ours() && tag == "arg") warn_of_argument(element);
       return;
     }
@@ -169,6 +184,20 @@ class Converter {
       if (elements[child].tag == "arg" && name != nullptr && name->value == argument) return true;
     }
     return false;
+  }
+
+  // Releases before 4.8.4 take it, and lockstep does.
+  void warn_of_id(std::uint32_t tree) const {
+    const Attribute* id = document_.find_attribute(tree, "ID");
+    constexpr std::string_view kForbidden = " \t\r\n<>&\"'/\\:*?|.";
+    if (id == nullptr) return;
+    const bool is_name = id->value.find_first_of(kForbidden) == std::string_view::npos;
+    if (is_name && id->value != "Root" && id->value != "root") return;
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at_value(
+        id->place,
+        fmt::format("BehaviorTree.CPP 4.8.4 and later refuse the ID '{}'", brief(id->value)),
+        "an ID there has no blanks and none of <>&\"'/\\:*?|., and is not Root", Severity::Warning);
   }
 
   void check_tree(std::uint32_t tree) const {
@@ -353,8 +382,26 @@ class Converter {
 
   void to_their_attribute(const XmlToken& token, const Attribute& attribute) {
     const auto hook = hook_named(attribute.name, conversion_.from);
-    if (!hook) return keep(token, attribute);
-    replace(token, attribute_of(*hook, conversion_.to), attribute.value);
+    if (hook) return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
+    if (is_script(attribute.name)) return convert_script(token, attribute, attribute.name);
+    keep(token, attribute);
+  }
+
+  // Of a built-in node.
+  bool is_script(std::string_view name) const { return pair_ != nullptr && name == "code"; }
+
+  void convert_script(const XmlToken& token, const Attribute& attribute, std::string_view name) {
+    const auto script =
+        to_ours() ? script_to_ours(attribute.value) : script_to_theirs(attribute.value);
+    if (script) {
+      if (*script == attribute.value && name == attribute.name) return keep(token, attribute);
+      return replace(token, name, *script);
+    }
+    if (report_.counted_only(Severity::Error)) return;
+    report_.in_value(
+        attribute.place, script.error().offset,
+        fmt::format("{} cannot be said in {}", script.error().message, conversion_.to.title),
+        script.error().hint);
   }
 
   bool is_fixed(std::string_view name) const {
@@ -386,7 +433,7 @@ class Converter {
     const std::string_view name = attribute.name, value = attribute.value;
     if (name == "__shared_blackboard") return replace(token, "_autoremap", value);
     if (const auto hook = hook_named(name, conversion_.from)) {
-      return replace(token, attribute_of(*hook, conversion_.to), value);
+      return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
     }
     if (hook_named(name, conversion_.to)) {
       return cannot(attribute.place, fmt::format("a port called '{}'", name),
@@ -397,8 +444,9 @@ class Converter {
     if (!is_port_name(name) && !is_dotted) return leave_out(token, attribute);
     if (name == "name") return convert_name(token, attribute);
     const std::string_view key = btcpp::key_of(value, name);
+    if (key.empty() && is_script(name)) return convert_script(token, attribute, name);
     if (key.empty()) return keep(token, attribute);
-    if (pair_ != nullptr && name == "code") {
+    if (is_script(name)) {
       return cannot(attribute.place, "a script in an entry", "write the script here");
     }
     if (!is_identifier(key)) {
@@ -473,6 +521,16 @@ class Converter {
     edits_.remove(token.begin, is_section ? section + 3 : end);
   }
 
+  // BehaviorTree.CPP takes them at the beginning of a file only.
+  void leave_out_instruction(const XmlToken& token) {
+    edits_.remove(token.begin, token.begin + token.value.size());
+    if (report_.counted_only(Severity::Note)) return;
+    const std::uint32_t element = next_ == 0 ? 0 : next_ - 1;
+    report_.at(place_of(element), fmt::format("'{}' is left out", brief(token.value)),
+               "BehaviorTree.CPP takes processing instructions only at the beginning of a file",
+               Severity::Note);
+  }
+
   void comment(const XmlToken& token) {
     const auto end = text_.find("-->", token.begin + 4);
     const std::string_view inside = text_.substr(token.begin + 4, end - token.begin - 4);
@@ -497,6 +555,7 @@ class Converter {
   std::uint32_t next_ = 0;           // element
   const NodePair* pair_ = nullptr;   // of the innermost element
   bool is_switch_ = false;           // likewise
+  bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments
 };
 
