@@ -2,7 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "authoring/check/certainties.h"
@@ -12,6 +15,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
+#include "core/pre_order.h"
 #include "core/wording.h"
 #include "runtime/outlet.h"
 
@@ -58,11 +62,75 @@ std::string other_command(const std::string& file) {
   return file.ends_with(".leaves.xml") ? "`lockstep verify --leaves`" : "";
 }
 
+// What the given files have and use: `check trees/*.xml` names the files of a project, and what one
+// of them lacks may be in another one. Files are known by file_identity().
+class Neighbors {
+ public:
+  void add(const Project& project) {
+    for (const auto& document : project.documents) {
+      const std::string file = file_identity(document->source()->path());
+      if (document != project.documents.front()) included_.insert(file);
+      add(*document, file);
+    }
+  }
+
+  const TreeIds& trees() const { return trees_; }
+  // Another one includes it, or uses a tree of it.
+  bool is_part(const std::string& path) const {
+    const std::string file = file_identity(path);
+    if (included_.contains(file)) return true;
+    const auto trees = trees_in_.find(file);
+    return trees != trees_in_.end() && std::ranges::any_of(trees->second, [&](const auto& id) {
+             const auto users = users_.find(id);
+             return users != users_.end() &&
+                    std::ranges::any_of(users->second, [&](const auto& it) { return it != file; });
+           });
+  }
+
+ private:
+  void add(const Document& document, const std::string& file) {
+    const auto elements = document.elements();
+    for (const std::uint32_t tree : children_in(elements, 0)) {
+      if (elements[tree].tag != "BehaviorTree") continue;
+      for (std::uint32_t element = tree; element < elements[tree].end; ++element) {
+        const Attribute* id = document.find_attribute(element, "ID");
+        if (id == nullptr) continue;
+        if (element == tree) {
+          trees_.emplace(id->value);
+          trees_in_[file].emplace(id->value);
+        } else if (elements[element].tag == "SubTree") {
+          users_[std::string(id->value)].insert(file);
+        }
+      }
+    }
+  }
+
+  TreeIds trees_;
+  std::set<std::string> included_;
+  std::map<std::string, TreeIds> trees_in_;             // each file
+  std::map<std::string, std::set<std::string>> users_;  // the files that use a tree
+};
+
+Neighbors neighbors_of(const CheckOptions& options) {
+  Neighbors neighbors;
+  if (options.trees.size() < 2) return neighbors;
+  for (const std::string& file : options.trees) {
+    std::error_code unused;
+    if (!other_command(file).empty() || !std::filesystem::is_regular_file(file, unused)) continue;
+    Diagnostics told_later;
+    if (const auto project = load_project(file, {}, told_later)) neighbors.add(*project);
+  }
+  return neighbors;
+}
+
 int check(const CheckOptions& options) {
   keep_stdout_for_results();
   const CheckWriter write = writer_of(options.format);
   LoadCommandOptions load = options.load;
   if (!options.strict) load.unknown = MissingNodes::AreNoted;
+  load.may_lack_main = true;
+  const Neighbors neighbors = neighbors_of(options);
+  load.elsewhere = neighbors.trees();
   std::vector<Diagnostic> all;
   int worst = kExitSuccess, written = kExitSuccess;
   for (const std::string& tree : options.trees) {
@@ -72,6 +140,7 @@ int check(const CheckOptions& options) {
       print_diagnostics(diagnostics, Severity::Note);
       continue;
     }
+    load.is_part = neighbors.is_part(tree);
     auto loaded = load_given(tree, load, diagnostics);
     if (loaded) add_certainties(*loaded->project, std::move(loaded->definition), diagnostics);
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
@@ -101,6 +170,7 @@ std::function<int()> define_check(CLI::App& app) {
       ->check(one_of({"text", "json", "github", "sarif"}))
       ->capture_default_str();
   add_load_options(app, options->load);
+  add_mock_option(app, options->load);
   add_program_option(app, options->load.plugins);
   return [options] { return check(*options); };
 }

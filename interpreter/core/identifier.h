@@ -1,4 +1,4 @@
-// The names of arguments, keys, ports and leaves.
+// The names of arguments, keys, ports and leaves, and the blanks around them.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,13 @@
 namespace lockstep::host {
 
 constexpr std::string_view kIdentifierRule = "a letter or '_', then letters, digits or '_'";
+
+constexpr std::string_view without_blanks_around(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
 
 // Whether `text` is kIdentifierRule, in ASCII.
 constexpr bool is_identifier(std::string_view text) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/status.h"
 #include "core/value.h"
@@ -70,6 +71,7 @@ struct Parameter {
   bool is_script = false;       // a text that is compiled: expression/
   bool names_entry = false;     // "k" is the entry k, as "{k}" is
   bool is_generic = false;      // takes a value of any type; `type` is String
+  bool is_hint = false;         // a model says so, which may be older than the leaf
   bool is_key = false;          // "k" is the entry k; "{k}" is the entry that has its name
   bool own_only = false;        // of an is_key: only an entry of this tree, not of an outer one
 };
@@ -103,6 +105,7 @@ struct ParameterValues {
 struct Mock {
   Status result = Status::Success;
   double seconds = 1;
+  std::vector<Value> outputs = {};  // of each port what it then writes; NoValue: nothing
 };
 
 class ElementTypes;
@@ -122,6 +125,7 @@ struct NodeType {
   ProgressShare progress_share = ProgressShare::NotByPlace;
   Synchronization synchronization = Synchronization::None;
   Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result
+  bool is_reactive = false;             // it begins with its first child in every tick
   bool latches = false;                 // a parallel: a child with actions is not ticked again
   bool begins_child_once = false;       // no child begins again, but for the first of several
   bool keeps_first_child = false;       // the first child is ticked again without a reset
@@ -136,6 +140,7 @@ struct NodeType {
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in
   const Mock* mock = nullptr;           // not null: a stand-in
+  bool is_guess = false;                // a stand-in that is perhaps a condition
   // An element may have more parameters, whose names these patterns match: "goal.*;result.*".
   std::string_view more_parameters = {};
   const ElementTypes* element_types = nullptr;  // which, and their types; null: it is known here

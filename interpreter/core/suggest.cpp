@@ -103,4 +103,9 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
   return hint;
 }
 
+std::string join_hints(std::string first, std::string_view second) {
+  if (!first.empty() && !second.empty()) first += "; ";
+  return first.append(second);
+}
+
 }  // namespace lockstep::host

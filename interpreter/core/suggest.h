@@ -23,4 +23,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates,
                     std::string_view what);
 
+// "first; second", or the one that is not empty.
+std::string join_hints(std::string first, std::string_view second);
+
 }  // namespace lockstep::host

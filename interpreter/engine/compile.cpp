@@ -144,7 +144,7 @@ class Compiler {
               .state = static_cast<std::uint32_t>(tree_.state_size)};
     tree_.keeps_over_skips |= node.kind->forget != nullptr;
     if (from.type->mock != nullptr) {
-      node.params = 0;  // it looks at no port
+      if (!from.type->mock->outputs.empty()) node.params = add_ports(from);
     } else if (from.type->leaf != nullptr) {
       node.params = add_leaf(from);
     } else if (from.type->reads_ports) {

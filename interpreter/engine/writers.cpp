@@ -40,6 +40,9 @@ class Writers {
 
   void add_built_in(NodeIndex node) {
     const NodeType& type = *tree_.labels[node].type;
+    if (type.mock != nullptr && !type.mock->outputs.empty()) {
+      return add_ports(node, type, tree_.nodes[node].params);
+    }
     if (!type.plugin.empty() || type.mock != nullptr) return;  // no cells
     if (type.reads_ports) return add_ports(node, type, tree_.nodes[node].params);
     for (std::size_t index = 0; index < type.parameters.size(); ++index) {

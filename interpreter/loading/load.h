@@ -27,9 +27,13 @@ struct LoadOptions {
   Arguments ros_packages = {};  // the share directories of ROS packages, by name
   MissingNodes unknown = MissingNodes::AreErrors;
   Mocks mocks = {};
+  MockOutputs mock_outputs = {};
   bool opens_entries = false;  // the program uses entries by their names
   bool has_outside = false;    // "@key" is none of the main tree, but of a board of the program
   UnsavedTexts unsaved = {};   // read instead of the files that a tree includes
+  bool may_lack_main = false;  // LoadFailure::NothingToRun instead of an error
+  bool is_part = false;        // of a file that includes it
+  TreeIds elsewhere = {};      // trees of files that this one does not include
 };
 
 // A definition without errors, and the objects that it refers to.
@@ -46,6 +50,7 @@ enum class LoadFailure : unsigned char {
   Unreadable,     // the main file is not there, or not XML
   Invalid,        // a file breaks a rule of the language
   PluginRefused,  // a plugin cannot be loaded
+  NothingToRun,   // no error, but trees for other files, or none
 };
 
 // Reports all errors, warnings and notes. Fails also if `diagnostics` already has errors. Several

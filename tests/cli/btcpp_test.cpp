@@ -206,8 +206,72 @@ TEST_CASE("nodes --format btcpp is a model of what Groot2 does not know") {
                      "<Advance step=\"fast\"/></ParallelAbsolute></BehaviorTree>\n" +
                          model);
   const Outcome checked = run_lockstep({"check", tree});
-  CHECK(checked.code == 3);
-  CHECK(contains(checked.err, "tree.xml:2:16: error: 'fast' is not a number"));
+  CHECK(checked.code == 0);
+  CHECK(contains(checked.err, "tree.xml:2:16: warning: 'fast' is not a number"));
+}
+
+TEST_CASE("a model that is older than the tree is a hint for every command, and a leaf is not") {
+  const TemporaryDirectory directory;
+  const std::string trees =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Advance step=\"0.5\" "
+      "lift=\"{high}\"/></BehaviorTree><TreeNodesModel><Action ID=\"Advance\"><input_port "
+      "name=\"step\" type=\"int\"/></Action></TreeNodesModel></root>";
+  const std::string tree = directory.file("tree.xml", trees);
+  CHECK(run_lockstep({"check", tree}).code == 0);
+  CHECK(run_lockstep({"show", tree}).code == 0);
+  CHECK(run_lockstep({"verify", "--mock", tree}).code == 0);
+  const Outcome run = run_mocked(tree, {"--set", "high=1"});
+  CHECK(run.code == 0);
+  CHECK(contains(run.err, "warning: '0.5' is not a whole number, which 'step' is in the model"));
+  CHECK(contains(run.err, "warning: the model of 'Advance' has no port 'lift'"));
+  const Outcome known = run_lockstep({"check", "--plugin", "motion", tree});
+  CHECK(known.code == 3);
+  CHECK(contains(known.err, "error: 'Advance' has no port 'lift'"));
+  CHECK_FALSE(contains(known.err, "whole number"));
+}
+
+TEST_CASE(
+    "run --mock writes outputs: a value of the type in the model, or what --mock-output says") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Sequence><Look level=\"{level}\" "
+      "seen=\"{seen}\"/><Guess what=\"{what}\"/>"
+      "<ScriptCondition code=\"level == 0.5 &amp;&amp; what == 'a cat'\"/></Sequence>"
+      "</BehaviorTree><TreeNodesModel><Action ID=\"Look\"><output_port name=\"level\" "
+      "type=\"double\"/><output_port name=\"seen\" "
+      "type=\"bool\"/></Action></TreeNodesModel></root>");
+  const std::vector<std::string> said{"--mock-output", "level=0.5", "--mock-output",
+                                      "Guess.what=a cat"};
+  CHECK(run_mocked(tree, said).code == 0);
+  CHECK(run_mocked(tree, {"--mock-output", "Guess.what=a cat"}).code == 1);  // level is 0
+  CHECK(run_mocked(tree, {"--mock-output", "level=0.5"}).code == 5);         // what has no value
+  const Outcome unknown = run_mocked(tree, {"--mock-output", "far=1"});
+  CHECK(unknown.code == 2);
+  CHECK(contains(unknown.err, "--mock-output far: no stand-in has such an output"));
+  const Outcome wrong = run_mocked(tree, {"--mock-output", "level=high"});
+  CHECK(wrong.code == 2);
+  CHECK(contains(wrong.err, "'level' of 'Look' is a number"));
+}
+
+TEST_CASE("run --mock takes a SubTree whose tree is not there, and check, and show") {
+  const TemporaryDirectory directory;
+  for (const std::string root : {"lockstep=\"1\"", "BTCPP_format=\"4\""}) {
+    const std::string tree = directory.file(
+        "tree.xml", "<root " + root +
+                        "><BehaviorTree ID=\"Main\"><Sequence><SubTree ID=\"Move to Waypoint\" "
+                        "waypoint=\"home\" at=\"{spot}\" _autoremap=\"true\"/><Grip/></Sequence>"
+                        "</BehaviorTree></root>");
+    INFO(root);
+    const Outcome run = run_mocked(tree, {});
+    INFO(run.err);
+    CHECK(run.code == 0);
+    CHECK(contains(run.err, "warning: unknown tree 'Move to Waypoint'"));
+    CHECK(run_mocked(tree, {"--mock-leaf", "Move to Waypoint=failure"}).code == 1);
+    CHECK(run_lockstep({"check", "--mock", tree}).code == 0);
+    CHECK(contains(run_lockstep({"show", "--mock", tree}).out, "Move to Waypoint"));
+    CHECK(contains(run_lockstep({"run", tree}).err, "error: unknown tree 'Move to Waypoint'"));
+  }
 }
 
 TEST_CASE("a root that is skipped ends the run, not with Success") {

@@ -43,6 +43,66 @@ std::string doubtful(const std::string& nodes) {
 
 }  // namespace
 
+TEST_CASE("check takes the files of a project, each as it is") {
+  const TemporaryDirectory directory;
+  const auto theirs = [&](const std::string& name, const std::string& content) {
+    return directory.file(name, "<root BTCPP_format=\"4\">" + content + "</root>");
+  };
+  const std::string open = "<BehaviorTree ID=\"Open\"><AlwaysSuccess/></BehaviorTree>";
+  const std::string library =
+      theirs("library.xml", open + "<BehaviorTree ID=\"Close\"><AlwaysSuccess/></BehaviorTree>");
+  const std::string palette =
+      theirs("palette.xml", "<TreeNodesModel><Action ID=\"Grip\"/></TreeNodesModel>");
+  const std::string project =
+      theirs("all.btproj", "<include path=\"library.xml\"/><include path=\"palette.xml\"/>");
+  const std::string user =
+      theirs("user.xml", "<BehaviorTree ID=\"Main\"><SubTree ID=\"Open\" x=\"1\"/></BehaviorTree>");
+  for (const std::string& file : {library, palette, project}) {
+    const Outcome outcome = run_lockstep({"check", "--strict", file});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == file + ": ok\n");
+  }
+  const Outcome alone = run_lockstep({"check", user});
+  CHECK(alone.code == 0);
+  CHECK(contains(alone.err, "warning: unknown tree 'Open'"));
+  const Outcome strict = run_lockstep({"check", "--strict", user});
+  CHECK(strict.code == 3);
+  CHECK(contains(strict.err, "error: unknown tree 'Open'"));
+  const Outcome all = run_lockstep({"check", "--strict", user, library});
+  CHECK(all.code == 0);
+  CHECK(contains(all.err, "note: the tree 'Open' is in another file"));
+  // A tree that another file uses gets its entries from there.
+  const std::string part = theirs(
+      "part.xml", "<BehaviorTree ID=\"Shut\"><ScriptCondition code=\"x > 1\"/></BehaviorTree>");
+  const std::string uses =
+      theirs("uses.xml", "<BehaviorTree ID=\"Main\"><SubTree ID=\"Shut\" x=\"1\"/></BehaviorTree>");
+  CHECK(run_lockstep({"check", "--strict", part}).code == 3);
+  CHECK(run_lockstep({"check", "--strict", part, uses}).code == 0);
+}
+
+TEST_CASE("check takes a part that another file includes without what that gives to it") {
+  const TemporaryDirectory directory;
+  const std::string part =
+      directory.file("part.xml",
+                     "<root lockstep=\"1\"><BehaviorTree ID=\"Part\"><Sequence memory=\"true\">"
+                     "<Check code=\"far > 2\"/><SyncProgress barrier=\"meet\"><SubTree "
+                     "ID=\"Other\"/></SyncProgress>"
+                     "</Sequence></BehaviorTree></root>");
+  const std::string main = directory.file(
+      "main.xml",
+      "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><include path=\"part.xml\"/>"
+      "<barrier name=\"meet\" barriers=\"0.5\"/><BehaviorTree ID=\"Main\"><Parallel>"
+      "<SubTree ID=\"Part\" far=\"3\"/><SyncProgress barrier=\"meet\"><Wait seconds=\"1\"/>"
+      "</SyncProgress></Parallel></BehaviorTree><BehaviorTree ID=\"Other\"><Wait seconds=\"1\"/>"
+      "</BehaviorTree></root>");
+  CHECK(run_lockstep({"check", part}).code == 3);
+  const Outcome both = run_lockstep({"check", part, main});
+  INFO(both.err);
+  CHECK(both.code == 0);
+  CHECK(both.out == part + ": ok\n" + main + ": ok\n");
+}
+
 TEST_CASE("check warns of a branch that can never run") {
   const TemporaryDirectory directory;
   const std::string dead =

@@ -128,6 +128,7 @@ LoadOptions load_options(const Settings& settings, UnsavedTexts unsaved) {
   options.arguments = settings.arguments;
   options.plugins.only_described = true;
   options.unsaved = std::move(unsaved);
+  options.may_lack_main = true;
   options.unknown = settings.trusted ? MissingNodes::AreNoted : MissingNodes::AreMocked;
   return options;
 }

@@ -114,15 +114,24 @@ void add_load_options(CLI::App& app, LoadCommandOptions& options) {
   add_plugin_options(app, options.plugins);
 }
 
+void add_mock_option(CLI::App& app, LoadCommandOptions& options) {
+  app.add_flag("--mock", options.mock, "Accept nodes that no plugin has, and trees of other files");
+}
+
 void add_mock_options(CLI::App& app, LoadCommandOptions& options) {
   app.add_flag("--mock", options.mock,
                "Let nodes that no plugin has take part: an action succeeds after a second, a "
-               "condition at once");
+               "condition at once; outputs get 0, false or an empty text");
   app.add_option(
          "--mock-leaf", options.mock_leaves,
          "With --mock: what the leaf ID returns, success, failure or running, and after how "
          "many seconds; also instead of a leaf of a plugin; may be repeated")
       ->type_name("ID=RESULT[:S]")
+      ->allow_extra_args(false);
+  app.add_option("--mock-output", options.mock_outputs,
+                 "With --mock: what leaves that succeed write to this output; ID.PORT=VALUE is "
+                 "for one leaf; may be repeated")
+      ->type_name("PORT=VALUE")
       ->allow_extra_args(false);
 }
 
@@ -131,6 +140,7 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
                                              Diagnostics& diagnostics,
                                              std::shared_ptr<PluginSet> plugins) {
   keep_freed_memory();
+  const bool mocks = options.mock || !options.mock_leaves.empty() || !options.mock_outputs.empty();
   watch_this_thread(from_seconds(options.plugins.hang_limit));
   auto loaded =
       load(path,
@@ -140,9 +150,12 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
             .main_tree = options.main_tree,
             .main_file = options.main_file,
             .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),
-            .unknown = options.mock || !options.mock_leaves.empty() ? MissingNodes::AreMocked
-                                                                    : options.unknown,
-            .mocks = parse_mocks(options, diagnostics)},
+            .unknown = mocks ? MissingNodes::AreMocked : options.unknown,
+            .mocks = parse_mocks(options, diagnostics),
+            .mock_outputs = parse_pairs(options.mock_outputs, "--mock-output", diagnostics),
+            .may_lack_main = options.may_lack_main,
+            .is_part = options.is_part,
+            .elsewhere = options.elsewhere},
            diagnostics, std::move(plugins));
   if (loaded && std::ranges::any_of(loaded->plugins->list(), &PluginSet::Info::isolated)) {
     take_over_orphans();
@@ -152,6 +165,7 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
 
 int exit_code_of(LoadFailure failure) {
   if (failure == LoadFailure::Options) return kExitUsage;
+  if (failure == LoadFailure::NothingToRun) return kExitSuccess;
   return failure == LoadFailure::PluginRefused ? kExitPluginRefused : kExitInvalidTree;
 }
 

@@ -20,8 +20,12 @@ struct LoadCommandOptions {
   MainFile main_file = MainFile::MayBePipe;
   std::vector<std::string> ros_packages;  // --ros-package name=directory
   MissingNodes unknown = MissingNodes::AreErrors;
-  bool mock = false;                     // --mock
-  std::vector<std::string> mock_leaves;  // --mock-leaf id=result
+  bool may_lack_main = false;
+  bool is_part = false;                   // of a file that includes it
+  TreeIds elsewhere = {};                 // trees of files that it does not include
+  bool mock = false;                      // --mock
+  std::vector<std::string> mock_leaves;   // --mock-leaf id=result
+  std::vector<std::string> mock_outputs;  // --mock-output port=value
 };
 
 // --run-programs, for commands that run no tree.
@@ -31,7 +35,9 @@ void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set, --tree and --ros-package.
 void add_load_options(CLI::App& app, LoadCommandOptions& options);
 
-// --mock and --mock-leaf.
+// --mock alone: for a command that does not run the tree.
+void add_mock_option(CLI::App& app, LoadCommandOptions& options);
+// --mock, --mock-leaf and --mock-output.
 void add_mock_options(CLI::App& app, LoadCommandOptions& options);
 
 // Calls load() with them. From now on this thread is watched.

@@ -40,6 +40,7 @@ std::function<int()> define_show(CLI::App& app) {
       ->check(one_of({"text", "dot", "mermaid"}))
       ->capture_default_str();
   add_load_options(app, options->load);
+  add_mock_option(app, options->load);
   add_program_option(app, options->load.plugins);
   return [options] { return show(*options); };
 }

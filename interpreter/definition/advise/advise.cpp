@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <span>
 
 #include "core/audience.h"
 #include "core/pre_order.h"
 #include "core/suggest.h"
 #include "core/wording.h"
+#include "definition/types/script_types.h"
+#include "expression/operator_words.h"
 
 namespace lockstep::host {
 namespace {
@@ -27,6 +31,10 @@ class Adviser {
         if (conduct_.empty()) conduct_ = conducts();
         type.goes_on_after != Status::Idle ? restarts(node) : restarts_completed(node);
       }
+      if (type.is_reactive) {
+        if (conduct_.empty()) conduct_ = conducts();
+        restarts(node);
+      }
       if (!compares_progress(type.synchronization)) continue;
       for (const std::uint32_t child : children_in(definition_.nodes, node)) {
         without_progress(child, node);
@@ -40,6 +48,7 @@ class Adviser {
     if (!definition_.boards.empty()) return;  // any entry may be made while the tree runs
     unwritten_entries();
     missing_names();
+    if (!definition_.rules->strict_types && !definition_.shares_entries) useless_texts();
   }
 
  private:
@@ -107,20 +116,36 @@ class Adviser {
   // Without memory all children up to the one that runs are ticked in every tick.
   void restarts(std::uint32_t node) const {
     int told = 0;
-    const Status result = at(node).type->goes_on_after;
+    const NodeType& type = *at(node).type;
+    const Status result = type.goes_on_after;
     std::uint32_t earlier = 0;
     for (const std::uint32_t child : children_in(definition_.nodes, node)) {
       if (earlier != 0 && conduct_[child].can_run) {
         if (told++ < kMostTold) add_restart(node, earlier, child);
         earlier = 0;
       }
-      if (conduct_[child].again_after(result)) earlier = child;
+      // In the other language, an action that ends in its first tick is often a condition.
+      const bool matters = !type.is_reactive || conduct_[child].can_run;
+      if (conduct_[child].again_after(result) && matters) earlier = child;
     }
   }
 
   void add_restart(std::uint32_t node, std::uint32_t earlier, std::uint32_t later) const {
     const NodeType& type = *at(node).type;
     const bool is_namesake = at(earlier).name == at(later).name;
+    const std::span nodes(definition_.nodes.begin() + earlier, at(earlier).end - earlier);
+    const bool is_guess =
+        std::ranges::any_of(nodes, [](const DefinitionNode& it) { return it.type->is_guess; });
+    if (type.is_reactive) {
+      return add(earlier, is_guess ? Severity::Note : Severity::Warning,
+                 fmt::format("'{}' is started again in every tick in which {}'{}'{} runs, and "
+                             "halts it while it runs itself",
+                             brief(at(earlier).name), is_namesake ? "the " : "",
+                             brief(at(later).name), is_namesake ? " after it" : ""),
+                 is_guess ? "if it is a condition, write <Condition ID=\"…\"/>"
+                          : "put the action before this node, in a Sequence, or let a condition "
+                            "decide");
+    }
     add(earlier, Severity::Warning,
         fmt::format("'{}' is started again in every tick in which {}'{}'{} runs",
                     brief(at(earlier).name), is_namesake ? "the " : "", brief(at(later).name),
@@ -232,6 +257,47 @@ class Adviser {
     });
   }
 
+  // Scripts that fail for a start value that is a text and stays one: `_skipIf="!wanted"` with
+  // wanted="maybe".
+  void useless_texts() const {
+    std::vector<bool> changes(definition_.entries.size());
+    for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
+      const bool is_target = parameter.is_key && !parameter.own_only;
+      if (parameter.direction != Direction::Input || is_target) changes[entry] = true;
+    });
+    for_each_name([&](const BoundScript& script, std::size_t name) {
+      if (script.code->uses()[name].is_assigned) changes[script.entries[name]] = true;
+    });
+    const std::vector<bool> conditions = definition_.conditions();
+    std::set<std::pair<std::uint32_t, std::size_t>> told;  // where: a tree may have several places
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+      const BoundScript& script = definition_.scripts[i];
+      if (script.code == nullptr) continue;
+      std::vector<StaticType> types;
+      std::string texts;
+      for (std::size_t name = 0; name < script.entries.size(); ++name) {
+        const BlackboardEntry& entry = definition_.entries[script.entries[name]];
+        const auto* text = std::get_if<std::string>(&entry.initial);
+        const bool is_text =
+            text != nullptr && !changes[script.entries[name]] && !parse_flag(*text);
+        types.push_back(is_text ? StaticType{ValueType::String} : StaticType{});
+        if (!is_text) continue;
+        texts += fmt::format("{}'{}' is the text '{}'", texts.empty() ? "" : ", ",
+                             script.code->names()[name], brief(*text));
+      }
+      if (texts.empty()) continue;
+      const auto wrong = [&](std::size_t offset, std::string message) {
+        if (!told.emplace(script.place.byte, offset).second) return;
+        report_.in_value(script.place, offset, std::move(message), texts, Severity::Warning);
+      };
+      const StaticType value =
+          infer_types(*script.code, types, {.assigned = [](auto&&...) {}, .wrong = wrong});
+      if (conditions[i] && !may_be_yes_or_no(value)) {
+        wrong(0, fmt::format("a condition is {}, not a text", kCondition));
+      }
+    }
+  }
+
   // '=' where '==' was meant: the value of the condition is that of an assignment.
   void assigning_conditions() const {
     const std::vector<bool> conditions = definition_.conditions();
@@ -305,6 +371,12 @@ class Adviser {
     const std::string_view scope = name.substr(0, name.rfind('/') + 1);
     std::string hint = did_you_mean(name.substr(scope.size()), keys_in(scope, valued));
     if (!hint.empty()) return hint;
+    if (name.find_first_of("\":") != name.npos) {
+      return fmt::format(
+          "what is in braces is the name of an entry; a constant in JSON is written "
+          "json:{{{}}}",
+          brief(name.substr(scope.size())));
+    }
     if (parameter != nullptr && parameter->default_text && typing == Typing::Strict) {
       hint = fmt::format("it stays '{}', the default of '{}'; ", *parameter->default_text,
                          parameter->name);

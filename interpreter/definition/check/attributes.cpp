@@ -17,11 +17,6 @@
 namespace lockstep::host {
 namespace {
 
-std::string join_hints(const std::string& first, const std::string& second) {
-  if (first.empty()) return second;
-  return second.empty() ? first : first + "; " + second;
-}
-
 constexpr auto kOwnAttributes =
     "attributes that begin with '_' are reserved (_autoremap, _description), so such a key "
     "cannot be remapped";

@@ -12,6 +12,7 @@
 #include "definition/check/element_type.h"
 #include "definition/check/foreign_hints.h"
 #include "definition/check/node_check.h"
+#include "definition/check/stand_ins.h"
 
 namespace lockstep::host {
 namespace {
@@ -271,7 +272,17 @@ class TreeChecker {
       node.type = nullptr;
     }
     for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;
-    const NodeElement element_of_node{node.place, attributes(index), is_explicit};
+    NodeElement element_of_node{node.place, attributes(index), is_explicit};
+    std::vector<Attribute> ports;
+    if (node.type != nullptr && node.type->category == NodeCategory::SubTree) {
+      if (const NodeType* stand_in = stand_in_for_tree(attributes(index), catalog_)) {
+        node.type = stand_in;
+        std::ranges::copy_if(attributes(index), std::back_inserter(ports), [](const Attribute& it) {
+          return it.name != "ID" && it.name != "_autoremap";
+        });
+        element_of_node.attributes = ports;
+      }
+    }
     if (node.type != nullptr) node.type = type_of_element(element_of_node, *node.type, report_);
     if (node.type != nullptr) {
       check_arity({elements_, index}, node, report_);

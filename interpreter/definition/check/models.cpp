@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/identifier.h"
 #include "core/pre_order.h"
 #include "core/wording.h"
 #include "definition/check/document_order.h"
@@ -106,17 +107,28 @@ class ModelReader {
         continue;
       }
       auto& all = *category == NodeCategory::SubTree ? models_.subtrees : models_.nodes;
-      all[id->value] = {*category, ports(child)};
+      all[id->value] = {*category, ports(child, *category == NodeCategory::SubTree)};
     }
   }
 
-  std::vector<ModelPort> ports(std::uint32_t model) const {
+  // The attributes of a SubTree must have the names as they are written.
+  std::vector<ModelPort> ports(std::uint32_t model, bool is_subtree) const {
     std::vector<ModelPort> ports;
     for (const std::uint32_t child : children_in(elements_, model)) {
       const auto direction = direction_of(element(child).tag);
       const Attribute* name = document_.find_attribute(child, "name");
       if (!direction || name == nullptr) continue;
-      ModelPort port{.name = name->value, .type = {}, .default_value = {}, .direction = *direction};
+      const std::string_view plain = without_blanks_around(name->value);
+      if (!is_subtree && plain != name->value) {
+        report_.at_value(name->place,
+                         fmt::format("there are blanks around the port '{}'", brief(plain)),
+                         fmt::format("it is read as name=\"{}\"", brief(plain)), Severity::Warning);
+      }
+      if (plain.empty()) continue;
+      ModelPort port{.name = is_subtree ? name->value : plain,
+                     .type = {},
+                     .default_value = {},
+                     .direction = *direction};
       if (const auto* type = document_.find_attribute(child, "type")) port.type = type->value;
       if (const auto* value = document_.find_attribute(child, "default")) {
         port.default_value = value->value;

@@ -1,7 +1,8 @@
 // The models of a project: what <TreeNodesModel> says about ports, for editors. Those of SubTrees
-// also count when the tree is loaded.
+// also count when the tree is loaded; those of leaves are hints about what no plugin has.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -23,6 +24,11 @@ struct ModelPort {
 struct Model {
   NodeCategory category;
   std::vector<ModelPort> ports;
+
+  const ModelPort* port(std::string_view name) const {
+    const auto found = std::ranges::find(ports, name, &ModelPort::name);
+    return found == ports.end() ? nullptr : &*found;
+  }
 };
 
 // By ID; a later one replaces an earlier one.

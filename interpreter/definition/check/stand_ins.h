@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "definition/catalog.h"
@@ -21,14 +22,24 @@ enum class MissingNodes : unsigned char {
 
 // By ID; these are mocked even if a plugin has them.
 using Mocks = std::map<std::string, Mock, std::less<>>;
+// What stand-ins write, as text, by "port" or "ID.port".
+using MockOutputs = std::map<std::string, std::string, std::less<>>;
+
+// The IDs of BehaviorTrees.
+using TreeIds = std::set<std::string, std::less<>>;
 
 // Owns the types that it adds to a catalog.
 class StandIns;
 
 // Adds to `catalog` the types of the nodes of `project` that it does not have: from a model, or
-// from how the trees use them. Null: there are none.
+// from how the trees use them. A tree that is not in the project has one as well, by its ID. Null:
+// there are none.
 std::shared_ptr<const StandIns> add_stand_ins(const Project& project, const Models& models,
                                               MissingNodes unknown, const Mocks& mocks,
+                                              const MockOutputs& outputs, const TreeIds& elsewhere,
                                               Catalog& catalog, const Reporter& report);
+
+// The type in place of the tree that a SubTree with these attributes names; null: there is none.
+const NodeType* stand_in_for_tree(std::span<const Attribute> attributes, const Catalog& catalog);
 
 }  // namespace lockstep::host

@@ -23,8 +23,9 @@ namespace {
 
 class Expander {
  public:
-  Expander(CheckedTrees& trees, const StartValues& values, const Reporter& report)
-      : trees_(trees), values_(values), report_(report) {}
+  Expander(CheckedTrees& trees, const StartValues& values, const Reporter& report,
+           Expansion expansion)
+      : trees_(trees), values_(values), report_(report), is_part_(expansion == Expansion::OfPart) {}
 
   Definition expand(std::string_view main) {
     definition_.id = main;
@@ -45,7 +46,8 @@ class Expander {
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
-    if (is_strict()) declare_entries(definition_, literals_, report_, guessed_);
+    if (is_strict() && !is_part_) declare_entries(definition_, literals_, report_, guessed_);
+    for (const Hint& hint : hints_) compare(hint);
     check_set_keys(scope);
     return std::move(definition_);
   }
@@ -130,7 +132,7 @@ class Expander {
     for (std::size_t i = 0; i < trees_.groups.size(); ++i) {
       const CheckedNode& group = trees_.groups[i];
       if (members_[i].empty()) {
-        if (report_.has_errors()) continue;  // it may be for want of what they refuse
+        if (is_part_ || report_.has_errors()) continue;  // it may be for want of what they refuse
         report_.at(group.place,
                    fmt::format("no node of '{}' uses the {} '{}'", brief(definition_.id),
                                group.type->id, brief(group.name)),
@@ -170,7 +172,7 @@ class Expander {
 
   void unknown_group(const Parameter& parameter, Place place, std::string_view written,
                      std::string_view name) const {
-    if (report_.counted_only(Severity::Error)) return;
+    if (is_part_ || report_.counted_only(Severity::Error)) return;
     const std::string_view type = parameter.group;
     std::vector<std::string_view> names;
     for (const CheckedNode& it : trees_.groups) {
@@ -218,8 +220,13 @@ class Expander {
     const bool is_none = parameter.own_only && port.is_name(parameter) && !scope.is_own(port.key);
     Port bound{.value = port.value};
     if (!is_none) {
-      bound.entry =
-          is_guessed(type, parameter) ? use_guessed(port, scope) : use(port, parameter, scope);
+      if (parameter.is_hint) {
+        bound.entry = use_hinted(port, parameter, type, scope);
+      } else if (is_guessed(type, parameter)) {
+        bound.entry = use_guessed(port, scope);
+      } else {
+        bound.entry = use(port, parameter, scope);
+      }
     }
     return bound;
   }
@@ -276,6 +283,46 @@ class Expander {
     BlackboardEntry& entry = definition_.entries[guessed_.back()];
     if (!entry.is_present) entry.first_use = port.place;
     return guessed_.back();
+  }
+
+  // The type that a model says is none of the entry: the leaf may have another one.
+  std::uint32_t use_hinted(const CheckedPort& port, const Parameter& parameter,
+                           const NodeType& type, Scope& scope) {
+    Parameter any = parameter;
+    any.is_generic = true;
+    any.type = ValueType::String;
+    const std::uint32_t entry = is_strict() ? use_guessed(port, scope) : use(port, any, scope);
+    if (!parameter.is_generic) hints_.push_back({entry, port.place, &parameter, type.id});
+    return entry;
+  }
+
+  // What a model says of an entry.
+  struct Hint {
+    std::uint32_t entry;
+    Place place;
+    const Parameter* parameter;
+    std::string_view node;  // the type
+  };
+
+  // With the type of the entry or, where it has none, with the first model that says one.
+  void compare(const Hint& hint) {
+    const Parameter& parameter = *hint.parameter;
+    BlackboardEntry entry = definition_.entries[hint.entry];
+    if (entry.typing == Typing::Any) {
+      const Hint& first = first_hints_.try_emplace(hint.entry, hint).first->second;
+      entry.type = first.parameter->type;
+      entry.typing = Typing::Declared;
+      entry.first_use = first.place;
+    }
+    if (fits(parameter, entry) || !told_hints_.emplace(hint.node, parameter.name).second) return;
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at_value(
+        hint.place,
+        fmt::format("'{}' is {} for '{}' in the model of '{}', but {} elsewhere", brief(entry.name),
+                    with_article(parameter.type, nullptr), parameter.name, brief(hint.node),
+                    with_article(entry.type, entry.object)),
+        other_use(entry) + "; a model is a hint: if it is older than the leaf, update it",
+        Severity::Warning);
   }
 
   std::uint32_t use(const CheckedPort& port, const Parameter& parameter, Scope& scope) {
@@ -408,21 +455,25 @@ class Expander {
   CheckedTrees& trees_;
   const StartValues& values_;
   const Reporter& report_;
+  const bool is_part_;
   Definition definition_;
   std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
   StartTexts literals_;                 // those whose type no port gave yet
   std::vector<std::uint32_t> guessed_;  // entries that stand-ins use
-  std::uint32_t board_ = 0;             // of the tree that is being added, when boards are kept
-  std::vector<std::uint32_t> shared_;   // of each first checked port: its ports, made already
+  std::vector<Hint> hints_;
+  std::map<std::uint32_t, Hint> first_hints_;                           // by their entry
+  std::set<std::pair<std::string_view, std::string_view>> told_hints_;  // node, port
+  std::uint32_t board_ = 0;            // of the tree that is being added, when boards are kept
+  std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };
 
 }  // namespace
 
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
-                  const Reporter& report) {
-  return Expander(trees, values, report).expand(main);
+                  const Reporter& report, Expansion expansion) {
+  return Expander(trees, values, report, expansion).expand(main);
 }
 
 }  // namespace lockstep::host

@@ -13,9 +13,12 @@ namespace lockstep::host {
 // `--set key=value`.
 using StartValues = std::map<std::string, std::string, std::less<>>;
 
+// OfPart: the tree is for others, from which it may get entries, their types and groups.
+enum class Expansion : bool { OfMain, OfPart };
+
 // `main` is an ID in `trees`, which can be expanded (check_references). Parts with errors are left
 // out, so that the rest is still checked. Moves out of `trees` what the definition keeps.
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
-                  const Reporter& report);
+                  const Reporter& report, Expansion expansion = Expansion::OfMain);
 
 }  // namespace lockstep::host

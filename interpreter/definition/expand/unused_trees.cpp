@@ -2,6 +2,7 @@
 
 #include <set>
 #include <span>
+#include <utility>
 
 #include "definition/expand/expand.h"
 
@@ -30,7 +31,11 @@ void check_unused(CheckedTrees& trees, std::string_view main, const Reporter& re
     for (const CheckedSubTree& it : subtrees_of(trees, id)) inside.insert(it.id);
   }
   for (const std::string_view id : trees.ids) {
-    if (!used.contains(id) && !inside.contains(id)) expand(trees, id, {}, report);
+    if (used.contains(id) || inside.contains(id)) continue;
+    Definition checked = expand(trees, id, {}, report, Expansion::OfPart);
+    trees.values = std::move(checked.values);  // for the next one
+    trees.written = std::move(checked.written);
+    trees.texts = std::move(checked.texts);
   }
 }
 

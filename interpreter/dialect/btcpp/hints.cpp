@@ -7,6 +7,7 @@
 
 #include "core/audience.h"
 #include "core/language.h"
+#include "core/suggest.h"
 #include "core/value.h"
 #include "core/wording.h"
 #include "dialect/btcpp/rules.h"
@@ -62,11 +63,6 @@ std::string translated(const AttributePair& from, std::string_view text) {
   return fmt::format(" {}=\"{}\"", from.ours, translated(from.conversion, text));
 }
 
-std::string join(std::string first, std::string_view second) {
-  if (first.empty() || second.empty()) return first.append(second);
-  return first.append("; ").append(second);
-}
-
 // The words of the command line are not those of a program that embeds lockstep.
 std::string remark_of(const NodePair& pair) {
   if (pair.theirs != "SetBlackboard") return std::string(pair.remark);
@@ -83,7 +79,7 @@ std::string hint_for_node(std::string_view tag, std::span<const Attribute> attri
   for (const Attribute& it : attributes) {
     if (const auto* from = word_of(*pair, it.name)) start += translated(*from, it.value);
   }
-  return join(fmt::format("write <{}>", start), pair->remark);
+  return join_hints(fmt::format("write <{}>", start), pair->remark);
 }
 
 // An attribute of one node, or of any.
@@ -108,7 +104,7 @@ std::string hint_for_attribute(std::string_view tag, const Attribute& attribute)
   const auto found = find_word(tag, attribute.name);
   if (!found) return {};
   const std::string ours = translated(found->attribute, attribute.value);
-  return join(ours.empty() ? std::string("leave it out") : "write" + ours, found->remark);
+  return join_hints(ours.empty() ? std::string("leave it out") : "write" + ours, found->remark);
 }
 
 std::string_view our_name(std::string_view tag, std::string_view attribute) {

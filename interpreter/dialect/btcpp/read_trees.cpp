@@ -11,6 +11,7 @@
 #include "definition/check/document_order.h"
 #include "definition/check/element_type.h"
 #include "definition/check/node_check.h"
+#include "definition/check/stand_ins.h"
 #include "dialect/btcpp/attributes.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/version_3.h"
@@ -21,7 +22,7 @@ namespace {
 // The only tree of a file needs no ID.
 constexpr std::string_view kNoId = "BehaviorTree";
 
-constexpr std::uint32_t kMaxLevels = 255;  // of elements below BehaviorTree
+constexpr std::uint32_t kMaxLevels = 256;  // of elements below BehaviorTree
 
 class TreeReader {
  public:
@@ -129,6 +130,7 @@ class TreeReader {
       report_.at_value(find_attribute(attributes(tree), "ID")->place,
                        fmt::format("a tree cannot be called '{}', as a node is", brief(id)));
     }
+    warn_of_attributes(tree);
     const std::uint32_t root = tree + 1;
     tree_ = {};
     tree_.first_subtree = count(trees_.subtrees);
@@ -148,6 +150,24 @@ class TreeReader {
     }
     tree_.subtrees = count(trees_.subtrees) - tree_.first_subtree;
     if (!id.empty()) enter_tree(id, place);
+  }
+
+  // It has an ID and marks of editors. What else is there has a meaning elsewhere.
+  void warn_of_attributes(std::uint32_t tree) const {
+    for (const Attribute& it : attributes(tree)) {
+      const bool is_mark =
+          it.name.starts_with('_') && !hook_named(it.name, kRules) && it.name != "_autoremap";
+      const bool is_foreign = it.name.find(':') != it.name.npos;  // of another namespace
+      if (it.name == "ID" || is_mark || is_foreign) continue;
+      if (report_.counted_only(Severity::Warning)) continue;
+      report_.at(
+          it.place, fmt::format("'BehaviorTree' ignores the attribute '{}'", brief(it.name)),
+          it.name.starts_with('_')
+              ? "write it at the first node of the tree, or at each SubTree that uses the tree"
+              : "a default of a port belongs into TreeNodesModel: <SubTree ID=\"…\">"
+                "<input_port name=\"…\" default=\"…\"/></SubTree>",
+          Severity::Warning);
+    }
   }
 
   // A later one replaces an earlier one.
@@ -175,8 +195,12 @@ class TreeReader {
       NodeElement element{node.place, attributes(index), is_explicit};
       std::vector<Attribute> since_4;
       if (is_version_3_) {
-        since_4 = attributes_since_4(element.attributes, *node.type, report_);
+        since_4 = attributes_since_4(elements_[index].tag, element.attributes, *node.type, report_);
         element.attributes = since_4;
+      }
+      if (is_subtree(node)) {
+        const NodeType* stand_in = stand_in_for_tree(element.attributes, catalog_);
+        if (stand_in != nullptr) node.type = stand_in;
       }
       node.type = type_of_element(element, *node.type, report_);
       if (node.type != nullptr) read_content(element, self, node);

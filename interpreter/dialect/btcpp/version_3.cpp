@@ -27,6 +27,9 @@ std::string_view attribute_since_4(const NodeType& type, std::string_view name) 
   if (is_built_in && type.category == NodeCategory::SubTree && name == kSharedBlackboard) {
     return "_autoremap";
   }
+  if (is_built_in && type.category == NodeCategory::SubTree && name == "__autoremap") {
+    return "_autoremap";
+  }
   if (!is_built_in || type.id != "Parallel") return name;
   const auto* const found = std::ranges::find(kParallelPorts, name, &Renamed::before);
   return found == std::end(kParallelPorts) ? name : found->since;
@@ -69,10 +72,12 @@ std::string_view node_since_4(std::string_view id) {
   return found == std::end(kNodes) ? std::string_view() : found->since;
 }
 
-std::vector<Attribute> attributes_since_4(std::span<const Attribute> attributes,
+std::vector<Attribute> attributes_since_4(std::string_view tag,
+                                          std::span<const Attribute> attributes,
                                           const NodeType& type, const Reporter& report) {
   std::vector<Attribute> since(attributes.begin(), attributes.end());
-  const bool is_subtree = type.category == NodeCategory::SubTree;
+  // In a SubTreePlus a text was a text, as it is now.
+  const bool is_subtree = type.category == NodeCategory::SubTree && tag != "SubTreePlus";
   for (Attribute& attribute : since) {
     const std::string_view before = attribute.name;
     attribute.name = attribute_since_4(type, before);

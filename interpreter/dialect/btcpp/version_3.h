@@ -22,7 +22,8 @@ std::span<const Renamed> renamed_nodes();
 std::string_view node_since_4(std::string_view id);
 
 // The attributes of a node as version 4 calls them. Reports what has another meaning there.
-std::vector<Attribute> attributes_since_4(std::span<const Attribute> attributes,
+std::vector<Attribute> attributes_since_4(std::string_view tag,
+                                          std::span<const Attribute> attributes,
                                           const NodeType& type, const Reporter& report);
 
 // The replacement of a node that version 4 does not have; "" for every other node.

@@ -3,18 +3,13 @@
 
 #include <string_view>
 
+#include "core/identifier.h"
+
 namespace lockstep::host::btcpp {
 
 // Editors write these. They have no meaning here.
 inline constexpr std::string_view kMarks[] = {"_uid",       "_fullpath", "_collapsed",  "_favorite",
                                               "_hardcoded", "_external", "_subtreeOnly"};
-
-constexpr std::string_view without_blanks_around(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n\v\f";
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 // The key of the entry that the value of the port `port` names; "" when it is a literal.
 constexpr std::string_view key_of(std::string_view value, std::string_view port) {

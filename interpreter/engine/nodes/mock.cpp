@@ -2,6 +2,7 @@
 // (NodeType::mock), a control node is a sequence, a decorator passes on.
 #include <algorithm>
 
+#include "engine/node_ports.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/timed.h"
@@ -14,11 +15,32 @@ const Mock& mock_of(const NodeContext& context, NodeIndex self) {
   return *context.tree().labels[self].type->mock;
 }
 
+// What an entry cannot have is not written. One without a type keeps none: the leaf may have
+// another one.
+void write(Entry& entry, const Value& value) {
+  if (entry.is_present && entry.typing == Typing::Any) {
+    entry.value = value;
+    ++entry.writes;
+  } else {
+    (void)write_entry(entry, static_cast<ValueType>(value.index()), nullptr, value);
+  }
+}
+
+Status result_of(NodeContext& context, NodeIndex self) {
+  const Mock& mock = mock_of(context, self);
+  if (mock.result != Status::Success) return mock.result;
+  for (unsigned port = 0; port < mock.outputs.size(); ++port) {
+    if (std::holds_alternative<NoValue>(mock.outputs[port])) continue;
+    if (Entry* const entry = context.ports().entry(self, port)) write(*entry, mock.outputs[port]);
+  }
+  return mock.result;
+}
+
 Status tick_mock_action(NodeContext& context, NodeIndex self) {
   timed::count(context, self);
-  const Mock& mock = mock_of(context, self);
   const Nanoseconds counted = context.now() - context.state<timed::State>(self).start;
-  return counted >= from_seconds(mock.seconds) ? mock.result : Status::Running;
+  const bool is_over = counted >= from_seconds(mock_of(context, self).seconds);
+  return is_over ? result_of(context, self) : Status::Running;
 }
 
 void fold_mock_action(NodeContext& context, NodeIndex self) {
@@ -36,7 +58,7 @@ double action_progress(NodeContext& context, NodeIndex self) {
 }
 
 Status tick_mock_condition(NodeContext& context, NodeIndex self) {
-  return mock_of(context, self).result;
+  return result_of(context, self);
 }
 
 double condition_progress(NodeContext& /*context*/, NodeIndex /*self*/) {
