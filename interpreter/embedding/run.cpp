@@ -283,6 +283,7 @@ void lockstep_run_halt(lockstep_run* run) {
     if (busy.is_refused()) return false;
     run->run.halt();
     Ticker& ticker = run->run.ticker();
+    run->watchers.halted(ticker, run->last);
     run->warnings.tell(ticker, ticker.take_tolerated(), ticker.tick_number());
     return true;
   });

@@ -60,6 +60,11 @@ void RunWatchers::after_tick(Ticker& ticker, const TickReport& report) {
   for (Observer* const it : observers_) it->after_tick(ticker, report);
 }
 
+void RunWatchers::halted(Ticker& ticker, Nanoseconds time) {
+  if (!is_begun_ || groot_ == nullptr) return;
+  groot_->after_tick(ticker, {.tick = ticker.tick_number(), .time = time, .status = Status::Idle});
+}
+
 void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
   if (std::exchange(is_begun_, false)) {
     RunEnd end;

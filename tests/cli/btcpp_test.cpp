@@ -259,8 +259,8 @@ TEST_CASE("run --mock takes a SubTree whose tree is not there, and check, and sh
   for (const std::string root : {"lockstep=\"1\"", "BTCPP_format=\"4\""}) {
     const std::string tree = directory.file(
         "tree.xml", "<root " + root +
-                        "><BehaviorTree ID=\"Main\"><Sequence><SubTree ID=\"Move to Waypoint\" "
-                        "waypoint=\"home\" at=\"{spot}\" _autoremap=\"true\"/><Grip/></Sequence>"
+                        "><BehaviorTree ID=\"Main\"><SubTree ID=\"Move to Waypoint\" "
+                        "waypoint=\"home\" at=\"{spot}\" _autoremap=\"true\"/>"
                         "</BehaviorTree></root>");
     INFO(root);
     const Outcome run = run_mocked(tree, {});

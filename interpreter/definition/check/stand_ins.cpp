@@ -56,6 +56,10 @@ struct Use {
   UsedAttributes misfits = {};  // constants that are no values of their ports in the model
 };
 
+std::string kind_words(NodeCategory category) {
+  return fmt::format("{} {}", category == NodeCategory::Action ? "an" : "a", to_string(category));
+}
+
 bool names_entry(std::string_view value) {
   value = without_blanks_around(value);
   return value == "=" || (value.starts_with('{') && value.ends_with('}') && value.size() > 2);
@@ -306,8 +310,8 @@ class Builder {
 
   void tell(std::string_view id, Place place, bool has_model, bool is_guessed) const {
     if (report_.counted_only(Severity::Note)) return;
-    std::string hint = has_model ? "what the model in the file says of it is a hint"
-                                 : did_you_mean(id, known_ids_);
+    std::string hint =
+        has_model ? "the model in the file is used as a hint" : did_you_mean(id, known_ids_);
     if (hint.empty()) {
       hint = "its ports are not known, so they are not checked; --plugin loads a plugin";
     }
@@ -371,8 +375,8 @@ class Builder {
     };
     if (!is_as_modeled(use, model.category)) {
       warn(&Reporter::at, use.place,
-           fmt::format("the model of '{}' says {}, but the tree uses it as {}", brief(id),
-                       to_string(model.category), to_string(category(use))),
+           fmt::format("the model of '{}' declares {}, but the tree uses it as {}", brief(id),
+                       kind_words(model.category), kind_words(category(use))),
            {});
     }
     std::vector<std::string_view> names;

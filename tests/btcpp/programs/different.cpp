@@ -1,11 +1,13 @@
 // What remains different: a line for each row of the tables in docs/btcpp.md that a program can
 // show. different.txt is what it prints here, different.library what it prints over the library.
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <streambuf>
+#include <thread>
 
 #include "behaviortree_cpp/bt_factory.h"
 
@@ -54,6 +56,20 @@ class Answers : public ActionNodeBase {
   std::string* events_;
   std::size_t at_ = 0;
 };
+
+// Runs until it has been ticked very often.
+class Endless : public ActionNodeBase {
+ public:
+  Endless(const std::string& name, const NodeConfig& config) : ActionNodeBase(name, config) {}
+  static PortsList providedPorts() { return {}; }
+  NodeStatus tick() override {
+    return ++ticks < 20'000 ? NodeStatus::RUNNING : NodeStatus::SUCCESS;
+  }
+  void halt() override { resetStatus(); }
+
+  static std::atomic<int> ticks;
+};
+std::atomic<int> Endless::ticks{0};
 
 // Ticks its first child, and tells whether it sees the class of that child.
 class Looks : public ControlNode {
@@ -254,6 +270,18 @@ static void show_trees() {
         "<Sequence><SetBlackboard value=\"n := 4\" output_key=\"k\"/><Script code=\"{k}\"/>"
         "</Sequence>");
     return toStr(tree.tickOnce());
+  });
+  show("haltTree from another thread", [] {
+    BehaviorTreeFactory factory;
+    factory.registerNodeType<Endless>("Endless");
+    auto tree = factory.createTreeFromText(tree_of("<Endless/>"));
+    std::thread other([&tree] {
+      while (Endless::ticks < 2) std::this_thread::yield();
+      tree.haltTree();
+    });
+    const NodeStatus status = tree.tickWhileRunning(std::chrono::milliseconds(1));
+    other.join();
+    return toStr(status);
   });
   show("_onHalted runs for all nodes at the end", [] {
     World world;

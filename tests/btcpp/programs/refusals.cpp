@@ -99,6 +99,18 @@ static void tell_documents(BehaviorTreeFactory& factory) {
        document("<BehaviorTree ID=\"Main\">" + good +
                 "</BehaviorTree><TreeNodesModel><SubTree ID=\"Part\"><input_port "
                 "name=\"ID\"/></SubTree></TreeNodesModel>")},
+      {"a port of a SubTree that begins with a digit",
+       document("<BehaviorTree ID=\"Main\">" + good +
+                "</BehaviorTree><TreeNodesModel><SubTree ID=\"Part\"><input_port "
+                "name=\"1st\"/></SubTree></TreeNodesModel>")},
+      {"a port of a SubTree that begins with _",
+       document("<BehaviorTree ID=\"Main\">" + good +
+                "</BehaviorTree><TreeNodesModel><SubTree ID=\"Part\"><input_port "
+                "name=\"__shared_blackboard\" default=\"false\"/></SubTree></TreeNodesModel>")},
+      {"models of nodes without an ID",
+       document("<BehaviorTree ID=\"Main\">" + good +
+                "</BehaviorTree><TreeNodesModel><Condition name=\"Seen\"/><Action/>"
+                "</TreeNodesModel>")},
       {"the explicit form below a ReactiveSequence",
        main_tree("<ReactiveSequence><Action ID=\"Paint\"/></ReactiveSequence>")},
       {"two asynchronous children of a ReactiveSequence",

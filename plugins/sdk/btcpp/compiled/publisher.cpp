@@ -2,5 +2,8 @@
 #ifndef LOCKSTEP_BTCPP_LIBRARY
 #define LOCKSTEP_BTCPP_LIBRARY  // the functions of nodes.cpp are not here
 #endif
-#define LOCKSTEP_BTCPP_MAKES_LIBRARY
+#include "behaviortree_cpp/lockstep/program.h"
+// The functions of programs.cpp are not here either: only those that follow are the library's.
+#undef LOCKSTEP_BTCPP_INLINE
+#define LOCKSTEP_BTCPP_INLINE
 #include "behaviortree_cpp/lockstep/compiled/groot2_publisher.h"

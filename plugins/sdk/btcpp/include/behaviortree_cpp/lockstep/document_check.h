@@ -70,21 +70,21 @@ class DocumentCheck {
   }
 
   void check_model(const XmlElement& model) const {
-    for (const char* it : {"Action", "Condition", "Control", "Decorator", "SubTree"}) {
-      if (model.name == it && model.get("ID").empty()) {
-        refuse(model, StrCat("a <", it, "> of TreeNodesModel needs the attribute ID"));
-      }
-    }
     if (model.name != "SubTree") return;
+    if (model.get("ID").empty()) {
+      refuse(model, "a <SubTree> of TreeNodesModel needs the attribute ID");
+    }
     for (const XmlElement& port : model.children) {
       if (port.name != "input_port" && port.name != "output_port" && port.name != "inout_port") {
         continue;
       }
       const std::string name = port.get("name");
-      if (IsAllowedPortName(name)) continue;
+      const bool is_allowed = !name.empty() && (name[0] < '0' || name[0] > '9') &&
+                              findForbiddenChar(name) == '\0' && !IsReservedAttribute(name);
+      if (is_allowed) continue;
       refuse(port,
              StrCat("'", name, "' cannot be the name of a port of the SubTree '", model.get("ID"),
-                    "': a letter first, no blanks, no reserved word, and "
+                    "': no digit first, no blanks, no reserved word, and "
                     "none of <>&\"'/\\:*?|."));
     }
   }

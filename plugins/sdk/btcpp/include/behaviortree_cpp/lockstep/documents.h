@@ -185,24 +185,33 @@ class Documents {
 
   std::string text(const std::vector<const Part*>& parts) const {
     std::string text = "<root BTCPP_format=\"4\">\n";
+    XmlElement models;  // a document has one such element at most
+    models.name = "TreeNodesModel";
     for (const Part* it : parts) {
-      text += it->file.empty() ? inner_of(it->text)
+      text += it->file.empty() ? inner_of(it->text, models)
                                : StrCat("<include path=\"", xml_escaped(it->file), "\"/>");
       text += "\n";
       for (const std::string& id : it->ids) {
         if (unnamed_.count(id) != 0) text += write_xml(set_.trees.at(id));
       }
     }
+    if (!models.children.empty()) text += write_xml(models);
     return text + "</root>\n";
   }
-  // The content of the root, without a tree that has no ID.
-  static std::string inner_of(const std::string& document) {
+  // The content of the root, without a tree that has no ID. Models go to `models`.
+  static std::string inner_of(const std::string& document, XmlElement& models) {
     const XmlElement root = read_xml(document);
-    for (const XmlElement& it : root.children) {
-      if (it.name != "BehaviorTree" || !it.get("ID").empty()) continue;
+    const auto is_left_out = [](const XmlElement& it) {
+      return it.name == "TreeNodesModel" || (it.name == "BehaviorTree" && it.get("ID").empty());
+    };
+    if (std::any_of(root.children.begin(), root.children.end(), is_left_out)) {
       std::string text;
-      for (const XmlElement& other : root.children) {
-        if (&other != &it) text += write_xml(other);
+      for (const XmlElement& it : root.children) {
+        if (it.name == "TreeNodesModel") {
+          models.children.insert(models.children.end(), it.children.begin(), it.children.end());
+        } else if (!is_left_out(it)) {
+          text += write_xml(it);
+        }
       }
       return text;
     }

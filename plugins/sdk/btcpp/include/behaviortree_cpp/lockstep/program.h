@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,6 +97,7 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
 
   // Once, or again while a node asks for it.
   NodeStatus tick(bool exactly_once) {
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
     source_.blackboard->lockstep_take_from_parents();
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - began_;
     const bool is_inner = is_busy_.exchange(true);
@@ -111,10 +113,31 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     throw_fault();
     return status;
   }
-  // All that runs; then it throws what one has thrown.
+  // All that runs; then it throws what one has thrown. From any thread: a tick ends before that.
   void halt() {
+    ++halts_;
+    if (is_looping_) wake_up_->emitSignal();
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
     halt_all();
     throw_fault();
+  }
+
+  // Ticks until the tree has completed or is halted, also by another thread: then IDLE.
+  template <class Sleep>
+  NodeStatus tick_while_running(Sleep sleep) {
+    const unsigned halts = halts_;
+    is_looping_ = true;
+    const Looping looping{is_looping_};
+    NodeStatus status = tick(false);
+    while (status == NodeStatus::RUNNING && halts_ == halts) {
+      sleep();
+      if (halts_ == halts) status = tick(false);
+    }
+    if (status != NodeStatus::RUNNING) return status;
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
+    halt_all();  // a node that was ticked may have asked for it
+    throw_fault();
+    return NodeStatus::IDLE;
   }
 
   // Ends a sleep between two ticks; nodes emit it from any thread.
@@ -246,12 +269,20 @@ class Program : public NodeTree, public std::enable_shared_from_this<Program> {
     return static_cast<NodeStatus>(state.status);
   }
 
+  struct Looping {
+    std::atomic<bool>& is_looping;
+    ~Looping() { is_looping = false; }
+  };
+
   Source source_;  // outlives the run
   std::unique_ptr<lockstep_project, FreeProject> project_{lockstep_project_new()};
   const std::shared_ptr<WakeUpSignal> wake_up_ = std::make_shared<WakeUpSignal>();
   std::unique_ptr<const NodePlaces> places_;
   std::vector<TreeNode::Ptr> nodes_;
   std::unique_ptr<TreeWatch> watch_;
+  std::recursive_mutex mutex_;  // held by the thread that ticks or halts it
+  std::atomic<unsigned> halts_{0};
+  std::atomic<bool> is_looping_{false};
   std::atomic<bool> is_busy_{false};  // it is ticked, or halted, or ends
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::unique_ptr<lockstep_run, FreeRun> run_;  // it ends before what it calls back
@@ -308,12 +339,7 @@ LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickExactlyOnce() {
   return lockstep_program().tick(true);
 }
 LOCKSTEP_BTCPP_INLINE NodeStatus Tree::tickWhileRunning(std::chrono::milliseconds sleep_time) {
-  NodeStatus status = tickOnce();
-  while (status == NodeStatus::RUNNING) {
-    lockstep_sleep(sleep_time);
-    status = tickOnce();
-  }
-  return status;
+  return lockstep_program().tick_while_running([&] { lockstep_sleep(sleep_time); });
 }
 LOCKSTEP_BTCPP_INLINE void Tree::haltTree() {
   if (program_ != nullptr) program_->halt();
