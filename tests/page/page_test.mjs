@@ -292,3 +292,14 @@ test("the timeline is as high as it is dragged, or as keys make it", async () =>
   assert.deepEqual(await violations(page), []);
   await page.context().close();
 });
+
+test("a later part of a recording opens, with one tick and before its parallel begins", async () => {
+  const whole = record(tree(`<Sequence memory="true"><Wait seconds="6"/>
+    <ParallelAbsolute barriers="0.5"><Advance step="1"/><Advance step="1"/></ParallelAbsolute></Sequence>`),
+    "--rate", "10", "--record-rotate", "0.1s");
+  const page = await openRun(whole.replace(/\.jsonl$/, ".0051.jsonl"));
+  await page.locator('input[aria-valuetext^="tick 50,"]').waitFor();
+  await page.getByRole("button", { name: "zoom in" }).click();
+  assert.deepEqual(await violations(page), []);
+  await page.context().close();
+});
