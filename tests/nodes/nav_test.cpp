@@ -268,6 +268,10 @@ constexpr TickRow kOfNav2[] = {
    "Sequence(GoalUpdatedController(a))", "a=S", "S[a] S[a]"},
   {"GoalUpdatedController goes on in a PipelineSequence",
    "PipelineSequence(GoalUpdatedController(a) b)", "a=S b=R", "R[a b] R[b] goal:=1 R[a b] R[b]"},
+  {"different from Nav2: a Fallback that has succeeded counts anew who is skipped",
+   "PipelineSequence(Fallback(a b) c)", "a=K b=SF c=R", "R[a b c] F[a b] halt[c]"},
+  {"different from Nav2: a decorator whose child was skipped begins with its next tick",
+   "PipelineSequence(RateController[hz=1](a) b)", "a=KS b=R", "R[a b] R[a b] R[b]"},
   {"different from Nav2: GoalUpdated in a ReactiveFallback sees another goal. There it is reset in each tick, and fails",
    "ReactiveFallback(GoalUpdated a)", "a=R", "R[a] goal:=2 S[] halt[a]"},
 };
