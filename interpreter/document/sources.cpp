@@ -21,7 +21,7 @@ Source::Source(std::string path, std::string text, Place first)
 }
 
 const LineIndex& Source::lines() const {
-  if (!lines_) lines_.emplace(text_);
+  std::call_once(counted_, [this] { lines_.emplace(text_); });
   return *lines_;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,7 @@ class Source {
 
   std::string path_, text_;
   Place first_;
+  mutable std::once_flag counted_;  // threads share a text, as those of the language server do
   mutable std::optional<LineIndex> lines_;
 };
 

@@ -18,7 +18,6 @@
 #include "scenario/expectation_reader.h"
 #include "scenario/row_values.h"
 #include "scenario/scenario_words.h"
-#include "scenario/stage.h"
 #include "scenario/substitutions.h"
 
 namespace lockstep::host {
@@ -249,7 +248,6 @@ std::unique_ptr<ScenarioFile> read_scenarios(const std::string& path, std::strin
   auto file = std::make_unique<ScenarioFile>();
   file->path = path;
   file->sources.add(document->source());
-  count_lines(file->sources);
   return Reader(*document, *file, diagnostics).read() ? std::move(file) : nullptr;
 }
 

@@ -18,10 +18,6 @@ Tree played_tree(const Definition& given, const std::set<NodeIndex>& real, Playe
 
 }  // namespace
 
-void count_lines(const Sources& sources) {
-  for (const auto& source : sources.all()) static_cast<void>(source->locate(source->place_of(0)));
-}
-
 Stage::Key Stage::key_of(const Scenario& scenario) {
   Key key{scenario.tree, scenario.main, {}};
   for (const NamedText& it : scenario.arguments) key.arguments[it.name] = it.text;
@@ -50,9 +46,7 @@ Stage::Stage(std::string file, Loaded loaded)
     : file_(std::move(file)),
       loaded_(std::move(loaded)),
       tree_(played_tree(loaded_.definition, {}, played_)),
-      names_(property_names(tree_)) {
-  count_lines(sources());
-}
+      names_(property_names(tree_)) {}
 
 SourceLocation Stage::location_of(NodeIndex node) const {
   return sources().locate(loaded_.definition.nodes[node].place);

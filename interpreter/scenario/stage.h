@@ -15,9 +15,6 @@
 
 namespace lockstep::host {
 
-// Before several threads ask for places: they are counted when the first is asked for.
-void count_lines(const Sources& sources);
-
 class Stage {
  public:
   // The file and the values that a tree is loaded with; equal keys have the same stage.

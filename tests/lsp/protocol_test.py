@@ -50,6 +50,16 @@ class Protocol(unittest.TestCase):
         self.client.start()
         self.assertEqual(1, self.ends())
 
+    def test_a_file_is_closed_before_its_answer(self):
+        self.client.start(self.directory.name)
+        uri = {"textDocument": {"uri": self.path.as_uri()}}
+        document = {**uri["textDocument"], "languageId": "xml", "version": 1, "text": TREE}
+        self.client.write({"method": "textDocument/didOpen", "params": {"textDocument": document}},
+                          {"id": 100, "method": "textDocument/codeLens", "params": uri},
+                          {"method": "textDocument/didClose", "params": uri})
+        self.client.answer(100)
+        self.assertEqual(0, self.client.stop())
+
     def test_all_at_once(self):
         self.client.write({"id": 1, "method": "initialize", "params": {"capabilities": {}}},
                           {"id": 2, "method": "shutdown"}, {"method": "exit"})

@@ -71,8 +71,8 @@ class Converter {
     const bool is_main = source == analysis_.texts.front();
     std::string uri = is_main ? analysis_.uri : workspace_.uri_of(path);
     const auto open = workspace_.files().find(uri);
-    const bool has_mark = open != workspace_.files().end() &&
-                          std::string_view(*open->second.text).starts_with(kByteOrderMark);
+    const bool has_mark =
+        open != workspace_.files().end() && open->second.bytes().starts_with(kByteOrderMark);
     return texts_
         .emplace(path, Text{std::move(uri), source, Positions(source->text()),
                             LineIndex(source->text()), has_mark})

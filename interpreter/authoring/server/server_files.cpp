@@ -45,7 +45,7 @@ void Server::change(Message& message) {
   const FileParams params = read_file_params(connection_.reader(), message);
   OpenFile* const file = workspace_.find(params.uri);
   if (file == nullptr) throw JsonError("the file is not open");
-  for (const TextChange& it : params.changes) file->change(it.range, it.text);
+  file->change(params.changes);
   file->version = params.version;
   workspace_.mark_dirty(*file);
 }
@@ -57,6 +57,7 @@ void Server::close(Message& message) {
   found_.erase(params.uri);
   publish(params.uri, Tell::Always);
   workspace_.mark_all_dirty();  // what includes it reads the saved text again
+  ask_again();                  // for those that wait for what is found in it, nothing will be
 }
 
 void Server::look_again(Message&) {
@@ -74,7 +75,8 @@ void Server::post_jobs() {
     if (!std::exchange(file.is_dirty, false)) continue;
     if (texts.empty()) texts = workspace_.texts();
     file.serial = ++serial_;
-    analyses_.post({uri, file.path, file.text, file.version, file.serial, texts, settings_});
+    analyses_.post(
+        {uri, file.path, file.shared_bytes(), file.version, file.serial, texts, settings_});
   }
 }
 

@@ -6,30 +6,30 @@
 
 namespace lockstep::host {
 
-void OpenFile::change(const std::optional<std::pair<Position, Position>>& range,
-                      std::string_view by) {
-  // An analysis may be reading the text.
-  if (text.use_count() > 1) text = std::make_shared<std::string>(*text);
-  if (range) {
-    const std::size_t begin = positions().byte_at(range->first);
-    const std::size_t end = std::max(begin, positions().byte_at(range->second));
-    text->replace(begin, end - begin, by);
-  } else {
-    *text = by;
-  }
-  positions_.reset();
-  tree_.reset();
-  is_dirty = true;
-}
-
-const Positions& OpenFile::positions() const {
-  if (!positions_) positions_.emplace(*text);
+const Positions& OpenText::positions() const {
+  if (!positions_) positions_.emplace(bytes_);
   return *positions_;
 }
 
-const TolerantTree& OpenFile::tree() const {
-  if (!tree_) tree_ = read_tolerantly(*text);
+const TolerantTree& OpenText::tree() const {
+  if (!tree_) tree_ = read_tolerantly(bytes_);
   return *tree_;
+}
+
+void OpenFile::change(std::span<const TextChange> changes) {
+  std::string bytes = text->bytes();
+  for (const TextChange& it : changes) {
+    if (it.range) {
+      const Positions positions(bytes);
+      const std::size_t begin = positions.byte_at(it.range->first);
+      const std::size_t end = std::max(begin, positions.byte_at(it.range->second));
+      bytes.replace(begin, end - begin, it.text);
+    } else {
+      bytes = it.text;
+    }
+  }
+  text = std::make_shared<const OpenText>(std::move(bytes));
+  is_dirty = true;
 }
 
 void Workspace::open(const std::string& uri, std::string text, std::int64_t version) {
@@ -37,7 +37,7 @@ void Workspace::open(const std::string& uri, std::string text, std::int64_t vers
   file.uri = uri;
   file.path = path_of_uri(uri);
   file.identity = file_identity(file.path);
-  file.text = std::make_shared<std::string>(std::move(text));
+  file.text = std::make_shared<const OpenText>(std::move(text));
   file.version = version;
   files_.insert_or_assign(uri, std::move(file));
 }
@@ -64,7 +64,7 @@ void Workspace::mark_all_dirty() {
 
 UnsavedTexts Workspace::texts() const {
   UnsavedTexts texts;
-  for (const auto& [uri, file] : files_) texts[file.identity] = file.text;
+  for (const auto& [uri, file] : files_) texts[file.identity] = file.shared_bytes();
   return texts;
 }
 

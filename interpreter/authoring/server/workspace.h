@@ -4,35 +4,55 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "authoring/server/analysis.h"
 #include "authoring/server/positions.h"
+#include "authoring/server/protocol/params.h"
 
 namespace lockstep::host {
+
+// A text in the editor. It never changes: an edit makes another one, so any thread that has it may
+// read its bytes. Its positions and its tree are views of them, for the server's thread only.
+class OpenText {
+ public:
+  explicit OpenText(std::string bytes) : bytes_(std::move(bytes)) {}
+  OpenText(const OpenText&) = delete;
+  OpenText& operator=(const OpenText&) = delete;
+
+  const std::string& bytes() const { return bytes_; }
+  const Positions& positions() const;
+  const TolerantTree& tree() const;
+
+ private:
+  const std::string bytes_;
+  mutable std::optional<Positions> positions_;
+  mutable std::optional<TolerantTree> tree_;
+};
 
 struct OpenFile {
   std::string uri, path;
   std::string identity;  // file_identity()
-  std::shared_ptr<std::string> text;
+  std::shared_ptr<const OpenText> text;
   std::int64_t version = 0;
   bool is_dirty = true;                           // no job was posted for this text
   std::uint64_t serial = 0;                       // of the last job that was
   std::int64_t told = -1;                         // the version of which the client has messages
   std::shared_ptr<const Analysis> analysis = {};  // of this text or an earlier one; null: none yet
 
-  // Replaces a part of the text, or all of it.
-  void change(const std::optional<std::pair<Position, Position>>& range, std::string_view by);
-  const Positions& positions() const;
-  const TolerantTree& tree() const;
+  // One after the other: each is about the text that the one before it has made.
+  void change(std::span<const TextChange> changes);
+  const std::string& bytes() const { return text->bytes(); }
+  // The bytes alone, for another thread.
+  std::shared_ptr<const std::string> shared_bytes() const { return {text, &text->bytes()}; }
+  const Positions& positions() const { return text->positions(); }
+  const TolerantTree& tree() const { return text->tree(); }
   // All that can be found is found.
   bool is_settled() const {
     return !is_dirty && analysis != nullptr && analysis->serial == serial && analysis->is_whole;
   }
-
- private:
-  mutable std::optional<Positions> positions_;
-  mutable std::optional<TolerantTree> tree_;
 };
 
 class Workspace {

@@ -6,7 +6,7 @@
 namespace lockstep::host {
 
 Json formatting(const Question& question) {
-  const std::string& text = *question.file.text;
+  const std::string& text = question.file.bytes();
   Diagnostics unused;
   const auto document = Document::parse(question.file.path, text, unused);
   if (document == nullptr) return {};

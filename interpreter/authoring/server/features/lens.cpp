@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <unordered_map>
 
 #include "authoring/server/features/names.h"
 #include "authoring/server/features/site.h"
@@ -110,10 +111,14 @@ class Hints {
   }
 
   // The number of equal parts of its progress; 0: there are none.
-  std::uint64_t parts_of(const TolerantElement& element) const {
+  std::uint64_t parts_of(const TolerantElement& element) {
     const NodeType* const type = type_of(tree_, element, question_.file.analysis->catalog);
     if (type == nullptr) return 0;
-    if (type->progress_share == ProgressShare::EachChild) return children_of(element);
+    if (type->progress_share == ProgressShare::EachChild) {
+      const auto [known, is_new] = children_.try_emplace(&element);
+      if (is_new) known->second = children_of(element);
+      return known->second;
+    }
     if (type->progress_share != ProgressShare::EachRound) return 0;
     std::uint64_t rounds = 0;
     const std::string_view text = tree_.value_of(element, type->parameters[0].name);
@@ -133,6 +138,7 @@ class Hints {
   const Positions& positions_;
   ByteRange range_{0, std::string::npos};
   std::vector<Json> hints_;
+  std::unordered_map<const TolerantElement*, std::uint64_t> children_;  // how many each has
 };
 
 }  // namespace

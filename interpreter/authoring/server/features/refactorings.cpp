@@ -224,7 +224,7 @@ class Refactorings {
 
 std::vector<Json> refactorings(const Question& question) {
   if (kind_of_file(question.file.path) != FileKind::Tree) return {};
-  if (question.file.text->size() > kMostBytes) return {};
+  if (question.file.bytes().size() > kMostBytes) return {};
   const FileParams& params = question.params;
   if (params.is_automatic && params.kinds.empty()) return {};
   const bool is_any = std::ranges::any_of(

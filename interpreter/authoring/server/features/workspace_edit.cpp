@@ -17,7 +17,7 @@ Json version_of(const Workspace& workspace, const std::string& uri) {
 
 std::optional<ProjectTexts> project_texts(const Question& question) {
   const auto& project = question.file.analysis->project;
-  const std::string_view text = *question.file.text;
+  const std::string_view text = question.file.bytes();
   if (!project ||
       project->documents.front()->source()->text() != text.substr(byte_order_mark(text).size()))
     return std::nullopt;
@@ -63,7 +63,7 @@ Json workspace_edit(const Question& question, const ProjectTexts& texts, const P
     const std::string uri = question.workspace.uri_of(source.path());
     const auto file = question.workspace.files().find(uri);
     const bool is_open = file != question.workspace.files().end();
-    changes[uri] = json_of_document(edit[i], is_open ? *file->second.text : source.text());
+    changes[uri] = json_of_document(edit[i], is_open ? file->second.bytes() : source.text());
   }
   return workspace_edit(question, changes);
 }
