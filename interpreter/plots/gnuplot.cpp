@@ -1,5 +1,6 @@
 #include "plots/gnuplot.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,6 +13,8 @@
 #include "core/diagnostics.h"
 #include "plots/gnuplot_process.h"
 #include "plots/plot_style.h"
+#include "system/file_descriptor.h"
+#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -155,9 +158,11 @@ PlotResult draw(const PlotFiles& files) {
   if (ended.stopped) return result;
   if (result.ok()) finished.insert(finished.end(), files.images.begin(), files.images.end());
   for (const std::string& name : finished) {
-    std::error_code failed;
-    std::filesystem::rename(work.path() / name, directory / name, failed);
-    if (fails(directory / name, failed.value())) return result;
+    const std::string made = work.path() / name, wanted = directory / name;
+    const FileDescriptor file(open(made.c_str(), O_RDONLY | O_CLOEXEC));
+    const bool is_placed =
+        file.number() >= 0 && take_name(file.number(), made.c_str(), wanted.c_str());
+    if (fails(wanted, is_placed ? 0 : errno)) return result;
     result.files.push_back(files.directory / name);
   }
   return result;

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
 #include "authoring/edit/value_text.h"
 #include "document/document.h"
 #include "document/file.h"
-#include "system/descriptors.h"
-#include "system/output_file.h"
+#include "system/replace_text.h"
 
 namespace lockstep::host {
 namespace {
@@ -91,9 +88,8 @@ std::string scenario_file(const std::string& tree, const std::string& scenarios)
 
 Result<void> add_to_scenario_file(const std::string& path, const std::string& tree,
                                   const std::string& scenarios) {
-  std::string text;
   if (std::filesystem::exists(path)) {
-    auto before = read_file(path, Document::kMaxBytes);
+    const auto before = read_file(path, Document::kMaxBytes);
     if (!before) return problem(fmt::format("cannot read '{}': {}", path, before.error().message));
     const auto end = before->rfind(kEnd);
     if (end == std::string::npos) {
@@ -106,18 +102,11 @@ Result<void> add_to_scenario_file(const std::string& path, const std::string& tr
       return problem(fmt::format("'{}' has a scenario '{}' already", path, name),
                      "rename that, or name another file");
     }
-    text = before->insert(end, scenarios);
-  } else {
-    const auto folder = std::filesystem::path(path).parent_path();
-    const auto from = std::filesystem::proximate(tree, folder.empty() ? "." : folder);
-    text = scenario_file(from.string(), scenarios);
+    return replace_text(path, *before, std::string(*before).insert(end, scenarios));
   }
-  OutputFile file(path);
-  if (!file.error().empty()) return problem(file.error());
-  if (!write_all(file.descriptor(), text) || !file.take_name()) {
-    return problem(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-  }
-  return {};
+  const auto folder = std::filesystem::path(path).parent_path();
+  const auto from = std::filesystem::proximate(tree, folder.empty() ? "." : folder);
+  return create_text(path, scenario_file(from.string(), scenarios));
 }
 
 }  // namespace lockstep::host

@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "study/plan_json.h"
-#include "study/whole_file.h"
+#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -82,7 +82,7 @@ Result<StudyPlan> StudyFolder::read_plan() const {
 
 Result<RowSequence> StudyFolder::make(const StudyPlan& plan) {
   return check_free(plan)
-      .and_then([&] { return write_whole_file(file("study.json"), to_json(plan)); })
+      .and_then([&] { return write_output(file("study.json"), to_json(plan)); })
       .and_then([&] { return results_->take_over(); });
 }
 
@@ -131,7 +131,7 @@ Result<void> StudyFolder::save() {
 Result<std::vector<SummaryRow>> StudyFolder::finish(const StudyPlan& plan) {
   auto rows = summarize_study(file(result_file_name(plan.rows)), plan);
   if (!rows) return rows;
-  return write_whole_file(file("summary.csv"), summary_csv(plan, *rows)).map([&] {
+  return write_output(file("summary.csv"), summary_csv(plan, *rows)).map([&] {
     return std::move(*rows);
   });
 }

@@ -12,8 +12,8 @@
 #include "study/result_file.h"
 #include "study/totals_reader.h"
 #include "study/totals_text.h"
-#include "study/whole_file.h"
 #include "system/descriptors.h"
+#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -95,7 +95,7 @@ Result<void> TotalsFile::add(std::string_view, std::span<const RowResult> rows) 
 Result<void> TotalsFile::save() {
   saved_ = monotonic_now();
   if (open_.results().runs == 0) return {};
-  return write_whole_file(path("cell.json"), totals_line(cell_, open_));
+  return write_output(path("cell.json"), totals_line(cell_, open_));
 }
 
 }  // namespace

@@ -9,21 +9,14 @@
 #include <system_error>
 #include <utility>
 
+#include "system/beside.h"
+#include "system/descriptors.h"
+
 namespace lockstep::host {
 namespace {
 
-constexpr int kFlags = O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY;
-
 std::string reason_text(int reason) {
   return std::generic_category().message(reason);
-}
-
-// In the same directory, so that it can take the other's name. Cut, for a name may have 255 bytes.
-std::string temporary_name(const std::string& path, int attempt) {
-  constexpr std::size_t kLongest = 200;
-  const std::size_t name = path.rfind('/') + 1;  // 0 when there is none
-  return fmt::format("{}{}.{}-{}.new", path.substr(0, name), path.substr(name, kLongest), getpid(),
-                     attempt);
 }
 
 bool is_written_as_it_is(mode_t mode) {
@@ -44,40 +37,36 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     fail("it is a symbolic link; name the file itself");
   } else if (is_there && !S_ISREG(named.st_mode)) {
     fail(S_ISDIR(named.st_mode) ? reason_text(EISDIR) : "it is neither a file nor a pipe");
+  } else if (is_there && faccessat(AT_FDCWD, path_.c_str(), W_OK, AT_EACCESS) != 0) {
+    fail(reason_text(errno));
   } else {
-    open_beside();
+    open_fresh();
   }
 }
 
 OutputFile::~OutputFile() {
   remove();
-  if (file_ >= 0) close(file_);
 }
 
 void OutputFile::open_as_it_is() {
-  file_ = open(path_.c_str(), kFlags);
-  if (file_ < 0) return fail(reason_text(errno));
+  file_ = FileDescriptor(open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY));
+  if (descriptor() < 0) return fail(reason_text(errno));
   struct stat opened {};
-  if (fstat(file_, &opened) == 0 && is_written_as_it_is(opened.st_mode)) return;
-  close(std::exchange(file_, -1));
+  if (fstat(descriptor(), &opened) == 0 && is_written_as_it_is(opened.st_mode)) return;
+  file_ = FileDescriptor();
   fail("it was replaced while it was opened");
 }
 
-void OutputFile::open_beside() {
-  constexpr int kAttempts = 100;  // each name of a process that was killed costs one
-  for (int attempt = 0; file_ < 0 && attempt < kAttempts; ++attempt) {
-    temporary_ = temporary_name(path_, attempt);
-    file_ = open(temporary_.c_str(), kFlags | O_CREAT | O_EXCL, 0666);
-    if (file_ < 0 && errno != EEXIST) break;
-  }
-  if (file_ >= 0) return;
-  temporary_.clear();
-  fail(reason_text(errno));
+void OutputFile::open_fresh() {
+  BesideFile fresh = open_beside(path_, ".new", 0666);
+  if (fresh.file.number() < 0) return fail(reason_text(errno));
+  file_ = std::move(fresh.file);
+  temporary_ = std::move(fresh.name);
 }
 
 bool OutputFile::take_name() {
   if (temporary_.empty()) return true;
-  if (rename(temporary_.c_str(), path_.c_str()) != 0) return false;
+  if (!host::take_name(descriptor(), temporary_.c_str(), path_.c_str())) return false;
   temporary_.clear();
   return true;
 }
@@ -88,6 +77,19 @@ void OutputFile::remove() const {
 
 void OutputFile::fail(const std::string& reason) {
   error_ = fmt::format("cannot open '{}': {}", path_, reason);
+}
+
+bool take_name(int file, const char* fresh, const char* path) noexcept {
+  struct stat old {};
+  if (lstat(path, &old) == 0 && S_ISREG(old.st_mode)) keep_properties(path, old, file);
+  return rename(fresh, path) == 0;
+}
+
+Result<void> write_output(const std::string& path, std::string_view text) {
+  OutputFile file(path);
+  if (!file.error().empty()) return problem(file.error());
+  if (write_all(file.descriptor(), text) && file.take_name()) return {};
+  return problem(fmt::format("cannot write '{}': {}", path, reason_text(errno)));
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

@@ -2,14 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-
 #include "measure/live_properties.h"
 #include "recording/write/recorder.h"
 #include "runtime/deadlines.h"
 #include "runtime/loop.h"
-#include "system/descriptors.h"
 #include "system/output_file.h"
 #include "verify/same_tick.h"
 
@@ -21,15 +17,6 @@ std::string heading(const Finding& finding) {
   std::string text = fmt::format("{}: {}", finding.name, finding.message);
   if (finding.repeats) text += fmt::format("; repeats from tick {}", *finding.repeats);
   return text;
-}
-
-std::optional<Problem> write_text(const std::string& path, const std::string& text) {
-  OutputFile file(path);
-  if (!file.error().empty()) return Problem{file.error()};
-  if (!write_all(file.descriptor(), text) || !file.take_name()) {
-    return Problem{fmt::format("cannot write '{}': {}", path, std::strerror(errno))};
-  }
-  return std::nullopt;
 }
 
 // The property that the finding is about, or none. No run knows facts.
@@ -119,9 +106,9 @@ Result<CounterExample> write_counter_example(const Tree& tree, const Finding& fi
   CounterExample files{options.stem + ".jsonl", options.stem + ".leaves"};
   LeafScripts scripts = tracer.scripts(finding.run);
   scripts.rate = options.rate;
-  if (auto error = write_text(files.leaves, "# " + heading(finding) + '\n' + to_text(scripts))) {
-    return tl::unexpected(std::move(*error));
-  }
+  const auto written =
+      write_output(files.leaves, "# " + heading(finding) + '\n' + to_text(scripts));
+  if (!written) return tl::unexpected(written.error());
   played.set_scripts(scripts);
   Confirmation confirmation(tree, finding, tracer, properties);
   std::string error = record(tree, scripts, files.recording, finding, confirmation, options);

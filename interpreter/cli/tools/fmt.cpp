@@ -13,6 +13,7 @@
 #include "cli/exit_code.h"
 #include "core/wording.h"
 #include "document/file.h"
+#include "system/replace_text.h"
 
 namespace lockstep::host {
 namespace {
@@ -139,8 +140,8 @@ class FormatRun {
     if (result->edit.empty() || options_.check || options_.diff) return;
     std::string after(byte_order_mark(*text));
     after += result->edit.apply(result->document->source()->text());
-    if (const auto problem = replace_file(path, after)) {
-      diagnostics_.error({}, problem->message, problem->hint);
+    if (const auto done = replace_text(path, *text, after); !done) {
+      diagnostics_.error({}, done.error().message, done.error().hint);
       code_ = first_failure(code_, kExitUsage);
     }
   }

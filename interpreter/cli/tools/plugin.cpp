@@ -15,7 +15,6 @@
 #include "plugin/open/plugin_path.h"
 #include "remote/json_lines/conformance.h"
 #include "remote/json_lines/leaves_file.h"
-#include "system/descriptors.h"
 #include "system/output_file.h"
 
 namespace lockstep::host {
@@ -59,13 +58,9 @@ int save_leaves(const PluginCheckOptions& options, const std::string& program,
                 const std::string& line) {
   const auto described = describe_elements(options, program);
   if (!described) return kExitInvalidTree;
-  const std::string path = leaves_file_of(program);
-  OutputFile out(path);
-  const bool is_written =
-      out.descriptor() >= 0 && write_all(out.descriptor(), line + "\n" + *described);
-  if (is_written && out.take_name()) return kExitSuccess;
-  print_error(out.error().empty() ? fmt::format("cannot write '{}'", path)
-                                  : printable(out.error()));
+  const auto done = write_output(leaves_file_of(program), line + "\n" + *described);
+  if (done) return kExitSuccess;
+  print_error(printable(done.error().message));
   return kExitUsage;
 }
 

@@ -69,6 +69,16 @@ TEST_CASE("output file: the old file stays until the new one takes its name") {
   CHECK(directory.entries() == 1);
 }
 
+TEST_CASE("output file: the new file has the mode of the old one") {
+  const Directory directory;
+  const std::string path = directory.file("out", "old\n");
+  fs::permissions(path, fs::perms(0604));
+  REQUIRE(write_output(path, "new\n").has_value());
+  CHECK(text_of(path) == "new\n");
+  CHECK(fs::status(path).permissions() == fs::perms(0604));
+  CHECK(directory.entries() == 1);
+}
+
 TEST_CASE("output file: a link is not followed, whether it leads to a file or nowhere") {
   const Directory directory;
   const std::string victim = directory.file("victim", "precious\n");

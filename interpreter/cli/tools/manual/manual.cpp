@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 #include "cli/command.h"
 #include "cli/console.h"
@@ -12,6 +11,7 @@
 #include "cli/tools/manual/pages.h"
 #include "core/diagnostics.h"
 #include "core/value.h"
+#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -32,10 +32,7 @@ std::string date_of_pages() {
 bool write(const std::filesystem::path& path, const std::string& text) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  return !out.fail();
+  return write_output(path, text).has_value();
 }
 
 int manual(const std::string& directory) {

@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/new/new.h"
+#include "system/replace_text.h"
 
 namespace lockstep::host {
 namespace {
@@ -75,7 +76,7 @@ int insert(const NodeOptions& options, const NewNode& node, const PluginSource& 
   const auto text = insert_node(source, node);
   if (!text) return refuse(text.error());
   if (!options.is_dry_run) {
-    if (const auto done = replace_text(source.path, source.text, *text); !done)
+    if (const auto done = replace_text(source.path.string(), source.text, *text); !done)
       return refuse(done.error());
   }
   const int code = write_results(source.path.string() + '\n');

@@ -7,7 +7,6 @@
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "system/descriptors.h"
 #include "system/output_file.h"
 
 namespace lockstep::host {
@@ -15,14 +14,9 @@ namespace {
 
 bool write_coverage_file(std::string_view option, const std::string& path,
                          const std::string& text) {
-  OutputFile file(path);
-  if (!file.error().empty()) {
-    print_error(fmt::format("{}: {}", option, file.error()));
-    return false;
-  }
-  if (write_all(file.descriptor(), text) && file.take_name()) return true;
-  print_error(fmt::format("{}: cannot write '{}'", option, printable(path)));
-  return false;
+  const auto done = write_output(path, text);
+  if (!done) print_error(fmt::format("{}: {}", option, printable(done.error().message)));
+  return done.has_value();
 }
 
 }  // namespace

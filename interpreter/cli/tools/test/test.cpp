@@ -18,7 +18,6 @@
 #include "scenario/report_text.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/test_run.h"
-#include "system/descriptors.h"
 #include "system/freed_memory.h"
 #include "system/output_file.h"
 
@@ -235,14 +234,9 @@ class TestCommand {
   }
 
   bool write_junit() const {
-    OutputFile file(options_.junit);
-    if (!file.error().empty()) {
-      print_error("--junit: " + file.error());
-      return false;
-    }
-    if (write_all(file.descriptor(), to_junit(reported_, counts_)) && file.take_name()) return true;
-    print_error("--junit: cannot write '" + printable(options_.junit) + "'");
-    return false;
+    const auto done = write_output(options_.junit, to_junit(reported_, counts_));
+    if (!done) print_error("--junit: " + printable(done.error().message));
+    return done.has_value();
   }
 
   const TestCommandOptions& options_;
