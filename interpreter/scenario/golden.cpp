@@ -2,16 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "compression/decompressed.h"
+#include "document/file.h"
+#include "recording/lines.h"
 #include "recording/use/recording_diff.h"
+#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {
+
+namespace fs = std::filesystem;
 
 // A recording that is removed again.
 class BriefRecording {
@@ -27,7 +33,9 @@ class BriefRecording {
   BriefRecording(const BriefRecording&) = delete;
   BriefRecording& operator=(const BriefRecording&) = delete;
 
-  std::string path() const { return directory_ + "/run.jsonl"; }
+  std::string path(const std::string& ending = ".jsonl") const {
+    return directory_ + "/run" + ending;
+  }
 
  private:
   std::string directory_;
@@ -46,6 +54,25 @@ std::vector<std::string> first_lines(const std::string& text) {
     lines.push_back(line);
   }
   return lines;
+}
+
+// A link, and a name that is written in another way, are the same file.
+std::string without_links(const std::string& path) {
+  std::error_code error;
+  const fs::path found = fs::weakly_canonical(fs::absolute(path), error);
+  return error ? path : found.string();
+}
+
+bool is_below(const fs::path& folder, const fs::path& path) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+bool is_recording(const std::string& path) {
+  DecompressedFile file(path);
+  const std::string expected = fmt::format("{{\"{}\":", lines::kHeader.fields[0].key);
+  std::string begin(expected.size(), '\0');
+  file.text().read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == expected;
 }
 
 }  // namespace
@@ -80,12 +107,54 @@ bool Golden::update(std::vector<Surprise>& surprises) const {
   std::vector<Surprise> differences;
   compare(differences);
   if (differences.empty()) return false;
+  // All of it, before it takes the place of another one.
+  const std::string path = without_links(expected.texts[0]);
+  const BriefRecording brief;
   PerformOptions again = options;
-  again.record = expected.texts[0];
-  const Performance performance = performer.perform(again);
-  if (performance.problem.empty()) return true;
-  surprises.push_back({expected.place, performance.problem, {}});
+  again.record = brief.path(path.ends_with(".zst") ? ".jsonl.zst" : ".jsonl");
+  std::string problem = performer.perform(again).problem;
+  if (problem.empty()) {
+    const auto bytes = read_file(again.record, std::size_t{4} << 30u);
+    const Result<void> written =
+        bytes ? write_output(path, *bytes) : Result<void>(tl::unexpected(bytes.error()));
+    if (written) return true;
+    problem = written.error().message;
+  }
+  surprises.push_back({expected.place, problem, {}});
   return false;
+}
+
+GoldenFiles::GoldenFiles(const std::vector<const ScenarioFile*>& files) {
+  for (const ScenarioFile* file : files) {
+    for (const Scenario& scenario : file->scenarios) {
+      for (const Expectation& it : scenario.expectations) {
+        if (it.kind == Expectation::Kind::SameAs)
+          users_[without_links(it.texts[0])].insert(&scenario);
+      }
+    }
+  }
+}
+
+void GoldenFiles::check(const ScenarioFile& file, const Scenario& scenario,
+                        std::vector<Diagnostic>& errors) const {
+  const fs::path folder = fs::path(without_links(file.path)).parent_path();
+  for (const Expectation& it : scenario.expectations) {
+    if (it.kind != Expectation::Kind::SameAs) continue;
+    const std::string path = without_links(it.texts[0]);
+    const auto refuse = [&](std::string why, std::string hint) {
+      errors.push_back(
+          {.location = file.sources.locate_value(it.place),
+           .message = fmt::format("--update does not write '{}': {}", it.texts[0], why),
+           .hint = std::move(hint)});
+    };
+    if (!is_below(folder, path)) {
+      refuse("it is not below the folder of the scenario file", "name a recording in that folder");
+    } else if (fs::exists(path) && !is_recording(path)) {
+      refuse("it is not a recording", "name another file, or remove this one");
+    } else if (users_.at(path).size() > 1) {
+      refuse("it is the recording of several scenarios", "name a file for each");
+    }
+  }
 }
 
 }  // namespace lockstep::host

@@ -13,6 +13,7 @@
 
 #include "remote/json_lines/orphans.h"
 #include "runtime/plugin_thread.h"
+#include "scenario/golden.h"
 #include "scenario/worker.h"
 
 namespace lockstep::host {
@@ -61,8 +62,10 @@ TestRun::TestRun(const std::vector<const ScenarioFile*>& files,
     }
   }
   std::map<std::string, int> stems;
+  const GoldenFiles goldens(files);
   for (Part& part : parts_) {
     prepare(part);
+    if (options_.updates) goldens.check(*part.file, *part.scenario, part.errors);
     part.stem = stem_of(*part.file, *part.scenario);
     if (const int count = ++stems[part.stem]; count > 1) part.stem += fmt::format("-{}", count);
   }
@@ -107,7 +110,6 @@ void TestRun::load_leaves(Part& part) {
   if (is_new) {
     Diagnostics diagnostics;
     loaded.file = load_leaf_file(path, diagnostics);
-    if (loaded.file != nullptr) count_lines(loaded.file->sources);
     loaded.errors = errors_of(diagnostics);
   }
   part.leaves = loaded.file.get();

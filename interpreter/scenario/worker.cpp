@@ -68,23 +68,32 @@ void ScenarioWorker::perform(const PreparedScenario& part, const Rehearsal& rehe
     }
     report.surprises = std::move(performance.surprises);
     options.observer = nullptr;
-    compare_to_golden(performer, options, report);
+    if (!options_.updates) compare_to_golden(performer, options, report);
     if (report.surprises.empty()) continue;
     report.seed = options.seed;
     return record(part, performer, options, report);
   }
+  if (options_.updates) update_golden(performer, report);
 }
 
 void ScenarioWorker::compare_to_golden(const Performer& performer, const PerformOptions& options,
                                        ScenarioReport& report) const {
   for (const Expectation& it : report.scenario->expectations) {
-    if (it.kind != Expectation::Kind::SameAs) continue;
-    const Golden golden{performer, it, options};
-    if (options_.updates) {
-      report.written += golden.update(report.surprises) ? 1 : 0;
-    } else {
-      golden.compare(report.surprises);
-    }
+    if (it.kind == Expectation::Kind::SameAs)
+      Golden{performer, it, options}.compare(report.surprises);
+  }
+}
+
+// All runs are as expected otherwise: the first one is written, and the others are to be the same.
+void ScenarioWorker::update_golden(const Performer& performer, ScenarioReport& report) const {
+  PerformOptions options{.seed = report.scenario->seed, .stop_signal = options_.stop_signal};
+  for (const Expectation& it : report.scenario->expectations) {
+    if (it.kind == Expectation::Kind::SameAs)
+      report.written += Golden{performer, it, options}.update(report.surprises) ? 1 : 0;
+  }
+  for (std::uint64_t run = 1; run < report.runs && report.surprises.empty(); ++run) {
+    report.seed = ++options.seed;
+    compare_to_golden(performer, options, report);
   }
 }
 

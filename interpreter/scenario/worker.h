@@ -33,6 +33,7 @@ class ScenarioWorker {
                Observer* observer);
   void compare_to_golden(const Performer& performer, const PerformOptions& options,
                          ScenarioReport& report) const;
+  void update_golden(const Performer& performer, ScenarioReport& report) const;
   void record(const PreparedScenario& part, const Performer& performer, PerformOptions options,
               ScenarioReport& report) const;
   // Those of before, if they fit.

@@ -379,6 +379,49 @@ TEST_CASE("a golden recording is written by --update, and compared") {
   CHECK(contains(it.out, "the run is not that of"));
 }
 
+TEST_CASE("--update writes over nothing but the recordings of one scenario, in its folder") {
+  const auto scenario = [](const std::string& name, const std::string& file) {
+    return "<scenario name=\"" + name + "\"><expect same-as=\"" + file + "\"/></scenario>";
+  };
+  const struct {
+    std::string scenarios, why;
+  } rows[] = {{scenario("a", "t.xml"), "it is not a recording"},
+              {scenario("a", "./t.test.xml"), "it is not a recording"},
+              {scenario("a", "notes.txt"), "it is not a recording"},
+              {scenario("a", "../other.jsonl"), "it is not below the folder of the scenario file"},
+              {scenario("a", "link.jsonl"), "it is not below the folder of the scenario file"},
+              {scenario("a", "gold.jsonl") + scenario("b", "x/../gold.jsonl"),
+               "it is the recording of several scenarios"}};
+  for (const auto& [text, why] : rows) {
+    const Folder folder(text);
+    const auto& directory = folder.directory();
+    const std::string notes = directory.file("notes.txt", "precious");
+    std::filesystem::create_directory(directory.path("x"));
+    std::filesystem::create_symlink("../elsewhere.jsonl", directory.path("link.jsonl"));
+    const std::string before = read_file(folder.file());
+    const Outcome it = folder.test({"--update"});
+    INFO(text << '\n' << it.out << it.err);
+    CHECK(it.code == 3);
+    CHECK(contains(it.out, why));
+    CHECK(read_file(folder.path("t.xml")) == kTree);
+    CHECK(read_file(folder.file()) == before);
+    CHECK(read_file(notes) == "precious");
+    CHECK(!std::filesystem::exists(folder.path("gold.jsonl")));
+    CHECK(!std::filesystem::exists(folder.path("../other.jsonl")));
+  }
+}
+
+TEST_CASE("--update does not write the recording of a scenario that fails otherwise") {
+  const std::string rest = R"(<expect same-as="gold.jsonl"/></scenario>)";
+  const Folder folder(R"(<scenario name="a"><expect result="failure"/>)" + rest);
+  CHECK(folder.test({"--update"}).code == 1);
+  CHECK(!std::filesystem::exists(folder.path("gold.jsonl")));
+  // Runs with different seeds are to be the same.
+  const Folder good(R"(<scenario name="a" runs="3"><expect result="success"/>)" + rest);
+  CHECK(good.test({"--update"}).code == 0);
+  CHECK(good.test().code == 0);
+}
+
 TEST_CASE("a recording becomes a scenario that repeats it") {
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
   const TemporaryDirectory directory;
