@@ -30,6 +30,17 @@ class Manager {
     return {.arguments = std::move(arguments),
             .environment = {{"NOTIFY_SOCKET", path_}, {"WATCHDOG_USEC", "200000"}}};
   }
+  // No other message has room.
+  void fill() const {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path_.c_str(), sizeof address.sun_path - 1);
+    const int sender = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    while (sendto(sender, "full", 4, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&address),
+                  sizeof address) >= 0) {
+    }
+    close(sender);
+  }
   // What has been received so far.
   std::vector<std::string> messages() const {
     std::vector<std::string> all;
@@ -71,6 +82,32 @@ TEST_CASE("run --notify does not say that a run goes on whose leaf does not retu
   REQUIRE(process.wait_for(still));
   CHECK(std::ranges::count(manager.messages(), "WATCHDOG=1") <= 1);
   process.end_by(SIGKILL);
+}
+
+TEST_CASE("run --notify does not wait for a service manager that does not read") {
+  const TemporaryDirectory directory;
+  const Manager manager(directory);
+  manager.fill();
+  const std::string tree = directory.file("tree.xml", tree_text(kHalfASecond));
+  CHECK(run(manager.start({tree})).code == 1);
+  const auto messages = manager.messages();
+  CHECK(std::ranges::count(messages, "full") == static_cast<long>(messages.size()));
+}
+
+TEST_CASE("run --notify says that the run has begun as soon as the service manager reads") {
+  const TemporaryDirectory directory;
+  const Manager manager(directory);
+  manager.fill();
+  const std::string tree = directory.file("tree.xml", tree_text("<AlwaysRunning/>"));
+  Process process(manager.start({tree, "--view", "none"}));
+  std::vector<std::string> messages;
+  while (std::ranges::count(messages, "READY=1") == 0 ||
+         std::ranges::count(messages, "WATCHDOG=1") == 0) {
+    const auto more = manager.messages();
+    messages.insert(messages.end(), more.begin(), more.end());
+    usleep(1000);
+  }
+  CHECK(process.end_by(SIGTERM).code == 128 + SIGTERM);
 }
 
 TEST_CASE("run --notify without a service manager is a run") {

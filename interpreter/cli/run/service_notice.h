@@ -1,14 +1,20 @@
-// Tells the service manager that started this process how the run is: begun, alive, ending.
-// systemd's sd_notify(3) is the protocol.
+// Tells the service manager that started this process how the run is: begun, alive, ending. The
+// protocol is that of sd_notify(3), whose own function waits for a manager that does not read. Here
+// nothing waits: what its socket does not take now is sent again.
 #pragma once
+
+#include <sys/socket.h>
+#include <sys/un.h>
 
 #include <atomic>
 #include <condition_variable>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include "core/problem.h"
 #include "runtime/observer.h"
+#include "system/file_descriptor.h"
 #include "system/mutex.h"
 
 namespace lockstep::host {
@@ -29,9 +35,15 @@ class ServiceNotice final : public Observer {
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
  private:
-  void watch(Nanoseconds interval);
-  bool is_alive(Nanoseconds interval);
+  bool send(std::string_view state) const;
+  void watch();
+  bool is_alive();
   void stop();
+
+  FileDescriptor socket_;  // closed: nobody wants to know
+  sockaddr_un address_{};
+  socklen_t length_ = 0;
+  Nanoseconds interval_{0};  // of the watchdog; 0: there is none
 
   std::atomic<std::int64_t> period_{0};  // ns; 0: the run has not begun
   std::atomic<std::uint64_t> ticks_{0};
@@ -42,6 +54,7 @@ class ServiceNotice final : public Observer {
   Mutex mutex_;
   std::condition_variable stopped_;
   bool stop_ LOCKSTEP_GUARDED_BY(mutex_) = false;
+  bool owes_ready_ LOCKSTEP_GUARDED_BY(mutex_) = false;  // the socket was full
   std::thread thread_;
 };
 
