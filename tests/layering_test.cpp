@@ -54,7 +54,7 @@ const std::vector<Layer> kThirdParty{
     {"microhttpd.h", {"interpreter/web/http_server.cpp"}},
     {"zmq.h", {"interpreter/groot/sockets.cpp"}},
     {"boost/", {"interpreter/study/distributions.cpp"}},
-    {"zlib.h", {"interpreter/web/gzip.cpp"}},
+    {"zlib.h", {"interpreter/web/gzip.cpp", "interpreter/recording/use/mcap_file.cpp"}},
     {"zstd.h", {"interpreter/compression/"}},
     {"kainjow/", {"interpreter/authoring/scaffold/render.cpp"}},
     {"lockstep/",

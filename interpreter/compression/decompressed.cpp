@@ -13,7 +13,10 @@
 namespace lockstep::host {
 namespace {
 
-constexpr std::size_t kPart = 64u << 10, kBlock = 128u << 10;  // bytes
+constexpr std::size_t kPart = 64u << 10;  // bytes
+// Text up to here is given when its whole frame was right, which its checksum says. That is more
+// than the frames of recordings have; of longer ones, other programs', a reader gets what comes.
+constexpr std::size_t kWhole = 512u << 10;
 constexpr std::string_view kMagic{"\x28\xB5\x2F\xFD", 4};
 constexpr int kMostWindow = 25;  // as a power of two, in bytes: the memory of a reader
 // A text that is longer than kAlways may be so many times as long as the file, far more than
@@ -47,7 +50,7 @@ void Decompressed::look() {
   }
   if (!std::string_view(bytes_.data(), count_).starts_with(kMagic)) return;
   zstd_ = std::make_unique<Decompressor>();
-  text_.resize(kBlock);
+  text_.resize(kWhole);
 }
 
 // More bytes behind those that are not used yet. False: there are none.
@@ -72,34 +75,49 @@ bool Decompressed::fill_plain() {
   return true;
 }
 
+// A pipe that has no more bytes now gives what there is of a frame: somebody may watch a run.
 bool Decompressed::fill_compressed() {
-  while (true) {
-    if (at_ == count_ && !read_file()) return false;
+  std::size_t filled = 0;
+  while (filled < text_.size()) {
+    const bool waits = filled > 0 && at_ == count_ && file_.in_avail() <= 0;
+    if (waits || (at_ == count_ && !read_file())) break;
     if (!zstd_->in_frame) {
-      const Frame frame{text_end_, file_end_ - (count_ - at_)};
+      frame_begin_ = file_end_ - (count_ - at_);
+      const Frame frame{text_end_, frame_begin_};
       if (frames_.empty() || frames_.back().text < frame.text) frames_.push_back(frame);
     }
     ZSTD_inBuffer in{bytes_.data(), count_, at_};
-    ZSTD_outBuffer out{text_.data(), text_.size(), 0};
+    ZSTD_outBuffer out{text_.data(), text_.size(), filled};
     const std::size_t left = zstd().decompress(zstd_->context, &out, &in);
     if (zstd().is_error(left) != 0) {
-      throw CannotDecompress(fmt::format("its compressed bytes are damaged before byte {} ({})",
-                                         file_end_ - (count_ - in.pos), zstd().error_name(left)));
+      throw CannotDecompress(fmt::format("its compressed bytes from {} on are damaged ({})",
+                                         frame_begin_, zstd().error_name(left)));
     }
     at_ = in.pos;
     const std::uint64_t used = file_end_ - (count_ - at_);
-    if (text_end_ + out.pos > kAlways + kMostTimes * used) {
+    filled = out.pos;
+    if (text_end_ + filled > kAlways + kMostTimes * used) {
       throw CannotDecompress(
           fmt::format("before byte {}, it has more than {} times as much text as bytes, which no "
                       "recording has",
                       used, kMostTimes));
     }
     zstd_->in_frame = left != 0;
-    if (out.pos == 0) continue;
-    setg(text_.data(), text_.data(), text_.data() + out.pos);
-    text_end_ += out.pos;
-    return true;
+    if (!zstd_->in_frame && filled > 0) break;
   }
+  if (filled == 0) return false;
+  setg(text_.data(), text_.data(), text_.data() + filled);
+  text_end_ += filled;
+  if (!zstd_->in_frame) check_frame();
+  return true;
+}
+
+// Behind a frame. A damaged table would lead to another place.
+void Decompressed::check_frame() const {
+  if (!has_table_ || text_end_ == *size_) return;
+  if (std::ranges::binary_search(frames_, text_end_, {}, &Frame::text)) return;
+  throw CannotDecompress(fmt::format(
+      "the table of its frames is damaged: none ends at byte {} of the text", text_end_));
 }
 
 Decompressed::pos_type Decompressed::seekoff(off_type offset, std::ios_base::seekdir way,
@@ -170,6 +188,7 @@ bool Decompressed::read_table() {
   if (next.file != file_size - *size) return false;
   frames_ = std::move(frames);
   size_ = next.text;
+  has_table_ = true;
   return true;
 }
 

@@ -35,6 +35,7 @@ class Decompressed final : public std::streambuf {
   pos_type seekpos(pos_type position, std::ios_base::openmode) override;
 
   void look();
+  void check_frame() const;
   bool fill_plain();
   bool fill_compressed();
   bool read_file();
@@ -52,8 +53,10 @@ class Decompressed final : public std::streambuf {
   std::vector<char> bytes_, text_;
   std::size_t at_ = 0, count_ = 0;  // of the bytes of the file: those that are used, and all
   std::uint64_t file_end_ = 0, text_end_ = 0;  // behind what has been read
+  std::uint64_t frame_begin_ = 0;              // in the file, of the frame that is read
   std::vector<Frame> frames_;                  // that are known, in order
   std::optional<std::uint64_t> size_;          // of the text, once it is known
+  bool has_table_ = false;                     // which says so, and has all frames
 };
 
 // The text of a file with a name. Not open: errno says why.

@@ -1,17 +1,30 @@
 #include "compression/whole_frame.h"
 
 #include <limits>
+#include <memory>
+#include <new>
 #include <stdexcept>
 
 #include "compression/zstd_library.h"
 
 namespace lockstep::host {
 
+namespace {
+
+constexpr std::size_t kChecksum = 4;  // bytes
+
+}  // namespace
+
 std::string zstd_frame(std::string_view text) {
   constexpr int kFast = 1;
-  std::string frame(zstd().compress_bound(text.size()), '\0');
+  const std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> writer(zstd().create_writer(),
+                                                                       zstd().free_writer);
+  if (writer == nullptr) throw std::bad_alloc();
+  zstd().set_parameter(writer.get(), ZSTD_c_compressionLevel, kFast);
+  zstd().set_parameter(writer.get(), ZSTD_c_checksumFlag, 1);
+  std::string frame(zstd().compress_bound(text.size()) + kChecksum, '\0');
   const std::size_t size =
-      zstd().compress_whole(frame.data(), frame.size(), text.data(), text.size(), kFast);
+      zstd().compress_whole(writer.get(), frame.data(), frame.size(), text.data(), text.size());
   if (zstd().is_error(size) != 0) throw std::runtime_error(zstd().error_name(size));
   frame.resize(size);
   return frame;

@@ -1,5 +1,8 @@
 #include "compression/zstd_frames.h"
 
+#include <algorithm>
+
+#include "compression/xxh64.h"
 #include "compression/zstd_library.h"
 
 namespace lockstep::host {
@@ -20,7 +23,8 @@ ZSTD_CStream* stream(void* pointer) {
 
 ZstdFrames::ZstdFrames(std::size_t longest_piece)
     : workspace_(zstd().stream_size(kLevel)),
-      bytes_(zstd().compress_bound(longest_piece) + kMoreRoom) {
+      bytes_(zstd().compress_bound(longest_piece) + kMoreRoom),
+      text_(kFrame + longest_piece) {
   begin_frame();
   make_room();
 }
@@ -28,6 +32,7 @@ ZstdFrames::ZstdFrames(std::size_t longest_piece)
 void ZstdFrames::begin_frame() {
   stream_ = zstd().init_stream(workspace_.data(), workspace_.size());
   zstd().set_parameter(stream(stream_), ZSTD_c_compressionLevel, kLevel);
+  zstd().set_parameter(stream(stream_), ZSTD_c_checksumFlag, 1);
 }
 
 void ZstdFrames::end_frame() {
@@ -48,6 +53,7 @@ std::string_view ZstdFrames::add(std::string_view piece) {
   ZSTD_outBuffer out{bytes_.data(), bytes_.size(), 0};
   // There is room for all of it, so one call is enough.
   zstd().compress(stream(stream_), &out, &in, ends ? ZSTD_e_end : ZSTD_e_flush);
+  std::ranges::copy(piece, text_.begin() + in_frame_.text);
   in_frame_.text += static_cast<std::uint32_t>(piece.size());
   in_frame_.file += static_cast<std::uint32_t>(out.pos);
   if (ends) end_frame();
@@ -59,9 +65,13 @@ std::string_view ZstdFrames::end() {
   is_adding_ = false;
   begin_frame();
   if (in_frame_.text == 0) return {};
-  in_frame_.file += static_cast<std::uint32_t>(kLastBlock.size());
+  const std::uint64_t sum = xxh64({text_.data(), in_frame_.text});
+  auto end = std::ranges::copy(kLastBlock, bytes_.begin()).out;
+  for (unsigned byte = 0; byte < 4; ++byte) *end++ = static_cast<char>(sum >> (8 * byte));
+  const std::string_view bytes(bytes_.data(), static_cast<std::size_t>(end - bytes_.begin()));
+  in_frame_.file += static_cast<std::uint32_t>(bytes.size());
   end_frame();
-  return kLastBlock;
+  return bytes;
 }
 
 std::string ZstdFrames::table() const {

@@ -1,7 +1,8 @@
 // Compresses a text, piece by piece, as zstd frames (RFC 8878). The bytes of each piece end a
 // block, so that a reader gets all text of a file that is cut, up to the last whole piece. A frame
-// ends with the first piece after kFrame bytes of text: a reader may begin at each of them.
-// Async-signal-safe, where it does not say that it allocates. Used by append_file.
+// ends with the first piece after kFrame bytes of text: a reader may begin at each of them. It has
+// a checksum of its text. Async-signal-safe, where it does not say that it allocates. Used by
+// append_file.
 #pragma once
 
 #include <cstddef>
@@ -38,6 +39,7 @@ class ZstdFrames {
 
   std::vector<char> workspace_;
   std::vector<char> bytes_;
+  std::vector<char> text_;  // of the open frame, for its checksum: zstd's own is lost in a crash
   void* stream_ = nullptr;  // a ZSTD_CStream in the workspace
   FrameSize in_frame_;      // no text: no frame is open
   std::vector<FrameSize> sizes_;

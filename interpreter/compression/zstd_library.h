@@ -19,7 +19,9 @@ struct ZstdLibrary : LateLibrary {
   decltype(&ZSTD_estimateCStreamSize) stream_size = function("ZSTD_estimateCStreamSize");
   decltype(&ZSTD_initStaticCStream) init_stream = function("ZSTD_initStaticCStream");
   decltype(&ZSTD_CCtx_setParameter) set_parameter = function("ZSTD_CCtx_setParameter");
-  decltype(&ZSTD_compress) compress_whole = function("ZSTD_compress");
+  decltype(&ZSTD_createCCtx) create_writer = function("ZSTD_createCCtx");
+  decltype(&ZSTD_freeCCtx) free_writer = function("ZSTD_freeCCtx");
+  decltype(&ZSTD_compress2) compress_whole = function("ZSTD_compress2");
   decltype(&ZSTD_compressStream2) compress = function("ZSTD_compressStream2");
   decltype(&ZSTD_findFrameCompressedSize) frame_size = function("ZSTD_findFrameCompressedSize");
   decltype(&ZSTD_getFrameContentSize) text_size = function("ZSTD_getFrameContentSize");

@@ -75,7 +75,8 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   if (!found.is_read) outcome.cut.clear();  // that is not known
   const int code = report_end(outcome);
   if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
-  if (options.at && *options.at > found.last) return no_such_tick(*options.at, first, found.last);
+  if (options.at && *options.at > found.last)
+    return code == kExitSuccess ? no_such_tick(*options.at, first, found.last) : code;
   const Moment& moment = found.found;
   if (options.at && moment.tick != *options.at) {
     print_error(fmt::format("tick {} is not in the recording: {} is the last before it",

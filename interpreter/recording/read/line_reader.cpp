@@ -10,6 +10,7 @@ LineReader::LineReader(std::istream& in, std::size_t longest) : in_(in), longest
 
 bool LineReader::next() {
   text_.clear();
+  if (!damage_.empty()) return false;
   try {
     return read_line();
   } catch (const CannotDecompress& damage) {
@@ -40,7 +41,12 @@ bool LineReader::go_to(const Position& position) {
   in_.clear();
   damage_.clear();
   position_ = position;
-  return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(position.bytes)));
+  try {
+    return static_cast<bool>(in_.seekg(static_cast<std::streamoff>(position.bytes)));
+  } catch (const CannotDecompress& damage) {
+    damage_ = damage.what();
+    return false;
+  }
 }
 
 bool LineReader::go_to_line(std::uint64_t byte) {

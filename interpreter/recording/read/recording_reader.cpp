@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "recording/read/recording_json.h"
@@ -95,8 +96,11 @@ void RecordingReader::take(const RecordedPartEnd& end) {
 // Files of one run, one behind the other.
 void RecordingReader::begin_part() {
   const RecordingHeader header = format_->header(lines_.text());
-  if (header.nodes.size() != header_.nodes.size() || header.tree != header_.tree ||
-      header.entries.size() != header_.entries.size()) {
+  const auto run_of = [](const RecordingHeader& it) {
+    return std::tie(it.tree, it.file, it.version, it.rate_hz, it.clock, it.seed, it.arguments);
+  };
+  if (header.nodes.size() != header_.nodes.size() ||
+      header.entries.size() != header_.entries.size() || run_of(header) != run_of(header_)) {
     throw JsonError("the next part is of another run");
   }
   if (header.first_tick != next_tick_) {
@@ -142,7 +146,8 @@ std::string RecordingReader::cut() const {
 
 bool RecordingReader::next_line() {
   if (lines_.next()) return true;
-  if (!lines_.damage().empty()) fail(lines_.damage());
+  if (!lines_.damage().empty())
+    fail(fmt::format("{}; tick {} and later ones cannot be read", lines_.damage(), next_tick_));
   if (lines_.is_too_long()) fail(fmt::format("the line is longer than {} bytes", lines_.longest()));
   return false;
 }

@@ -1,5 +1,7 @@
 #include "recording/use/mcap_file.h"
 
+#include <zlib.h>
+
 #include <stdexcept>
 #include <utility>
 
@@ -24,7 +26,12 @@ enum class Opcode : std::uint8_t {
 };
 
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
-constexpr std::uint32_t kNoSum = 0;  // "not available"
+
+// Continues the sum of the bytes before them; 0: there are none.
+std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 // Little-endian, as all numbers.
 template <class Number>
@@ -107,7 +114,7 @@ void McapFile::end_chunk() {
   put_number(content, open_.begin);
   put_number(content, open_.end);
   put_number(content, static_cast<std::uint64_t>(chunk_.size()));
-  put_number(content, kNoSum);
+  put_number(content, crc32_of(chunk_));
   put_text(content, "zstd");
   put_number(content, static_cast<std::uint64_t>(frame.size()));
   content += frame;
@@ -198,20 +205,24 @@ std::string McapFile::summary(std::string& offsets) const {
 bool McapFile::finish() {
   end_chunk();
   std::string end;
-  put_number(end, kNoSum);
+  put_number(end, sum_);
   put(record(Opcode::DataEnd, end));
   const std::uint64_t begin = position_;
   std::string offsets, footer;
   const std::string text = summary(offsets);
   put_number(footer, begin);
   put_number(footer, begin + text.size());
-  put_number(footer, kNoSum);
+  // The sum is of all before it, so of its own record's beginning, too.
+  const std::string before = record(Opcode::Footer, footer + std::string(sizeof sum_, '\0'));
+  const std::size_t own = before.size() - sizeof sum_;
+  put_number(footer, crc32_of(text + offsets + before.substr(0, own)));
   put(text + offsets + record(Opcode::Footer, footer) + std::string(kMagic));
   return !is_stopped_;
 }
 
 void McapFile::put(std::string_view bytes) {
   position_ += bytes.size();
+  sum_ = crc32_of(bytes, sum_);
   if (!is_stopped_) is_stopped_ = !write_(bytes);
 }
 

@@ -1,6 +1,6 @@
 // Writes a file of the format MCAP (https://mcap.dev/spec), version 0: messages of channels in
-// chunks that are compressed with zstd, an index of them, a summary. Knows no recording. Memory: a
-// chunk, and the index of all chunks.
+// chunks that are compressed with zstd, an index of them, a summary, each with a CRC-32. Knows no
+// recording. Memory: a chunk, and the index of all chunks.
 #pragma once
 
 #include <cstdint>
@@ -56,6 +56,7 @@ class McapFile {
   std::string chunk_;  // records
   Chunk open_;
   bool has_messages_ = false;
+  std::uint32_t sum_ = 0;  // CRC-32 of all bytes
   std::uint64_t position_ = 0, first_time_ = 0, last_time_ = 0;
   bool is_stopped_ = false;
 };
