@@ -1,4 +1,6 @@
 // Recordings in parts, from outside: each opens alone, and all of them are the recording.
+#include <unistd.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -48,6 +50,27 @@ const std::vector<std::vector<std::string>> kCommands{
     {"replay", "--print", "--at", "1500"}};
 
 }  // namespace
+
+TEST_CASE("two runs do not record parts of one name at once, and one after the other they do") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<AlwaysRunning/>"));
+  const std::string name = directory.path("run.jsonl");
+  Process first(
+      {.arguments = {"run", tree, "--view", "none", "--record", name, "--record-rotate", "1kB"}});
+  while (!std::filesystem::exists(directory.path("run.0002.jsonl"))) usleep(1000);
+  const Outcome second = run_lockstep({"run", tree, "--clock", "virtual", "--max-ticks", "5",
+                                       "--record", name, "--record-rotate", "1MB"});
+  CHECK(second.code == 2);
+  CHECK(contains(second.err, "another run records to its parts"));
+  CHECK(first.end_by(SIGTERM).code == 128 + SIGTERM);
+  CHECK(run_lockstep({"log", "csv", name}).err == "");
+  CHECK(!std::filesystem::exists(name + ".lock"));
+  directory.file("run.jsonl.lock", "");  // of a run that was killed
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--max-ticks", "5", "--record", name,
+                      "--record-rotate", "1MB"})
+            .code == 0);
+  CHECK(files_in(directory) == std::vector<std::string>{"run.0001.jsonl", "tree.xml"});
+}
 
 TEST_CASE("the parts of a recording are the recording, by its name and one behind the other") {
   const TemporaryDirectory directory, parts;

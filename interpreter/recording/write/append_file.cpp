@@ -1,5 +1,6 @@
 #include "recording/write/append_file.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,6 +56,11 @@ AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFor
       file_(std::make_unique<GrowingFile>(parts.are_wanted ? part_name(path, 1) : path, form_,
                                           patience_)),
       text_(GrowingFile::kText) {
+  if (parts.are_wanted) lock_.emplace(path + ".lock");
+  if (lock_ && lock_->is_elsewhere()) {
+    file_->remove();
+    fail(fmt::format("cannot open '{}': another run records to its parts", path));
+  }
   take_failure();
   if (failed()) return;
   thread_ = own_thread([this] {

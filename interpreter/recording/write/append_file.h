@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -19,6 +20,7 @@
 #include "recording/write/growing_file.h"
 #include "recording/write/json_lines.h"
 #include "system/bell.h"
+#include "system/lock_file.h"
 
 namespace lockstep::host {
 
@@ -97,6 +99,8 @@ class AppendFile {
   const std::string path_;
   const FileForm form_;
   const FileParts parts_;
+  // Parts of two runs with one name would be mixed.
+  std::optional<LockFile> lock_;
   std::string header_;
   std::unique_ptr<GrowingFile> file_;
   std::atomic<std::uint64_t> part_{1}, part_size_{0};
