@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "core/wording.h"
+#include "engine/call_mark.h"
 #include "plugin/contract/descriptor.h"
 #include "plugin/contract/initialize.h"
 #include "plugin/open/plugin_path.h"
@@ -82,6 +84,12 @@ struct PluginSet::Plugin {
   bool initialized = false;
 
   std::string_view name() const { return descriptors.plugin.name; }
+  // What the constant points to is the plugin's memory, and so is a crash.
+  std::optional<Problem> read(std::size_t exported_size) {
+    std::optional<MarkedCall> mark;
+    if (remote == nullptr) mark.emplace(CallSite::of_plugin(origin), PluginFunction::Load);
+    return read_descriptors(*entry, exported_size, descriptors);
+  }
   std::string initialize() const {
     return remote != nullptr ? remote->initialize() : initialize_plugin(descriptors.plugin);
   }
@@ -251,7 +259,7 @@ bool PluginSet::accept(std::unique_ptr<Plugin> plugin, std::size_t size, const R
     return true;
   }
   const bool is_described = isolation_.only_described && request.isolation == Isolation::InProcess;
-  auto refusal = read_descriptors(entry, size, plugin->descriptors);
+  auto refusal = plugin->read(size);
   if (!refusal && !is_described) refusal = plugin->check_isolation();
   if (!refusal) refusal = check_expected_name(plugin->name(), request.expected_name);
   for (const auto& other : plugins_) {
@@ -279,7 +287,7 @@ std::unique_ptr<PluginSet::Plugin> PluginSet::split_off(Plugin& isolated, const 
   std::optional<Problem> refusal;
   if (constant) {
     rest->entry = static_cast<const lockstep_plugin*>(constant->address);
-    refusal = read_descriptors(*rest->entry, constant->size, rest->descriptors);
+    refusal = rest->read(constant->size);
   } else {
     refusal = std::move(constant.error());
   }

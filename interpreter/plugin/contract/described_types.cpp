@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 
 #include "core/plugin_exception.h"
 #include "engine/call_mark.h"
@@ -13,6 +14,8 @@ namespace lockstep::host {
 namespace {
 
 using Answer = tl::expected<const lockstep_leaf_type*, ElementRefusal>;
+
+constexpr std::string_view kMalformed = " is malformed: ", kUndescribed = "' cannot be described";
 
 tl::unexpected<ElementRefusal> undescribed(std::string message, std::string hint) {
   return tl::unexpected(ElementRefusal{{}, {std::move(message), std::move(hint)}});
@@ -63,6 +66,10 @@ class DescribedTypes final : public ElementTypes {
   Known make(std::span<const FixedText> fixed) const {
     const Answer answer = ask(fixed);
     if (!answer) return {nullptr, answer.error()};
+    // What it points to is the plugin's, and so is a crash.
+    std::optional<MarkedCall> mark;
+    if (plugin_.describer == nullptr)
+      mark.emplace(CallSite::of_plugin(plugin_.name), PluginFunction::Describe);
     auto leaf = std::make_unique<Descriptors::Leaf>();
     if (auto refusal = read_leaf(*answer, plugin_.name, *leaf))
       return {nullptr, malformed(*refusal)};
@@ -75,7 +82,7 @@ class DescribedTypes final : public ElementTypes {
   // `refusal` is about "it", the leaf type.
   ElementRefusal malformed(const Problem& refusal) const {
     return {{},
-            {fmt::format("plugin '{}' is malformed: what it describes for '{}' {}", plugin_.name,
+            {fmt::format("plugin '{}'{}what it describes for '{}' {}", plugin_.name, kMalformed,
                          leaf_.type.id, refusal.message),
              refusal.hint}};
   }
@@ -102,15 +109,15 @@ class DescribedTypes final : public ElementTypes {
     });
     constexpr const char* kHint = "ask the author of the plugin what it needs";
     if (!thrown.empty()) {
-      return undescribed(
-          fmt::format("'{}' cannot be described: its describe {}", leaf_.type.id, thrown), kHint);
+      return undescribed(fmt::format("'{}{}: its describe {}", leaf_.type.id, kUndescribed, thrown),
+                         kHint);
     }
     if (type != nullptr) return type;
     if (why.message != nullptr) {
       return tl::unexpected(ElementRefusal{std::string(text_or_empty(why.port)),
                                            {why.message, std::string(text_or_empty(why.hint))}});
     }
-    return undescribed(fmt::format("'{}' cannot be described, and gives no reason", leaf_.type.id),
+    return undescribed(fmt::format("'{}{}, and gives no reason", leaf_.type.id, kUndescribed),
                        kHint);
   }
 
@@ -121,6 +128,12 @@ class DescribedTypes final : public ElementTypes {
 };
 
 }  // namespace
+
+bool is_breach(const ElementRefusal& refusal) {
+  const std::string_view message = refusal.why.message;
+  return (message.starts_with("plugin '") && message.find(kMalformed) != message.npos) ||
+         message.find(kUndescribed) != message.npos;
+}
 
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,
                                                     const Descriptors::Leaf& leaf) {

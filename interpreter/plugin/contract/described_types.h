@@ -17,6 +17,9 @@ class LeafDescriber {
       std::string_view id, std::span<const FixedText> fixed) = 0;
 };
 
+// Whether a refusal says that the plugin breaks the contract, not what is wrong with an element.
+bool is_breach(const ElementRefusal& refusal);
+
 // The types of the elements of `leaf`. It and `plugin` outlive the result.
 std::unique_ptr<const ElementTypes> described_types(const HostedPlugin& plugin,
                                                     const Descriptors::Leaf& leaf);

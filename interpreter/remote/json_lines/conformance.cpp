@@ -178,7 +178,8 @@ class Examiner {
     for (const ElementTexts& constants : sample_elements(type)) {
       const auto described = type.element_types->type_of(fixed_texts(constants));
       if (described) all.push_back({*described, constants});
-      note(!conversation_.is_gone(),
+      const bool is_good = described || !is_breach(described.error());
+      note(is_good && !conversation_.is_gone(),
            fmt::format("'{}' with {} {}", type.id, to_text(constants),
                        described
                            ? fmt::format("has {}", counted((*described)->parameters.size(), "port"))

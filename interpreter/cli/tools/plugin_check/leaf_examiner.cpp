@@ -19,6 +19,7 @@
 #include "loading/load.h"
 #include "loading/plugins.h"
 #include "lockstep/leaf.h"
+#include "plugin/contract/described_types.h"
 #include "runtime/progress_text.h"
 #include "runtime/run.h"
 
@@ -352,6 +353,10 @@ void examine_leaf(const NodeType& type, const std::shared_ptr<PluginSet>& plugin
     const auto described = type.element_types->type_of(fixed_texts(constants));
     if (described) {
       Examiner(**described, constants, plugins, report).examine();
+    } else if (is_breach(described.error())) {
+      const Problem& why = described.error().why;
+      report.note(false, fmt::format("'{}' with {}: {}{}{}", type.id, to_text(constants),
+                                     why.message, why.hint.empty() ? "" : "; ", why.hint));
     } else {
       note(fmt::format("no element has {}: {}", to_text(constants), described.error().why.message));
     }
