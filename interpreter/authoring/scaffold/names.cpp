@@ -41,11 +41,30 @@ std::string in_words(std::string_view id, char separator) {
 constexpr std::string_view kTakenTargets[] = {"all",        "clean",         "default", "depend",
                                               "edit_cache", "help",          "install", "lockstep",
                                               "package",    "rebuild_cache", "test"};
-// Sources of plugins use these words, or they are tags of trees that are no nodes.
-constexpr std::string_view kTakenIds[] = {
-    "Action", "BehaviorTree", "Condition", "Control",        "Decorator", "Here", "InOut",
-    "Input",  "Leaf",         "LeafType",  "Output",         "Plugin",    "Port", "Ports",
-    "Status", "SubTree",      "Token",     "TreeNodesModel", "Type"};
+// Sources of plugins use these words, they are keywords of a language, or tags of trees that are no
+// nodes.
+constexpr std::string_view kTakenIds[] = {"Action",        "BehaviorTree",   "Condition",
+                                          "ConditionNode", "Control",        "ControlNode",
+                                          "Decorator",     "DecoratorNode",  "StatefulActionNode",
+                                          "False",         "Here",           "InOut",
+                                          "Input",         "Leaf",           "LeafType",
+                                          "None",          "Output",         "Plugin",
+                                          "Port",          "Ports",          "PortsType",
+                                          "Self",          "Status",         "SubTree",
+                                          "Token",         "TreeNodesModel", "True",
+                                          "Type"};
+
+// Macros of headers are called so: EOF, M_PI, L_tmpnam. No list has them all.
+bool is_like_a_macro(std::string_view id) {
+  const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
+  return id.substr(1).starts_with('_') || std::ranges::none_of(id, is_small);
+}
+
+std::string without_capitals(std::string_view id) {
+  std::string words;
+  for (const char c : id) words += words.empty() || words.back() == '_' ? c : lowered(c);
+  return as_class_name(words);
+}
 
 }  // namespace
 
@@ -75,6 +94,12 @@ Result<void> check_node_id(std::string_view id) {
   if (!is_upper(id[0])) {
     return problem(fmt::format("'{}' begins with a small letter, and is to be a class", id),
                    fmt::format("call it '{}'", as_class_name(id)));
+  }
+  if (is_like_a_macro(id)) {
+    const std::string other = without_capitals(id);
+    return problem(fmt::format("'{}' is written as macros of C are, and may be one", id),
+                   is_like_a_macro(other) ? "a name with small letters, such as 'OpenDoor'"
+                                          : fmt::format("call it '{}'", other));
   }
   return {};
 }
