@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/any_value.h"
 #include "core/diagnostics.h"
 #include "engine/synchronized.h"
 #include "json/reader.h"
@@ -66,12 +67,14 @@ Result<Order> set(const Tree& tree, const Fields& fields) {
   if (slot == tree.slots.end()) {
     return problem(fmt::format("the tree has no entry '{}'", printable(fields.entry)));
   }
-  const ValueType type = slot->typing == Typing::Any ? ValueType::String : slot->type;
+  const bool is_any = slot->typing == Typing::Any;
+  const ValueType type = is_any ? ValueType::String : slot->type;
   if (type == ValueType::Object) {
     return problem(
         fmt::format("'{}' holds objects of a plugin: they have no text", printable(fields.entry)));
   }
-  auto value = parse_value(type, fields.value);
+  auto value = is_any ? std::optional(value_of_any_type(fields.value))
+                      : parse_value(type, fields.value);
   if (!value) {
     return problem(fmt::format("'{}' is not {}, which '{}' holds", printable(fields.value),
                                expected_text(type), printable(fields.entry)));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/any_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "document/reporter.h"
@@ -42,14 +43,6 @@ std::optional<LimitText> split_limit(std::string_view text) {
   const std::size_t size = at + 1 < text.size() && text[at + 1] == '=' ? 2 : 1;
   return LimitText{trimmed(text.substr(0, at)), text.substr(at, size),
                    trimmed(text.substr(at + size))};
-}
-
-// An entry without a declared type gets a number or a truth value, if the text reads as one.
-Value value_of_any_type(const std::string& text) {
-  if (const auto whole = parse_int(text)) return *whole;
-  if (const auto real = parse_double(text)) return *real;
-  if (text == "true" || text == "false") return text == "true";
-  return text;
 }
 
 std::optional<Relation> relation_of(std::string_view text) {
