@@ -49,6 +49,9 @@ TEST_CASE("plugin check: what breaks the contract is named, with its leaf") {
       {"condition_running", "wrong 'Probe' is a condition and returned running\n"},
       {"throws_exception", "wrong 'Probe' threw an exception"},
       {"wrong_abi", "ABI"},
+      {"describes_another",
+       "wrong 'Shape' with kind=\"1\": plugin 'shapes' is malformed: what it describes for "
+       "'Shape' "},
       {"init_refuses", "wrong "}};
   for (const auto& [name, message] : cases) {
     const Outcome outcome = check_plugin(abi_plugin(name));

@@ -7,6 +7,10 @@
 
 #include "lockstep/leaf.h"
 
+#ifndef SHAPE_DESCRIBE
+#define SHAPE_DESCRIBE describe
+#endif
+
 typedef struct shape {
   const char* kind;
   double factor; /* of the square of its size */
@@ -106,7 +110,7 @@ static const lockstep_leaf_type* describe(const lockstep_fixed* fixed, uint32_t 
 }
 
 static const lockstep_leaf_type type = {BASE(base_ports, 1), .more_ports = "size.*;out.*",
-                                        .describe = describe};
+                                        .describe = SHAPE_DESCRIBE};
 static const lockstep_leaf_type* const types[] = {&type};
 
 const lockstep_plugin lockstep_plugin_entry = {.abi_major = LOCKSTEP_ABI_MAJOR,
