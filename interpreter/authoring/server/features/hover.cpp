@@ -98,11 +98,10 @@ class Hover {
       const auto add = [&](bool writes, std::string_view verb) {
         for (const NamePlace* user : it.places) {
           if (user->is_declaration != writes) continue;
-          const Positions positions(user->text->tree->text);
           const std::string_view name = tree_.value_of(*user->element, "name");
           text += fmt::format("\n- {} by {}{}, line {}", verb, user->element->tag,
                               name.empty() ? "" : fmt::format(" '{}'", name),
-                              positions.position_of(user->range.begin).line + 1);
+                              user->text->positions.position_of(user->range.begin).line + 1);
         }
       };
       text += "\n";

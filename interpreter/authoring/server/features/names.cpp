@@ -130,10 +130,11 @@ class NameVisitor {
 
 Names::Names(const Question& question) {
   const Analysis& analysis = *question.file.analysis;
-  texts_.push_back({question.file.uri, &question.file.tree()});
+  texts_.push_back({question.file.uri, &question.file.tree(), question.file.positions()});
   for (std::size_t i = 0; i < analysis.included.size(); ++i) {
+    const TolerantTree& tree = analysis.included[i];
     texts_.push_back(
-        {question.workspace.uri_of(analysis.texts[i + 1]->path()), &analysis.included[i]});
+        {question.workspace.uri_of(analysis.texts[i + 1]->path()), &tree, Positions(tree.text)});
   }
   for (const ProjectText& it : texts_)
     NameVisitor(it, analysis.catalog, rules_of(question), places_).run();

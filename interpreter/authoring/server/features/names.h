@@ -15,6 +15,7 @@ namespace lockstep::host {
 struct ProjectText {
   std::string uri;
   const TolerantTree* tree;
+  Positions positions;
 };
 
 enum class NameKind : unsigned char { Tree, Argument, Group, Entry };

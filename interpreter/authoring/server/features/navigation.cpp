@@ -10,7 +10,7 @@ namespace lockstep::host {
 namespace {
 
 Json location(const NamePlace& place) {
-  return {{"uri", place.text->uri}, {"range", Positions(place.text->tree->text).json(place.range)}};
+  return {{"uri", place.text->uri}, {"range", place.text->positions.json(place.range)}};
 }
 
 // The file that an include names; null: there is none.

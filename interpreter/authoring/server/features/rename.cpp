@@ -40,8 +40,7 @@ std::map<std::string, Json> rename_group(const Names& names, const NamePlace& pl
   for (const NamePlace* it : names.same_as(place))
     edits[it->text].replace(it->range.begin, it->range.end, new_name);
   std::map<std::string, Json> changes;
-  for (const auto& [text, edit] : edits)
-    changes[text->uri] = json_of(edit, Positions(text->tree->text));
+  for (const auto& [text, edit] : edits) changes[text->uri] = json_of(edit, text->positions);
   return changes;
 }
 
