@@ -309,19 +309,25 @@ class VerdictMaker {
     std::optional<Holds::Endless> for_ever;
   };
 
-  // One answer for all children that may change places.
-  const HoldOfChild& hold_of(std::size_t held) {
+  // Those that may change places with it, with itself.
+  std::vector<std::size_t> like(std::size_t held) const {
     const auto is_like = [&](std::size_t other) {
       return found_.symmetry.first_like(held_[other].child) ==
              found_.symmetry.first_like(held_[held].child);
     };
-    std::vector<std::size_t> like;
+    std::vector<std::size_t> found;
     for (std::size_t i = 0; i < held_.size(); ++i) {
-      if (i == held || (found_.symmetry.moves(held_[held].child) && is_like(i))) like.push_back(i);
+      if (i == held || (found_.symmetry.moves(held_[held].child) && is_like(i))) found.push_back(i);
     }
-    const auto [it, is_new] = holds_.try_emplace(like.front());
+    return found;
+  }
+
+  // One answer for all of them.
+  const HoldOfChild& hold_of(std::size_t held) {
+    const std::vector<std::size_t> all = like(held);
+    const auto [it, is_new] = holds_.try_emplace(all.front());
     if (is_new) {
-      const Holds holds(graph_, cycles_, like);
+      const Holds holds(graph_, cycles_, all);
       it->second.longest = holds.longest();
       // Without an end only where a cycle is.
       if (!it->second.longest) it->second.for_ever = holds.for_ever();
@@ -329,11 +335,27 @@ class VerdictMaker {
     return it->second;
   }
 
+  // Why it is not asked who is held for how long. Where that may be a finding, it always is.
+  std::string_view too_much_for_holds(std::size_t held) const {
+    // Of each state and each child that may be in its place.
+    constexpr std::size_t kBytesOfFollowed = 300;
+    if (!models_.tree_ends || holds_.contains(like(held).front())) return "";
+    if (options_.until && monotonic_now() > *options_.until) return "--time";
+    const std::size_t children = like(held).size();
+    const std::size_t most = options_.memory - std::min(options_.memory, found_.memory());
+    const bool is_much = children > 1 && found_.store.size() > most / kBytesOfFollowed / children;
+    return is_much ? "--memory" : "";
+  }
+
   void say_holds() {
     if (!found_.is_complete()) return;
     for (std::size_t i = 0; i < held_.size(); ++i) {
-      const HoldOfChild& hold = hold_of(i);
       const std::string name = "held: " + tree_.path(held_[i].child);
+      if (const auto limit = too_much_for_holds(i); !limit.empty()) {
+        say(name, fmt::format("not known: {} leaves nothing for it", limit));
+        continue;
+      }
+      const HoldOfChild& hold = hold_of(i);
       if (!hold.longest) {
         say(name, hold.for_ever ? "may be held for ever" : "as long as others take");
       } else {

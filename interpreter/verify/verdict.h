@@ -40,6 +40,9 @@ struct VerdictOptions {
   double rate = 10;
   // Where a node is written, for messages: "tree.xml:5:9".
   std::function<std::string(NodeIndex)> place = {};
+  // Who is held for how long is information, which is left out then.
+  std::optional<Nanoseconds> until = {};  // of monotonic_now
+  std::size_t memory = std::numeric_limits<std::size_t>::max();
 };
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

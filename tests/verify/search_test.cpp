@@ -110,6 +110,19 @@ TEST_CASE("a limit of memory counts what a round takes, and what the verdict nee
   CHECK(it.found.memory() < kMost);
 }
 
+TEST_CASE("who is held for how long is not asked where a limit leaves nothing for it") {
+  const Verified it(absolute(2, 1), R"(<leaf path="*" step="0..1"/>)");
+  const std::string name = "held: " + it.tree.path(1);
+  CHECK(it.said(name) == "as long as others take");
+  const auto held = [&](const VerdictOptions& options) {
+    const Verdict verdict = make_verdict(it.tree, it.models, {}, it.found, options);
+    const auto line = std::ranges::find(verdict.facts, name, &VerdictLine::name);
+    return line == verdict.facts.end() ? "" : line->text;
+  };
+  CHECK(held({.until = Nanoseconds(0)}) == "not known: --time leaves nothing for it");
+  CHECK(held({.memory = 1}) == "not known: --memory leaves nothing for it");
+}
+
 TEST_CASE("a limit of time also counts within the many ticks of one period") {
   std::string children;
   for (int i = 0; i < 3; ++i) {

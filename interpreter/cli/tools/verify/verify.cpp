@@ -175,13 +175,17 @@ class VerifyCommand {
   int verify(const Runnable& runnable, const LeafModels& models, const Places& places) {
     const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
     StopSignals::install();
+    const Nanoseconds began = monotonic_now();
+    VerdictOptions options{.rate = rate,
+                           .place = [&](NodeIndex node) { return places.text(node); }};
     SearchResult found = [&] {
       SearchLine line;
-      return search(runnable.tree, models, properties_, from_seconds(1 / rate), limits(line));
+      const SearchLimits limited = limits(line);
+      if (limited.time) options.until = began + *limited.time;
+      options.memory = limited.memory;
+      return search(runnable.tree, models, properties_, from_seconds(1 / rate), limited);
     }();
-    Verdict verdict =
-        make_verdict(runnable.tree, models, properties_, found,
-                     {.rate = rate, .place = [&](NodeIndex node) { return places.text(node); }});
+    Verdict verdict = make_verdict(runnable.tree, models, properties_, found, options);
     if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
