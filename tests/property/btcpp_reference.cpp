@@ -50,6 +50,8 @@ struct World {
   std::vector<std::unique_ptr<Board>> boards = {};
   EventLog events = {};
   std::uint32_t leaves = 0;
+  LeafBehavior* behavior = nullptr;
+  std::vector<Node*> nodes = {};
   int time = 0;           // milliseconds
   bool is_asked = false;  // for another tick
 };
@@ -64,6 +66,7 @@ class Node {
  public:
   Node(const Element& element, Board& board, World& world)
       : element_(element), board_(&board), world_(world) {
+    world.nodes.push_back(this);
     if (element.tag == "Act" || element.tag == "Cond") number_ = world.leaves++;
     read_letters();
     for (const auto& [name, value] : element.attributes) declare(name, value);
@@ -74,6 +77,7 @@ class Node {
   }
 
   Status execute() {
+    was_ticked_ = true;
     const Status result = decide().value_or(Status::Idle);
     Status it = result == Status::Idle ? tick() : result;
     if (it == Status::Success || it == Status::Failure) {
@@ -96,18 +100,38 @@ class Node {
   void pause() {
     if (status_ != Status::Running || is_paused_) return;
     is_paused_ = true;
-    if (element_.tag == "Act") world_.events.push_back({Call::Pause, number_});
+    if (element_.tag == "Act") tell(Call::Pause);
     for (const auto& child : children_) child->pause();
   }
 
   void halt() {
-    if (element_.tag == "Act") world_.events.push_back({Call::Halt, number_});
+    if (element_.tag == "Act") tell(Call::Halt);
     if (element_.tag == "TryCatch") catch_halt();
     reset_children();
     forget(Ended::Halted);
     status_ = Status::Idle;
     was_skipped_ = is_paused_ = false;
     run("_onHalted");
+  }
+
+  Status status() const { return status_; }
+  bool was_ticked() const { return was_ticked_; }
+  void forget_tick() { was_ticked_ = false; }
+
+  void keep(KeptState& state) {
+    state(status_, progress_, last_, was_skipped_, is_paused_, at_, skipped_, rounds_, times_);
+    state(is_over_, is_open_, once_);
+    keep_moment(state);
+    for (const auto& child : children_) {
+      const auto it = done_.find(child.get());
+      std::optional<bool> done = it == done_.end() ? std::nullopt : std::optional(it->second);
+      state(done);
+      if (!done) {
+        done_.erase(child.get());
+      } else {
+        done_[child.get()] = *done;
+      }
+    }
   }
 
   void reset() {
@@ -124,6 +148,25 @@ class Node {
  private:
   enum class Ended { Halted, Reset };
   using Children = std::vector<std::unique_ptr<Node>>;
+
+  void keep_moment(KeptState& state) {
+    bool has_moment = since_.has_value();
+    state(has_moment);
+    Nanoseconds since = std::chrono::milliseconds(since_.value_or(0));
+    state.moment(since);
+    since_.reset();
+    if (has_moment) since_ = static_cast<int>(since / std::chrono::milliseconds(1));
+  }
+
+  // A leaf.
+  void tell(Call call) {
+    world_.events.push_back({call, number_});
+    if (world_.behavior == nullptr) return;
+    if (call == Call::Start) world_.behavior->start(number_);
+    if (call == Call::Halt) world_.behavior->halt(number_);
+    if (call == Call::Pause) world_.behavior->pause(number_);
+    if (call == Call::Resume) world_.behavior->resume(number_);
+  }
 
   void declare(const std::string& name, const std::string& value) {
     const auto key = key_in(value);
@@ -281,12 +324,13 @@ class Node {
 
   Status leaf() {
     if (status_ != Status::Running) {
-      world_.events.push_back({Call::Start, number_});
+      tell(Call::Start);
       progress_ = 0;
     } else if (is_paused_) {
-      world_.events.push_back({Call::Resume, number_});
+      tell(Call::Resume);
     }
-    world_.events.push_back({Call::Tick, number_});
+    tell(Call::Tick);
+    if (world_.behavior != nullptr) return world_.behavior->tick(number_);
     const auto& [letter, progress] = steps_[std::min(ticks_++, steps_.size() - 1)];
     progress_ = progress.value_or(progress_);
     return letter == 'R'   ? Status::Running
@@ -515,6 +559,7 @@ class Node {
   double progress_of_running() const {
     const std::string& tag = element_.tag;
     const auto all = static_cast<double>(children_.size());
+    if (tag == "Act" && world_.behavior != nullptr) return world_.behavior->progress(number_);
     if (tag == "Act") return progress_;
     if (tag == "Sleep") return std::min(1.0, (world_.time - *since_) / (number("msec") * 1.0));
     if (tag == "Sequence" || tag == "AsyncSequence" || tag == "SequenceWithMemory") {
@@ -764,7 +809,7 @@ class Node {
   std::vector<std::pair<char, std::optional<double>>> steps_;  // of a leaf
   double progress_ = 0;                                        // of a leaf
   Status last_ = Status::Idle;                                 // what its last tick returned
-  bool was_skipped_ = false, is_paused_ = false;
+  bool was_skipped_ = false, is_paused_ = false, was_ticked_ = false;
   std::size_t ticks_ = 0, at_ = 0, skipped_ = 0;
   unsigned seen_ = 0;
   int rounds_ = 0, times_ = 0;
@@ -774,13 +819,15 @@ class Node {
   std::map<const Node*, bool> done_;  // whether it succeeded
 };
 
-Reference::Reference(const Document& document) : world_(new World{.document = document}) {
+Reference::Reference(const Document& document, LeafBehavior* behavior)
+    : world_(new World{.document = document, .behavior = behavior}) {
   Board& main = *world_->boards.emplace_back(std::make_unique<Board>());
   root_ = std::make_unique<Node>(document.at("Main"), main, *world_);
 }
 Reference::~Reference() = default;
 
 std::optional<Status> Reference::tick() {
+  for (Node* node : world_->nodes) node->forget_tick();
   try {
     Status result = Status::Running;
     int ticks = 0;
@@ -795,6 +842,47 @@ std::optional<Status> Reference::tick() {
   } catch (const Failed&) {
     return std::nullopt;
   }
+}
+
+void Reference::keep(KeptState& state) {
+  for (const auto& board : world_->boards) {
+    std::map<std::string, double> numbers;
+    std::map<std::string, std::string> texts;
+    for (const auto& [key, entry] : board->entries) {
+      if (const auto* number = std::get_if<double>(&entry.value)) numbers[key] = *number;
+      if (const auto* text = std::get_if<std::string>(&entry.value)) texts[key] = *text;
+    }
+    state(numbers, texts);
+    if (state.is_writing()) continue;
+    for (auto& [key, entry] : board->entries) entry.value = {};
+    for (const auto& [key, number] : numbers) board->entries[key].value = number;
+    for (const auto& [key, text] : texts) board->entries[key].value = text;
+  }
+  for (Node* node : world_->nodes) node->keep(state);
+}
+
+std::string Reference::save(Nanoseconds longest) {
+  std::string bytes;
+  KeptState state(bytes, {std::chrono::milliseconds(world_->time), 0, longest});
+  keep(state);
+  return bytes;
+}
+
+void Reference::restore(const std::string& bytes, Nanoseconds longest) {
+  world_->time = 1'000'000;
+  world_->events.clear();
+  KeptState state(bytes, {std::chrono::milliseconds(world_->time), 0, longest});
+  keep(state);
+}
+
+std::size_t Reference::nodes() const {
+  return world_->nodes.size();
+}
+Status Reference::status(std::size_t node) const {
+  return world_->nodes[node]->status();
+}
+bool Reference::ticked(std::size_t node) const {
+  return world_->nodes[node]->was_ticked();
 }
 
 EventLog& Reference::events() {

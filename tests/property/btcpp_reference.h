@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/status.h"
+#include "property/kept_state.h"
+#include "property/leaf_behavior.h"
 #include "support/event_log.h"
 
 namespace lockstep::host::test::law {
@@ -49,16 +51,28 @@ struct World;
 class Reference {
  public:
   // Runs the tree "Main". The document must outlive this.
-  explicit Reference(const Document& document);
+  // `behavior`: of the leaves, in place of their letters; it outlives this.
+  explicit Reference(const Document& document, LeafBehavior* behavior = nullptr);
   ~Reference();
 
   // The result of one period, a tenth of a second after the last one; nothing after a fault.
   std::optional<Status> tick();
+  // All that it keeps between two periods, and back. No duration in the document is longer than
+  // `longest`, and no node looks at how often an entry was written.
+  std::string save(Nanoseconds longest);
+  void restore(const std::string& state, Nanoseconds longest);
+  // Nodes are numbered in pre-order.
+  std::size_t nodes() const;
+  Status status(std::size_t node) const;
+  bool ticked(std::size_t node) const;  // in the last period
+
   EventLog& events();
   // By "sub/key", as the engine names them.
   std::map<std::string, Entry> entries() const;
 
  private:
+  void keep(KeptState& state);
+
   std::unique_ptr<World> world_;
   std::unique_ptr<Node> root_;
 };

@@ -65,6 +65,27 @@ class Leaf : public ReferenceNode {
   ScriptedLeaf leaf_;
 };
 
+// Does what the behavior says.
+class BehavingLeaf : public ReferenceNode {
+ public:
+  BehavingLeaf(Reference& tree, const Plan& its_plan, std::uint32_t place)
+      : ReferenceNode(tree, its_plan), behavior_(*world.behavior), place_(place) {}
+
+  Status on_tick(bool first) override {
+    if (first) behavior_.start(place_);
+    status = Status::Running;
+    if (paused) behavior_.resume(place_);
+    return behavior_.tick(place_);
+  }
+  double on_progress() override { return behavior_.progress(place_); }
+  void on_halt() override { behavior_.halt(place_); }
+  void on_pause() override { behavior_.pause(place_); }
+
+ private:
+  LeafBehavior& behavior_;
+  const std::uint32_t place_;
+};
+
 class Constant : public ReferenceNode {
  public:
   using ReferenceNode::ReferenceNode;
@@ -107,6 +128,10 @@ class Branches : public ReferenceNode {
     return branch_->tick();
   }
   double on_progress() override { return branch_ == nullptr ? 0 : branch_->progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    keep_child(state, branch_);
+  }
 
  private:
   void leave(ReferenceNode* next) {
@@ -130,6 +155,10 @@ class Switch : public ReferenceNode {
     return next == nullptr ? Status::Failure : next->tick();
   }
   double on_progress() override { return chosen_ == nullptr ? 0 : chosen_->progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    keep_child(state, chosen_);
+  }
 
  private:
   ReferenceNode* chosen_ = nullptr;
@@ -150,6 +179,11 @@ class Wait : public ReferenceNode {
   void on_pause() override { waited_ += world.now - counted_until_; }
   double on_progress() override {
     return std::min(1.0, to_seconds(waited_so_far()) / plan.seconds);
+  }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state.duration(waited_);
+    state.moment(counted_until_);
   }
 
  private:
@@ -324,6 +358,10 @@ class Repeat : public ReferenceNode {
     const double current = child().status == Status::Running ? child().progress() : 0;
     return (done_ + current) / plan.times;
   }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    if (plan.times >= 0) state(done_);
+  }
 
  private:
   int done_ = 0;
@@ -339,6 +377,10 @@ class Retry : public ReferenceNode {
     return ++failed_ == plan.times ? Status::Failure : Status::Running;
   }
   double on_progress() override { return child().progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    if (plan.times >= 0) state(failed_);
+  }
 
  private:
   int failed_ = 0;
@@ -366,6 +408,11 @@ class Timed : public ReferenceNode {  // Timeout, Delay
     counted_until_ = world.now;
   }
   double on_progress() override { return child().progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state.duration(counted_);
+    state.moment(counted_until_);
+  }
 
  private:
   Nanoseconds counted_{0}, counted_until_{0};
@@ -382,6 +429,14 @@ class Cooldown : public ReferenceNode {
     return result;
   }
   double on_progress() override { return child().progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    Nanoseconds completed = completed_.value_or(Nanoseconds(0));
+    bool has_completed = completed_.has_value();
+    state(has_completed);
+    state.moment(completed);
+    completed_ = has_completed ? std::optional(completed) : std::nullopt;
+  }
 
  private:
   std::optional<Nanoseconds> completed_;
@@ -401,6 +456,12 @@ class Rate : public ReferenceNode {
   }
   void on_pause() override { paused_at_ = world.now; }
   double on_progress() override { return child().progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state(result_);
+    state.moment(start_);
+    state.moment(paused_at_);
+  }
 
  private:
   std::optional<Status> result_;
@@ -417,6 +478,10 @@ class RunOnce : public ReferenceNode {
     return result;
   }
   double on_progress() override { return child().progress(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state(result_);
+  }
 
  private:
   std::optional<Status> result_;
@@ -431,6 +496,9 @@ std::unique_ptr<ReferenceNode> node(Reference& tree, const Plan& plan) {
 
 std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& plan) {
   const std::string& kind = plan.kind;
+  if (!plan.script.empty() && tree.world_->behavior != nullptr) {
+    return std::make_unique<BehavingLeaf>(tree, plan, tree.world_->leaves++);
+  }
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
   if (kind == "Script" || kind == "Check") return node<Script>(tree, plan);
   if (kind == "IfThenElse" || kind == "WhileDoElse") return node<Branches>(tree, plan);
@@ -452,8 +520,9 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
   return node<Result>(tree, plan);
 }
 
-Reference::Reference(const Plan& plan)
-    : world_(std::make_unique<World>()), root_(ReferenceNode::make(*this, plan)) {
+Reference::Reference(const Plan& plan, LeafBehavior* behavior) : world_(std::make_unique<World>()) {
+  world_->behavior = behavior;
+  root_ = ReferenceNode::make(*this, plan);
   for (const Plan* group : groups_of(plan)) {
     if (group->kind == "barrier") {
       groups_.push_back(std::make_unique<ReferenceBarrier>(*this, *group, *root_));
@@ -517,6 +586,28 @@ void Reference::halt() {
 void Reference::run_halt_scripts(const ReferenceNode& node, const std::vector<bool>& ran) {
   for (const auto& child : node.children) run_halt_scripts(*child, ran);
   if (ran[node.number] && !world_->fault) node.run("on_halt");
+}
+
+void Reference::keep(KeptState& state) {
+  state(world_->entries.numbers, world_->entries.texts);
+  for (ReferenceNode* node : nodes_) node->keep(state);
+}
+
+std::string Reference::save(Nanoseconds longest) {
+  std::string bytes;
+  KeptState state(bytes, {world_->now, world_->tick, longest});
+  keep(state);
+  return bytes;
+}
+
+void Reference::restore(const std::string& bytes, Nanoseconds longest) {
+  world_->now = kRestored;
+  world_->tick = 1000;
+  world_->fault.reset();
+  events.clear();
+  for (ReferenceNode* node : nodes_) node->last_tick = 0;
+  KeptState state(bytes, {world_->now, world_->tick, longest});
+  keep(state);
 }
 
 Status Reference::status(std::size_t node) const {

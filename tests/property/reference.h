@@ -11,6 +11,8 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "property/kept_state.h"
+#include "property/leaf_behavior.h"
 #include "property/plan.h"
 #include "support/event_log.h"
 
@@ -22,7 +24,8 @@ class ReferenceGroup;
 class Reference {
  public:
   struct World;
-  explicit Reference(const Plan& plan);
+  // `behavior`: of the leaves, in place of their scripts; it outlives this.
+  explicit Reference(const Plan& plan, LeafBehavior* behavior = nullptr);
   ~Reference();
   Reference(const Reference&) = delete;
   Reference& operator=(const Reference&) = delete;
@@ -32,6 +35,12 @@ class Reference {
   void halt();
   // As a leaf would.
   void write(const std::string& entry, const std::variant<double, std::string>& value);
+
+  // All that it keeps between two ticks. No duration in the tree is longer than `longest`.
+  std::string save(Nanoseconds longest);
+  // It goes on from there: the next tick is `kRestored` and what the clock has advanced since then.
+  void restore(const std::string& state, Nanoseconds longest);
+  static constexpr Nanoseconds kRestored = std::chrono::hours(1);
 
   // Nodes are numbered in pre-order.
   Status status(std::size_t node) const;
@@ -52,6 +61,7 @@ class Reference {
  private:
   friend class ReferenceNode;
   void order_groups();
+  void keep(KeptState& state);
   // After a halt, of the nodes that ran: those of children before those of their parents.
   void run_halt_scripts(const ReferenceNode& node, const std::vector<bool>& ran);
 

@@ -228,6 +228,13 @@ void ReferenceBarrier::note_counted(std::size_t place, double progress) {
   }
 }
 
+void ReferenceBarrier::keep(KeptState& state) {
+  ReferenceNode::keep(state);
+  for (Member& it : members_) {
+    state(it.was_begun, it.has_succeeded, it.is_held, it.has_failed, it.is_gone);
+  }
+}
+
 bool ReferenceBarrier::all_succeeded() const {
   return std::ranges::all_of(members_, &Member::has_succeeded);
 }

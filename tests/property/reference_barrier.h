@@ -16,6 +16,7 @@ class ReferenceBarrier : public ReferenceGroup {
   void before_tick() override;
   void was_ticked(const ReferenceNode& node) override;
   double on_progress() override { return least_of(snapshot); }
+  void keep(KeptState& state) override;
 
   bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
   bool holds(const ReferenceNode& node) const { return members_[place_of(node)].is_held; }

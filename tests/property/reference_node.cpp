@@ -76,6 +76,19 @@ void ReferenceNode::pause() {
   for (auto& child : children) child->pause();
 }
 
+// Not `last_tick` and `snapshot`: these tell what the last tick did.
+void ReferenceNode::keep(KeptState& state) {
+  state(status, paused);
+  state.tick(withheld_in);
+}
+
+void ReferenceNode::keep_child(KeptState& state, ReferenceNode*& child) const {
+  std::uint8_t place = 0;
+  while (place < children.size() && children[place].get() != child) ++place;
+  state(place);
+  child = place < children.size() ? children[place].get() : nullptr;
+}
+
 double ReferenceNode::progress() {
   if (runs()) return on_progress();
   return status == Status::Success ? 1 : 0;

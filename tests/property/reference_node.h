@@ -17,6 +17,7 @@ struct Reference::World {
   std::uint32_t tick = 0;  // the first is 1
   std::optional<std::size_t> fault;
   std::uint32_t leaves = 0;
+  LeafBehavior* behavior = nullptr;
   Entries entries;
   std::vector<ReferenceGroup*> groups;
   std::map<std::string, long> cases;  // of the law, by name: how often they came up
@@ -39,12 +40,19 @@ class ReferenceNode {
   bool asks(const char* hook, bool otherwise) const;
   void run(const char* hook) const;
   MiniScript script() const { return {world.entries, number}; }
-  void note(const std::string& what) const { ++world.cases[what]; }
+  void note(const std::string& what) const {
+    if (world.behavior == nullptr) ++world.cases[what];
+  }
 
   virtual Status on_tick(bool first) = 0;
   virtual double on_progress() = 0;
   virtual void on_halt() {}
   virtual void on_pause() {}
+  // What the next ticks read of it.
+  virtual void keep(KeptState& state);
+
+  // One of its children, or none.
+  void keep_child(KeptState& state, ReferenceNode*& child) const;
 
   ReferenceNode& child() { return *children.front(); }
   bool runs() const { return status == Status::Running; }

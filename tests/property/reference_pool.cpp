@@ -47,7 +47,7 @@ void ReferencePool::before_tick() {
   for (std::size_t place = 0; place < count(); ++place) {
     auto& it = dynamic_cast<UseResources&>(member(place));
     if (it.runs() && it.keeps()) {
-      it.keep();
+      it.keep_set();
     } else if (it.is_active() && it.is_right(it.wanted())) {
       asking.push_back(&it);
     }
@@ -96,11 +96,17 @@ void UseResources::ask() {
 }
 
 // "a child that runs keeps its set until it completes or is halted (all or nothing)"
-void UseResources::keep() {
+void UseResources::keep_set() {
   note_kept();
   asked_in_ = world.tick;
   is_granted_ = true;
   pool().give(owned_);
+}
+
+void UseResources::keep(KeptState& state) {
+  ReferenceNode::keep(state);
+  state.tick(asked_in_);
+  state(is_granted_, is_open_, owned_, priority_);
 }
 
 void UseResources::note_kept() const {

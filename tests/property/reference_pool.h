@@ -35,10 +35,11 @@ class UseResources : public ReferenceNode {
   using ReferenceNode::ReferenceNode;
   Status on_tick(bool first) override;
   double on_progress() override { return child().progress(); }
+  void keep(KeptState& state) override;
 
   // Before the root is ticked.
   bool keeps() { return plan.keep && !owned_.empty() && child().runs(); }
-  void keep();
+  void keep_set();
   bool is_active() const { return runs() && !was_held_by_parallel(); }
   Resources wanted() const;
   bool is_right(const Resources& names) const;

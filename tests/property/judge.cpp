@@ -1,0 +1,249 @@
+#include "property/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <unordered_map>
+#include <utility>
+
+namespace lockstep::host::test {
+namespace {
+
+constexpr std::size_t kEnd = static_cast<std::size_t>(-1);
+
+// Of one tick: where it leads, and which activations of leaves worked and ended in it.
+struct Edge {
+  std::size_t to;
+  std::uint32_t worked, ended;
+};
+
+// Fair runs that never end, in some of the edges: in the end each is in one component, where what
+// works also ends. Components by the sets of states that are reached: small graphs, plain code.
+class FairRuns {
+ public:
+  using Uses = std::function<bool(std::size_t from, const Edge& edge)>;
+  explicit FairRuns(const std::vector<std::vector<Edge>>& edges) : edges_(edges) {}
+
+  // A state of one of them.
+  std::optional<std::size_t> find(const Uses& uses) {
+    for (const auto& component : components(uses)) {
+      std::vector<bool> is_in(edges_.size());
+      for (const std::size_t state : component) is_in[state] = true;
+      const Uses inside = [&](std::size_t from, const Edge& edge) {
+        return edge.to != kEnd && is_in[from] && is_in[edge.to] && uses(from, edge);
+      };
+      std::uint32_t worked = 0, ended = 0;
+      bool has_edges = false;
+      for (const std::size_t state : component) {
+        for (const Edge& edge : edges_[state]) {
+          if (!inside(state, edge)) continue;
+          has_edges = true;
+          worked |= edge.worked;
+          ended |= edge.ended;
+        }
+      }
+      if (!has_edges) continue;
+      const std::uint32_t unfair = worked & ~ended;
+      if (unfair == 0) return component.front();
+      const auto found = find([&](std::size_t from, const Edge& edge) {
+        return (edge.worked & unfair) == 0 && inside(from, edge);
+      });
+      if (found) return found;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // Kosaraju: the order in which a search leaves states, then the reversed graph.
+  std::vector<std::vector<std::size_t>> components(const Uses& uses) const {
+    const std::size_t count = edges_.size();
+    std::vector<std::vector<std::size_t>> next(count), before(count);
+    for (std::size_t from = 0; from < count; ++from) {
+      for (const Edge& edge : edges_[from]) {
+        if (edge.to == kEnd || !uses(from, edge)) continue;
+        next[from].push_back(edge.to);
+        before[edge.to].push_back(from);
+      }
+    }
+    std::vector<bool> was_seen(count);
+    std::vector<std::size_t> left;
+    for (std::size_t state = 0; state < count; ++state) visit(state, next, was_seen, left);
+    was_seen.assign(count, false);
+    std::vector<std::vector<std::size_t>> found;
+    for (auto it = left.rbegin(); it != left.rend(); ++it) {
+      std::vector<std::size_t> component;
+      visit(*it, before, was_seen, component);
+      if (!component.empty()) found.push_back(std::move(component));
+    }
+    return found;
+  }
+
+  static void visit(std::size_t start, const std::vector<std::vector<std::size_t>>& next,
+                    std::vector<bool>& was_seen, std::vector<std::size_t>& left) {
+    if (was_seen[start]) return;
+    was_seen[start] = true;
+    std::vector<std::pair<std::size_t, std::size_t>> stack{{start, 0}};
+    while (!stack.empty()) {
+      auto& [state, at] = stack.back();
+      if (at == next[state].size()) {
+        left.push_back(state);
+        stack.pop_back();
+        continue;
+      }
+      const std::size_t to = next[state][at++];
+      if (was_seen[to]) continue;
+      was_seen[to] = true;
+      stack.emplace_back(to, 0);
+    }
+  }
+
+  const std::vector<std::vector<Edge>>& edges_;
+};
+
+class Judge {
+ public:
+  Judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<NeverBoth>& properties,
+        const JudgeLimits& limits)
+      : tree_(tree), leaves_(leaves), properties_(properties), limits_(limits) {
+    const std::size_t nodes = tree.nodes();
+    said_.ticked.resize(nodes);
+    said_.succeeded.resize(nodes);
+    said_.failed.resize(nodes);
+    said_.runs_to_ticked.resize(nodes);
+    said_.violated.resize(properties.size());
+    said_.runs_to_violated.resize(properties.size());
+  }
+
+  Judgment make() {
+    add(tree_.save(), 0, "", 0);
+    for (std::size_t state = 0; state < states_.size() && said_.is_conclusive(); ++state) {
+      look_at(state);
+      said_.is_too_large |= states_.size() > limits_.states || ticks_ > limits_.ticks;
+    }
+    said_.states = states_.size();
+    if (said_.is_conclusive()) look_at_ends();
+    return std::move(said_);
+  }
+
+ private:
+  struct State {
+    std::string bytes;
+    std::size_t from;
+    std::string said;  // in the tick from there
+    std::uint32_t ticks;
+  };
+
+  std::size_t add(std::string bytes, std::size_t from, const std::string& said,
+                  std::uint32_t ticks) {
+    const auto [it, is_new] = numbers_.try_emplace(std::move(bytes), states_.size());
+    if (is_new) states_.push_back({it->first, from, said, ticks});
+    return it->second;
+  }
+
+  void look_at(std::size_t state) {
+    edges_.emplace_back();
+    leaves_.first_answers();
+    do {
+      const std::string bytes = states_[state].bytes;
+      tree_.restore(bytes);
+      leaves_.begin_tick();
+      ++ticks_;
+      const std::optional<Status> status = tree_.tick();
+      if (!leaves_.broken().empty()) said_.broken = leaves_.broken();
+      if (!status) return void(said_.has_fault = true);
+      look_at_tick(state);
+      std::size_t to = kEnd;
+      if (*status == Status::Running) {
+        to = add(tree_.save(), state, leaves_.said(), states_[state].ticks + 1);
+      } else if (auto& first = said_.results[index_of(*status)]; !first) {
+        first = states_[state].ticks + 1;
+        said_.runs_to_results[index_of(*status)] = run_to(state, true);
+      }
+      edges_.back().push_back({to, leaves_.worked(), leaves_.ended()});
+    } while (ticks_ <= limits_.ticks && leaves_.next_answers());
+  }
+
+  void look_at_tick(std::size_t state) {
+    for (std::size_t node = 0; node < said_.ticked.size(); ++node) {
+      if (!tree_.ticked(node)) continue;
+      if (!said_.ticked[node]) said_.runs_to_ticked[node] = run_to(state, true);
+      said_.ticked[node] = true;
+      if (tree_.status(node) == Status::Success) said_.succeeded[node] = true;
+      if (tree_.status(node) == Status::Failure) said_.failed[node] = true;
+    }
+    for (std::size_t i = 0; i < properties_.size(); ++i) {
+      if (said_.violated[i] || !holds(properties_[i].one) || !holds(properties_[i].other)) continue;
+      said_.violated[i] = states_[state].ticks + 1;
+      said_.runs_to_violated[i] = run_to(state, true);
+    }
+  }
+
+  bool holds(const NeverBoth::Fact& fact) const {
+    const Status status = tree_.status(fact.node);
+    switch (fact.what) {
+      case NeverBoth::What::Running:
+        return status == Status::Running;
+      case NeverBoth::What::Success:
+        return status == Status::Success;
+      case NeverBoth::What::Failure:
+        return status == Status::Failure;
+      case NeverBoth::What::Ticked:
+        break;
+    }
+    return tree_.ticked(fact.node);
+  }
+
+  void look_at_ends() {
+    std::vector<bool> can_end(edges_.size());
+    for (bool is_more = true; is_more;) {
+      is_more = false;
+      for (std::size_t state = edges_.size(); state-- > 0;) {
+        if (can_end[state]) continue;
+        can_end[state] = std::ranges::any_of(
+            edges_[state], [&](const Edge& it) { return it.to == kEnd || can_end[it.to]; });
+        is_more |= can_end[state];
+      }
+    }
+    const auto lost = std::ranges::find(can_end, false);
+    if (lost != can_end.end()) {
+      const auto state = static_cast<std::size_t>(lost - can_end.begin());
+      said_.lost = states_[state].ticks;
+      said_.run_to_lost = run_to(state, false);
+    }
+    const auto cycle = FairRuns(edges_).find([&](std::size_t from, const Edge& edge) {
+      return can_end[from] && edge.to != kEnd && can_end[edge.to];
+    });
+    said_.is_endless = cycle.has_value();
+    if (cycle) said_.run_to_cycle = run_to(*cycle, false);
+  }
+
+  // A line for each tick to a state, and if wanted for the last one, too.
+  std::string run_to(std::size_t state, bool with_last) const {
+    std::vector<std::string> lines;
+    if (with_last) lines.push_back(leaves_.said());
+    for (; state != 0; state = states_[state].from) lines.push_back(states_[state].said);
+    std::string run;
+    for (auto it = lines.rbegin(); it != lines.rend(); ++it) run += "    " + *it + '\n';
+    return run;
+  }
+
+  JudgedTree& tree_;
+  JudgedLeaves& leaves_;
+  const std::vector<NeverBoth>& properties_;
+  const JudgeLimits limits_;
+  std::unordered_map<std::string, std::size_t> numbers_;
+  std::vector<State> states_;
+  std::vector<std::vector<Edge>> edges_;
+  std::size_t ticks_ = 0;
+  Judgment said_;
+};
+
+}  // namespace
+
+Judgment judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<NeverBoth>& properties,
+               const JudgeLimits& limits) {
+  return Judge(tree, leaves, properties, limits).make();
+}
+
+}  // namespace lockstep::host::test

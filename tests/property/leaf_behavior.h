@@ -1,0 +1,21 @@
+// What leaves do for a reference interpreter, where it is not a script for each.
+#pragma once
+
+#include <cstdint>
+
+#include "core/status.h"
+
+namespace lockstep::host::test {
+
+class LeafBehavior {
+ public:
+  virtual ~LeafBehavior() = default;
+  virtual void start(std::uint32_t leaf) = 0;
+  virtual Status tick(std::uint32_t leaf) = 0;
+  virtual void halt(std::uint32_t leaf) = 0;
+  virtual void pause(std::uint32_t leaf) = 0;
+  virtual void resume(std::uint32_t leaf) = 0;
+  virtual double progress(std::uint32_t leaf) const = 0;
+};
+
+}  // namespace lockstep::host::test
