@@ -157,6 +157,8 @@ inline constexpr TickRow kBranches[] = {
    "WhileDoElse(c? a b)", "c=FS a=S b=R", "R[c b] S[c a] halt[b]"},
   {"WhileDoElse: an action that has answered is not asked again while a branch runs",
    "WhileDoElse(c a)", "c=SF a=RRS", "R[c a] R[a] S[a]"},
+  {"WhileDoElse: has no progress while its condition runs, though a branch does",
+   "WhileDoElse(Inverter(c) a)", "c=FRF a=R.5R.6", "R[c a]=.5 R[c]=0 R[c a]=.6"},
   {"WhileDoElse: the answer is asked for again in a new activation",
    "WhileDoElse(c a)", "c=SF a=RS", "R[c a] S[a] F[c]"},
   {"WhileDoElse: without a third child a failed condition fails it",

@@ -83,9 +83,11 @@ Status tick_while(NodeContext& context, NodeIndex self) {
   return branch == 0 ? Status::Failure : tick_branch(context, self, branch);
 }
 
+// By the strict rule, a branch may still run while the condition does.
 inline double progress_of_branch(NodeContext& context, NodeIndex self) {
   const NodeIndex branch = context.state<BranchState>(self).branch;
-  return branch == 0 ? 0.0 : context.progress(branch);
+  const bool is_asking = context.status(condition_of(self)) == Status::Running;
+  return branch == 0 || is_asking ? 0.0 : context.progress(branch);
 }
 
 template <Rule kRule>
