@@ -149,7 +149,8 @@ std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> p
   if (!found.is_complete()) return {};
   std::vector<Certainty> certainties = Certainties(tree, places, found).find();
   // A few are enough to say nothing false; their number is the same on every machine.
-  const ChanceLimits few{.runs = 30, .time = Nanoseconds::max()};
+  const ChanceLimits few{.runs = std::clamp<std::uint64_t>(10'000 / tree.nodes.size(), 2, 30),
+                         .time = Nanoseconds::max()};
   const bool is_wrong =
       !certainties.empty() &&
       find_contradiction(tree, models, {}, from_seconds(1 / kModelRate), found, few);
