@@ -84,6 +84,7 @@ struct CheckedMain {
   Place place;
   std::optional<std::string_view> tree = {};  // that it names to be run
   Place tree_place = {};                      // of the attribute that does
+  bool is_only = false;                       // it names none, and has this one alone
 };
 
 struct CheckedTrees {

@@ -40,7 +40,7 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, bool has_
                    suggest(given, trees.ids, "trees in this project"));
     return std::nullopt;
   }
-  if (main->tree) {
+  if (main->tree && !(main->is_only && options.is_part)) {
     const auto it = trees.trees.find(*main->tree);
     if (it != trees.trees.end()) return it->first;
     if (options.may_lack_main && options.elsewhere.contains(*main->tree)) {

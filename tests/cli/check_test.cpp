@@ -72,6 +72,13 @@ TEST_CASE("check takes the files of a project, each as it is") {
   const Outcome all = run_lockstep({"check", "--strict", user, library});
   CHECK(all.code == 0);
   CHECK(contains(all.err, "note: the tree 'Open' is in another file"));
+  // A tree that another file uses gets its entries from there.
+  const std::string part = theirs(
+      "part.xml", "<BehaviorTree ID=\"Shut\"><ScriptCondition code=\"x > 1\"/></BehaviorTree>");
+  const std::string uses =
+      theirs("uses.xml", "<BehaviorTree ID=\"Main\"><SubTree ID=\"Shut\" x=\"1\"/></BehaviorTree>");
+  CHECK(run_lockstep({"check", "--strict", part}).code == 3);
+  CHECK(run_lockstep({"check", "--strict", part, uses}).code == 0);
 }
 
 TEST_CASE("check takes a part that another file includes without what that gives to it") {

@@ -109,6 +109,7 @@ class TreeReader {
       for (const std::uint32_t child : children_of_root()) {
         if (element(child).tag == "BehaviorTree") {
           trees_.main->tree = id_of(child);
+          trees_.main->is_only = true;
           trees_.main->tree_place = element(child).place;
         }
       }
