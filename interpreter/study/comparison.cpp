@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/ranks.h"
 #include "study/row_reader.h"
 #include "study/sample_summary.h"
 
@@ -37,16 +38,40 @@ Values without_missing(const Values& values) {
   return there;
 }
 
-void compare(const Values& first, const Values& second, Comparison& comparison) {
+// Values of both cells that are equal but for rounding are made equal.
+void tie_samples(Values& first, Values& second) {
+  Values all = first, roundings;
+  all.insert(all.end(), second.begin(), second.end());
+  for (const double value : all) roundings.push_back(rounding_of(value));
+  tie(all, roundings);
+  std::copy_n(all.begin(), first.size(), first.begin());
+  std::copy(all.begin() + std::ssize(first), all.end(), second.begin());
+}
+
+// The same of the sizes of differences. One within its rounding is none.
+void tie_differences(Values& differences, const Values& roundings) {
+  Values sizes;
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    const double size = std::abs(differences[i]);
+    sizes.push_back(size > roundings[i] ? size : 0);
+  }
+  tie(sizes, roundings);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    differences[i] = sizes[i] == 0 ? 0 : std::copysign(sizes[i], differences[i]);
+  }
+}
+
+void compare(Values first, Values second, Comparison& comparison) {
   comparison.count = {first.size(), second.size()};
   if (first.empty() || second.empty()) return;
+  tie_samples(first, second);
   comparison.found = {.medians = {summarize(first).median, summarize(second).median},
                       .shift = shift_between(first, second),
                       .test = mann_whitney(first, second)};
 }
 
 void compare_pairs(const Values& first, const Values& second, Comparison& comparison) {
-  Values both_first, both_second, differences;
+  Values both_first, both_second, differences, roundings;
   const std::size_t runs = std::min(first.size(), second.size());
   for (std::size_t run = 0; run < runs; ++run) {
     const double difference = second[run] - first[run];
@@ -54,9 +79,11 @@ void compare_pairs(const Values& first, const Values& second, Comparison& compar
     both_first.push_back(first[run]);
     both_second.push_back(second[run]);
     differences.push_back(difference);
+    roundings.push_back(rounding_of(std::max(std::abs(first[run]), std::abs(second[run]))));
   }
   comparison.count = {differences.size(), differences.size()};
   if (differences.empty()) return;
+  tie_differences(differences, roundings);
   comparison.found = {.medians = {summarize(both_first).median, summarize(both_second).median},
                       .shift = shift_of(differences),
                       .test = signed_rank(differences)};

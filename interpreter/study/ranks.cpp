@@ -3,15 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "study/distributions.h"
 
 namespace lockstep::host {
 
-Ranks ranks_of(std::span<const double> values) {
+namespace {
+
+// The places of the values, by rising value.
+std::vector<std::size_t> order_of(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  return order;
+}
+
+}  // namespace
+
+void tie(std::span<double> values, std::span<const double> roundings) {
+  std::optional<std::size_t> first;  // of those that are equal
+  for (const std::size_t place : order_of(values)) {
+    const double apart = first ? values[place] - values[*first] : 0;
+    if (!first || apart > std::max(roundings[*first], roundings[place])) first = place;
+    values[place] = values[*first];
+  }
+}
+
+Ranks ranks_of(std::span<const double> values) {
+  const std::vector<std::size_t> order = order_of(values);
   Ranks ranks{.of = std::vector<double>(values.size())};
   for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
     while (end < order.size() && values[order[end]] == values[order[first]]) ++end;

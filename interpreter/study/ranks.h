@@ -2,11 +2,21 @@
 // and the intervals of shifts have in common, so that they agree.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace lockstep::host {
+
+// How far a value, or a difference of two of them, may be off by the rounding of doubles: a measure
+// in seconds is a number of ticks times a period. The factor is 2^-44.
+inline double rounding_of(double largest) {
+  return std::abs(largest) * 0x1p-44;
+}
+// Makes values equal that differ by no more than the larger of their roundings. So 1.23 - 1.2 and
+// 0.53 - 0.5 are tied, as 3 ticks and 3 ticks are.
+void tie(std::span<double> values, std::span<const double> roundings);
 
 struct Ranks {
   std::vector<double> of;  // each value, from 1; equal ones share theirs

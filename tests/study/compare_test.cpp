@@ -44,6 +44,33 @@ nlohmann::json compared(const StudyCase& it, const std::string& out, const std::
 
 }  // namespace
 
+TEST_CASE("seconds and ticks of the same runs have the same p, whatever the rate") {
+  for (const char* rate : {"100", "30", "1000", "10"}) {
+    for (const bool is_paired : {true, false}) {
+      const StudyCase it;
+      Strings words{kPaper + "example5.xml",
+                    "--runs",
+                    "12",
+                    "--grid",
+                    "barrier_count=5,10",
+                    "--grid",
+                    "noise=0.05",
+                    "--measure",
+                    "ticks",
+                    "--measure",
+                    "duration",
+                    "--rate",
+                    rate};
+      if (is_paired) words.emplace_back("--paired");
+      it.make(words, "out");
+      const auto json = compared(it, "out", "0", "1");
+      INFO(rate << json.dump());
+      CHECK(json["measures"][0]["p"] == json["measures"][1]["p"]);
+      CHECK(json["measures"][0]["effect"] == json["measures"][1]["effect"]);
+    }
+  }
+}
+
 TEST_CASE("two cells that differ are found to differ, in either order") {
   const StudyCase it;
   it.make(study({}), "out");

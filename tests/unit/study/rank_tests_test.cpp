@@ -2,27 +2,41 @@
 // what is not there.
 #include "study/rank_tests.h"
 
+#include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
 #include "core/random.h"
+#include "study/ranks.h"
 
 namespace lockstep::host {
 namespace {
 
 using Values = std::vector<double>;
 
-// Of differences without ties, over all choices of signs: how many give a sum of ranks as far from
-// the middle.
+// The mean of the places that a value has among all.
+double mean_rank(const Values& all, double value) {
+  double below = 0, equal = 0;
+  for (const double other : all) {
+    below += other < value ? 1 : 0;
+    equal += other == value ? 1 : 0;
+  }
+  return below + (equal + 1) / 2;
+}
+
+// Over all choices of signs of the differences: how many give a sum of ranks as far from the
+// middle.
 double exact_p(const Values& differences) {
   const std::size_t count = differences.size();
+  Values sizes;
+  for (const double difference : differences) sizes.push_back(std::abs(difference));
   const auto sum_of = [&](auto is_positive) {
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      double rank = 0;
-      for (const double other : differences)
-        rank += std::abs(other) <= std::abs(differences[i]) ? 1 : 0;
+      if (sizes[i] == 0) continue;  // it has a rank, and no sign
+      const double rank = mean_rank(sizes, sizes[i]);
       sum += is_positive(i) ? rank : -rank;
     }
     return std::abs(sum);
@@ -33,6 +47,28 @@ double exact_p(const Values& differences) {
     as_far += sum_of([&](std::size_t i) { return (signs >> i & 1u) != 0; }) >= found ? 1 : 0;
   }
   return as_far / std::pow(2.0, static_cast<double>(count));
+}
+
+// Over all choices of so many of all values: how many have a sum of ranks as far from the middle.
+double exact_p(const Values& first, const Values& second) {
+  Values all = first;
+  all.insert(all.end(), second.begin(), second.end());
+  const auto middle = static_cast<double>(second.size() * (all.size() + 1)) / 2;
+  const auto off = [&](unsigned chosen) {
+    double sum = -middle;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if ((chosen >> i & 1u) != 0) sum += mean_rank(all, all[i]);
+    }
+    return std::abs(sum);
+  };
+  const double found = off(((1u << second.size()) - 1u) << first.size());
+  double as_far = 0, choices = 0;
+  for (unsigned chosen = 0; chosen < 1u << all.size(); ++chosen) {
+    if (std::popcount(chosen) != static_cast<int>(second.size())) continue;
+    ++choices;
+    as_far += off(chosen) >= found - 1e-9 ? 1 : 0;
+  }
+  return as_far / choices;
 }
 
 }  // namespace
@@ -70,6 +106,62 @@ TEST_CASE("rank tests: signed ranks are near to what all signs give") {
     for (double& value : differences) value = random.next_double() - 0.3;
     CHECK(signed_rank(differences).p == Approx(exact_p(differences)).margin(0.015));
   }
+}
+
+TEST_CASE("rank tests: with equal values, a small p is near to what all signs and choices give") {
+  RandomStream random(2026, 0);
+  double worst = 0, worst_between = 0;
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    const double levels = 3 + repeat % 6;
+    Values differences(12), first(6), second(7);
+    for (double& value : differences) value = std::floor(levels * random.next_double()) - 1;
+    for (Values* values : {&first, &second}) {
+      for (double& value : *values) value = std::floor(levels * random.next_double());
+    }
+    // Where p is large, it says nothing, and a normal distribution is far from so few values.
+    const double paired = exact_p(differences), between = exact_p(first, second);
+    const double off = std::abs(signed_rank(differences).p - paired);
+    const double off_between = std::abs(mann_whitney(first, second).p - between);
+    if (paired < 0.1) worst = std::max(worst, off);
+    if (between < 0.1) worst_between = std::max(worst_between, off_between);
+  }
+  CHECK(worst > 0);
+  CHECK(worst < 0.05);
+  CHECK(worst_between < 0.05);
+}
+
+TEST_CASE("rank tests: what is equal but for rounding is tied, so seconds say what ticks say") {
+  RandomStream random(2026, 1);
+  int broken = 0;  // where the ties of the seconds are not those of the ticks
+  for (const double period : {0.01, 0.001, 1.0 / 30, 0.1}) {
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      Values ticks, seconds, roundings;
+      for (int pair = 0; pair < 12; ++pair) {
+        const double a = std::floor(40 * random.next_double()) + 100;
+        const double b = std::floor(8 * random.next_double()) + a - 3;
+        ticks.push_back(b - a);
+        seconds.push_back(b * period - a * period);
+        roundings.push_back(rounding_of(b * period));
+      }
+      Values sizes;
+      for (std::size_t i = 0; i < seconds.size(); ++i) {
+        sizes.push_back(std::abs(seconds[i]) > roundings[i] ? std::abs(seconds[i]) : 0);
+      }
+      const double before = ranks_of(sizes).ties;
+      tie(sizes, roundings);
+      for (double& size : ticks) size = std::abs(size);
+      CHECK(ranks_of(sizes).of == ranks_of(ticks).of);
+      CHECK(ranks_of(sizes).ties == ranks_of(ticks).ties);
+      broken += before != ranks_of(ticks).ties ? 1 : 0;
+    }
+  }
+  CHECK(broken > 50);
+  Values apart{1.7e9, 1.7e9 + 0.001, -0.0, 0.0, 1e-300, 3e-300};
+  const Values as_it_was = apart;
+  Values roundings;
+  for (const double value : apart) roundings.push_back(rounding_of(value));
+  tie(apart, roundings);
+  CHECK(apart == as_it_was);
 }
 
 TEST_CASE("rank tests: a pair without a difference has a rank") {
