@@ -6,7 +6,6 @@
 #include "engine/groups.h"
 #include "engine/node_scripts.h"
 #include "engine/node_watch.h"
-#include "engine/synchronized.h"
 #include "engine/ticker.h"
 
 namespace lockstep::host {
@@ -35,7 +34,6 @@ bool Ticker::take_failed(NodeIndex node) {
 // A node of a plugin halts its children in its own way, so it fails as after a fault. The children
 // of a built-in node are halted as when it completes by itself.
 Status NodeContext::fail(NodeIndex node) {
-  groups_.reach_below(node);  // what ends was ticked, as a synchronized node is
   const HookedNode* const hooked = scripts_.around(node);
   Status status = Status::Failure;
   if (tree_.labels[node].type->leaf != nullptr) {
@@ -47,9 +45,6 @@ Status NodeContext::fail(NodeIndex node) {
     status = kind.tick(*this, node);
   } else {
     halt_running_children(node);
-    if (compares_progress(synchronization(nodes_[node]))) {
-      state<SynchronizedState>(node).succeeded = false;
-    }
   }
   if (hooked != nullptr && hooked->ends) status = scripts_.finish(node, *hooked, status);
   if (watches_ != nullptr) status = tell_result(node, status);

@@ -29,6 +29,7 @@ void Ticker::fold() {
   groups_.fold();
   fold_entries();
   std::ranges::fill(state_.last_tick, 0);
+  state_.ended.clear();
   state_.tick_number = 0;
   state_.now = Nanoseconds(0);
 }

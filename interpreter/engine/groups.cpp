@@ -21,13 +21,6 @@ void Groups::end_tick() {
   }
 }
 
-void Groups::reach_below(NodeIndex node) {
-  for (const Group& group : tree_.groups) {
-    const bool is_inside = node <= group.ancestor && group.ancestor < tree_.nodes[node].end;
-    if (is_inside && !rests(group)) reach(group.node);
-  }
-}
-
 void Groups::fold() {
   for (const Group& group : tree_.groups) {
     if (rests(group)) state_.activity[group.node] = Activity::Idle;

@@ -24,8 +24,6 @@ class Groups {
 
   // A member was ticked: its group counts as ticked in this tick.
   void reach(NodeIndex group) { state_.last_tick[group] = state_.tick_number; }
-  // The same for all groups whose common ancestor runs in this subtree.
-  void reach_below(NodeIndex node);
   // A group whose common ancestor runs: Success, or Running again.
   void set_complete(NodeIndex group, bool is_complete) {
     state_.activity[group] = is_complete ? Activity::Success : Activity::Running;

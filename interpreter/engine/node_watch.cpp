@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/node_context.h"
-#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {
@@ -15,9 +14,6 @@ Status decide(NodeContext& context, NodeIndex self, const NodeKind& kind, bool b
   if (context.faulted()) return Status::Running;
   if (begins && kind.decided != nullptr) kind.decided(context, self, status);
   if (context.tree().labels[self].type->leaf != nullptr) context.leaf(self).set_started(false);
-  if (compares_progress(synchronization(context.node(self)))) {
-    context.state<SynchronizedState>(self).succeeded = status == Status::Success;
-  }
   return status;
 }
 

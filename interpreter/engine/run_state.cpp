@@ -9,7 +9,9 @@ namespace lockstep::host {
 RunState::RunState(const Tree& tree)
     : activity(tree.nodes.size(), Activity::Idle),
       last_tick(tree.nodes.size(), 0),
-      bytes((tree.state_size + 7) / 8, 0) {}
+      bytes((tree.state_size + 7) / 8, 0) {
+  ended.reserve(tree.nodes.size());
+}
 
 void RunState::reset() {
   std::ranges::fill(activity, Activity::Idle);
@@ -22,6 +24,7 @@ void RunState::reset() {
   failing.clear();
   failed_leaves.clear();
   tolerated.clear();
+  ended.clear();
   out_of_range.clear();
   kept_values.clear();
 }

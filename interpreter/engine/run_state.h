@@ -71,6 +71,7 @@ struct RunState {
   std::vector<NodeIndex> failing;        // in their next tick
   std::vector<NodeIndex> failed_leaves;  // whose slots are marked failed; some are not any more
   std::vector<Fault> tolerated;
+  std::vector<NodeIndex> ended;  // that succeeded in the last tick, and were ended later in it
   std::vector<OutOfRange> out_of_range;
   std::unordered_map<NodeIndex, Value> kept_values;
 

@@ -1,6 +1,7 @@
 // A run at this moment, to read: what the tree says of a node, and what RunState does.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -34,6 +35,11 @@ class RunView {
   bool held(NodeIndex node) const { return state_.activity[node] == Activity::Paused; }
   bool ticked(NodeIndex node) const {  // in the last tick
     return state_.tick_number != 0 && state_.last_tick[node] == state_.tick_number;
+  }
+  // True for a node that succeeded in the last tick and is idle again, since an ancestor was ended
+  // later in that tick.
+  bool ended_after_success(NodeIndex node) const {
+    return std::ranges::find(state_.ended, node) != state_.ended.end();
   }
   // The state of a node in RunState.
   template <class State>

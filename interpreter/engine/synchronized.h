@@ -25,7 +25,6 @@ inline double least_above(double progress) {
 struct SynchronizedState {
   double limit;         // see limit()
   std::uint32_t place;  // of the last barrier in its list: where the search for the next begins
-  bool succeeded;       // in the last tick
 };
 
 inline Synchronization synchronization(const Node& node) {
@@ -64,10 +63,14 @@ inline std::span<const double> child_progress(const RunView& run, NodeIndex node
   return run.child_states<double>(node);
 }
 
-// For a synchronized node that the last tick reached: whether it succeeded in that tick, even if an
-// ancestor that ended in the same tick has made it idle again.
-inline bool succeeded(const RunView& run, NodeIndex node) {
-  return run.state<SynchronizedState>(node).succeeded;
+// Whether a parallel, or a node beside the tree, asked its children in the last tick. A tick in
+// which a script of the parallel decided, or in which its `while` halted it, does not count.
+inline bool asked_children(const RunView& run, NodeIndex node) {
+  if (run.tree().is_group(node) || !run.ticked(node)) return run.ticked(node);
+  for (NodeIndex child = node + 1; child != run.end_of(node); child = run.end_of(child)) {
+    if (run.ticked(child)) return true;
+  }
+  return false;
 }
 
 // Stands for the progress of a child that is left out: nobody waits for it, and it is not held.

@@ -9,6 +9,7 @@ namespace lockstep::host {
 Status Ticker::tick_root() {
   const InEngine scope(board_.lock.get());
   ++state_.tick_number;
+  state_.ended.clear();
   if (!held_leaves_.empty()) [[unlikely]]
     held_leaves_.look(*this);
   if (watch_ != nullptr) watch_->begin_tick();

@@ -4,6 +4,15 @@
 
 namespace lockstep::host {
 
+namespace {
+
+// Whether measures compare the progress of the children.
+bool is_measured(const Tree& tree, NodeIndex node) {
+  return tree.labels[node].type->latches || compares_progress(synchronization(tree.nodes[node]));
+}
+
+}  // namespace
+
 std::vector<RecordedNode> describe(const Tree& tree) {
   std::vector<RecordedNode> nodes(tree.nodes.size());
   for (NodeIndex index = 0; index < nodes.size(); ++index) {
@@ -21,6 +30,10 @@ std::vector<RecordedNode> describe(const Tree& tree) {
       node.resources = tree.group(index).resources;
       for_each_child(tree, index, [&](NodeIndex child) { node.members.push_back(child); });
     }
+    if (!is_measured(tree, index)) continue;
+    for_each_child(tree, index, [&](NodeIndex child) {
+      nodes[child].is_guard = tree.nodes[child].is_guard != 0;
+    });
   }
   return nodes;
 }

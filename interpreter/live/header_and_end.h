@@ -23,6 +23,7 @@ struct RecordedNode {
   std::vector<std::string> resources = {};           // of a pool
   std::vector<NodeIndex> members = {};  // of a group, which has no parent: what they hold
   bool ignores_idle = false;            // a group that leaves out who is idle
+  bool is_guard = false;                // a child of a parallel, or in a member, without an action
 };
 
 struct RecordedKey {
@@ -39,10 +40,11 @@ struct RecordingHeader {
   std::string clock;  // "wall" or "virtual"
   std::uint64_t seed = 0;
   std::map<std::string, std::string, std::less<>> arguments = {};
-  std::vector<RecordedNode> nodes = {};   // by index: pre-order
-  std::vector<RecordedKey> entries = {};  // those that the recording shows
-  std::uint64_t first_tick = 0;           // of a recording in parts, in this part
-  std::string verify = {};                // what verify has found; "": it is any other run
+  std::map<std::string, std::string, std::less<>> values = {};  // that entries start with
+  std::vector<RecordedNode> nodes = {};                         // by index: pre-order
+  std::vector<RecordedKey> entries = {};                        // those that the recording shows
+  std::uint64_t first_tick = 0;  // of a recording in parts, in this part
+  std::string verify = {};       // what verify has found; "": it is any other run
 };
 
 struct RecordedEnd {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "core/differences.h"
 #include "engine/resources.h"
@@ -33,11 +34,24 @@ void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* mov
   }
 }
 
+// The synchronized nodes, and the children that measures compare, in order.
+std::vector<NodeIndex> measured_nodes(const Tree& tree) {
+  std::set<NodeIndex> nodes;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    const bool synchronizes = compares_progress(synchronization(tree.nodes[node]));
+    if (synchronizes) nodes.insert(node);
+    if (!synchronizes && !tree.labels[node].type->latches) continue;
+    for_each_child(tree, node, [&](NodeIndex child) { nodes.insert(child); });
+  }
+  return {nodes.begin(), nodes.end()};
+}
+
 }  // namespace
 
 RunDelta::RunDelta(const Tree& tree)
     : synchronized_nodes_(synchronized_nodes(tree)),
-      succeeded_(synchronized_nodes_),  // for its room
+      measured_(measured_nodes(tree)),
+      succeeded_(measured_),  // for its room
       limits_(synchronized_nodes_.size()),
       progress_(tree.nodes.size()),
       source_(tree.nodes.size()),
@@ -88,11 +102,11 @@ void RunDelta::add_change(NodeIndex node) {
   has_begun_ |= is_running(state) && !is_running(kept_[node]);
 }
 
-std::span<const NodeIndex> RunDelta::succeeded(Ticker& ticker) {
+std::span<const NodeIndex> RunDelta::succeeded(const Ticker& ticker) {
   succeeded_.clear();
-  for (const NodeIndex node : synchronized_nodes_) {
-    if (ticker.status(node) != Status::Idle || !ticker.ticked(node)) continue;
-    if (lockstep::host::succeeded(ticker, node)) succeeded_.push_back(node);
+  if (ticker.run_state().ended.empty()) return {};
+  for (const NodeIndex node : measured_) {
+    if (ticker.ended_after_success(node)) succeeded_.push_back(node);
   }
   return succeeded_;
 }
@@ -157,7 +171,7 @@ void RunDelta::set_progress(NodeIndex node, double progress) {
 void RunDelta::take_snapshots(Ticker& ticker) {
   for (const NodeIndex node : synchronized_nodes_) {
     if (!compares_progress(synchronization(ticker.node(node)))) continue;
-    if (!ticker.ticked(node)) continue;
+    if (!asked_children(ticker, node)) continue;
     each_used_progress(ticker, node, [&](NodeIndex child, double used) {
       set_progress(child, used);
       source_[child] = kUnknown;

@@ -20,9 +20,11 @@ class RunDelta {
   void before_tick(Ticker& ticker);
   // After the tick: the nodes that differ from the last accepted line. Valid until the next call.
   std::span<const NodeChange> changes(Ticker& ticker);
-  // The synchronized nodes that have succeeded in the tick and are idle again, because an ancestor
-  // has ended them. Valid until the next call.
-  std::span<const NodeIndex> succeeded(Ticker& ticker);
+  // The synchronized nodes and the children of parallels that have succeeded in the tick and are
+  // idle again, because an ancestor has ended them. Valid until the next call.
+  std::span<const NodeIndex> succeeded(const Ticker& ticker);
+  // All nodes that succeeded() may have: among them the synchronized ones.
+  std::size_t most_succeeded() const { return measured_.size(); }
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
   std::span<const LimitChange> limits(Ticker& ticker);
@@ -46,6 +48,7 @@ class RunDelta {
   void take_snapshots(Ticker& ticker);
 
   std::vector<NodeIndex> synchronized_nodes_;
+  std::vector<NodeIndex> measured_;  // that succeeded() may have
   std::vector<NodeIndex> succeeded_;
   std::vector<LimitChange> kept_limits_;  // of each synchronized node, then of users of resources
   std::size_t first_user_ = 0;            // of these

@@ -20,7 +20,7 @@ class HeldBy final : public Accumulator {
     const SynchronizedTick& tick = view.parallels[place_];
     if (!tick.ticked) return;
     reached_ = true;
-    ticks_ += tick.held[child_] && is_least(tick.progress);
+    ticks_ += tick.held[child_] && is_least(tick.used);
   }
 
   double value(const EndView&) const override {

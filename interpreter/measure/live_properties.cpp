@@ -58,7 +58,7 @@ std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uin
   }
   // The numbers that a synchronized node has used replace those from before its tick.
   for (const Used& it : used_) {
-    if (!ticker.ticked(it.keeper)) continue;
+    if (!asked_children(ticker, it.keeper)) continue;
     const double used = child_progress(ticker, it.keeper)[it.child];
     seen[it.place].progress = is_left_out(used) ? 0 : used;
   }

@@ -87,7 +87,7 @@ void LiveTicks::read_others(Ticker& ticker) {
     node_ticks_[i].ticked = ticker.ticked(node.index);
     node_ticks_[i].status = ticker.status(node.index);
     // The numbers that a synchronized node has used replace those from before its tick.
-    if (node.parent && ticker.ticked(*node.parent)) {
+    if (node.parent && asked_children(ticker, *node.parent)) {
       const double used = child_progress(ticker, *node.parent)[node.child];
       node_ticks_[i].progress = is_left_out(used) ? 0 : used;  // as in recordings
     }

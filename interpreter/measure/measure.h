@@ -29,7 +29,7 @@ class Accumulator {
 
 enum class MeasureOf : std::uint8_t {
   Run,
-  Parallel,  // each parallel of the tree, synchronized or not
+  Parallel,  // each parallel of the tree, synchronized or not; or the one that the argument names
   Child,     // the child of a synchronized node that the argument names
   Pair,      // a child of a synchronized node, and another one, which the argument names too
   User,      // the node that uses resources that the argument names
@@ -90,6 +90,9 @@ struct Measure {
 };
 
 std::span<const Measure* const> all_measures();
+
+// The argument of a measure of parallels.
+inline constexpr std::string_view kOneParallel = "[:PATH]";
 
 // For the rows.
 template <class Class>

@@ -19,9 +19,11 @@ std::string usage(const Measure& measure) {
 
 // ":NAME", or nothing, as the row has it.
 std::string parse_name(std::string_view argument, MeasureSpec& spec) {
-  if (spec.measure->argument.empty()) {
+  const std::string_view expected = spec.measure->argument;
+  if (expected.empty()) {
     return argument.empty() ? "" : "expected nothing after " + quoted(spec.measure->name);
   }
+  if (argument.empty() && expected.starts_with('[')) return {};
   if (argument.size() < 2 || argument.front() != ':') {
     return "expected " + quoted(usage(*spec.measure));
   }

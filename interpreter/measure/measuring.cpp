@@ -74,6 +74,14 @@ Choice neighbors(const MeasuredTree& tree, const Kept& kept) {
   return choice;
 }
 
+Choice all_parallels(const MeasuredTree& tree) {
+  Choice choice(tree);
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (is_parallel(tree.nodes[node])) choice.add(node, node);
+  }
+  return choice;
+}
+
 Choice all_pools(const MeasuredTree& tree) {
   Choice choice(tree);
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
@@ -157,8 +165,11 @@ MeasureTarget Measuring::target_of(const MeasuredTree& tree, NodeIndex parallel)
 }
 
 void Measuring::add_parallels(const MeasureSpec& spec, const MeasuredTree& tree) {
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (is_parallel(tree.nodes[node])) add(spec, tree.paths[node], target_of(tree, node));
+  const Choice all = all_parallels(tree);
+  const auto add_one = [&](NodeIndex node) { add(spec, tree.paths[node], target_of(tree, node)); };
+  if (spec.name.empty()) return std::ranges::for_each(all.meant, add_one), void();
+  if (const auto place = found(find_path(all.paths, spec.name, "parallel or barrier"))) {
+    add_one(all.meant[*place]);
   }
 }
 

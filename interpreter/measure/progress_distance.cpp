@@ -71,20 +71,31 @@ class ProgressDistanceSeconds final : public ProgressDistance {
   }
 };
 
-// "[K1:K2]", or nothing.
+// "[K1:K2]", of which the brackets are left out.
+bool take_samples(std::string_view text, MeasureSpec& spec) {
+  const auto colon = text.find(':');
+  if (colon == std::string_view::npos) return false;
+  const auto first = parse_int(text.substr(0, colon)), last = parse_int(text.substr(colon + 1));
+  if (!first || !last || *first < 0 || *first > *last) return false;
+  spec.numbers = {static_cast<double>(*first), static_cast<double>(*last)};
+  spec.argument = "[" + std::to_string(*first) + ":" + std::to_string(*last) + "]";
+  return true;
+}
+
+// "[K1:K2]:PATH", either or nothing.
 std::string parse_samples(std::string_view argument, MeasureSpec& spec) {
-  if (argument.empty()) return {};
-  const auto colon = argument.find(':');
-  if (argument.front() == '[' && argument.back() == ']' && colon != std::string_view::npos) {
-    const auto first = parse_int(argument.substr(1, colon - 1));
-    const auto last = parse_int(argument.substr(colon + 1, argument.size() - colon - 2));
-    if (first && last && *first >= 0 && *first <= *last) {
-      spec.numbers = {static_cast<double>(*first), static_cast<double>(*last)};
-      spec.argument = "[" + std::to_string(*first) + ":" + std::to_string(*last) + "]";
-      return {};
-    }
+  const auto end = argument.starts_with('[') ? argument.find(']') : std::string_view::npos;
+  if (end != std::string_view::npos && take_samples(argument.substr(1, end - 1), spec)) {
+    argument.remove_prefix(end + 1);
   }
-  return "expected 'progress-distance[K1:K2]', with whole numbers from 0 and K1 no more than K2";
+  if (argument.empty()) return {};
+  if (argument.size() > 1 && argument.front() == ':') {
+    spec.argument.append(argument);
+    spec.name = argument.substr(1);
+    return {};
+  }
+  return "expected 'progress-distance[K1:K2]', with whole numbers from 0 and K1 no more than K2, "
+         "and then ':PATH' to measure one parallel";
 }
 
 std::unique_ptr<Accumulator> make_distance(const MeasureSpec& spec, const MeasureTarget& target) {
@@ -98,7 +109,7 @@ std::unique_ptr<Accumulator> make_distance(const MeasureSpec& spec, const Measur
 
 extern const Measure kProgressDistance{
     .name = "progress-distance",
-    .argument = "[[K1:K2]]",
+    .argument = "[[K1:K2]][:PATH]",
     .of = MeasureOf::Parallel,
     .axis = "progress distance",
     .doc =
@@ -111,6 +122,7 @@ extern const Measure kProgressDistance{
 
 extern const Measure kProgressDistanceMean{
     .name = "progress-distance-mean",
+    .argument = kOneParallel,
     .of = MeasureOf::Parallel,
     .axis = "progress distance per tick",
     .doc = "the progress distance, divided by the ticks of the parallel",
@@ -119,6 +131,7 @@ extern const Measure kProgressDistanceMean{
 
 extern const Measure kProgressDistanceSeconds{
     .name = "progress-distance-seconds",
+    .argument = kOneParallel,
     .of = MeasureOf::Parallel,
     .axis = "progress distance",
     .unit = "s",

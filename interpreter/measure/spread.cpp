@@ -17,6 +17,7 @@ void Spread::after_tick(const TickView& view) {
 
 extern const Measure kSpread{
     .name = "spread",
+    .argument = kOneParallel,
     .of = MeasureOf::Parallel,
     .axis = "largest spread",
     .doc = "the largest distance, in one tick, between the most and the least advanced child",

@@ -28,7 +28,7 @@ void StallDetector::after_tick(const SynchronizedTick& tick, bool holds_somebody
     since_ += passed;
     return;
   }
-  const double least = least_progress(tick.progress);
+  const double least = least_progress(tick.used);
   const bool is_new = !runs_ || least > best_ + kNoChange || least >= 1 - kNoChange;
   runs_ = tick.status == Status::Running;
   if (is_new) {

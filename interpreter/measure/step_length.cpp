@@ -19,6 +19,7 @@ void StepLength::after_tick(const TickView& view) {
 
 extern const Measure kStepLength{
     .name = "step-length",
+    .argument = kOneParallel,
     .of = MeasureOf::Parallel,
     .axis = "step length",
     .doc =

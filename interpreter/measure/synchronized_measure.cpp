@@ -71,11 +71,26 @@ std::vector<std::string> child_names(const Tree& tree, NodeIndex node) {
   return is_group ? names_of(names) : names;
 }
 
-SynchronizedMeasure::SynchronizedMeasure(std::size_t children, Synchronization synchronization,
-                                         bool is_group)
+Guards::Guards(std::vector<bool> guards) {
+  for (std::size_t child = 0; child < guards.size(); ++child) {
+    if (guards[child]) places_.push_back(child);
+  }
+  if (!places_.empty()) others_.resize(guards.size());
+}
+
+std::span<const double> Guards::leave_out(std::span<const double> progress) {
+  if (places_.empty()) return progress;
+  std::ranges::copy(progress, others_.begin());
+  for (const std::size_t guard : places_) others_[guard] = kLeftOut;
+  return others_;
+}
+
+SynchronizedMeasure::SynchronizedMeasure(std::size_t children, const Guards& guards,
+                                         Synchronization synchronization, bool is_group)
     : distance_({.children = children}),
       spread_({}),
       step_length_({.children = children}),
+      guards_(guards.count()),
       synchronization_(synchronization),
       falls_(children, !is_group) {
   for (std::size_t child = 0; child < children; ++child) {
@@ -91,7 +106,8 @@ void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   falls_.after_tick(tick);
   for (HeldChild& child : held_) child.after_tick(view);
   if (!tick.ticked) return;
-  left_out_ |= std::ranges::any_of(tick.progress, is_left_out);
+  const auto left_out = std::ranges::count_if(tick.progress, is_left_out);
+  left_out_ |= static_cast<std::size_t>(left_out) > guards_;
   const double least = least_progress(tick.progress);
   const double most = std::min(1.0, farthest(synchronization_, tick.limit, least));
   widest_ = std::max(widest_, most - least);
@@ -108,13 +124,26 @@ void SynchronizedMeasure::run_ended(Nanoseconds time) {
   for (HeldChild& child : held_) child.run_ended(time);
 }
 
+namespace {
+
+// A pool compares nothing.
+Guards guards_of(const Tree& tree, NodeIndex node, std::span<const NodeIndex> children) {
+  std::vector<bool> guards;
+  if (is_pool(tree, node)) return Guards();
+  for (const NodeIndex child : children) guards.push_back(tree.nodes[child].is_guard != 0);
+  return Guards(std::move(guards));
+}
+
+}  // namespace
+
 SynchronizedProbe::SynchronizedProbe(const Tree& tree, NodeIndex node, bool with_flags)
     : node_(node),
       children_(children_of(tree, node)),
       is_group_(tree.is_group(node)),
       with_flags_(with_flags),
       is_pool_(is_pool(tree, node)),
-      held_(children_.size()) {
+      held_(children_.size()),
+      guards_(guards_of(tree, node, children_)) {
   if (!compares_progress(synchronization(tree.nodes[node]))) {
     progress_.resize(children_.size());
   }
@@ -130,48 +159,43 @@ void SynchronizedProbe::read_progress(Ticker& ticker) {
   }
 }
 
-void SynchronizedProbe::read_held(Ticker& ticker) {
-  const bool any_reached =
-      std::ranges::any_of(children_, [&](NodeIndex node) { return ticker.ticked(node); });
+void SynchronizedProbe::read_held(Ticker& ticker, bool asked) {
   for (std::size_t child = 0; child < children_.size(); ++child) {
     const NodeIndex node = children_[child];
     if (is_pool_) {
       held_.set(child, ticker.ticked(node - 1) && waits(limit(ticker, node - 1)));
       continue;
     }
-    const bool asked = is_group_ ? ticker.ticked(ticker.tree().labels[node].parent)
-                                 : any_reached || held_.held()[child];
-    held_.set(child, ticker.status(node), ticker.ticked(node) || !asked,
-              ticker.held(node) && asked);
+    const bool asks = is_group_ ? ticker.ticked(ticker.tree().labels[node].parent) : asked;
+    held_.set(child, ticker.status(node), ticker.ticked(node) || !asks, ticker.held(node) && asks);
   }
 }
 
 void SynchronizedProbe::read(Ticker& ticker, Nanoseconds time, SynchronizedTick& tick) {
-  const Status status = ticker.status(node_);
-  if (with_flags_) read_held(ticker);
-  if (!ticker.ticked(node_)) {
-    tick = {.time = time, .status = status};
+  const bool asked = asked_children(ticker, node_);
+  if (with_flags_) read_held(ticker, asked);
+  if (!asked) {
+    tick = {.time = time, .status = ticker.status(node_)};
     return;
   }
   tick.time = time;
   tick.ticked = true;
-  tick.status = status;
+  tick.status = ticker.status(node_);
   if (progress_.empty()) {
-    const auto& state = ticker.RunView::state<SynchronizedState>(node_);
-    if (state.succeeded) tick.status = Status::Success;
-    tick.limit = state.limit;
-    tick.progress = child_progress(ticker, node_);
+    tick.limit = limit(ticker, node_);
+    tick.used = child_progress(ticker, node_);
   } else {
-    tick.progress = progress_;
+    tick.used = progress_;
   }
+  tick.progress = guards_.leave_out(tick.used);
   if (with_flags_) read_succeeded(ticker, tick);
 }
 
 void SynchronizedProbe::read_succeeded(Ticker& ticker, SynchronizedTick& tick) {
-  const bool has_been_ended =
-      tick.status == Status::Success && ticker.status(node_) == Status::Idle;
   for (std::size_t child = 0; child < children_.size(); ++child) {
-    held_.set_succeeded(child, ticker.status(children_[child]), has_been_ended);
+    const NodeIndex node = children_[child];
+    held_.set_succeeded(child,
+                        ticker.status(node) == Status::Success || ticker.ended_after_success(node));
   }
   tick.held = held_.held();
   tick.succeeded = held_.succeeded();

@@ -36,8 +36,7 @@ class HeldChildren {
   explicit HeldChildren(std::size_t children)
       : flags_(std::make_unique<bool[]>(3 * children)), children_(children) {}
 
-  // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld. A parallel that
-  // ends before it ticks any child asks only those that it held before.
+  // `reached`: by the tick, or nobody asked; `held`: its ticks are still withheld.
   void set(std::size_t child, Status status, bool reached, bool held) {
     bool& running = flags_[children_ + child];  // after the last tick
     flags_[child] = held || (status == Status::Idle && running && !reached);
@@ -45,9 +44,8 @@ class HeldChildren {
   }
   // The answer of a pool decides alone, also about a child that has not begun.
   void set(std::size_t child, bool waits) { flags_[child] = waits; }
-  // `all`: an ancestor has ended the node after its success.
-  void set_succeeded(std::size_t child, Status status, bool all) {
-    flags_[2 * children_ + child] = all || status == Status::Success;
+  void set_succeeded(std::size_t child, bool succeeded) {
+    flags_[2 * children_ + child] = succeeded;
   }
   std::span<const bool> held() const { return {flags_.get(), children_}; }
   std::span<const bool> succeeded() const { return {flags_.get() + 2 * children_, children_}; }
@@ -57,9 +55,26 @@ class HeldChildren {
   std::size_t children_;
 };
 
+// Which children of a parallel, or members of a barrier, are guards: they contain no action, and
+// are part of no measure.
+class Guards {
+ public:
+  Guards() = default;
+  explicit Guards(std::vector<bool> guards);
+
+  std::size_t count() const { return places_.size(); }
+  // The progress of the children without that of the guards. Valid until the next call.
+  std::span<const double> leave_out(std::span<const double> progress);
+
+ private:
+  std::vector<std::size_t> places_;
+  std::vector<double> others_;  // where there are guards
+};
+
 class SynchronizedMeasure {
  public:
-  SynchronizedMeasure(std::size_t children, Synchronization synchronization, bool is_group);
+  SynchronizedMeasure(std::size_t children, const Guards& guards, Synchronization synchronization,
+                      bool is_group);
 
   void join() { falls_.join(); }  // the run, later than at its first tick
   void after_tick(const SynchronizedTick& tick);
@@ -80,8 +95,9 @@ class SynchronizedMeasure {
   ProgressDistance distance_;
   Spread spread_;
   StepLength step_length_;
+  std::size_t guards_;
   Synchronization synchronization_;
-  bool left_out_ = false;  // somebody, in some tick
+  bool left_out_ = false;  // another child than a guard, in some tick
   double widest_ = 0;      // between the least progress and the farthest that was allowed
   FallWatch falls_;
   std::vector<HeldChild> held_;
@@ -107,10 +123,11 @@ class SynchronizedProbe {
 
   NodeIndex node() const { return node_; }
   std::span<const NodeIndex> children() const { return children_; }
+  const Guards& guards() const { return guards_; }
 
  private:
   void read_progress(Ticker& ticker);
-  void read_held(Ticker& ticker);
+  void read_held(Ticker& ticker, bool asked);
   void read_succeeded(Ticker& ticker, SynchronizedTick& tick);
 
   NodeIndex node_;
@@ -119,6 +136,7 @@ class SynchronizedProbe {
   bool with_flags_;
   bool is_pool_;
   HeldChildren held_;
+  Guards guards_;
   std::vector<double> progress_;  // only where the node does not synchronize
 };
 

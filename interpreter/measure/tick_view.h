@@ -14,17 +14,18 @@ namespace lockstep::host {
 
 // The state of one parallel after a tick of the run.
 struct SynchronizedTick {
-  Nanoseconds time{0};           // when the tick of the run began, since the run began
-  bool ticked = false;           // did the tick reach the node? If not, only the time counts.
-  Status status = Status::Idle;  // Success also when an ancestor has ended the node since
-  double limit = 0;              // that counted: engine/synchronized.h
+  Nanoseconds time{0};  // when the tick of the run began, since the run began
+  bool ticked = false;  // did the node ask its children in this tick? If not, only the time counts.
+  Status status = Status::Idle;
+  double limit = 0;  // that counted: engine/synchronized.h
   // The progress of each child as the node used it in this tick; not a number: it was left out.
+  std::span<const double> used = {};
+  // The same, as measures compare it: a guard, which contains no action, is left out too.
   std::span<const double> progress = {};
   // True for a child that was running and did not get this tick. It may have been halted since.
   // Empty if no measure asks for it, and so is the next.
   std::span<const bool> held = {};
-  // True for a child that has succeeded. All have where nobody knows, since an ancestor has ended
-  // the node after its success.
+  // True for a child that has succeeded, also where an ancestor has ended it since.
   std::span<const bool> succeeded = {};
 };
 

@@ -60,7 +60,7 @@ class Collector {
 
   void add(double time, const SynchronizedTick& tick) {
     if (running_) hold_until(time);
-    const auto all = tick.progress;
+    const auto all = tick.used;
     push({.time = time,
           .begins = !running_,
           .least = least_progress(all),
@@ -89,7 +89,7 @@ class Collector {
     end.least = 1;
     for (std::size_t child = 0; child < probe_.children().size(); ++child) {
       const bool succeeded = recorded.nodes[probe_.children()[child]].status == Status::Success;
-      const double progress = succeeded ? 1.0 : tick.progress[child];
+      const double progress = succeeded ? 1.0 : tick.used[child];
       end.least = std::min(end.least, progress);
       if (child < drawn()) end.progress[child] = progress;
     }

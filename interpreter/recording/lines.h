@@ -122,6 +122,10 @@ constexpr Field kHeaderFields[] = {
     {"seed", "Whole", kAlways, "the seed of the random numbers", &RecordingHeader::seed},
     {"arguments", "Texts", kAlways, "the values of the load-time arguments, as strings",
      &RecordingHeader::arguments},
+    {"values", "Texts", kMaybe,
+     "only if there are any: the start values of blackboard entries that the run was given, as "
+     "strings; by `--set`, say",
+     &RecordingHeader::values},
     {"nodes", "HeaderNode[]", kAlways,
      "every node in pre-order, and behind the nodes of the tree what stands beside it: barriers "
      "and pools of resources",
@@ -156,6 +160,9 @@ constexpr Field kHeaderNodeFields[] = {
     {"members", "Index[]", kMaybe,
      "of what stands beside the tree: the nodes that the SyncProgress nodes of a barrier hold, or "
      "the children of the UseResources nodes of a pool"},
+    {"guard", "Yes", kMaybe,
+     "for a child of a parallel, and for the child of a SyncProgress, that contains no action: it "
+     "is a [guard](language.md#guards), and part of no measure"},
 };
 constexpr Object kHeaderNode{"HeaderNode", kHeaderNodeFields};
 
@@ -186,9 +193,9 @@ constexpr Field kTickFields[] = {
      "the number counts from 1, "
      "and is 0 when the node is not running; `of` is 0 for an endless one"},
     {"succeeded", "Index[]", kMaybe,
-     "only if there are any: the synchronized nodes that succeeded in this tick and are idle after "
-     "it, because an "
-     "ancestor ended in the same tick"},
+     "only if there are any: the synchronized nodes, the children of parallels and the children of "
+     "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "
+     "ended in the same tick"},
     {"faults", "Fault[]", kMaybe,
      "only if there are any: {} for each fault of a leaf that counted as its Failure, so that the "
      "run went on. A message has "

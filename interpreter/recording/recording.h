@@ -52,7 +52,8 @@ struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
-  std::span<const NodeIndex> succeeded = {};  // synchronized, that an ancestor has ended since
+  // Synchronized nodes, and children of parallels, that an ancestor has ended since.
+  std::span<const NodeIndex> succeeded = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
   std::span<const LeafLine> logs = {};

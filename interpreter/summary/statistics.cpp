@@ -12,8 +12,10 @@ namespace lockstep::host {
 Statistics::Statistics(const Tree& tree) : tree_(tree) {
   for (const NodeIndex node : synchronized_nodes(tree)) {
     const Node& it = tree.nodes[node];
-    nodes_.push_back({SynchronizedProbe(tree, node),
-                      SynchronizedMeasure(it.children, synchronization(it), tree.is_group(node))});
+    SynchronizedProbe probe(tree, node);
+    SynchronizedMeasure measure(it.children, probe.guards(), synchronization(it),
+                                tree.is_group(node));
+    nodes_.push_back({std::move(probe), std::move(measure)});
   }
 }
 

@@ -42,16 +42,18 @@ void SearchCoverage::after_tick(Ticker& ticker) {
 }
 
 void SearchCoverage::look_at(Ticker& ticker, Synchronized& it) const {
-  if (!ticker.ticked(it.node)) return;
+  if (!asked_children(ticker, it.node)) return;
   const double now = limit(ticker, it.node);
   if (now != it.last_limit && it.limits.size() < 1000) it.limits.insert(now);
   it.last_limit = now;
   double least = 1, most = 0;
-  for (const double progress : child_progress(ticker, it.node)) {
-    if (is_left_out(progress)) continue;
-    least = std::min(least, progress);
-    most = std::max(most, progress);
-  }
+  const double* progress = child_progress(ticker, it.node).data();
+  for_each_child(ticker.tree(), it.node, [&](NodeIndex child) {
+    const double one = *progress++;
+    if (is_left_out(one) || ticker.is_guard(child)) return;
+    least = std::min(least, one);
+    most = std::max(most, one);
+  });
   it.largest_spread = std::max(it.largest_spread, most - least);
 }
 

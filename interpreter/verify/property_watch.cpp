@@ -87,7 +87,7 @@ void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const
                                bool has_ended) {
   violated_.clear();
   for (const Used& it : used_) {
-    if (!ticker.ticked(it.keeper)) continue;
+    if (!asked_children(ticker, it.keeper)) continue;
     const double used = child_progress(ticker, it.keeper)[it.child];
     parts_[it.part].seen[it.place].progress = is_left_out(used) ? 0 : used;
   }

@@ -151,7 +151,7 @@ std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
   }
   return waiting_text({.synchronization = synchronization(tree_.nodes[self]),
                        .limit = tick.limit,
-                       .progress = tick.progress,
+                       .progress = tick.used,
                        .name_of = name_of,
                        .group = tree_.is_group(self) ? tree_.segment(self) : ""},
                       child);

@@ -8,6 +8,7 @@
 
 #include "measure/measure_spec.h"
 #include "property/random_tree.h"
+#include "property/reference.h"
 #include "recording/use/recording_measures.h"
 #include "recording/write/recorder.h"
 #include "study/run_measures.h"
@@ -107,6 +108,93 @@ TEST_CASE("a recording of a random tree has the measures of its run") {
     INFO(measure->name);
     CHECK(above_zero[measure->name] > 100);
   }
+}
+
+namespace {
+
+// The measures of a synchronized node once more, from what the reference has seen: samples that are
+// taken before its children are ticked, without guards.
+struct SlowMeasures {
+  const Plan* plan = nullptr;
+  std::size_t node = 0;
+  std::vector<std::size_t> children = {};
+  std::uint64_t samples = 0;
+  double distance = 0, spread = 0;
+
+  void after_tick(const Reference& reference) {
+    const bool asked =
+        std::ranges::any_of(children, [&](std::size_t child) { return reference.ticked(child); });
+    if (!reference.ticked(node) || !asked) return;
+    ++samples;
+    const auto& snapshot = reference.snapshot(node);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (is_guard(plan->children[i]) || is_guard(plan->children[j])) continue;
+        const double apart = std::abs(snapshot[i] - snapshot[j]);
+        if (std::isnan(apart)) continue;
+        distance += apart;
+        spread = std::max(spread, apart);
+      }
+    }
+  }
+};
+
+// In pre-order; gives the number of the next node.
+std::size_t add_measures(const Plan& plan, std::size_t node, std::vector<SlowMeasures>& all) {
+  SlowMeasures it{.plan = &plan, .node = node};
+  std::size_t next = node + 1;
+  std::vector<SlowMeasures> below;
+  for (const Plan& child : plan.children) {
+    it.children.push_back(next);
+    next = add_measures(child, next, below);
+  }
+  if (plan.kind == "ParallelAbsolute" || plan.kind == "ParallelRelative") all.push_back(it);
+  all.insert(all.end(), below.begin(), below.end());
+  return next;
+}
+
+}  // namespace
+
+TEST_CASE("the measures of random trees are those of the reference, without guards") {
+  int guarded = 0, compared = 0;
+  for (std::uint64_t seed = 0; seed < kMeasureTrees; ++seed) {
+    const Trial trial = random_trial(seed);
+    if (trial.is_document || !trial.plan.beside.empty() || !trial.writes.empty()) continue;
+    std::vector<SlowMeasures> slow;
+    add_measures(trial.plan, 0, slow);
+    if (slow.empty()) continue;
+    INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
+    Reference reference(trial.plan);
+    WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
+    const MeasureSpec specs[] = {parse_measure("progress-distance").value(),
+                                 parse_measure("spread").value()};
+    RunMeasures measured(run.run.tree(), specs, kRate);
+    run.watch({&measured}, static_cast<std::uint64_t>(trial.ticks));
+    if (run.run.ticker().fault() != nullptr) continue;
+    Status status = Status::Running;
+    for (int tick = 0; tick < trial.ticks && status == Status::Running; ++tick) {
+      status = reference.tick(tick * run.start.period);
+      for (SlowMeasures& it : slow) it.after_tick(reference);
+    }
+    for (const SlowMeasures& it : slow) {
+      const std::string path = run.run.tree().path(static_cast<NodeIndex>(it.node));
+      for (std::size_t column = 0; column < measured.columns().size(); ++column) {
+        if (measured.columns()[column].node != path) continue;
+        const double value = measured.values()[column];
+        INFO(measured.columns()[column].measure << " of " << path);
+        if (it.samples == 0) {
+          CHECK(std::isnan(value));
+        } else {
+          const bool is_spread = measured.columns()[column].measure == "spread";
+          CHECK(value == Approx(is_spread ? it.spread : it.distance).margin(1e-9));
+        }
+        ++compared;
+      }
+      guarded += std::ranges::any_of(it.plan->children, is_guard) && it.distance > 0 ? 1 : 0;
+    }
+  }
+  CHECK(guarded > 30);
+  CHECK(compared > 300);
 }
 
 }  // namespace lockstep::host::test

@@ -36,9 +36,9 @@ Status ReferenceNode::tick_with_scripts() {
   return first ? decided(Status::Skipped) : Status::Skipped;
 }
 
-// Before it began: to measures, all children of a synchronized node are as far as it is.
+// Before it began.
 Status ReferenceNode::decided(Status result) {
-  std::ranges::fill(snapshot, result == Status::Success ? 1.0 : 0.0);
+  snapshot.clear();  // it asks no child
   return result;
 }
 

@@ -107,15 +107,19 @@ double reached(NodeContext& context, NodeIndex member, const MemberState& own, N
   return status == Status::Idle ? of_idle : 0.0;
 }
 
-// The barrier succeeds with all of its members. Of a guard only the last result counts.
+// The barrier succeeds with all of its members.
+bool is_complete(NodeContext& context, NodeIndex self) {
+  return context.state<BarrierState>(self).succeeded == context.node(self).children;
+}
+
+// Of a guard only the last result counts.
 void note_result(NodeContext& context, const Member& member, MemberState& own, Status result) {
   const bool succeeded =
       result == Status::Success || (own.succeeded && !context.is_guard(member.node));
   if (std::exchange(own.succeeded, succeeded) == succeeded) return;
   BarrierState& state = context.state<BarrierState>(member.group);
   succeeded ? ++state.succeeded : --state.succeeded;
-  state.synchronized.succeeded = state.succeeded == context.node(member.group).children;
-  context.groups().set_complete(member.group, state.synchronized.succeeded);
+  context.groups().set_complete(member.group, is_complete(context, member.group));
 }
 
 // The progress of all members before the root is ticked.
@@ -188,7 +192,7 @@ Status tick_barrier(NodeContext& context, NodeIndex self) {
   } else {
     hold_nobody(context, self);
   }
-  return state.synchronized.succeeded ? Status::Success : Status::Running;
+  return is_complete(context, self) ? Status::Success : Status::Running;
 }
 
 // A member that has succeeded or begun counts as long as the common ancestor runs.

@@ -54,7 +54,6 @@ const NodeKind kParallelAbsolute{
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
     .fold = fold::dead,
-    .decided = synchronized::decided,
     .if_moved = IfMoved::Same,
     .has_any_order = true};
 

@@ -50,7 +50,6 @@ const NodeKind kParallelRelative{
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
     .fold = fold::dead,
-    .decided = synchronized::decided,
     .if_moved = IfMoved::Same,
     .has_any_order = true};
 

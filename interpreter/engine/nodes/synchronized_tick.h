@@ -3,8 +3,6 @@
 // They differ only in which children are held in a tick.
 #pragma once
 
-#include <algorithm>
-
 #include "engine/leaf_loop.h"
 #include "engine/nodes/parallel_rule.h"
 #include "engine/synchronized.h"
@@ -28,8 +26,8 @@ inline double take_snapshot(NodeContext& context, NodeIndex self) {
 }
 
 // A child is held whose progress is not less than `held_from`, but never a guard.
-inline Status tick_each(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
-                        double held_from) {
+inline Status tick_children(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
+                            double held_from) {
   parallel::Tally tally;
   const NodeIndex end = context.end_of(self);
   const double* reached = context.child_states<double>(self).data();
@@ -47,21 +45,6 @@ inline Status tick_each(NodeContext& context, NodeIndex self, const parallel::Co
     tally.add(status);
   }
   return context.faulted() ? Status::Running : parallel::judge(context, self, counts, tally);
-}
-
-inline Status tick_children(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
-                            double held_from) {
-  const Status status = tick_each(context, self, counts, held_from);
-  context.state<SynchronizedState>(self).succeeded = status == Status::Success;
-  return status;
-}
-
-// Measures see this of a node that a script has decided before it began: its children are as far as
-// it is.
-inline void decided(NodeContext& context, NodeIndex self, Status result) {
-  const bool succeeded = result == Status::Success;
-  std::ranges::fill(context.child_states<double>(self), succeeded ? 1.0 : 0.0);
-  context.state<SynchronizedState>(self).succeeded = succeeded;
 }
 
 // The progress of the least progressed child, so that synchronized nodes can be nested.

@@ -78,6 +78,12 @@ bool is_ignore(JsonValue value, std::size_t index) {
   throw JsonError(fmt::format("'idle' of node {} is neither 'wait' nor 'ignore'", index));
 }
 
+bool is_yes(JsonValue value, std::size_t index) {
+  bool yes = false;
+  if (value.get(yes) && yes) return true;
+  throw JsonError(fmt::format("'guard' of node {} is not true", index));
+}
+
 RecordedNode node_from(JsonObject object, std::size_t index) {
   RecordedNode node;
   std::uint64_t place = 0;
@@ -107,7 +113,9 @@ RecordedNode node_from(JsonObject object, std::size_t index) {
                {lines::kHeaderNode["resources"],
                 [&](JsonValue value) { node.resources = resources_from(value, index); }, kMayLack},
                {lines::kHeaderNode["members"],
-                [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack}});
+                [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack},
+               {lines::kHeaderNode["guard"],
+                [&](JsonValue value) { node.is_guard = is_yes(value, index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
   if (is_absolute && is_relative)
     throw JsonError(fmt::format("node {} has both barriers and delta", index));

@@ -26,6 +26,21 @@ std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header) {
   return children;
 }
 
+namespace {
+
+// A pool compares nothing.
+Guards guards_of(const RecordingHeader& header, std::span<const NodeIndex> children, bool is_pool) {
+  if (is_pool) return Guards();
+  std::vector<bool> guards;
+  for (const NodeIndex child : children) guards.push_back(header.nodes[child].is_guard);
+  return Guards(std::move(guards));
+}
+
+// Until law 2, a recording names no children.
+constexpr std::uint64_t kNamesSucceeded = 3;
+
+}  // namespace
+
 RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
                              std::vector<NodeIndex> children)
     : node_(node),
@@ -35,15 +50,17 @@ RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
   const RecordedNode& it = header.nodes[node];
   ignores_idle_ = it.ignores_idle;
   is_pool_ = it.synchronization == Synchronization::Resources;
+  names_succeeded_ = header.law >= kNamesSucceeded;
   for (const NodeIndex child : children_) {
     const RecordedNode& held = header.nodes[child];
     names_.push_back(it.members.empty() ? last_segment(held.path) : held.path);
     if (!it.members.empty()) members_.push_back(held.parent.value_or(0));
   }
   if (!it.members.empty()) names_ = names_of(names_);
+  guards_ = guards_of(header, children_, is_pool_);
   find_around(header);
   last_.resize(children_.size(), Status::Idle);
-  progress_.resize(children_.size());
+  used_.resize(children_.size());
 }
 
 // Nodes are in pre-order, so of two nodes the later one is never above the other.
@@ -71,32 +88,43 @@ bool RecordedProbe::is_in_skipped(std::size_t child, const RecordedTick& tick) c
   });
 }
 
+bool RecordedProbe::asked_children(const RecordedTick& tick) const {
+  if (!tick.nodes[node_].ticked || !members_.empty()) return tick.nodes[node_].ticked;
+  return std::ranges::any_of(children_, [&](NodeIndex child) { return tick.nodes[child].ticked; });
+}
+
+// Whether a child has succeeded, also where an ancestor has ended it since. Of a recording that
+// does not say so, all are taken to have.
+bool RecordedProbe::has_succeeded(NodeIndex child, const RecordedTick& tick) const {
+  if (tick.nodes[child].status == Status::Success) return true;
+  return std::ranges::find(tick.succeeded, names_succeeded_ ? child : node_) !=
+         tick.succeeded.end();
+}
+
 SynchronizedTick RecordedProbe::read(const RecordedTick& tick) {
-  const bool has_been_ended = std::ranges::find(tick.succeeded, node_) != tick.succeeded.end();
-  const bool any_reached =
-      std::ranges::any_of(children_, [&](NodeIndex node) { return tick.nodes[node].ticked; });
+  const bool asked = asked_children(tick);
   for (std::size_t child = 0; child < children_.size(); ++child) {
     const RecordedState& state = tick.nodes[children_[child]];
-    progress_[child] = synchronizes_ ? state.progress : in_plain_parallel(child, state);
-    if (is_left_out(child)) progress_[child] = kLeftOut;
+    used_[child] = synchronizes_ ? state.progress : in_plain_parallel(child, state);
+    if (is_left_out(child)) used_[child] = kLeftOut;
     last_[child] = tick.nodes[(members_.empty() ? children_ : members_)[child]].status;
     if (skips_) skips_->found[child] = is_in_skipped(child, tick);
-    held_.set_succeeded(child, state.status, has_been_ended);
+    held_.set_succeeded(child, has_succeeded(children_[child], tick));
     if (is_pool_) {
       const RecordedState& member = tick.nodes[members_[child]];
       held_.set(child, member.ticked && waits(member.limit));
       continue;
     }
-    const bool asked =
-        members_.empty() ? any_reached || held_.held()[child] : tick.nodes[members_[child]].ticked;
-    held_.set(child, state.status, state.ticked || !asked, state.held && asked);
+    const bool asks = members_.empty() ? asked : tick.nodes[members_[child]].ticked;
+    held_.set(child, state.status, state.ticked || !asks, state.held && asks);
   }
   runs_ = tick.nodes[node_].status == Status::Running;
   return {.time = from_seconds(tick.time),
-          .ticked = tick.nodes[node_].ticked,
-          .status = has_been_ended ? Status::Success : tick.nodes[node_].status,
+          .ticked = asked,
+          .status = tick.nodes[node_].status,
           .limit = tick.nodes[node_].limit,
-          .progress = progress_,
+          .used = used_,
+          .progress = guards_.leave_out(used_),
           .held = held_.held(),
           .succeeded = held_.succeeded()};
 }
@@ -112,7 +140,7 @@ double RecordedProbe::in_plain_parallel(std::size_t child, const RecordedState& 
 // member that did not run, and had not succeeded, when the tick began.
 bool RecordedProbe::is_left_out(std::size_t child) const {
   if (runs_ && last_[child] == Status::Skipped) return true;
-  if (members_.empty() || progress_[child] != 0) return false;
+  if (members_.empty() || used_[child] != 0) return false;
   if (runs_ && skips_->found[child]) return true;
   return ignores_idle_ && (!runs_ || last_[child] == Status::Idle);
 }
@@ -125,8 +153,9 @@ std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
   for (const NodeIndex node : nodes) {
     const std::size_t count = children[node].size();
     const RecordedNode& it = header.nodes[node];
-    measures.push_back({RecordedProbe(header, node, std::move(children[node])),
-                        SynchronizedMeasure(count, it.synchronization, !it.members.empty())});
+    RecordedProbe probe(header, node, std::move(children[node]));
+    SynchronizedMeasure measure(count, probe.guards(), it.synchronization, !it.members.empty());
+    measures.push_back({std::move(probe), std::move(measure)});
   }
   return measures;
 }

@@ -25,10 +25,13 @@ class RecordedProbe {
   const std::vector<NodeIndex>& children() const { return children_; }
   // The end of each child's path.
   const std::vector<std::string>& names() const { return names_; }
+  const Guards& guards() const { return guards_; }
 
  private:
   void find_around(const RecordingHeader& header);
   double in_plain_parallel(std::size_t child, const RecordedState& state) const;
+  bool asked_children(const RecordedTick& tick) const;
+  bool has_succeeded(NodeIndex child, const RecordedTick& tick) const;
   bool is_left_out(std::size_t child) const;
   bool is_in_skipped(std::size_t child, const RecordedTick& tick) const;
 
@@ -44,10 +47,11 @@ class RecordedProbe {
   std::vector<std::string> names_;
   std::vector<NodeIndex> members_;  // of a group: the parents of the children
   std::unique_ptr<Skips> skips_;
-  std::vector<double> progress_;
+  std::vector<double> used_;
+  Guards guards_;
   HeldChildren held_;
   bool synchronizes_;
-  bool ignores_idle_ = false, is_pool_ = false;
+  bool ignores_idle_ = false, is_pool_ = false, names_succeeded_ = false;
   std::vector<Status> last_;  // of each child, or member, after the last tick
   bool runs_ = false;         // after the last tick
 };

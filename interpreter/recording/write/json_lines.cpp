@@ -35,6 +35,7 @@ Json json_of(const RecordedNode& node, std::size_t index) {
   if (!node.resources.empty()) json[lines::kHeaderNode["resources"]] = node.resources;
   if (!node.members.empty()) json[lines::kHeaderNode["members"]] = node.members;
   if (node.ignores_idle) json[lines::kHeaderNode["idle"]] = "ignore";
+  if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
   return json;
 }
 

@@ -91,8 +91,6 @@ TEST_CASE("the longest step is of a child's own progress") {
 TEST_CASE("in a plain Parallel, too, a child that has failed for good counts as 1") {
   CHECK(measured("spread", "Parallel[failure_count=2 success_count=1](a b)", "a=F b=R.25R.5S") ==
         Approx(.75));
-  CHECK(measured("spread", "Parallel[failure_count=2 success_count=1](c? b)", "c=F... b=R.5R.5S") ==
-        Approx(.5));
 }
 
 TEST_CASE("a child is held by the first one with the least progress") {
@@ -248,11 +246,28 @@ TEST_CASE("the progress distance of a plain Parallel") {
   CHECK(measured("step-length", "Parallel(a b)", leaves) == Approx(.5));
 }
 
+TEST_CASE("a measure may be of one parallel or barrier") {
+  constexpr auto kTree = "Sequence[memory=true](ParallelRelative[delta=1](a b) Parallel(c d))";
+  constexpr auto kLeaves = "a+.1 b+.2 c+.25 d+.5";
+  CHECK(measured("spread:ParallelRelative", kTree, kLeaves) == Approx(.5));
+  CHECK(measured("spread:Sequence/Parallel", kTree, kLeaves) == Approx(.5));
+  CHECK(measured("progress-distance:ParallelRelative", kTree, kLeaves) ==
+        measured("progress-distance", kTree, kLeaves));
+  CHECK(measured("progress-distance[0:1]:Sequence/Parallel", kTree, kLeaves) == Approx(.25));
+  CHECK(measured("step-length:Sequence/Parallel", kTree, kLeaves) == Approx(.5));
+  CHECK(measured("progress-distance-mean:Sequence/Parallel", kTree, kLeaves) == Approx(.25));
+  CHECK(measured("progress-distance-seconds:Sequence/Parallel", kTree, kLeaves) == Approx(.1));
+  CHECK(error_of("spread:three", kTree, kLeaves).starts_with("no parallel or barrier 'three'"));
+  CHECK(error_of("spread:a", kTree, kLeaves).starts_with("no parallel or barrier 'a'"));
+  CHECK(error_of("spread:", kTree, kLeaves) == "expected 'spread[:PATH]'");
+}
+
 TEST_CASE("a measure is written as it is read") {
   for (const char* text :
-       {"progress-distance", "progress-distance[0:99]", "held:pull/arm", "held-by:a:pull/arm",
-        "held-by:\"a:b\":c", "held-by:a:\":\"\"\"", "waits:left/arm", "fairness:p", "entry:lap:2",
-        "predictability:a@b@0.5", "predictability:a=1@0.5=10"}) {
+       {"progress-distance", "progress-distance[0:99]", "progress-distance[0:9]:pull/both",
+        "progress-distance:both", "spread:both", "step-length:[1:2]", "held:pull/arm",
+        "held-by:a:pull/arm", "held-by:\"a:b\":c", "held-by:a:\":\"\"\"", "waits:left/arm",
+        "fairness:p", "entry:lap:2", "predictability:a@b@0.5", "predictability:a=1@0.5=10"}) {
     const auto spec = parse_measure(text);
     INFO(text);
     REQUIRE(spec);

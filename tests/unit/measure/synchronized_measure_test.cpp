@@ -17,7 +17,8 @@ struct Measured {
   Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0)
       : run(tree, leaves),
         probe(run.tree(), synchronized_nodes(run.tree()).at(place)),
-        measure(probe.children().size(), synchronization(run.tree().nodes[probe.node()]),
+        measure(probe.children().size(), probe.guards(),
+                synchronization(run.tree().nodes[probe.node()]),
                 run.tree().is_group(probe.node())) {
     Nanoseconds now{0};
     for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
@@ -145,6 +146,74 @@ TEST_CASE("a new activation is measured on, without a step back to zero") {
   const Measured measured("Repeat[times=2](ParallelRelative[delta=1](a b))", "a+.1 b+.2");
   CHECK(measured.ticks == 20);
   CHECK(measured.measure.step_length() == Approx(0.2));
+}
+
+struct Guarded {
+  const char *law, *tree, *without;  // a guard, and the same node without it
+};
+
+TEST_CASE("a guard is part of no measure") {
+  constexpr const char* kLeaves = "a+.01 b+.02 g=S";
+  constexpr Guarded kRows[] = {
+      {"relative", "ParallelRelative[delta=.05](g? a b)", "ParallelRelative[delta=.05](a b)"},
+      {"absolute, and the guard last", "ParallelAbsolute[barriers=.5](a b g?)",
+       "ParallelAbsolute[barriers=.5](a b)"},
+      {"below decorators and control nodes",
+       "ParallelRelative[delta=.05](Inverter(Fallback(Inverter(g?))) a b)",
+       "ParallelRelative[delta=.05](a b)"},
+      {"in a member of a barrier",
+       "Parallel(SyncProgress[barrier=lift](g?) SyncProgress[barrier=lift](a) "
+       "SyncProgress[barrier=lift](b)) barrier[name=lift delta=.05]",
+       "Parallel(SyncProgress[barrier=lift](a) SyncProgress[barrier=lift](b)) "
+       "barrier[name=lift delta=.05]"},
+  };
+  for (const Guarded& row : kRows) {
+    INFO(row.law);
+    const Measured with(row.tree, kLeaves), without(row.without, "a+.01 b+.02");
+    CHECK(with.measure.distance().samples() == without.measure.distance().samples());
+    CHECK(with.measure.distance().sum() == Approx(without.measure.distance().sum()));
+    CHECK(with.measure.largest_spread() == without.measure.largest_spread());
+    CHECK(with.measure.step_length() == without.measure.step_length());
+    CHECK(with.measure.bound() == without.measure.bound());
+    CHECK(with.measure.largest_spread() > 0);
+  }
+}
+
+TEST_CASE("a guard that is skipped or fails leaves the bound of the spread as it is") {
+  for (const char* guard : {"g=SK", "g=SFS"}) {
+    const Measured measured("ParallelRelative[delta=.05 failure_count=2](g? a b)",
+                            std::string("a+.01 b+.02 ") + guard);
+    REQUIRE(measured.measure.bound());
+    CHECK(*measured.measure.bound() == Approx(.07));
+  }
+}
+
+TEST_CASE("a tick in which a script of the node decides is no tick of its measures") {
+  // `while` halts it in tick 1 and skips it then; the Script ends with tick 0.
+  const Measured halted(
+      "Sequence[memory=true](Script[code=k:=0] Parallel[success_count=2]("
+      "ParallelRelative[delta=1 while=k<1](a b) Script[code=k:=k+1] w))",
+      "a+.2 b+.1 w=RRRRS");
+  CHECK(halted.ticks == 6);
+  CHECK(halted.measure.distance().samples() == 1);
+  CHECK(halted.measure.largest_spread() == 0);
+  const Measured decided("Repeat[times=3](ParallelAbsolute[barriers=.5 success_if=true](a b))",
+                         "a+.2 b+.1");
+  CHECK(decided.measure.distance().samples() == 0);
+}
+
+TEST_CASE("a child that succeeds while an ancestor ends its node has its last step") {
+  for (const char* node : {"ParallelRelative[delta=1]", "ParallelAbsolute[barrier_count=0]"}) {
+    const Measured measured("Parallel(" + std::string(node) + "(a b) c)", "a+.1,.9 b+.1 c=RF");
+    CHECK(measured.ticks == 2);
+    CHECK(measured.measure.step_length() == Approx(.9));
+  }
+  // The other one keeps what it reported.
+  const Measured early(
+      "Parallel(Sequence[memory=true](ParallelRelative[delta=1 success_count=1](a "
+      "b) w) c)",
+      "a+.1,.9 b+.1 w=R c=RF");
+  CHECK(early.measure.step_length() == Approx(.9));
 }
 
 }  // namespace

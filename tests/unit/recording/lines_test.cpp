@@ -224,7 +224,7 @@ std::string sample_header(std::uint64_t first_tick) {
   RecordedNode& inner = add("q", 0);
   inner.synchronization = Synchronization::Relative;
   inner.delta = 0.25;
-  add("a", 1);
+  add("a", 1).is_guard = true;
   RecordedNode& group = add("g", std::nullopt);
   group.synchronization = Synchronization::Absolute;
   group.barriers = {0.5};

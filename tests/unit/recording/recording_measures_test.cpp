@@ -39,6 +39,12 @@ constexpr Case kCases[] = {
     {"a node that succeeds and that an ancestor ends in the same tick",
      "Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
      "a+.5 b+.3,.7 w=R c=RF"},
+    {"a child that succeeds in the tick in which an ancestor ends its node",
+     "Parallel(ParallelRelative[delta=1](a b) Parallel(d e) c)", "a+.1,.9 b+.1 c=RF d+.2,.8 e=R"},
+    {"a node that a script decides, and that one halts",
+     "Sequence[memory=true](Script[code=k:=0] Parallel[success_count=2](ParallelRelative[delta=1 "
+     "while=k<1](a b) Script[code=k:=k+1] w))",
+     "a+.2 b+.1 w=RRRRS"},
     {"a node that is held, and a plain parallel beside it",
      "Sequence[memory=true](ParallelAbsolute[barriers=.5;1](a b) Parallel(c d))",
      "a+.1 b+.3 c+.5 d+.2"},
@@ -47,6 +53,25 @@ constexpr Case kCases[] = {
     {"the same in a plain parallel",
      "Sequence[memory=true](ParallelAbsolute[barriers=.5](a b) Repeat[times=2](Parallel(d c)))",
      "a+.2 b+.5 c=KKR.3KR.8SKKS d+.2"},
+};
+
+// The same numbers as without the guard, which the first case of each pair has.
+constexpr Case kGuarded[] = {
+    {"a guard in a synchronized node", "ParallelRelative[delta=.05](a g? b)", "a+.01 b+.02 g=S"},
+    {"without it", "ParallelRelative[delta=.05](a b)", "a+.01 b+.02"},
+    {"a guard that is an Inverter, in a plain parallel", "Parallel(a b Inverter(g?))",
+     "a+.01 b+.02 g=F"},
+    {"without it", "Parallel(a b)", "a+.01 b+.02"},
+    {"a guard in a member of a barrier",
+     "Parallel(SyncProgress[barrier=m](g?) SyncProgress[barrier=m](a) SyncProgress[barrier=m](b))"
+     " barrier[name=m barriers=.5]",
+     "a+.01 b+.02 g=S"},
+    {"without it",
+     "Parallel(SyncProgress[barrier=m](a) SyncProgress[barrier=m](b)) barrier[name=m barriers=.5]",
+     "a+.01 b+.02"},
+    {"a child that succeeds while an ancestor ends its node",
+     "Sequence(ParallelRelative[delta=1](a b g?))", "a+.1 b+.2 g=S"},
+    {"without it", "Sequence(ParallelRelative[delta=1](a b))", "a+.1 b+.2"},
 };
 
 constexpr Case kPools[] = {
@@ -117,6 +142,21 @@ TEST_CASE("a recording has the measures of its run") {
   for (const auto& [measure, numbers] : of_measure) {
     INFO(measure);
     CHECK(different.insert(numbers).second);
+  }
+}
+
+TEST_CASE("a recording names its guards, which are part of no measure") {
+  const auto measures = measures_of({"progress-distance", "progress-distance-mean", "spread",
+                                     "step-length", "held:b", "pauses:a"});
+  for (std::size_t i = 0; i + 1 < std::size(kGuarded); i += 2) {
+    const bool is_plain = std::string_view(kGuarded[i].tree).find("Parallel(a") == 0;
+    const auto asked = std::span(measures).first(is_plain ? 4 : measures.size());
+    ValuesOfMeasures with, without;
+    compare(kGuarded[i], asked, with);
+    compare(kGuarded[i + 1], asked, without);
+    INFO(kGuarded[i].law);
+    CHECK(with == without);
+    CHECK(with.at("spread").at(0) > 0);
   }
 }
 
@@ -204,11 +244,12 @@ TEST_CASE("a recording that is cut does not say whether the run succeeded") {
 
 TEST_CASE("a recording tells of a node that has succeeded and was ended in the same tick") {
   const TemporaryPath file;
-  WatchedRun run(kCases[4].tree, kCases[4].leaves);
+  WatchedRun run("Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
+                 "a+.5 b+.3,.7 w=R c=RF");
   Recorder recorder(run.run.tree(),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   run.watch({&recorder});
-  CHECK(file.text().find("],\"succeeded\":[2]}\n{\"end\"") != std::string::npos);
+  CHECK(file.text().find("],\"succeeded\":[2,3,4]}\n{\"end\"") != std::string::npos);
 }
 
 }  // namespace lockstep::host

@@ -24,6 +24,7 @@ export interface Header {
   clock: "wall" | "virtual";
   seed: number;
   arguments: Record<string, string>;
+  values?: Record<string, string>;
   nodes: HeaderNode[];
   entries?: HeaderEntry[];
   first_tick?: number;
@@ -69,6 +70,7 @@ export interface HeaderNode {
   idle?: "ignore" | "wait";
   resources?: string[];
   members?: number[];
+  guard?: boolean;
 }
 
 export interface HeaderEntry {
