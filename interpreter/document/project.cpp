@@ -234,4 +234,10 @@ std::unique_ptr<Project> load_project_text(const std::string& path, std::string 
   return Loader(arguments, packages, unsaved, diagnostics).load(path, std::move(text));
 }
 
+Arguments values_of(const std::vector<DeclaredArgument>& arguments) {
+  Arguments values;
+  for (const DeclaredArgument& it : arguments) values[it.name] = it.value;
+  return values;
+}
+
 }  // namespace lockstep::host

@@ -22,6 +22,8 @@ struct DeclaredArgument {
   std::string doc;
   std::string value;  // in force
 };
+// Those in force, by name.
+Arguments values_of(const std::vector<DeclaredArgument>& arguments);
 
 struct Project {
   const LanguageRules* rules = &kLockstepRules;  // of the main file, and so of all

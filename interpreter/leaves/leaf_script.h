@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/clock.h"
 #include "core/problem.h"
 #include "core/status.h"
 
@@ -37,6 +38,8 @@ struct LeafScripts {
   // The leaves that begin with their first word again in each activation. The text has no word for
   // it: scenarios do.
   std::set<std::string, std::less<>> restarting = {};
+  // The leaves that run for this time and then do what their only word says; likewise.
+  std::map<std::string, Nanoseconds, std::less<>> times = {};
 };
 
 // A text that begins with '<' is a leaf file (leaves/leaf_file.h), any other is scripts.

@@ -38,7 +38,7 @@ RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& f
       entries_(slots_) {
   const std::size_t repeating = repeating_nodes(tree).size();
   line_end_.reserve(format_.most_of_tick_end(
-      synchronized_nodes(tree).size() + tree.members.size() + repeating, 2 * slots_.size()));
+      delta_.most_succeeded() + tree.members.size() + repeating, 2 * slots_.size()));
 }
 
 std::string RunPackets::header(const RunStart& start) const {
@@ -50,6 +50,7 @@ std::string RunPackets::header(const RunStart& start) const {
                          .clock = start.real_time ? "wall" : "virtual",
                          .seed = run_.seed,
                          .arguments = run_.arguments,
+                         .values = run_.values,
                          .nodes = describe(tree_),
                          .entries = keys(),
                          .verify = run_.verify});

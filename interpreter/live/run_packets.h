@@ -22,8 +22,9 @@ struct RunDescription {
   double rate_hz = 0;
   std::uint64_t seed = 0;
   std::map<std::string, std::string, std::less<>> arguments = {};
-  std::optional<std::vector<std::string>> entries = {};  // of these keys; none: all
-  std::string verify = {};                               // what it shows, of a run of verify
+  std::map<std::string, std::string, std::less<>> values = {};  // that entries start with
+  std::optional<std::vector<std::string>> entries = {};         // of these keys; none: all
+  std::string verify = {};                                      // what it shows, of a run of verify
 };
 
 class RunPackets {

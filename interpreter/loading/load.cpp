@@ -39,7 +39,7 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
   auto meaning = meaning_of(project.get(), loaded, options, diagnostics);
   if (!meaning) return tl::unexpected(meaning.error());
   return Loaded{std::move(loaded.plugins), std::move(project), std::move(meaning->definition),
-                std::move(meaning->properties)};
+                std::move(meaning->properties), options.values};
 }
 
 }  // namespace
@@ -102,7 +102,8 @@ tl::expected<Meaning, LoadFailure> meaning_of(const Project* project, const Load
 
 Runnable make_runnable(Loaded loaded) {
   Runnable runnable{std::move(loaded.plugins), std::move(loaded.project->arguments),
-                    compile(loaded.definition), std::move(loaded.properties)};
+                    compile(loaded.definition), std::move(loaded.properties),
+                    std::move(loaded.values)};
   loaded.definition = {};
   loaded.project.reset();
   return runnable;

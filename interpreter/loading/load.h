@@ -42,6 +42,7 @@ struct Loaded {
   std::unique_ptr<Project> project;
   Definition definition;
   std::vector<Property> properties = {};  // of the main file
+  StartValues values = {};                // that the options gave
 };
 
 // Why loading failed; the errors have the details.
@@ -89,6 +90,7 @@ struct Runnable {
   std::vector<DeclaredArgument> arguments;
   Tree tree;
   std::vector<Property> properties;
+  StartValues values;  // that the options gave
 };
 
 [[nodiscard]] Runnable make_runnable(Loaded loaded);

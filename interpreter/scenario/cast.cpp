@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 
@@ -33,14 +32,9 @@ bool fits(const std::string& of, const std::string& path, const Tree& tree, cons
 
 class CastMaker {
  public:
-  CastMaker(const Scenario& scenario, double rate, const Tree& tree, const Definition& given,
+  CastMaker(const Scenario& scenario, const Tree& tree, const Definition& given,
             MissingLeaves missing, const Reporter& report)
-      : scenario_(scenario),
-        rate_(rate),
-        tree_(tree),
-        given_(given),
-        missing_(missing),
-        report_(report) {}
+      : scenario_(scenario), tree_(tree), given_(given), missing_(missing), report_(report) {}
 
   Cast make(bool has_models) {
     std::vector<const CastRow*> rows(tree_.leaves.size());
@@ -92,20 +86,22 @@ class CastMaker {
     if (words.empty()) return;
     check(row, leaf, path, words);
     if (row.restarts) cast_.scripts.restarting.insert(path);
+    if (row.seconds && !answers_at_once(row, *leaf.type)) {
+      cast_.scripts.times[path] = from_seconds(*row.seconds);
+    }
     cast_.scripts.leaves[path] = std::move(words);
   }
 
   std::vector<LeafWord> words_for(const CastRow& row, const NodeType& type) const {
     CastRow made = row;
-    if (row.seconds) {
-      const double ticks = std::min(std::max(std::ceil(*row.seconds * rate_ - 1e-9), 1.0), 1e6);
-      add_even_words(made, static_cast<std::uint64_t>(ticks));
-    }
-    // Whatever the time that the row gives to actions, a condition answers at once.
-    if (row.has_result && is_condition(type) && !type.can_run) {
-      made.words.erase(made.words.begin(), made.words.end() - 1);
-    }
+    if (row.seconds) add_even_words(made, 1);  // LeafScripts::times has the time until it
+    if (answers_at_once(row, type)) made.words.erase(made.words.begin(), made.words.end() - 1);
     return std::move(made.words);
+  }
+
+  // Whatever the time that the row gives to actions, a condition answers at once.
+  static bool answers_at_once(const CastRow& row, const NodeType& type) {
+    return row.has_result && is_condition(type) && !type.can_run;
   }
 
   std::vector<LeafWord> words_of_recording(const CastRow& row, const LeafNode& leaf) {
@@ -142,7 +138,6 @@ class CastMaker {
   }
 
   const Scenario& scenario_;
-  const double rate_;
   const Tree& tree_;
   const Definition& given_;
   const MissingLeaves missing_;
@@ -176,9 +171,9 @@ Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string&
           suggest(path.empty() ? of : path, known, "its leaves")};
 }
 
-Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, const Definition& given,
-               bool has_models, MissingLeaves missing, const Reporter& report) {
-  return CastMaker(scenario, rate, tree, given, missing, report).make(has_models);
+Cast make_cast(const Scenario& scenario, const Tree& tree, const Definition& given, bool has_models,
+               MissingLeaves missing, const Reporter& report) {
+  return CastMaker(scenario, tree, given, missing, report).make(has_models);
 }
 
 }  // namespace lockstep::host

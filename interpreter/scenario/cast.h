@@ -30,7 +30,7 @@ enum class MissingLeaves : bool { AreErrors, AreLeftOut };
 
 // `given` are the nodes before the stage has taken them over.
 // `has_models`: leaves without a row get no script. Reports errors at their places.
-Cast make_cast(const Scenario& scenario, double rate, const Tree& tree, const Definition& given,
-               bool has_models, MissingLeaves missing, const Reporter& report);
+Cast make_cast(const Scenario& scenario, const Tree& tree, const Definition& given, bool has_models,
+               MissingLeaves missing, const Reporter& report);
 
 }  // namespace lockstep::host

@@ -1,5 +1,7 @@
 #include "scenario/expectation_reader.h"
 
+#include <set>
+
 #include "leaves/word_check.h"
 #include "scenario/scenario_words.h"
 
@@ -9,22 +11,25 @@ void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
   const Place place = document_.elements()[element].place;
   std::optional<Expectation> expect;
   double tolerance = 0;
-  bool says_two = false;
+  std::set<Expectation::Kind> kinds;
   for (const Attribute& it : document_.attributes(element)) {
     if (it.name == "tolerance") {
       tolerance = cast_.number(it, 0, 1);
       continue;
     }
     if (!expect) expect = Expectation{.place = it.place};
-    const auto before =
-        expect->place.byte == it.place.byte ? std::nullopt : std::optional(expect->kind);
     expect->kind = read(it, *expect);
-    says_two |= before && *before != expect->kind;
+    kinds.insert(expect->kind);
   }
-  if (!expect || says_two) {
+  if (kinds == std::set{Expectation::Kind::Text, Expectation::Kind::Inputs} &&
+      expect->inputs.empty() && expect->of.empty()) {
+    expect->kind = Expectation::Kind::Text;  // the path is that of a measure
+    kinds.erase(Expectation::Kind::Inputs);
+  }
+  if (kinds.size() != 1) {
     report_.at(place, expect ? "an expectation says one thing" : "the expectation says nothing",
-               "write result (with ticks, time), order, same-as, a property as text, or path with "
-               "in.PORT");
+               "write result (with ticks, time), order, same-as, a property or a measure as text, "
+               "or path with in.PORT");
     return;
   }
   if (expect->kind == Expectation::Kind::Inputs &&

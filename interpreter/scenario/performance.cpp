@@ -35,7 +35,8 @@ RecorderOptions recorder_options(const Rehearsal& rehearsal, const Stage& stage,
                                  const PerformOptions& options) {
   RunDescription run{
       .tree_file = rehearsal.scenario->tree, .rate_hz = rehearsal.rate, .seed = options.seed};
-  for (const DeclaredArgument& it : stage.arguments()) run.arguments[it.name] = it.value;
+  run.arguments = values_of(stage.arguments());
+  run.values = Stage::start_values(*rehearsal.scenario);
   return {.path = options.record, .run = std::move(run)};
 }
 

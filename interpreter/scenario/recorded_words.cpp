@@ -47,7 +47,9 @@ class WordMaker {
     for (Leaf& it : leaves_) add(tick, it);
     for (const RecordedEntry& entry : tick.entries) {
       if (!entry.value || is_of_tree(tick, entry.entry)) continue;
-      words_.changes.push_back({header_.entries[entry.entry].key, *entry.value, tick.tick});
+      const std::string& key = header_.entries[entry.entry].key;
+      if (tick.tick == 0 && header_.values.contains(key)) continue;
+      words_.changes.push_back({key, *entry.value, tick.tick});
     }
   }
 
@@ -154,6 +156,7 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
     }
     words.tree_file = header.file;
     words.arguments = header.arguments;
+    for (const auto& [key, value] : header.values) words.changes.push_back({key, value, 0});
     words.rate = header.rate_hz > 0 ? std::optional(header.rate_hz) : std::nullopt;
     WordMaker maker(header, tree, words);
     std::uint64_t ticks = 0;

@@ -76,8 +76,8 @@ class Rehearser {
     rehearsal_.scenario = &scenario_;
     rehearsal_.rate = scenario_.rate;
     if (file != nullptr && file->rate && !scenario_.is_rate_given) rehearsal_.rate = *file->rate;
-    rehearsal_.cast = make_cast(scenario_, rehearsal_.rate, tree_, stage_.definition(),
-                                file != nullptr, missing_, report_);
+    rehearsal_.cast =
+        make_cast(scenario_, tree_, stage_.definition(), file != nullptr, missing_, report_);
     if (file != nullptr) add_models(*file);
     for (const SetEntry& it : scenario_.changes) add_change(it);
     for (const Expectation& it : scenario_.expectations) add_expectation(it);
@@ -128,8 +128,11 @@ class Rehearser {
     if (it.kind == Kind::Text) {
       if (const auto limit = split_limit(trimmed(it.texts[0]))) {
         add_limit(it, *limit);
-      } else {
+      } else if (it.path.empty()) {
         add_property(it, it.texts[0]);
+      } else {
+        report_.at_value(it.place, "'path' names the node of a measure, not of a property",
+                         "write path=\"both\" with a measure such as spread &lt; 0.1");
       }
     }
     if (it.kind == Kind::Order) add_order(it);
@@ -162,7 +165,8 @@ class Rehearser {
   }
 
   void add_limit(const Expectation& it, const LimitText& text) {
-    auto measure = parse_measure(text.measure);
+    auto measure = parse_measure(it.path.empty() ? std::string(text.measure)
+                                                 : fmt::format("{}:{}", text.measure, it.path));
     const auto relation = relation_of(text.relation);
     const auto number = parse_double(text.number);
     if (!measure) {

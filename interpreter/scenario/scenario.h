@@ -44,7 +44,7 @@ struct CastRow {
   Place place = {};      // of that attribute
   Place source = {};     // of what it does
   std::vector<LeafWord> words = {};
-  std::optional<double> seconds = {};  // the time of a result, of which they are made for a rate
+  std::optional<double> seconds = {};  // the time until a result
   std::vector<std::pair<std::string, std::string>> written = {};
   std::string recording = {};
   From from = From::Words;
@@ -72,7 +72,7 @@ struct Expectation {
   // Order: what comes true; SameAs: the recording; Text: a property or a measure with its limit
   std::vector<std::string> texts = {};
   double tolerance = 0;
-  // Inputs: of the leaves of a type, or with a path
+  // Inputs: of the leaves of a type, or with a path. Text: `path` is the node that is measured
   std::string of = {}, path = {};
   std::vector<NamedText> inputs = {};
   bool is_for_all = false;  // it is one of the file's, for all scenarios

@@ -24,12 +24,21 @@ Stage::Key Stage::key_of(const Scenario& scenario) {
   return key;
 }
 
+StartValues Stage::start_values(const Scenario& scenario) {
+  StartValues values;
+  for (const SetEntry& it : scenario.changes) {
+    if (it.time.value_or(static_cast<double>(it.tick)) == 0) values[it.key] = it.value;
+  }
+  return values;
+}
+
 std::shared_ptr<const Stage> Stage::load(const Key& key, const std::string* text,
                                          const LoadOptions& options, Diagnostics& diagnostics,
                                          const std::shared_ptr<PluginSet>& plugins,
                                          LoadFailure& failure) {
   LoadOptions load = options;
   load.arguments = key.arguments;
+  load.values = key.values;
   load.main_tree = key.main;
   load.main_file = MainFile::IsRegular;
   load.unknown = MissingNodes::AreMocked;

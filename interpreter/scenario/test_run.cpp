@@ -77,8 +77,8 @@ void TestRun::prepare(Part& part) {
   if (!part.scenario->leaves.empty()) load_leaves(part);
 }
 
-void TestRun::load_stage(Part& part) {
-  const auto [it, is_new] = stages_.try_emplace(Stage::key_of(*part.scenario));
+TestRun::LoadedStage& TestRun::stage(const Stage::Key& key) {
+  const auto [it, is_new] = stages_.try_emplace(key);
   LoadedStage& loaded = it->second;
   if (is_new) {
     Diagnostics diagnostics;
@@ -91,6 +91,19 @@ void TestRun::load_stage(Part& part) {
       if (loaded.errors.empty()) loaded.errors.push_back({.message = "the tree cannot be loaded"});
     }
   }
+  return loaded;
+}
+
+// Start values declare entries, as `--set` does. Most trees need none, so that scenarios with
+// different values share a stage.
+void TestRun::load_stage(Part& part) {
+  Stage::Key key = Stage::key_of(*part.scenario);
+  const LoadedStage* found = &stage(key);
+  if (found->stage == nullptr) {
+    key.values = Stage::start_values(*part.scenario);
+    found = &stage(key);
+  }
+  const LoadedStage& loaded = *found;
   part.stage = loaded.stage;
   part.errors = loaded.errors;
   part.failure = loaded.failure;

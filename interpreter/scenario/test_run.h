@@ -73,18 +73,20 @@ class TestRun {
     std::string stem = {};  // of the names of its files
   };
 
+  struct LoadedStage {
+    std::shared_ptr<const Stage> stage;
+    std::vector<Diagnostic> errors;
+    LoadFailure failure = LoadFailure::Invalid;
+  };
+
   void prepare(Part& part);
+  LoadedStage& stage(const Stage::Key& key);
   void load_stage(Part& part);
   void load_leaves(Part& part);
 
   const TestOptions options_;
   Diagnostics diagnostics_;
   std::shared_ptr<PluginSet> plugins_ = std::make_shared<PluginSet>();
-  struct LoadedStage {
-    std::shared_ptr<const Stage> stage;
-    std::vector<Diagnostic> errors;
-    LoadFailure failure = LoadFailure::Invalid;
-  };
   struct LoadedLeaves {
     std::unique_ptr<LeafFile> file;
     std::vector<Diagnostic> errors;

@@ -85,6 +85,7 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
                            .run = {.tree_file = options.tree_file,
                                    .rate_hz = options.rate,
                                    .arguments = options.arguments,
+                                   .values = options.values,
                                    .verify = heading(finding)}});
   if (!recorder.error().empty()) return recorder.error();
   VirtualClock clock;

@@ -20,7 +20,7 @@ struct CounterExampleOptions {
   std::string stem;  // of the names of both files
   std::string tree_file;
   double rate = 10;
-  std::map<std::string, std::string, std::less<>> arguments = {};
+  std::map<std::string, std::string, std::less<>> arguments = {}, values = {};
 };
 
 // `played` are the leaves of the tree. The recording is that of a run from its beginning, without

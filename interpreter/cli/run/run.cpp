@@ -110,7 +110,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                           log(tree_.path(node), text);
                           view_.print("warning: " + text);
                         }),
-        description_(describe_run(runnable.arguments)),
+        description_(describe_run(runnable)),
         watchers_(tree_, options, description_, std::move(sockets),
                   [this](const std::string& line) { view_.print(line); }) {
     if (!options.record.empty()) {
@@ -223,10 +223,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     };
   }
 
-  RunDescription describe_run(std::span<const DeclaredArgument> arguments) const {
+  RunDescription describe_run(const Runnable& runnable) const {
     RunDescription run{.tree_file = options_.tree, .rate_hz = options_.rate, .seed = options_.seed};
-    for (const DeclaredArgument& argument : arguments)
-      run.arguments[argument.name] = argument.value;
+    run.arguments = values_of(runnable.arguments);
+    run.values = runnable.values;
     run.entries = recorded_keys(options_);
     return run;
   }

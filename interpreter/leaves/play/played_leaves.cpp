@@ -20,27 +20,39 @@ using Kind = LeafWord::Kind;
 // Its words in order; what it does behind the last one is what that says.
 class PlayedLeaf final : public RemoteLeaf {
  public:
-  // Null: it has no words.
+  // Null: it has no words. Zero: the first word is due at once.
   PlayedLeaf(const lockstep_caller& caller, const std::vector<LeafWord>* words, bool restarts,
-             PlayedLeafWatch* watch)
-      : RemoteLeaf(caller), words_(words), restarts_(restarts), watch_(watch) {}
+             Nanoseconds time, PlayedLeafWatch* watch)
+      : RemoteLeaf(caller), words_(words), restarts_(restarts), time_(time), watch_(watch) {}
 
   void start() override {
     if (watch_ != nullptr) watch_->begins(caller_);
     progress_ = 0;
     is_first_ = true;
+    began_ = caller_.time->now;
     if (restarts_) at_ = 0;
     // A value that it writes at its start is there before other nodes look.
-    if (const LeafWord* word = current()) write(*word);
+    const LeafWord* const word = current();
+    if (word != nullptr && time_.count() == 0) write(*word);
   }
 
   lockstep_status tick() override {
     const LeafWord* const word = current();
     if (word == nullptr) return is_condition() ? LOCKSTEP_FAILURE : LOCKSTEP_RUNNING;
-    if (!std::exchange(is_first_, false)) write(*word);
+    if (time_.count() > 0) {
+      if (passed() < time_) return LOCKSTEP_RUNNING;
+      write(*word);
+    } else if (!std::exchange(is_first_, false)) {
+      write(*word);
+    }
     if (at_ + 1 < words_->size()) ++at_;
     if (word->kind == Kind::Fault) {
       fail("fails as a program, which the leaf file allows");
+      return LOCKSTEP_FAILURE;
+    }
+    if (word->kind == Kind::Held) {
+      fail(fmt::format("gets a tick, but its next word is {}: a tick that is withheld",
+                       to_text(*word)));
       return LOCKSTEP_FAILURE;
     }
     progress_ = word->progress;
@@ -52,15 +64,17 @@ class PlayedLeaf final : public RemoteLeaf {
   }
   void pause() override {
     is_held_ = true;
-    held_at_ = tick_number();
+    held_since_ = caller_.time->now;
   }
   void resume() override {
     progress_ = progress();
     pass_held_words();
+    began_ += caller_.time->now - held_since_;
     is_held_ = false;
   }
   // While it is held it may drift, by a word in each tick.
   double progress() override {
+    if (time_.count() > 0) return std::min(1.0, to_seconds(passed()) / to_seconds(time_));
     const std::size_t count = is_held_ ? held_words() : 0;
     return count == 0 ? progress_ : (*words_)[at_ + count - 1].progress;
   }
@@ -74,17 +88,16 @@ class PlayedLeaf final : public RemoteLeaf {
     return words_ == nullptr || words_->empty() ? nullptr : &(*words_)[at_];
   }
 
-  std::int64_t tick_number() const {
-    return std::llround(to_seconds(caller_.time->now) / to_seconds(caller_.time->period));
-  }
+  // Since it began, without what it was held.
+  Nanoseconds passed() const { return (is_held_ ? held_since_ : caller_.time->now) - began_; }
 
   // So many of the words for held ticks have come.
   std::size_t held_words() const {
     if (words_ == nullptr) return 0;
-    const auto passed =
-        static_cast<std::size_t>(std::max<std::int64_t>(0, tick_number() - held_at_));
+    const Nanoseconds held = caller_.time->now - held_since_;
+    const auto ticks = std::llround(to_seconds(held) / to_seconds(caller_.time->period));
     std::size_t count = 0;
-    while (count < passed && at_ + count < words_->size() &&
+    while (static_cast<std::int64_t>(count) < ticks && at_ + count < words_->size() &&
            (*words_)[at_ + count].kind == Kind::Held) {
       ++count;
     }
@@ -107,12 +120,13 @@ class PlayedLeaf final : public RemoteLeaf {
 
   const std::vector<LeafWord>* const words_;
   const bool restarts_;  // with its first word, in each activation
+  const Nanoseconds time_;
   PlayedLeafWatch* const watch_;
   std::size_t at_ = 0;  // the next word
   double progress_ = 0;
   bool is_first_ = false;  // the next tick is the first of the activation
   bool is_held_ = false;
-  std::int64_t held_at_ = 0;
+  Nanoseconds began_{0}, held_since_{0};
 };
 
 // Null: it has no script.
@@ -120,8 +134,10 @@ std::unique_ptr<PlayedLeaf> find_script(const LeafScripts& scripts, const lockst
                                         PlayedLeafWatch* watch) {
   const auto words = scripts.leaves.find(caller.run->tree->path(caller.node));
   if (words == scripts.leaves.end()) return nullptr;
-  return std::make_unique<PlayedLeaf>(caller, &words->second,
-                                      scripts.restarting.contains(words->first), watch);
+  const auto time = scripts.times.find(words->first);
+  return std::make_unique<PlayedLeaf>(
+      caller, &words->second, scripts.restarting.contains(words->first),
+      time == scripts.times.end() ? Nanoseconds(0) : time->second, watch);
 }
 
 class PlayedRun final : public RemoteRun {
@@ -131,8 +147,9 @@ class PlayedRun final : public RemoteRun {
 
   std::unique_ptr<RemoteLeaf> create(const lockstep_caller& caller) override {
     auto leaf = find_script(scripts_, caller, watch_);
-    return leaf != nullptr ? std::move(leaf)
-                           : std::make_unique<PlayedLeaf>(caller, nullptr, false, watch_);
+    return leaf != nullptr
+               ? std::move(leaf)
+               : std::make_unique<PlayedLeaf>(caller, nullptr, false, Nanoseconds(0), watch_);
   }
 
  private:

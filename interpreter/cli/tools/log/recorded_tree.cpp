@@ -21,6 +21,9 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
   for (const auto& [name, value] : header.arguments) {
     load.arguments.push_back(fmt::format("{}={}", name, value));
   }
+  for (const auto& [key, value] : header.values) {
+    load.values.push_back(fmt::format("{}={}", key, value));
+  }
   Diagnostics diagnostics;
   auto loaded = load_given(file_, load, diagnostics);
   print_diagnostics(diagnostics, Severity::Error);

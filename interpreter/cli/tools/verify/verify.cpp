@@ -234,7 +234,8 @@ class VerifyCommand {
   bool write_files(const Runnable& runnable, double rate, Tracer& tracer, const Verdict& verdict,
                    VerifyReport& report) {
     CounterExampleOptions options{.stem = {}, .tree_file = options_.tree, .rate = rate};
-    for (const DeclaredArgument& it : runnable.arguments) options.arguments[it.name] = it.value;
+    options.arguments = values_of(runnable.arguments);
+    options.values = runnable.values;
     for (const Finding& finding : verdict.findings) {
       if (finding.run.empty() || !finding.accepted.empty()) continue;
       std::error_code error;
