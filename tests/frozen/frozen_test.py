@@ -99,8 +99,9 @@ class Version:
 
 
 def without_version(data):
-    """The version of lockstep is the first one in a recording, and in study.json."""
-    return re.sub(rb'"version": ?"[^"]*"', b'"version":"-"', data, count=1)
+    """The version of lockstep is the first one in a recording, and in study.json; `law` is that of its semantics."""
+    data = re.sub(rb'"version": ?"[^"]*"', b'"version":"-"', data, count=1)
+    return re.sub(rb'"law": ?[0-9]+', b'"law":0', data, count=1)
 
 
 def is_same(then, now):
