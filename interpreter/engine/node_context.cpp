@@ -127,10 +127,41 @@ NodeIndex NodeContext::end_activation(NodeIndex node) {
 }
 
 void NodeContext::halt_range(NodeIndex first, NodeIndex last) {
+  if (moments_ != nullptr && moments_->in_tick()) [[unlikely]]
+    return halt_range_in_moments(first, last);
+  end_range(first, last);
+}
+
+// What has begun or completed in this moment is told before it is reset. Also what completes in a
+// halt of something else, as the last child of a TryCatch may.
+void NodeContext::halt_range_in_moments(NodeIndex first, NodeIndex last) {
+  const bool is_outermost = !moments_->halts_under;
+  if (is_outermost) moments_->halts_under = parent_of(first);
+  keep_results_until(first, last);
+  end_range(first, last);
+  if (is_outermost) moments_->halts_under.reset();
+}
+
+void NodeContext::keep_results_until(NodeIndex first, NodeIndex last) {
+  for (NodeIndex node = first; node < last; ++node) {
+    if (!ticked(node) || status(node) == Status::Idle) continue;
+    if (status(node) == Status::Running && moments_->was_running(node)) continue;
+    moments_->next(state_, moments_->halts_under);
+    return;
+  }
+}
+
+NodeIndex NodeContext::parent_of(NodeIndex node) const {
+  return tree_.labels[node].parent;
+}
+
+void NodeContext::end_range(NodeIndex first, NodeIndex last) {
   const std::size_t begin = scripts_.halted();
   // After a fault all halts are halt_all's, so that they come in one order.
   for (NodeIndex node = first; node < last && (!state_.faulted || state_.in_last_halt);) {
     if (scripts_.halted() > begin) scripts_.run_halted(begin, node);
+    if (moments_ != nullptr && moments_->in_tick()) [[unlikely]]
+      keep_results_until(node, node + 1);
     node = end_activation(node);
   }
   if (scripts_.halted() > begin) scripts_.run_halted(begin, last);

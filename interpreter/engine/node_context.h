@@ -14,6 +14,7 @@
 #include "engine/bound_parameters.h"
 #include "engine/leaf_slot.h"
 #include "engine/leaf_watch.h"
+#include "engine/moments.h"
 #include "engine/run_view.h"
 #include "system/fork_guard.h"
 
@@ -69,6 +70,16 @@ class NodeContext : public RunView {
 
   // The nodes of a range that were skipped begin again in their next tick.
   void forget_range(NodeIndex first, NodeIndex last);
+
+  // The child is ticked once more in this tick: for a node that does so, before.
+  void begin_again(NodeIndex child) {
+    if (moments_ != nullptr) [[unlikely]]
+      moments_->next(state_, parent_of(child));
+  }
+  // It was halted in this moment: what it does now would hide that.
+  bool was_halted(NodeIndex child) const {
+    return moments_ != nullptr && status(child) == Status::Idle && moments_->was_running(child);
+  }
 
   // Ends the activation of every running node in the subtree; all of it is idle then. After a fault
   // it does nothing.
@@ -165,6 +176,10 @@ class NodeContext : public RunView {
   bool has_failed_leaf(NodeIndex child);
   bool fails_itself(NodeIndex child);
   void halt_failed(NodeIndex node);
+  void halt_range_in_moments(NodeIndex first, NodeIndex last);
+  void end_range(NodeIndex first, NodeIndex last);
+  void keep_results_until(NodeIndex first, NodeIndex last);
+  NodeIndex parent_of(NodeIndex node) const;
   std::byte* state_bytes() { return reinterpret_cast<std::byte*>(state_.bytes.data()); }
 
   const std::span<LeafSlot> leaves_;
@@ -185,6 +200,7 @@ class NodeContext : public RunView {
   // in line. Also in a forked child.
   ForkGuard::Byte is_usual_;
   std::unique_ptr<NodeWatches> watches_;  // null: nobody has ever watched nodes
+  std::unique_ptr<Moments> moments_;      // null: nobody asks for them
   bool notes_halts_;                      // somebody is told of halts: scripts, or who watches
 };
 

@@ -33,6 +33,24 @@ constexpr Status status_of(Activity activity) {
   return static_cast<Status>(static_cast<std::uint8_t>(activity) & (kWithheld - 1u));
 }
 
+// A node after a tick, or after a moment of one, in one byte (engine/moments.h).
+struct NodeState {
+  static constexpr std::uint8_t kTicked = 16;  // above the bits of an Activity
+
+  std::uint8_t bits = 0;
+
+  static constexpr NodeState of(Activity activity, bool ticked) {
+    return {
+        static_cast<std::uint8_t>(static_cast<std::uint8_t>(activity) | (ticked ? kTicked : 0u))};
+  }
+  constexpr Activity activity() const { return static_cast<Activity>(bits & (kTicked - 1u)); }
+  constexpr Status status() const { return status_of(activity()); }
+  constexpr bool ticked() const { return (bits & kTicked) != 0; }
+  constexpr bool held() const { return activity() == Activity::Paused; }
+
+  friend bool operator==(const NodeState&, const NodeState&) = default;
+};
+
 // A leaf failed as a program. The run ends: no leaf is started or ticked after it.
 struct Fault {
   NodeIndex node = 0;

@@ -41,6 +41,13 @@ class RunView {
   bool ended_after_success(NodeIndex node) const {
     return std::ranges::find(state_.ended, node) != state_.ended.end();
   }
+  // In this tick so far; while moments are kept, `ticked` is about this moment.
+  bool ticked_so_far(NodeIndex node) const {
+    return ticked(node) || state_.last_tick[node] == ~state_.tick_number;
+  }
+  NodeState node_state(NodeIndex node) const {
+    return NodeState::of(state_.activity[node], ticked(node));
+  }
   // The state of a node in RunState.
   template <class State>
   const State& state(NodeIndex node) const {

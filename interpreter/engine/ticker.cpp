@@ -6,6 +6,10 @@
 
 namespace lockstep::host {
 
+Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, FaultPolicy policy,
+               LeafWatch* watch)
+    : NodeContext(tree, leaves, board, policy, watch), is_plain_(groups_.empty()) {}
+
 Status Ticker::tick_root() {
   const InEngine scope(board_.lock.get());
   ++state_.tick_number;
@@ -14,19 +18,37 @@ Status Ticker::tick_root() {
     held_leaves_.look(*this);
   if (watch_ != nullptr) watch_->begin_tick();
   begin_calls();
-  if (groups_.empty()) [[likely]]
+  if (is_plain_) [[likely]]
     return end_calls(tick(0));
-  groups_.tick(*this);
-  begin_calls();  // what groups compute is no leaf's time
+  return tick_root_beside();
+}
+
+// With what is beside the tree.
+Status Ticker::tick_root_beside() {
+  if (moments_ != nullptr) moments_->begin_tick(state_);
+  const bool has_groups = !groups_.empty();
+  if (has_groups) {
+    groups_.tick(*this);
+    begin_calls();  // what groups compute is no leaf's time
+  }
   const Status result = tick(0);
-  groups_.end_tick();
+  if (has_groups) groups_.end_tick();
+  if (moments_ != nullptr) moments_->end_tick(state_);
   return end_calls(result);
 }
 
 Status Ticker::tick_root_again() {
   const InEngine scope(board_.lock.get());
+  if (moments_ != nullptr) moments_->reopen(state_);
   begin_calls();
-  return end_calls(tick(0));
+  const Status result = tick(0);
+  if (moments_ != nullptr) moments_->end_tick(state_);
+  return end_calls(result);
+}
+
+void Ticker::keep_moments() {
+  if (moments_ == nullptr) moments_ = std::make_unique<Moments>(tree_);
+  is_plain_ = false;
 }
 
 void Ticker::begin_calls() {

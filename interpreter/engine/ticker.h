@@ -19,8 +19,7 @@ class Ticker : public NodeContext {
   // All must outlive the ticker: `leaves` (one for each Tree::leaves, in order), and the watch of
   // their calls, if there is one.
   Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
-         FaultPolicy policy = FaultPolicy::Stop, LeafWatch* watch = nullptr)
-      : NodeContext(tree, leaves, board, policy, watch) {}
+         FaultPolicy policy = FaultPolicy::Stop, LeafWatch* watch = nullptr);
 
   // The time of the next tick, which must not decrease. From now on, progress is computed for that
   // time.
@@ -70,6 +69,11 @@ class Ticker : public NodeContext {
   // The same of those that went on while they were held.
   std::span<const WentOn> went_on() const { return held_leaves_.went_on(); }
 
+  // What happens within ticks is kept from now on: for those who watch. Allocates.
+  void keep_moments();
+  // Of the last tick. Valid until the next one.
+  MomentsView moments() const { return moments_ == nullptr ? MomentsView{} : moments_->view(); }
+
   // Tells of these nodes, and of no others, while they are ticked; null: of none. Also in a tick.
   void watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch);
 
@@ -85,10 +89,13 @@ class Ticker : public NodeContext {
   void fold();
 
  private:
+  Status tick_root_beside();
   void begin_calls();
   Status end_calls(Status result);
   void fold_entries();
   void forget_below_ended();
+
+  bool is_plain_;  // a tick is that of the root, and nothing else
 };
 
 }  // namespace lockstep::host

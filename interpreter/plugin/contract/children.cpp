@@ -51,15 +51,20 @@ lockstep_status tick_by(const lockstep_caller* caller, std::uint32_t child, Func
   if (!may(caller, ChildAccess::Tick, "ticks", child)) return LOCKSTEP_RUNNING;
   LeafSlot& slot = *caller->slot;
   const NodeIndex node = caller->child(child);
-  const bool at_most_once = !caller->run->node_context->tree().rules->may_tick_again;
-  if (at_most_once && caller->run->node_context->ticked(node)) {
-    breach(caller, fmt::format("ticks child {} twice in one tick", child));
-    return LOCKSTEP_RUNNING;
+  NodeContext& context = *caller->run->node_context;
+  if (context.ticked_so_far(node)) [[unlikely]] {
+    if (!context.tree().rules->may_tick_again) {
+      breach(caller, fmt::format("ticks child {} twice in one tick", child));
+      return LOCKSTEP_RUNNING;
+    }
+    if (context.ticked(node)) context.begin_again(node);
+  } else if (context.was_halted(node)) {
+    context.begin_again(node);
   }
   // Code of the child that knows this caller must not use it.
   slot.access = ChildAccess::None;
   const InEngine scope(caller->run->lock);
-  const Status status = function(*caller->run->node_context, node);
+  const Status status = function(context, node);
   slot.access = ChildAccess::Tick;
   return static_cast<lockstep_status>(status);
 }

@@ -35,7 +35,8 @@ Status tick_repeat(NodeContext& context, NodeIndex self) {
     const std::int64_t times = context.parameter(self, 0).integer;
     return times == kEndless || state.done < times;
   };
-  while (has_more()) {
+  for (bool is_again = false; has_more(); is_again = true) {
+    if (is_again) context.begin_again(self + 1);
     const bool was_idle = context.first_tick(self + 1);
     const Status status = context.tick(self + 1);
     if (status == Status::Skipped) context.forget_range(self + 1, context.end_of(self));

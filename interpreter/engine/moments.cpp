@@ -1,0 +1,137 @@
+#include "engine/moments.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/tree.h"
+
+namespace lockstep::host {
+namespace {
+
+// Of a node that the tick has reached in an earlier moment, until the tick has ended.
+std::uint32_t earlier(const RunState& state) {
+  return ~state.tick_number;
+}
+
+}  // namespace
+
+Moments::Moments(const Tree& tree)
+    : tree_(tree),
+      first_(tree.nodes.size()),
+      last_(tree.nodes.size()),
+      now_(tree.nodes.size()),
+      counted_(tree.nodes.size()),
+      totals_(tree.nodes.size()),
+      rest_(tree.nodes.size()) {
+  moments_.reserve(kMost);
+  changes_.reserve(most_changes(tree.nodes.size()));
+}
+
+void Moments::begin_tick(const RunState& state) {
+  static_assert(sizeof(NodeState) == sizeof(Activity));
+  std::memcpy(static_cast<void*>(now_.data()), state.activity.data(), now_.size());
+  moments_.clear();
+  changes_.clear();
+  rests_ = 0;
+  is_full_ = false;
+  in_tick_ = true;
+  halts_under.reset();
+}
+
+void Moments::next(RunState& state, std::optional<NodeIndex> under) {
+  look(state, under);
+  keep();
+  mark(state);
+}
+
+void Moments::reopen(RunState& state) {
+  in_tick_ = true;
+  if (moments_.empty()) return next(state, std::nullopt);
+  // Its last moment is kept already, with the changes that led to the state after the tick.
+  changes_.resize(moments_.size() == 1 ? 0 : moments_[moments_.size() - 2].changes);
+  rests_ = 0;
+  mark(state);
+}
+
+void Moments::end_tick(RunState& state) {
+  in_tick_ = false;
+  if (moments_.empty()) return;
+  look(state, std::nullopt);
+  keep();
+  unmark(state);
+  look(state, std::nullopt);
+  add_changes(changes_.capacity());
+  moments_.back().changes = static_cast<std::uint32_t>(changes_.size());
+  if (!is_full_) return;
+  for (NodeIndex node = 0; node < totals_.size(); ++node) {
+    if (totals_[node].empty()) continue;
+    rest_[rests_++] = {node, now_[node], totals_[node].counts};
+  }
+}
+
+void Moments::mark(RunState& state) {
+  const std::uint32_t tick = state.tick_number, before = earlier(state);
+  for (std::uint32_t& it : state.last_tick) it = it == tick ? before : it;
+}
+
+void Moments::unmark(RunState& state) {
+  const std::uint32_t tick = state.tick_number, before = earlier(state);
+  for (std::uint32_t& it : state.last_tick) it = it == before ? tick : it;
+}
+
+void Moments::look(const RunState& state, std::optional<NodeIndex> under) {
+  const std::uint32_t tick = state.tick_number;
+  for (NodeIndex node = 0; node < now_.size(); ++node) {
+    now_[node] = NodeState::of(state.activity[node], state.last_tick[node] == tick);
+  }
+  while (under) {
+    now_[*under] = NodeState::of(Activity::Running, true);
+    const NodeIndex parent = tree_.labels[*under].parent;
+    under = parent == *under ? std::nullopt : std::optional(parent);
+  }
+}
+
+// The moment that has just ended.
+void Moments::keep() {
+  if (moments_.empty()) {
+    first_ = last_ = now_;
+    moments_.push_back({});
+    return;
+  }
+  if (is_full_) return count();
+  if (now_ == last_) {
+    ++moments_.back().times;
+    return;
+  }
+  const std::size_t before = changes_.size();
+  if (moments_.size() < kMost && add_changes(kMostChanges + now_.size())) {
+    moments_.back().changes = static_cast<std::uint32_t>(changes_.size());
+    moments_.push_back({});
+    last_ = now_;
+    return;
+  }
+  changes_.resize(before);
+  is_full_ = true;
+  counted_ = last_;
+  std::ranges::fill(totals_, NodeTotals{});
+  count();
+}
+
+void Moments::count() {
+  for (NodeIndex node = 0; node < now_.size(); ++node) {
+    totals_[node].add(counted_[node], now_[node]);
+  }
+  counted_ = now_;
+}
+
+// From the last moment that is kept to the state in `now_`. False: they are too many.
+bool Moments::add_changes(std::size_t most) {
+  for (NodeIndex node = 0; node < now_.size(); ++node) {
+    if (now_[node] == last_[node]) continue;
+    if (changes_.size() == most) return false;
+    changes_.push_back({node, last_[node], now_[node]});
+  }
+  return true;
+}
+
+}  // namespace lockstep::host
