@@ -24,7 +24,7 @@ PropertyNames property_names(const Tree& tree) {
 }
 
 LiveProperties::LiveProperties(const Tree& tree, PropertyChecks& checks)
-    : checks_(checks), writes_(checks.comparisons().size()) {
+    : checks_(checks), moment_(tree.nodes.size()), writes_(checks.comparisons().size()) {
   for (std::size_t place = 0; place < checks.nodes().size(); ++place) {
     if (checks.needs_progress(place)) asked_.push_back(place);
   }
@@ -43,6 +43,7 @@ LiveProperties::LiveProperties(const Tree& tree, PropertyChecks& checks)
 }
 
 void LiveProperties::before_tick(Ticker& ticker) {
+  ticker.keep_moments();
   for (const std::size_t place : asked_) {
     checks_.seen()[place].progress = ticker.progress(checks_.nodes()[place]);
   }
@@ -50,12 +51,6 @@ void LiveProperties::before_tick(Ticker& ticker) {
 
 std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uint64_t tick) {
   const auto seen = checks_.seen();
-  for (std::size_t place = 0; place < seen.size(); ++place) {
-    const NodeIndex node = checks_.nodes()[place];
-    seen[place].status = ticker.status(node);
-    seen[place].ticked = ticker.ticked(node);
-    seen[place].held = ticker.held(node);
-  }
   // The numbers that a synchronized node has used replace those from before its tick.
   for (const Used& it : used_) {
     if (!asked_children(ticker, it.keeper)) continue;
@@ -70,6 +65,21 @@ std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uin
     writes_[i] = entry.writes;
     checks_.compared()[i] = comparison.holds_for(entry.value, room_);
   }
+  const auto see = [&](auto state_of) {
+    for (std::size_t place = 0; place < seen.size(); ++place) {
+      see_node(seen[place], state_of(checks_.nodes()[place]));
+    }
+  };
+  std::span<const std::size_t> violated;
+  const auto see_part = [&](std::span<const NodeState> states, bool is_first, bool is_last) {
+    see([&](NodeIndex node) { return states[node]; });
+    violated = checks_.step(tick, {.is_first = is_first, .is_last = is_last});
+  };
+  if (const MomentsView moments = ticker.moments(); !moments.empty()) [[unlikely]] {
+    moments.each_part(moment_, see_part);
+    return violated;
+  }
+  see([&](NodeIndex node) { return ticker.node_state(node); });
   return checks_.step(tick);
 }
 

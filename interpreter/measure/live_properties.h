@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/moments.h"
 #include "engine/tree.h"
 #include "property/property_checks.h"
 
@@ -15,6 +16,12 @@ namespace lockstep::host {
 class Ticker;
 
 PropertyNames property_names(const Tree& tree);
+
+inline void see_node(SeenNode& seen, NodeState state) {
+  seen.status = state.status();
+  seen.ticked = state.ticked();
+  seen.held = state.held();
+}
 
 class LiveProperties {
  public:
@@ -37,6 +44,7 @@ class LiveProperties {
   PropertyChecks& checks_;
   std::vector<std::size_t> asked_;  // places in PropertyChecks::seen
   std::vector<Used> used_;
+  std::vector<NodeState> moment_;
   std::vector<std::optional<std::uint32_t>> writes_;  // of the entry of each comparison
   std::string room_;
 };

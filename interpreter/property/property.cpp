@@ -31,7 +31,8 @@ bool Property::needs_progress(std::size_t place) const {
 void Property::choose_state() {
   std::uint32_t most = 1;
   if (pattern_ == Pattern::Never) most = 0;
-  if (pattern_ == Pattern::AtMost || has_limit_) most = ticks_;
+  if (pattern_ == Pattern::AtMost) most = ticks_;
+  if (has_limit_) most = ticks_ + 1;  // between two moments of a tick
   for (; most != 0; most >>= 8u) ++state_size_;
 }
 
@@ -51,7 +52,7 @@ void Property::store(std::byte* state, std::uint32_t value) const {
   for (std::size_t i = 0; i < state_size_; ++i) state[i] = std::byte(value >> (8 * i) & 0xffu);
 }
 
-PropertyVerdict Property::step(std::byte* state, const PropertyView& view) const {
+PropertyVerdict Property::step(std::byte* state, const PropertyView& view, TickPart part) const {
   using enum PropertyVerdict;
   const auto holds = [&](const FormulaCode& code) {
     return formula_.holds(code, view.nodes, view.comparisons);
@@ -65,17 +66,13 @@ PropertyVerdict Property::step(std::byte* state, const PropertyView& view) const
       if (left) store(state, 1);
       return load(state) != 0 ? Holds : Open;
     case Pattern::LeadsTo:
-      return step_leads_to(state, left, right);
+      return step_leads_to(state, left, right, part);
     case Pattern::OnlyAfter:
       if (right) store(state, 1);
       if (load(state) != 0) return Holds;
       return left ? Violated : Open;
-    case Pattern::AtMost: {
-      const std::uint32_t row = left ? load(state) : 0;
-      if (left && row == ticks_) return Violated;
-      store(state, left ? row + 1 : 0);
-      return Open;
-    }
+    case Pattern::AtMost:
+      return step_at_most(state, left, part);
     case Pattern::Until:
       if (right) store(state, 1);
       if (load(state) != 0) return Holds;
@@ -87,17 +84,27 @@ PropertyVerdict Property::step(std::byte* state, const PropertyView& view) const
   return Open;
 }
 
-PropertyVerdict Property::step_leads_to(std::byte* state, bool left, bool right) const {
+// A tick counts once, however many of its moments are in the row.
+PropertyVerdict Property::step_at_most(std::byte* state, bool left, TickPart part) const {
+  const std::uint32_t row = left ? load(state) : 0;
+  const bool counts = left && (row == 0 || part.is_first);
+  if (counts && row == ticks_) return PropertyVerdict::Violated;
+  store(state, counts ? row + 1 : row);
+  return PropertyVerdict::Open;
+}
+
+PropertyVerdict Property::step_leads_to(std::byte* state, bool left, bool right,
+                                        TickPart part) const {
   std::uint32_t debt = load(state);
   if (right) {
     debt = 0;
   } else if (debt != 0) {
-    if (has_limit_) ++debt;
+    if (has_limit_ && part.is_first) ++debt;
   } else if (left) {
     debt = 1;
   }
   // The debt began debt - 1 ticks ago, and this tick has not paid it.
-  if (has_limit_ && debt == ticks_ + 1) return PropertyVerdict::Violated;
+  if (has_limit_ && debt == ticks_ + 1 && part.is_last) return PropertyVerdict::Violated;
   store(state, debt);
   return PropertyVerdict::Open;
 }

@@ -43,6 +43,12 @@ enum class PropertyVerdict : std::uint8_t {
 };
 std::string_view to_string(PropertyVerdict verdict);  // "open", "holds", "violated"
 
+// What is shown: a tick, or a moment of one, in their order. A tick in which completed nodes were
+// begun again has several (docs/properties.md).
+struct TickPart {
+  bool is_first = true, is_last = true;  // of the tick
+};
+
 // A tick as a property sees it: only what it asks for, in that order.
 struct PropertyView {
   std::span<const SeenNode> nodes = {};    // Property::nodes
@@ -72,8 +78,8 @@ class Property {
   // equal verdicts on equal ticks from then on.
   std::size_t state_size() const { return state_size_; }
   void begin(std::byte* state) const;
-  // After each tick, until it is violated. Does not allocate.
-  PropertyVerdict step(std::byte* state, const PropertyView& view) const;
+  // After each tick, or each of its moments, until it is violated. Does not allocate.
+  PropertyVerdict step(std::byte* state, const PropertyView& view, TickPart part = {}) const;
   // Whether it is about the last tick only, so that a run without an end does not violate it.
   bool is_of_last_tick() const { return pattern_ == Pattern::Finally; }
   // When no tick comes any more: never Open.
@@ -95,7 +101,8 @@ class Property {
   void choose_state();
   std::uint32_t load(const std::byte* state) const;
   void store(std::byte* state, std::uint32_t value) const;
-  PropertyVerdict step_leads_to(std::byte* state, bool left, bool right) const;
+  PropertyVerdict step_leads_to(std::byte* state, bool left, bool right, TickPart part) const;
+  PropertyVerdict step_at_most(std::byte* state, bool left, TickPart part) const;
 
   std::string name_, text_;
   Formula formula_;  // what both sides share

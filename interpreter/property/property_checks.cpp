@@ -21,6 +21,7 @@ PropertyChecks::PropertyChecks(std::vector<Property> properties)
     property.begin(states_.data() + checked_.back().first_byte);
   }
   seen_.resize(nodes_.size());
+  decided_by_.resize(nodes_.size());
   compared_ = std::make_unique<bool[]>(comparisons_.size());
   for (std::size_t i = 0; i < comparisons_.size(); ++i) {
     compared_[i] = comparisons_[i].holds_without_value();
@@ -28,8 +29,8 @@ PropertyChecks::PropertyChecks(std::vector<Property> properties)
   violated_.reserve(properties_.size());
 }
 
-std::span<const std::size_t> PropertyChecks::step(std::uint64_t tick) {
-  violated_.clear();
+std::span<const std::size_t> PropertyChecks::step(std::uint64_t tick, TickPart part) {
+  if (part.is_first) violated_.clear();
   if (has_given_up_) return violated_;
   for (std::size_t i = 0; i < properties_.size(); ++i) {
     Checked& it = checked_[i];
@@ -37,8 +38,10 @@ std::span<const std::size_t> PropertyChecks::step(std::uint64_t tick) {
     const Property& property = properties_[i];
     const PropertyView view{std::span(seen_).subspan(it.first_node, property.nodes().size()),
                             compared().subspan(it.first_comparison, property.comparisons().size())};
-    it.verdict = property.step(states_.data() + it.first_byte, view);
-    if (it.verdict != PropertyVerdict::Open) it.decided = tick;
+    it.verdict = property.step(states_.data() + it.first_byte, view, part);
+    if (it.verdict == PropertyVerdict::Open) continue;
+    it.decided = tick;
+    std::ranges::copy(view.nodes, decided_by_.begin() + static_cast<std::ptrdiff_t>(it.first_node));
     if (it.verdict == PropertyVerdict::Violated) violated_.push_back(i);
   }
   return violated_;

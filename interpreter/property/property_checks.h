@@ -33,9 +33,9 @@ class PropertyChecks {
   std::span<const EntryComparison> comparisons() const { return comparisons_; }
   std::span<bool> compared() { return {compared_.get(), comparisons_.size()}; }
 
-  // After a tick. Gives the properties that it has violated, by their place in all(). Valid until
-  // the next call. Does not allocate.
-  std::span<const std::size_t> step(std::uint64_t tick);
+  // After a tick, or each of its moments. Gives the properties that the tick has violated until
+  // now, by their place in all(). Valid until the next call. Does not allocate.
+  std::span<const std::size_t> step(std::uint64_t tick, TickPart part = {});
   // After the last one, likewise.
   std::span<const std::size_t> end(RunIsOver how);
   // Ticks are missing: from now on, what is open stays open.
@@ -45,6 +45,12 @@ class PropertyChecks {
   // The tick that has decided; none: the end, or nothing.
   std::optional<std::uint64_t> decided(std::size_t property) const {
     return checked_[property].decided;
+  }
+  // How the nodes of a property were when it was decided, or are now: in the order of its nodes.
+  std::span<const SeenNode> seen_by(std::size_t property) const {
+    const Checked& it = checked_[property];
+    const std::span<const SeenNode> all(it.decided ? decided_by_ : seen_);
+    return all.subspan(it.first_node, properties_[property].nodes().size());
   }
   bool any(PropertyVerdict verdict) const;
 
@@ -59,7 +65,7 @@ class PropertyChecks {
   std::vector<Checked> checked_;
   std::vector<std::uint32_t> nodes_;
   std::vector<bool> needs_progress_;
-  std::vector<SeenNode> seen_;
+  std::vector<SeenNode> seen_, decided_by_;
   std::vector<EntryComparison> comparisons_;
   std::unique_ptr<bool[]> compared_;
   std::vector<std::byte> states_;

@@ -57,15 +57,8 @@ void PropertyWatch::before_tick(Ticker& ticker) {
   }
 }
 
-void PropertyWatch::look(Part& part, std::byte* compared, Ticker& ticker,
-                         std::span<const FactState> facts) {
-  const auto nodes = part.property->nodes();
-  for (std::size_t place = 0; place < nodes.size(); ++place) {
-    SeenNode& seen = part.seen[place];
-    seen.status = ticker.status(nodes[place]);
-    seen.ticked = ticker.ticked(nodes[place]);
-    seen.held = ticker.held(nodes[place]);
-  }
+void PropertyWatch::compare(Part& part, std::byte* compared, Ticker& ticker,
+                            std::span<const FactState> facts) {
   const auto comparisons = part.property->comparisons();
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     if (comparisons[i].entry >= first_fact_) {
@@ -97,15 +90,34 @@ void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const
     if (*decided == kDecided) continue;
     const std::size_t count = part.property->comparisons().size();
     std::byte* const own = decided + 1 + count;
-    look(part, decided + 1, ticker, facts);
-    PropertyVerdict verdict = part.property->step(
-        own, {.nodes = part.seen, .comparisons = std::span(part.compared.get(), count)});
+    compare(part, decided + 1, ticker, facts);
+    PropertyVerdict verdict = step(part, own, ticker);
     if (verdict == PropertyVerdict::Open && has_ended) verdict = part.property->at_end(own);
     if (verdict == PropertyVerdict::Open) continue;
     if (verdict == PropertyVerdict::Violated) violated_.push_back(i);
     std::fill(decided, own + part.property->state_size(), std::byte{0});
     *decided = kDecided;
   }
+}
+
+PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, Ticker& ticker) {
+  const Property& property = *part.property;
+  const std::span<const bool> compared(part.compared.get(), property.comparisons().size());
+  auto verdict = PropertyVerdict::Open;
+  const auto see = [&](auto state_of, TickPart of_tick) {
+    if (verdict != PropertyVerdict::Open) return;
+    const auto nodes = property.nodes();
+    for (std::size_t place = 0; place < nodes.size(); ++place) {
+      see_node(part.seen[place], state_of(nodes[place]));
+    }
+    verdict = property.step(own, {.nodes = part.seen, .comparisons = compared}, of_tick);
+  };
+  const MomentsView moments = ticker.moments();
+  moments.each_part(moment_, [&](std::span<const NodeState> states, bool is_first, bool is_last) {
+    see([&](NodeIndex node) { return states[node]; }, {.is_first = is_first, .is_last = is_last});
+  });
+  if (moments.empty()) see([&](NodeIndex node) { return ticker.node_state(node); }, {});
+  return verdict;
 }
 
 bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {

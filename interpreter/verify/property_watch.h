@@ -49,13 +49,15 @@ class PropertyWatch {
     std::size_t child;
   };
 
-  void look(Part& part, std::byte* compared, Ticker& ticker, std::span<const FactState> facts);
+  void compare(Part& part, std::byte* compared, Ticker& ticker, std::span<const FactState> facts);
+  PropertyVerdict step(Part& part, std::byte* own, Ticker& ticker);
 
   const std::size_t first_fact_;  // of what is compared, behind the entries
   std::vector<Part> parts_;
   std::vector<Used> used_;
   std::size_t state_size_ = 0;
   std::vector<std::size_t> violated_;
+  std::vector<NodeState> moment_;
   std::string room_;
 };
 

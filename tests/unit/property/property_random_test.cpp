@@ -95,6 +95,12 @@ class Generator {
       }
       trace.nodes.push_back(std::move(node));
     }
+    // Half of them have ticks of several moments.
+    const bool has_moments = below(2) == 0;
+    for (std::size_t i = 0, tick = 0; has_moments && i < size; ++i) {
+      if (i > 0 && below(2) == 0) ++tick;
+      trace.tick_of_moments.push_back(tick);
+    }
     TraceEntry entry{"n", "int", {}};
     for (std::size_t tick = 0; tick < size; ++tick) {
       const bool has_value = tick > 0 && !entry.values.back().empty();
@@ -145,7 +151,8 @@ struct Definition {
     return {};
   }
 
-  // The verdict on a whole trace, word by word of docs/properties.md.
+  // The verdict on a whole trace, word by word of docs/properties.md: in the order of its moments,
+  // where numbers of ticks are about the ticks that these are in.
   std::string verdict(const Trace& trace, bool is_cut) const {
     const std::string owed = is_cut ? "open" : "violated";
     const std::size_t size = trace.size();
@@ -157,9 +164,17 @@ struct Definition {
       }
       return false;
     };
-    const auto not_l = [&](std::size_t tick) { return !l(tick); };
-    const auto at = [](const char* word, std::size_t tick) {
+    const auto at_tick = [](const char* word, std::size_t tick) {
       return std::string(word) + " " + std::to_string(tick);
+    };
+    const auto at = [&](const char* word, std::size_t moment) {
+      return at_tick(word, trace.tick_of(moment));
+    };
+    // One past the last moment up to a tick.
+    const auto end_of = [&](std::size_t tick) {
+      std::size_t end = 0;
+      while (end < size && trace.tick_of(end) <= tick) ++end;
+      return end;
     };
     switch (pattern) {
       case Pattern::Never:
@@ -180,8 +195,9 @@ struct Definition {
       case Pattern::LeadsToWithin:
         for (std::size_t i = 0; i < size; ++i) {  // the earliest is due first
           if (!l(i)) continue;
-          if (any(i, std::min(i + ticks + 1, size), r)) continue;
-          return i + ticks < size ? at("violated", i + ticks) : owed;
+          const std::size_t due = trace.tick_of(i) + ticks;
+          if (any(i, end_of(due), r)) continue;
+          return due <= trace.tick_of(size - 1) ? at_tick("violated", due) : owed;
         }
         return "holds";
       case Pattern::OnlyAfter:
@@ -191,8 +207,13 @@ struct Definition {
         }
         return "holds";
       case Pattern::AtMost:
-        for (std::size_t i = ticks; i < size; ++i) {
-          if (!any(i - ticks, i + 1, not_l)) return at("violated", i);
+        for (std::size_t i = 0; i < size; ++i) {
+          std::size_t first = i + 1;  // of the moments in a row that end with this one
+          while (first > 0 && l(first - 1)) --first;
+          const bool is_row = first <= i;
+          if (is_row && trace.tick_of(i) - trace.tick_of(first) + 1 > ticks) {
+            return at("violated", i);
+          }
         }
         return "holds";
       case Pattern::Until:
@@ -255,8 +276,8 @@ TEST_CASE("a state that is copied goes on as the original") {
         compared[i] = value.empty() ? it.holds_without_value() : it.holds_for_text(value);
       }
       std::vector<std::byte> copy = state;
-      verdict =
-          property->step(copy.data(), {nodes, {compared.get(), property->comparisons().size()}});
+      verdict = property->step(
+          copy.data(), {nodes, {compared.get(), property->comparisons().size()}}, trace.part(tick));
       state = std::move(copy);
       if (verdict == PropertyVerdict::Violated) break;
     }

@@ -50,7 +50,7 @@ std::string verdict_of(const Property& property, const Trace& trace, RunIsOver e
       checks.compared()[i] =
           value.empty() ? comparison.holds_without_value() : comparison.holds_for_text(value);
     }
-    checks.step(tick);
+    checks.step(trace.tick_of(tick), trace.part(tick));
   }
   checks.end(end);
   std::string text(to_string(checks.verdict(0)));

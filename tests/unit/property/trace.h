@@ -1,5 +1,5 @@
 // Traces of a run as text, for tests of properties: a column for each node, a character for each
-// tick: r running, s success, f failure, i idle, k skipped, and h held.
+// tick, or each moment of one: r running, s success, f failure, i idle, k skipped, and h held.
 #pragma once
 
 #include <string>
@@ -24,8 +24,16 @@ struct TraceEntry {
 struct Trace {
   std::vector<TraceNode> nodes;
   std::vector<TraceEntry> entries = {};
+  std::vector<std::size_t> tick_of_moments = {};  // empty: each is a tick
 
   std::size_t size() const { return nodes.front().ticks.size(); }
+  std::size_t tick_of(std::size_t moment) const {
+    return tick_of_moments.empty() ? moment : tick_of_moments[moment];
+  }
+  TickPart part(std::size_t moment) const {
+    return {.is_first = moment == 0 || tick_of(moment - 1) != tick_of(moment),
+            .is_last = moment + 1 == size() || tick_of(moment + 1) != tick_of(moment)};
+  }
   PropertyNames names() const;
   SeenNode seen(std::size_t node, std::size_t tick) const;
 };
