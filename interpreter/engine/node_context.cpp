@@ -117,7 +117,7 @@ NodeIndex NodeContext::end_activation(NodeIndex node) {
   Activity& activity = state_.activity[node];
   if (activity == Activity::Idle) return nodes_[node].end;
   const bool running = status_of(activity) == Status::Running;
-  if (activity == Activity::Success && ticked(node)) state_.ended.push_back(node);
+  if (activity == Activity::Success && ticked_so_far(node)) state_.ended.push_back(node);
   const NodeKind& kind = *nodes_[node].kind;
   if (activity == Activity::Skipped && kind.forget != nullptr) kind.forget(*this, node);
   activity = Activity::Idle;

@@ -37,6 +37,8 @@ EventCounts::Counts EventCounts::Node::until(std::uint64_t tick) const {
   return all;
 }
 
+static_assert(EventCounts::kFault == std::size_t{NodeTotals::kKinds});
+
 EventCounts::EventCounts(const LiveFormat& format)
     : format_(format), reader_(format.tick_end_reader()) {
   format_.set_tick_end(empty_end_, {});
@@ -55,17 +57,68 @@ void EventCounts::take(const PacketRing& ring, std::uint64_t from, std::uint64_t
 bool EventCounts::take_tick(const PacketRing& ring, std::uint64_t position,
                             const PacketHead& head) {
   ++tick_;
-  position = ring.each_node(position, head.nodes,
-                            [&](const NodeChange& change) { take_node(change, head.tick); });
-  if (head.text == empty_end_.size()) return false;
-  std::string end = text_at(ring, position, head.text);
-  const bool is_full = end.ends_with(format_.full_end());
-  reader_->read(std::move(end), *this);
-  if (!is_full) return false;
-  for (NodeIndex node = 0; node < nodes_.size(); ++node) {
-    if (nodes_[node].named != tick_) take_node({.node = node}, head.tick);
+  bool is_full = false;
+  moments_.clear();
+  if (head.text != empty_end_.size()) {
+    moment_changes_.clear();
+    more_.clear();
+    std::string end = text_at(ring, position + head.nodes * sizeof(NodeChange), head.text);
+    is_full = end.ends_with(format_.full_end());
+    reader_->read(std::move(end), *this);
   }
-  return true;
+  const bool has_moments = !moments_.empty();
+  if (has_moments) settle(head.tick);
+  ring.each_node(position, head.nodes,
+                 [&](const NodeChange& change) { take_node(change, head.tick); });
+  if (is_full) {
+    for (NodeIndex node = 0; node < nodes_.size(); ++node) {
+      if (nodes_[node].named != tick_) take_node({.node = node}, head.tick);
+    }
+  }
+  if (has_moments) take_moments(head.tick);
+  return is_full;
+}
+
+// The counts before a tick of several moments.
+void EventCounts::settle(std::uint64_t tick) {
+  before_.clear();
+  for (Node& it : nodes_) {
+    it.counts = it.until(tick);
+    it.since = tick;
+    it.settled = it.counts;
+    before_.push_back({it.state});
+  }
+}
+
+// Its nodes have been taken as if it had one moment.
+void EventCounts::take_moments(std::uint64_t tick) {
+  before_.resize(nodes_.size());
+  first_moment_.clear();
+  for (Node& it : nodes_) {
+    it.counts = it.settled;
+    it.since = tick + 1;
+    first_moment_.push_back({it.state});
+  }
+  for (std::size_t i = moment_changes_.size(); i-- > 0;) {
+    MomentChange& it = moment_changes_[i];
+    it.after = std::exchange(at(first_moment_, it.node), it.before);
+  }
+  const auto add = [this](const NodeTotals& totals) {
+    Counts& counts = at(nodes_, totals.node).counts;
+    for (std::size_t kind = 0; kind < NodeTotals::kKinds; ++kind) {
+      counts[kind] += totals.counts[kind];
+    }
+  };
+  const MomentsView view{first_moment_, moments_, moment_changes_, more_};
+  view.each(moment_, [&](std::span<const NodeState> now, const TickMoment& moment, bool) {
+    for (NodeIndex node = 0; node < now.size() && node < before_.size(); ++node) {
+      NodeTotals totals{.node = node};
+      totals.add(before_[node], now[node], moment.times);
+      if (!totals.empty()) add(totals);
+    }
+    before_.assign(now.begin(), now.end());
+  });
+  for (const NodeTotals& it : more_) add(it);
 }
 
 // A line with the whole state names nodes that are as they were.

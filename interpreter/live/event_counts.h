@@ -17,6 +17,7 @@ namespace lockstep::host {
 
 class EventCounts {
  public:
+  // The first ones are those of NodeTotals.
   enum Count : std::size_t { kSuccess, kFailure, kSkipped, kHalted, kHeld, kFault, kCounts };
   using Counts = std::array<std::uint64_t, kCounts>;
 
@@ -32,6 +33,14 @@ class EventCounts {
   // The end of a tick's line. No value: it is too long.
   void take_fault(NodeIndex node);
   void take_entry(std::size_t entry, std::optional<std::string_view> value);
+  // Of its moments, in their order: first what they differ from the one after them.
+  void take_moment_node(NodeIndex node, NodeState state) {
+    moment_changes_.push_back({.node = node, .before = state});
+  }
+  void take_moment(std::uint64_t times) {
+    moments_.push_back({times, static_cast<std::uint32_t>(moment_changes_.size())});
+  }
+  void take_more(const NodeTotals& totals) { more_.push_back(totals); }
 
   std::size_t nodes() const { return nodes_.size(); }
   Counts of_node(std::size_t node, std::uint64_t tick) const {
@@ -43,7 +52,7 @@ class EventCounts {
 
  private:
   struct Node {
-    Counts counts{};
+    Counts counts{}, settled{};
     std::uint64_t since = 0;  // the tick with which it became as it is
     std::uint64_t named = 0;  // in which of the ticks that were taken, the last time
     std::uint8_t state = 0;   // as in NodeChange
@@ -59,12 +68,18 @@ class EventCounts {
 
   bool take_tick(const PacketRing& ring, std::uint64_t position, const PacketHead& head);
   void take_node(const NodeChange& change, std::uint64_t tick);
+  void settle(std::uint64_t tick);
+  void take_moments(std::uint64_t tick);
 
   const LiveFormat& format_;
   const std::unique_ptr<TickEndReader> reader_;
   std::string empty_end_;  // of a tick of which there is nothing but nodes to tell
   std::vector<Node> nodes_;
   std::vector<Entry> entries_;
+  std::vector<TickMoment> moments_;  // of the tick that is taken
+  std::vector<MomentChange> moment_changes_;
+  std::vector<NodeTotals> more_;
+  std::vector<NodeState> before_, first_moment_, moment_;
   std::uint64_t tick_ = 0;  // how many were taken
 };
 

@@ -31,7 +31,8 @@ void LineFeed::log(std::string_view who, std::string_view level, std::string_vie
   packets_.log(who, level, text);
 }
 
-void LineFeed::run_started(Ticker&, const RunStart& start) {
+void LineFeed::run_started(Ticker& ticker, const RunStart& start) {
+  ticker.keep_moments();
   is_real_time_ = start.real_time;
   header_ = packets_.header(start);
 }

@@ -25,6 +25,7 @@ struct TickEnd {
   std::span<const LimitChange> limits = {};
   std::span<const RoundChange> rounds = {};
   std::span<const NodeIndex> succeeded = {};
+  MomentsView moments = {};
   std::span<const Fault> faults = {};
   std::span<const EntryChange> entries = {};
   std::span<const LeafLine> logs = {};
@@ -46,8 +47,9 @@ class LineFormat {
   // Replaces `text`. Allocates only for faults, logs and texts of entries, and where `text` has
   // less room than most_of_tick_end.
   virtual void set_tick_end(std::string& text, const TickEnd& end) const = 0;
-  // For a tree in which so many nodes have a limit or a round.
-  virtual std::size_t most_of_tick_end(std::size_t nodes, std::size_t entries) const = 0;
+  // For a tree of so many nodes, of which so many have a limit or a round.
+  virtual std::size_t most_of_tick_end(std::size_t nodes, std::size_t limits,
+                                       std::size_t entries) const = 0;
 
   // --- on the writing thread or in a crash handler: async-signal-safe
   // ----------------------------- They write to the caller's memory and return the end. The same

@@ -14,7 +14,7 @@ namespace lockstep::host {
 
 class EventCounts;
 
-// Reads again what set_tick_end has made.
+// Reads again what set_tick_end has made: moments, faults and entries.
 class TickEndReader {
  public:
   virtual ~TickEndReader() = default;

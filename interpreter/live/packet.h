@@ -14,14 +14,14 @@ namespace lockstep::host {
 
 // The part of a tick's line about one node.
 struct NodeChange {
-  static constexpr std::uint8_t kTicked = 16;  // above the bits of an Activity
+  static constexpr std::uint8_t kTicked = NodeState::kTicked;
 
   double progress = 0;
   NodeIndex node = 0;
-  std::uint8_t state = 0;  // Activity, and kTicked
+  std::uint8_t state = 0;  // as NodeState
 
-  Activity activity() const { return static_cast<Activity>(state & (kTicked - 1)); }
-  bool ticked() const { return (state & kTicked) != 0; }
+  Activity activity() const { return NodeState{state}.activity(); }
+  bool ticked() const { return NodeState{state}.ticked(); }
 };
 
 // The part of a tick's line about the limit of a synchronized node (engine/synchronized.h).

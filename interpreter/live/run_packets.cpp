@@ -38,7 +38,8 @@ RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& f
       entries_(slots_) {
   const std::size_t repeating = repeating_nodes(tree).size();
   line_end_.reserve(format_.most_of_tick_end(
-      delta_.most_succeeded() + tree.members.size() + repeating, 2 * slots_.size()));
+      tree.nodes.size(), delta_.most_succeeded() + tree.members.size() + repeating,
+      2 * slots_.size()));
 }
 
 std::string RunPackets::header(const RunStart& start) const {
@@ -74,6 +75,7 @@ Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
   TickEnd end{.limits = delta_.limits(ticker),
               .rounds = delta_.rounds(ticker),
               .succeeded = delta_.succeeded(ticker),
+              .moments = ticker.moments(),
               .faults = report.faults,
               .entries = entries_.changes(ticker.blackboard()),
               .logs = lines_.lines(),
@@ -82,8 +84,8 @@ Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
   format_.set_tick_end(line_end_, end);
   Packet packet{.nodes = delta_.changes(ticker), .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
-                !end.succeeded.empty() || !end.faults.empty() || !end.entries.empty() ||
-                !end.logs.empty();
+                !end.succeeded.empty() || !end.moments.empty() || !end.faults.empty() ||
+                !end.entries.empty() || !end.logs.empty();
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
   packet.head.time = report.time.count();

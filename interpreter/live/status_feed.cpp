@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/differences.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -17,19 +16,35 @@ std::size_t room_for_statuses(const Tree& tree) {
 }  // namespace
 
 StatusFeed::StatusFeed(const Tree& tree)
-    : passed_on_(tree.nodes.size()), changes_(tree.nodes.size()), ring_(room_for_statuses(tree)) {}
+    : passed_on_(tree.nodes.size()),
+      moment_(tree.nodes.size()),
+      changes_(tree.nodes.size()),
+      ring_(room_for_statuses(tree)) {}
+
+void StatusFeed::run_started(Ticker& ticker, const RunStart&) {
+  ticker.keep_moments();
+}
 
 void StatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
-  const std::span<const Activity> now = ticker.run_state().activity;
-  std::size_t count = 0;
-  for_each_difference(now, passed_on_.data(), [&](NodeIndex node) {
-    changes_[count++] = {.node = node, .state = static_cast<std::uint8_t>(now[node])};
+  ticker.moments().each(moment_, [&](std::span<const NodeState> states, const TickMoment&, bool) {
+    pass_on([&](NodeIndex node) { return states[node].activity(); }, report);
   });
+  pass_on([&](NodeIndex node) { return ticker.activity(node); }, report);
+}
+
+template <class ActivityOf>
+void StatusFeed::pass_on(ActivityOf activity_of, const TickReport& report) {
+  std::size_t count = 0;
+  for (NodeIndex node = 0; node < passed_on_.size(); ++node) {
+    const Activity now = activity_of(node);
+    if (now == passed_on_[node]) continue;
+    changes_[count++] = {.node = node, .state = static_cast<std::uint8_t>(now)};
+  }
   if (count == 0) return;
   const std::span<const NodeChange> changes(changes_.data(), count);
   const PacketHead head{.tick = report.tick, .time = report.time.count()};
   if (!ring_.push({.head = head, .nodes = changes})) return;
-  for (const NodeChange& it : changes) passed_on_[it.node] = it.state;
+  for (const NodeChange& it : changes) passed_on_[it.node] = it.activity();
 }
 
 }  // namespace lockstep::host

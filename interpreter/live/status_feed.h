@@ -14,6 +14,7 @@ class StatusFeed final : public Observer {
  public:
   explicit StatusFeed(const Tree& tree);
 
+  void run_started(Ticker& ticker, const RunStart& start) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
 
   // For one other thread: visits the changes since the last call, in order, as whole ticks.
@@ -29,8 +30,12 @@ class StatusFeed final : public Observer {
   }
 
  private:
-  std::vector<std::uint8_t> passed_on_;  // the Activity of each node
-  std::vector<NodeChange> changes_;      // for its room
+  template <class ActivityOf>
+  void pass_on(ActivityOf activity_of, const TickReport& report);
+
+  std::vector<Activity> passed_on_;  // of each node
+  std::vector<NodeState> moment_;
+  std::vector<NodeChange> changes_;  // for its room
   PacketRing ring_;
 };
 

@@ -56,6 +56,9 @@ constexpr Tuple kTuples[] = {
        {"progress", "Progress"},
        {"ticked", "Bit"},
        {"held", "Bit"}}}},
+    {"MomentNode",
+     {{{"index", "Index"}, {"status", "StatusName"}, {"ticked", "Bit"}, {"held", "Bit"}}}},
+    {"Moment", {{{"times", "Whole"}, {"nodes", "MomentNode[]"}}}},
     {"LimitChange", {{{"index", "Index"}, {"limit", "Real | null"}}}},
     {"RoundChange", {{{"index", "Index"}, {"number", "Whole"}, {"of", "Whole"}}}},
     {"Fault", {{{"index", "Index"}, {"message", "Text"}}}},
@@ -196,6 +199,14 @@ constexpr Field kTickFields[] = {
      "only if there are any: the synchronized nodes, the children of parallels and the children of "
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "
      "ended in the same tick"},
+    {"moments", "Moment[]", kMaybe,
+     "only of a tick in which nodes that had completed were ticked again or reset: {} for each of "
+     "its [moments](#moments), in their order. `times`: how many in a row are equal. `nodes`: "
+     "`[index, status, ticked, held]` of each node that differs from the moment after it; in the "
+     "last moment, from the state after the tick"},
+    {"more", "NodeCounts[]", kMaybe,
+     "only of a tick with more moments than there is room for: {} for each node, how often this "
+     "happened to it after the `moments`"},
     {"faults", "Fault[]", kMaybe,
      "only if there are any: {} for each fault of a leaf that counted as its Failure, so that the "
      "run went on. A message has "

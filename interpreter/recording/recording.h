@@ -10,6 +10,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "engine/moments.h"
 #include "engine/node_kind.h"
 #include "live/header_and_end.h"
 
@@ -25,6 +26,10 @@ struct RecordedState {
   Status status = Status::Idle;  // after the tick
   bool ticked = false;
   bool held = false;
+
+  NodeState state() const {
+    return NodeState::of(held ? Activity::Paused : static_cast<Activity>(status), ticked);
+  }
 
   friend bool operator==(const RecordedState&, const RecordedState&) = default;
 };
@@ -54,6 +59,7 @@ struct RecordedTick {
   std::span<const RecordedState> nodes;
   // Synchronized nodes, and children of parallels, that an ancestor has ended since.
   std::span<const NodeIndex> succeeded = {};
+  MomentsView moments = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
   std::span<const LeafLine> logs = {};

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/resource_set.h"
 #include "core/wording.h"
@@ -144,6 +145,73 @@ void apply_limit(JsonValue change, const std::vector<bool>& users,
   states[node].limit = limit;
 }
 
+MomentChange moment_node_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "a node of a moment is not [index, status, ticked, held]";
+  if (!value.is_list()) throw JsonError(kNone);
+  MomentChange change;
+  Status status = Status::Idle;
+  bool flags[2] = {};
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    if (field == 0) {
+      change.node = node_from(item, nodes, kNone);
+    } else if (field == 1) {
+      status = status_from(item);
+    } else if (field < 4) {
+      flags[field - 2] = flag_from(item);
+    } else {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 4) throw JsonError(kNone);
+  const bool is_held = flags[1] && status == Status::Running;
+  change.before =
+      NodeState::of(is_held ? Activity::Paused : static_cast<Activity>(status), flags[0]);
+  return change;
+}
+
+TickMoment moment_from(JsonValue value, std::size_t nodes, std::vector<MomentChange>& changes) {
+  constexpr char kNone[] = "a moment is not [times, nodes]";
+  if (!value.is_list()) throw JsonError(kNone);
+  TickMoment moment;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    if (field == 0) {
+      if (!item.get(moment.times) || moment.times == 0) throw JsonError(kNone);
+    } else if (field == 1 && item.is_list()) {
+      item.each_item([&](JsonValue it) { changes.push_back(moment_node_from(it, nodes)); });
+    } else {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  moment.changes = static_cast<std::uint32_t>(changes.size());
+  return moment;
+}
+
+NodeTotals totals_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] =
+      "counts are not [index, succeeded, failed, skipped, halted, held, faults]";
+  if (!value.is_list()) throw JsonError(kNone);
+  NodeTotals totals;
+  std::size_t field = 0;
+  value.each_item([&](JsonValue item) {
+    std::uint64_t count = 0;
+    if (field == 0) {
+      totals.node = node_from(item, nodes, kNone);
+    } else if (field > NodeTotals::kKinds + 1 || !item.get(count)) {
+      throw JsonError(kNone);
+    } else if (field <= NodeTotals::kKinds) {
+      totals.counts[field - 1] = count;
+    }
+    ++field;
+  });
+  if (field != NodeTotals::kKinds + 2) throw JsonError(kNone);
+  return totals;
+}
+
 RecordedFault fault_from(JsonValue value, std::size_t nodes) {
   constexpr char kNone[] = "a fault is not [index, message]";
   if (!value.is_list()) throw JsonError(kNone);
@@ -266,6 +334,20 @@ RecordedEnd end_from(JsonObject object) {
 
 }  // namespace
 
+// Each moment says what differs from the one after it, so they are made from the last one back to
+// the first; the changes then lead forward.
+MomentsView RecordingJson::moments(const std::vector<RecordedState>& states) {
+  if (moments_.empty()) return {};
+  first_moment_.clear();
+  for (const RecordedState& it : states) first_moment_.push_back(it.state());
+  for (NodeTotals& it : totals_) it.after = first_moment_[it.node];
+  for (std::size_t i = moment_changes_.size(); i-- > 0;) {
+    MomentChange& it = moment_changes_[i];
+    it.after = std::exchange(first_moment_[it.node], it.before);
+  }
+  return {first_moment_, moments_, moment_changes_, totals_};
+}
+
 RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedState>& states) {
   std::optional<RecordedEnd> end;
   std::optional<RecordedGap> gap;
@@ -276,6 +358,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   faults_.clear();
   whole_.clear();
   succeeded_.clear();
+  moments_.clear();
+  moment_changes_.clear();
+  totals_.clear();
   entries_.clear();
   logs_.clear();
   const auto read_nodes = [&](JsonValue value) {
@@ -298,6 +383,17 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     value.each_item(
         [&](JsonValue it) { succeeded_.push_back(node_from(it, states.size(), kNone)); });
   };
+  const auto read_moments = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) {
+      if (moments_.size() == Moments::kMost) {
+        throw JsonError(fmt::format("more than {} moments", Moments::kMost));
+      }
+      moments_.push_back(moment_from(it, states.size(), moment_changes_));
+    });
+  };
+  const auto read_more = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) { totals_.push_back(totals_from(it, states.size())); });
+  };
   const auto read_entries = [&](std::vector<RecordedEntry>& entries) {
     return [&](JsonValue value) {
       value.each_item([&](JsonValue it) {
@@ -319,6 +415,8 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["limits"], read_limits, kMayLack},
          {lines::kTick["rounds"], read_rounds, kMayLack},
          {lines::kTick["succeeded"], read_succeeded, kMayLack},
+         {lines::kTick["moments"], read_moments, kMayLack},
+         {lines::kTick["more"], read_more, kMayLack},
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},
          {lines::kTick["whole"], read_whole, kMayLack},
@@ -347,6 +445,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .time = *time,
                       .nodes = states,
                       .succeeded = succeeded_,
+                      .moments = moments(states),
                       .faults = faults_,
                       .entries = entries_,
                       .logs = logs_};

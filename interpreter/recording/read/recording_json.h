@@ -30,8 +30,14 @@ class RecordingJson {
   Line line(std::string& line, std::vector<RecordedState>& states);
 
  private:
+  MomentsView moments(const std::vector<RecordedState>& states);
+
   JsonReader json_;
   std::vector<NodeIndex> succeeded_;
+  std::vector<NodeState> first_moment_;
+  std::vector<TickMoment> moments_;
+  std::vector<MomentChange> moment_changes_;
+  std::vector<NodeTotals> totals_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<RecordedEntry> whole_;

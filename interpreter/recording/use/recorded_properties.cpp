@@ -6,12 +6,13 @@
 
 #include "core/diagnostics.h"
 #include "json/json.h"
+#include "measure/live_properties.h"
 #include "terminal/text_table.h"
 
 namespace lockstep::host {
 namespace {
 
-void see(const RecordedTick& tick, PropertyChecks& checks) {
+void step(const RecordedTick& tick, PropertyChecks& checks, std::vector<NodeState>& moment) {
   const auto seen = checks.seen();
   for (std::size_t place = 0; place < seen.size(); ++place) {
     const RecordedState& state = tick.nodes[checks.nodes()[place]];
@@ -25,6 +26,16 @@ void see(const RecordedTick& tick, PropertyChecks& checks) {
                                          : comparisons[i].holds_without_value();
     }
   }
+  if (tick.moments.empty()) {
+    checks.step(tick.tick);
+    return;
+  }
+  tick.moments.each_part(moment, [&](std::span<const NodeState> states, bool first, bool last) {
+    for (std::size_t place = 0; place < seen.size(); ++place) {
+      see_node(seen[place], states[checks.nodes()[place]]);
+    }
+    checks.step(tick.tick, {.is_first = first, .is_last = last});
+  });
 }
 
 RunIsOver how_it_ended(const std::optional<RecordedEnd>& end) {
@@ -46,11 +57,11 @@ PropertyNames property_names(const RecordingHeader& header) {
 
 void check_recording(RecordingReader& reader, PropertyChecks& checks) {
   std::uint64_t next = 0;
+  std::vector<NodeState> moment;
   while (const auto tick = reader.next()) {
     if (tick->tick != next) checks.give_up();
     next = tick->tick + 1;
-    see(*tick, checks);
-    checks.step(tick->tick);
+    step(*tick, checks, moment);
   }
   if (!reader.gaps().empty()) checks.give_up();
   checks.end(how_it_ended(reader.end()));

@@ -109,6 +109,31 @@ std::vector<std::string> texts(const RecordingHeader& header,
   return texts;
 }
 
+// Of each node, what results it had in the moments of a tick.
+std::vector<std::string> results(const RecordedTick& tick) {
+  std::vector<std::string> results(tick.nodes.size());
+  std::vector<NodeState> column;
+  const auto add = [&](NodeIndex node, Status result, std::uint64_t times) {
+    std::string& text = results[node];
+    if (!text.empty()) text += ", ";
+    if (times > 1) text += fmt::format("{} times ", times);
+    text += to_string(result);
+  };
+  tick.moments.each(column, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
+    for (NodeIndex node = 0; node < now.size(); ++node) {
+      if (now[node].ticked() && has_ended(now[node].status())) {
+        add(node, now[node].status(), it.times);
+      }
+    }
+  });
+  for (const NodeTotals& it : tick.moments.rest) {
+    for (const Status result : {Status::Success, Status::Failure, Status::Skipped}) {
+      if (it.of(result) > 0) add(it.node, result, it.of(result));
+    }
+  }
+  return results;
+}
+
 // Compares tick by tick until one differs.
 class Comparison {
  public:
@@ -164,6 +189,7 @@ class Comparison {
       if (same(in_a, in_b)) continue;
       tick.nodes.push_back({a_.header().nodes[node_a].path, in_a, in_b});
     }
+    if (!a.moments.empty() || !b.moments.empty()) compare_moments(a, b, tick);
     if (!a.faults.empty() || !b.faults.empty()) {
       tick.faults_a = texts(a_.header(), a.faults);
       tick.faults_b = texts(b_.header(), b.faults);
@@ -175,9 +201,21 @@ class Comparison {
       if (tick.entries_a == tick.entries_b) tick.entries_a = tick.entries_b = {};
     }
     const bool is_same = tick.nodes.empty() && tick.time_a == tick.time_b &&
+                         tick.moments_a.empty() && tick.moments_b.empty() &&
                          tick.faults_a.empty() && tick.faults_b.empty() && tick.entries_a.empty() &&
                          tick.entries_b.empty();
     if (!is_same) diff_.tick = std::move(tick);
+  }
+
+  void compare_moments(const RecordedTick& a, const RecordedTick& b, TickDifference& tick) const {
+    const std::vector<std::string> in_a = results(a), in_b = results(b);
+    for (const auto& [node_a, node_b] : pairs_) {
+      const std::string &of_a = in_a[node_a], &of_b = in_b[node_b];
+      if (of_a == of_b) continue;
+      const std::string& path = a_.header().nodes[node_a].path;
+      if (!of_a.empty()) tick.moments_a.push_back(path + ": " + brief(of_a));
+      if (!of_b.empty()) tick.moments_b.push_back(path + ": " + brief(of_b));
+    }
   }
 
   bool same(const RecordedState& a, const RecordedState& b) const {

@@ -35,6 +35,8 @@ struct TickDifference {
   bool lost = false;              // it is missing, but later ones are there
   double time_a = 0, time_b = 0;  // seconds; the same when they are not compared
   std::vector<NodeDifference> nodes = {};
+  // The results of nodes in a tick of several moments: "path: failure, 2 times success"; likewise.
+  std::vector<std::string> moments_a = {}, moments_b = {};
   // Each as "path: message"; empty when they are the same.
   std::vector<std::string> faults_a = {}, faults_b = {};
   // Each as "key = value", of those that have changed; empty when they are the same.

@@ -66,6 +66,8 @@ void add_tick(Text& text, const TickDifference& tick) {
     text.plain(node.path);
     text.pair(describe(node.a), describe(node.b));
   }
+  for (const std::string& moments : tick.moments_a) text.removed("results " + moments);
+  for (const std::string& moments : tick.moments_b) text.added("results " + moments);
   for (const std::string& fault : tick.faults_a) text.removed("fault " + fault);
   for (const std::string& fault : tick.faults_b) text.added("fault " + fault);
   for (const std::string& entry : tick.entries_a) text.removed("entry " + entry);
@@ -103,6 +105,9 @@ Json json_of(const TickDifference& tick) {
     json["nodes"].push_back({{"path", node.path},
                              {"a", json_of(node.a, has_limit)},
                              {"b", json_of(node.b, has_limit)}});
+  }
+  if (!tick.moments_a.empty() || !tick.moments_b.empty()) {
+    json["results"] = {{"a", tick.moments_a}, {"b", tick.moments_b}};
   }
   if (!tick.faults_a.empty() || !tick.faults_b.empty()) {
     json["faults"] = {{"a", tick.faults_a}, {"b", tick.faults_b}};

@@ -31,18 +31,24 @@ class Events {
       add("lost", "", fmt::format("{} from {} on", tick.tick - next_, next_));
     }
     next_ = tick.tick + 1;
+    now_.clear();
+    for (const RecordedState& it : tick.nodes) now_.push_back(it.state());
     if (is_first) {  // what changed with it is not known
-      before_.assign(tick.nodes.begin(), tick.nodes.end());
+      before_ = now_;
       return true;
     }
-    for (NodeIndex node = 0; node < before_.size(); ++node) add_node(node, tick.nodes);
+    if (tick.moments.empty()) {
+      for (NodeIndex node = 0; node < before_.size(); ++node) add_node(node, now_);
+    } else {
+      add_moments(tick.moments);
+    }
     for (const RecordedFault& it : tick.faults)
       add("fault", header_.nodes[it.node].path, it.message);
     for (const RecordedEntry& it : tick.entries) {
       add("entry", header_.entries[it.entry].key, shown_value(it));
     }
     for (const LeafLine& it : tick.logs) add("log", it.who, it.level + ": " + it.text);
-    before_.assign(tick.nodes.begin(), tick.nodes.end());
+    before_ = now_;
     return is_wanted_;
   }
 
@@ -53,20 +59,44 @@ class Events {
   }
 
  private:
-  void add_node(NodeIndex node, std::span<const RecordedState> now) {
+  bool is_group(const RecordedNode& it) const {  // it runs as long as it has members
+    return !it.members.empty() || !it.resources.empty();
+  }
+
+  void add_node(NodeIndex node, std::span<const NodeState> now, std::uint64_t times = 0) {
     const RecordedNode& it = header_.nodes[node];
-    const bool is_group = !it.members.empty() || !it.resources.empty();
-    if (is_group) return;  // it runs as long as it has members
-    const RecordedState &before = before_[node], &state = now[node];
+    if (is_group(it)) return;
+    const NodeState before = before_[node], state = now[node];
     // A node below a held one is held with it.
-    const bool is_below = it.parent && now[*it.parent].held;
-    const bool was_below = it.parent && before_[*it.parent].held;
-    const bool goes_on = before.held && !state.held && state.status != Status::Idle;
+    const bool is_below = it.parent && now[*it.parent].held();
+    const bool was_below = it.parent && before_[*it.parent].held();
+    const bool goes_on = before.held() && !state.held() && state.status() != Status::Idle;
     if (goes_on && !was_below) add("release", it.path, "");
-    if (const auto change = change_of(before.status, state.status); !change.empty()) {
+    if (times > 0 && state.ticked() && has_ended(state.status())) {
+      add_result(it, state.status(), times);
+    } else if (const auto change = change_of(before.status(), state.status()); !change.empty()) {
       add(change, it.path, "");
     }
-    if (state.held && !before.held && !is_below) add("hold", it.path, "");
+    if (state.held() && !before.held() && !is_below) add("hold", it.path, "");
+  }
+
+  // In such a tick each result is an event, also one that is as the one before.
+  void add_moments(const MomentsView& moments) {
+    moments.each(moment_, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
+      for (NodeIndex node = 0; node < now.size(); ++node) add_node(node, now, it.times);
+      before_.assign(now.begin(), now.end());
+    });
+    for (const NodeTotals& it : moments.rest) {
+      const RecordedNode& node = header_.nodes[it.node];
+      if (is_group(node)) continue;
+      for (const Status result : {Status::Success, Status::Failure, Status::Skipped}) {
+        if (it.of(result) > 0) add_result(node, result, it.of(result));
+      }
+    }
+  }
+
+  void add_result(const RecordedNode& node, Status result, std::uint64_t times) {
+    add(to_string(result), node.path, times == 1 ? "" : fmt::format("{} times", times));
   }
 
   void add(std::string_view kind, std::string_view what, std::string value) {
@@ -80,7 +110,7 @@ class Events {
   const RecordingHeader& header_;
   const TickRange range_;
   const EventSink& take_;
-  std::vector<RecordedState> before_;
+  std::vector<NodeState> before_, now_, moment_;
   RecordingEvent at_;
   std::uint64_t next_ = 0;  // tick
   bool is_wanted_ = true;

@@ -61,6 +61,7 @@ class Trace {
       }
       if (held_[node].name.empty()) held_[node] = {held, tick.time};
     }
+    add_moments(tick);
     for (Counter& it : counters_) add_counter(it, tick);
     for (const RecordedFault& it : tick.faults)
       add_instant(it.node, tick.time, "fault: " + it.message);
@@ -116,6 +117,20 @@ class Trace {
     slice = {};
   }
 
+  // The results within a tick that its slices do not show: instants.
+  void add_moments(const RecordedTick& tick) {
+    tick.moments.each(moment_,
+                      [&](std::span<const NodeState> now, const TickMoment& it, bool is_last) {
+                        if (is_last && it.times == 1) return;
+                        for (NodeIndex node = 0; node < now.size(); ++node) {
+                          if (!now[node].ticked() || !has_ended(now[node].status())) continue;
+                          std::string name(to_string(now[node].status()));
+                          if (it.times > 1) name += fmt::format(", {} times", it.times);
+                          add_instant(node, tick.time, name);
+                        }
+                      });
+  }
+
   void add_counter(Counter& counter, const RecordedTick& tick) {
     if (!tick.nodes[counter.of.node].ticked && !counter.progress.empty()) return;
     std::vector<double> progress;
@@ -163,6 +178,7 @@ class Trace {
   const ExportSink& write_;
   std::string text_;
   bool has_event_ = false;
+  std::vector<NodeState> moment_;
   std::vector<Slice> slices_, held_;  // of each node
   std::vector<Counter> counters_;
   double last_ = 0;                         // time of a tick

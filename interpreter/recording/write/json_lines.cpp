@@ -199,6 +199,39 @@ void add_log(std::string& text, const LeafLine& log) {
   text += ']';
 }
 
+// Longer than [4294967295,"success",1,0] and a comma; than [,[]] and a count; than most counts.
+constexpr std::size_t kMostOfMomentNode = 32, kMostOfMoment = 28, kUsualTotals = 32;
+
+void add_moment_node(std::string& text, const MomentChange& it) {
+  add_number(text += '[', it.node);
+  ((text += ",\"") += to_string(it.before.status())) += "\",";
+  text += it.before.ticked() ? '1' : '0';
+  text += it.before.held() ? ",1]" : ",0]";
+}
+
+// Each node that differs from the moment after it.
+void add_moments(std::string& text, const MomentsView& view) {
+  if (view.empty()) return;
+  ((text += ",\"") += lines::kTick["moments"]) += "\":";
+  for (std::size_t i = 0; i < view.moments.size(); ++i) {
+    add_number(text += i == 0 ? "[[" : ",[", view.moments[i].times);
+    text += ",[";
+    bool is_first = true;
+    for (const MomentChange& it : view.changes_of(i)) {
+      if (!std::exchange(is_first, false)) text += ',';
+      add_moment_node(text, it);
+    }
+    text += "]]";
+  }
+  text += ']';
+}
+
+void add_totals(std::string& text, const NodeTotals& it) {
+  add_number(text += '[', it.node);
+  for (const std::uint64_t count : it.counts) add_number(text += ',', count);
+  text += ",0]";  // faults have their own list
+}
+
 // Also when no entry has a value.
 void add_whole(std::string& text, std::span<const EntryChange> entries) {
   if (!entries.empty()) return add_list(text, lines::kTick["whole"], entries, add_entry);
@@ -242,6 +275,8 @@ class JsonLines final : public LiveFormat {
     add_list(text, lines::kTick["limits"], end.limits, add_limit);
     add_list(text, lines::kTick["rounds"], end.rounds, add_round);
     add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
+    add_moments(text, end.moments);
+    add_list(text, lines::kTick["more"], end.moments.rest, add_totals);
     add_list(text, lines::kTick["faults"], end.faults, add_fault);
     add_list(text, lines::kTick["entries"], end.entries, add_entry);
     add_list(text, lines::kTick["logs"], end.logs, add_log);
@@ -249,8 +284,12 @@ class JsonLines final : public LiveFormat {
     text += end.is_full ? kFullEnd : "}\n";
   }
 
-  std::size_t most_of_tick_end(std::size_t nodes, std::size_t entries) const override {
-    return 64 + 64 * (nodes + entries);
+  std::size_t most_of_tick_end(std::size_t nodes, std::size_t limits,
+                               std::size_t entries) const override {
+    const std::size_t moments = kMostOfMoment * Moments::kMost +
+                                kMostOfMomentNode * Moments::most_changes(nodes) +
+                                kUsualTotals * nodes;
+    return 64 + 64 * (limits + entries) + moments;
   }
 
   // {"lost":{"ticks":2,"from":7}} and the end of the line.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "json/reader.h"
@@ -22,12 +23,64 @@ class TickEndJson final : public TickEndReader {
       const auto entries = [&](JsonValue all) {
         all.each_item([&](JsonValue it) { take_entry(it, counts); });
       };
-      line.read({{lines::kTick["faults"], faults, kMayLack},
+      const auto moments = [&](JsonValue all) {
+        all.each_item([&](JsonValue it) { take_moment(it, counts); });
+      };
+      const auto more = [&](JsonValue all) {
+        all.each_item([&](JsonValue it) { take_more(it, counts); });
+      };
+      line.read({{lines::kTick["moments"], moments, kMayLack},
+                 {lines::kTick["more"], more, kMayLack},
+                 {lines::kTick["faults"], faults, kMayLack},
                  {lines::kTick["entries"], entries, kMayLack}});
     });
   }
 
  private:
+  static void take_moment(JsonValue moment, EventCounts& counts) {
+    std::optional<std::uint64_t> times;
+    moment.each_item([&](JsonValue it) {
+      if (!times) {
+        times = it.whole();
+      } else {
+        it.each_item([&](JsonValue node) { take_moment_node(node, counts); });
+      }
+    });
+    counts.take_moment(times.value_or(1));
+  }
+
+  static void take_moment_node(JsonValue node, EventCounts& counts) {
+    std::uint64_t numbers[3] = {};  // index, ticked, held
+    std::size_t field = 0;
+    auto status = Status::Idle;
+    node.each_item([&](JsonValue it) {
+      const std::size_t place = field++;
+      if (place != 1) {
+        numbers[place == 0 ? 0 : std::min<std::size_t>(place - 1, 2)] = it.whole();
+        return;
+      }
+      const std::string_view name = it.text();
+      for (const StatusRow& row : kStatuses) {
+        if (row.name == name) status = row.status;
+      }
+    });
+    const auto activity = numbers[2] != 0 ? Activity::Paused : static_cast<Activity>(status);
+    counts.take_moment_node(static_cast<NodeIndex>(numbers[0]),
+                            NodeState::of(activity, numbers[1] != 0));
+  }
+
+  static void take_more(JsonValue more, EventCounts& counts) {
+    NodeTotals totals;
+    std::size_t field = 0;
+    more.each_item([&](JsonValue it) {
+      const std::uint64_t number = it.whole();
+      if (field == 0) totals.node = static_cast<NodeIndex>(number);
+      if (field > 0 && field <= NodeTotals::kKinds) totals.counts[field - 1] = number;
+      ++field;
+    });
+    counts.take_more(totals);
+  }
+
   static void take_fault(JsonValue fault, EventCounts& counts) {
     bool is_node = true;
     fault.each_item([&](JsonValue it) {

@@ -46,7 +46,8 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
       next_whole_(options_.whole_each),
       bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}
 
-void Recorder::run_started(Ticker&, const RunStart& start) {
+void Recorder::run_started(Ticker& ticker, const RunStart& start) {
+  ticker.keep_moments();
   may_wait_ = !start.real_time;
   const std::string header = packets_.header(start);
   if (options_.rotation.is_wanted()) file_.set_header(header);

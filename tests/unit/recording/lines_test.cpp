@@ -246,6 +246,10 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const Fault fault{.node = 2, .message = "threw"};
   const EntryChange entry{.entry = 0, .text = &value};
   const LeafLine log{"T/a", "info", "text"};
+  const TickMoment moment{.times = 3, .changes = 1};
+  const MomentChange of_moment{
+      .node = 2, .before = NodeState::of(Activity::Success, true), .after = {}};
+  const NodeTotals more{.node = 1, .after = {}, .counts = {1, 2, 3, 4, 5}};
   char room[LineFormat::kMostAtOnce];
   std::string text(room, json_lines().put_tick(room, tick, Nanoseconds(0)));
   text.append(room, json_lines().put_nodes(room, {&node, 1}, true).end);
@@ -253,6 +257,10 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   json_lines().set_tick_end(end, {.limits = {&limit, 1},
                                   .rounds = {&round, 1},
                                   .succeeded = {&succeeded, 1},
+                                  .moments = {.first = {},
+                                              .moments = {&moment, 1},
+                                              .changes = {&of_moment, 1},
+                                              .rest = {&more, 1}},
                                   .faults = {&fault, 1},
                                   .entries = {&entry, 1},
                                   .logs = {&log, 1},

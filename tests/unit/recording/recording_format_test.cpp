@@ -27,7 +27,7 @@ class Signs final : public LineFormat {
   void set_tick_end(std::string& text, const TickEnd& end) const override {
     text = fmt::format(" entries {}\n", end.entries.size());
   }
-  std::size_t most_of_tick_end(std::size_t, std::size_t) const override { return 32; }
+  std::size_t most_of_tick_end(std::size_t, std::size_t, std::size_t) const override { return 32; }
 
   char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const override {
     return fmt::format_to(to, "lost {} from {}\n", ticks, from);

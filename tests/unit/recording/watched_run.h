@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/observer.h"
@@ -14,6 +15,7 @@ namespace lockstep::host::test {
 
 struct WatchedRun {
   WatchedRun(std::string_view tree, std::string_view leaves) : run(tree, leaves) {}
+  WatchedRun(Tree tree, std::string_view leaves) : run(std::move(tree), leaves) {}
 
   // Ticks until the root completes or a leaf faults, at most `max_ticks` times.
   RunEnd watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks = 1000);

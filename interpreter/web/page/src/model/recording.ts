@@ -6,6 +6,8 @@ export type StatusName = (typeof STATUSES)[number];
 export const IDLE = 0, RUNNING = 1, SUCCESS = 2, FAILURE = 3, SKIPPED = 4;
 
 export type NodeChange = [index: number, status: StatusName, progress: number, ticked: number, held: number];
+export type MomentNode = [index: number, status: StatusName, ticked: number, held: number];
+export type Moment = [times: number, nodes: MomentNode[]];
 export type LimitChange = [index: number, limit: number | null];
 export type RoundChange = [index: number, number: number, of: number];
 export type Fault = [index: number, message: string];
@@ -38,6 +40,8 @@ export interface TickLine {
   limits?: LimitChange[];
   rounds?: RoundChange[];
   succeeded?: number[];
+  moments?: Moment[];
+  more?: NodeCounts[];
   faults?: Fault[];
   entries?: EntryValue[];
   logs?: LogLine[];
