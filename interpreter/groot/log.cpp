@@ -1,5 +1,6 @@
 #include "groot/log.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@ namespace {
 constexpr std::string_view kLogName = "BTCPP4-FileLogger2";
 constexpr char kLogProtocol = 1;
 constexpr double kMicroseconds = 1e6;
+constexpr std::uint64_t kMostMoments = 10'000;
 
 class Log {
  public:
@@ -38,18 +40,14 @@ class Log {
   // comes after theirs.
   bool take(const RecordedTick& tick) {
     time_ = static_cast<std::uint64_t>(std::llround(tick.time * kMicroseconds));
-    std::vector<NodeIndex> open;
-    const auto close_until = [&](NodeIndex node) {
-      for (; !open.empty() && ends_[open.back()] <= node; open.pop_back()) {
-        become(open.back(), tick.nodes[open.back()].status);
-      }
-    };
-    for (NodeIndex node = 0; node < statuses_.size(); ++node) {
-      close_until(node);
-      open.push_back(node);
-      if (begins(node, tick.nodes[node].status)) become(node, Status::Running);
+    tick.moments.each(moment_, [&](std::span<const NodeState> states, const TickMoment& it, bool) {
+      // A run ticks no more often in one period; a damaged recording may say anything.
+      const auto times = std::min<std::uint64_t>(it.times, kMostMoments);
+      for (std::uint64_t i = 0; i < times; ++i) take_moment(states);
+    });
+    if (tick.moments.empty() || !tick.moments.rest.empty()) {
+      take_states([&](NodeIndex node) { return tick.nodes[node].status; });
     }
-    close_until(static_cast<NodeIndex>(statuses_.size()));
     constexpr std::size_t kFull = 1u << 16u;
     return bytes_.size() < kFull || flush();
   }
@@ -57,6 +55,30 @@ class Log {
   bool flush() { return write_(std::exchange(bytes_, {})); }
 
  private:
+  // A node that is ticked again after its result begins again.
+  void take_moment(std::span<const NodeState> states) {
+    for (NodeIndex node = 0; node < statuses_.size(); ++node) {
+      if (states[node].ticked() && has_ended(statuses_[node])) become(node, Status::Idle);
+    }
+    take_states([&](NodeIndex node) { return states[node].status(); });
+  }
+
+  template <class StatusOf>
+  void take_states(StatusOf status_of_node) {
+    std::vector<NodeIndex> open;
+    const auto close_until = [&](NodeIndex node) {
+      for (; !open.empty() && ends_[open.back()] <= node; open.pop_back()) {
+        become(open.back(), status_of_node(open.back()));
+      }
+    };
+    for (NodeIndex node = 0; node < statuses_.size(); ++node) {
+      close_until(node);
+      open.push_back(node);
+      if (begins(node, status_of_node(node))) become(node, Status::Running);
+    }
+    close_until(static_cast<NodeIndex>(statuses_.size()));
+  }
+
   // A node with children runs before it has a result, also in a single tick.
   bool begins(NodeIndex node, Status now) const {
     const bool is_result = now == Status::Success || now == Status::Failure;
@@ -73,6 +95,7 @@ class Log {
 
   const GrootSink& write_;
   std::vector<Status> statuses_;
+  std::vector<NodeState> moment_;
   std::vector<NodeIndex> ends_;  // one past the last descendant
   std::uint64_t time_ = 0;       // µs
   std::string bytes_;

@@ -33,18 +33,25 @@ std::optional<Breakpoint> Breakpoints::reached(Ticker& ticker) {
 // Each call also notes what the next one compares with.
 bool Breakpoints::is_reached(Ticker& ticker, Watched& watched) {
   const NodeIndex node = watched.breakpoint.node;
-  const Status now = ticker.status(node);
-  const Status before = std::exchange(watched.before, now);
-  const bool is_as_before = has_ended(now) && now == before;
-  switch (watched.breakpoint.when) {
-    case Breakpoint::When::Begins:
-      return ticker.ticked(node) && before != Status::Running && !is_as_before;
-    case Breakpoint::When::Completes:  // an ancestor that ends too makes it idle again
-      return ticker.ticked(node) && now != Status::Running && !is_as_before;
-    case Breakpoint::When::Barrier:
-      return is_barrier_reached(ticker, watched) && now == Status::Running;
+  if (watched.breakpoint.when == Breakpoint::When::Barrier) {
+    return is_barrier_reached(ticker, watched) && ticker.status(node) == Status::Running;
   }
-  return false;
+  const MomentsView moments = ticker.moments();
+  if (moments.empty()) return is_reached(ticker.node_state(node), watched);
+  bool is_any = false;
+  moments.each_part(moment_, [&](std::span<const NodeState> states, bool, bool) {
+    if (is_reached(states[node], watched)) is_any = true;
+  });
+  return is_any;
+}
+
+bool Breakpoints::is_reached(NodeState state, Watched& watched) {
+  const Status now = state.status(), before = std::exchange(watched.before, now);
+  const bool is_as_before = has_ended(now) && now == before;
+  if (!state.ticked() || is_as_before) return false;
+  // When it completes, an ancestor that ends too makes it idle again.
+  return watched.breakpoint.when == Breakpoint::When::Begins ? before != Status::Running
+                                                             : now != Status::Running;
 }
 
 bool Breakpoints::is_barrier_reached(Ticker& ticker, Watched& watched) {

@@ -37,10 +37,12 @@ class Breakpoints {
     std::vector<bool> were_held = {};  // the children of a synchronized node
     double limit = 0;
   };
-  static bool is_reached(Ticker& ticker, Watched& watched);
+  bool is_reached(Ticker& ticker, Watched& watched);
+  static bool is_reached(NodeState state, Watched& watched);
   static bool is_barrier_reached(Ticker& ticker, Watched& watched);
 
   std::vector<Watched> watched_;
+  std::vector<NodeState> moment_;
 };
 
 }  // namespace lockstep::host

@@ -78,10 +78,10 @@ void Judge::tell_violated(std::size_t property, const std::string& when, const T
   const PreparedProperty& it = rehearsal_.properties[property];
   Surprise surprise{.place = it.of->place,
                     .message = fmt::format("'{}' is violated {}", it.property.text(), when)};
-  for (const std::uint32_t node : it.property.nodes()) {
-    surprise.more.push_back(fmt::format("{}: {}{}", tree_.path(node),
-                                        to_string(ticker.status(node)),
-                                        ticker.held(node) ? ", held" : ""));
+  const std::span<const SeenNode> seen = checks_.seen_by(property);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    surprise.more.push_back(fmt::format("{}: {}{}", tree_.path(it.property.nodes()[i]),
+                                        to_string(seen[i].status), seen[i].held ? ", held" : ""));
   }
   for (const EntryComparison& comparison : it.property.comparisons()) {
     const Entry& entry = ticker.blackboard().entries[comparison.entry];

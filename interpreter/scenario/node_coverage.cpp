@@ -1,6 +1,7 @@
 #include "scenario/node_coverage.h"
 
 #include <cmath>
+#include <utility>
 
 #include "engine/synchronized.h"
 
@@ -24,20 +25,43 @@ NodeCoverage::NodeCoverage(const Tree& tree)
 }
 
 void NodeCoverage::add(std::span<const Activity> before, const Ticker& ticker) {
+  before_.clear();
+  for (const Activity it : before) before_.push_back(NodeState::of(it, false));
+  const MomentsView moments = ticker.moments();
+  moments.each(moment_, [this](std::span<const NodeState> now, const TickMoment&, bool) {
+    for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) add(node, now[node]);
+  });
+  for (const NodeTotals& it : moments.rest) add(it);
   for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
-    AspectSet& seen = seen_[node];
-    const Status status = ticker.status(node);
-    const bool is_ticked = ticker.ticked(node);
-    if (is_ticked) {
-      ++ticks_[node];
-      seen.add(Aspect::Ticked);
-      if (has_ended(status)) seen.add(aspect_of(status));
-    }
-    const bool ran = status_of(before[node]) == Status::Running || is_ticked;
-    if (ran && status == Status::Idle) seen.add(Aspect::Halted);
-    if (ticker.held(node)) seen.add(Aspect::Held);
+    if (ticker.ticked(node)) ++ticks_[node];
+    if (moments.empty()) add(node, ticker.node_state(node));
   }
   if (!barriers_.empty()) add_barriers(ticker);
+}
+
+void NodeCoverage::add(NodeIndex node, NodeState now) {
+  AspectSet& seen = seen_[node];
+  const NodeState before = std::exchange(before_[node], now);
+  if (now.ticked()) {
+    seen.add(Aspect::Ticked);
+    if (has_ended(now.status())) seen.add(aspect_of(now.status()));
+  }
+  const bool ran = before.status() == Status::Running || now.ticked();
+  if (ran && now.status() == Status::Idle) seen.add(Aspect::Halted);
+  if (now.held()) seen.add(Aspect::Held);
+}
+
+void NodeCoverage::add(const NodeTotals& totals) {
+  if (totals.node >= tree_.nodes[0].end) return;
+  constexpr std::pair<NodeTotals::Kind, Aspect> kCounted[] = {
+      {NodeTotals::kSuccess, Aspect::Success},
+      {NodeTotals::kFailure, Aspect::Failure},
+      {NodeTotals::kSkipped, Aspect::Skipped},
+      {NodeTotals::kHalted, Aspect::Halted},
+      {NodeTotals::kHeld, Aspect::Held}};
+  for (const auto& [kind, aspect] : kCounted) {
+    if (totals.counts[kind] > 0) seen_[totals.node].add(aspect);
+  }
 }
 
 void NodeCoverage::add_barriers(const Ticker& ticker) {
@@ -60,6 +84,10 @@ void NodeCoverage::add(const NodeCoverage& other) {
       is_reached |= other.barriers_.at(node).at(barrier);
     }
   }
+}
+
+void RunCoverage::run_started(Ticker& ticker, const RunStart&) {
+  ticker.keep_moments();
 }
 
 void RunCoverage::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {

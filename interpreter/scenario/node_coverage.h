@@ -43,9 +43,12 @@ class NodeCoverage {
   const std::map<NodeIndex, std::map<double, bool>>& barriers() const { return barriers_; }
 
  private:
+  void add(NodeIndex node, NodeState now);
+  void add(const NodeTotals& totals);
   void add_barriers(const Ticker& ticker);
 
   const Tree& tree_;
+  std::vector<NodeState> before_, moment_;
   std::vector<AspectSet> seen_;
   std::vector<std::uint64_t> ticks_;
   std::map<NodeIndex, std::map<double, bool>> barriers_;
@@ -56,6 +59,7 @@ class RunCoverage final : public Observer {
  public:
   explicit RunCoverage(const Tree& tree) : coverage_(tree) {}
 
+  void run_started(Ticker& ticker, const RunStart& start) override;
   void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
 

@@ -44,6 +44,7 @@ class WordMaker {
   }
 
   void add(const RecordedTick& tick) {
+    if (!tick.moments.empty()) take_moments(tick.moments);
     for (Leaf& it : leaves_) add(tick, it);
     for (const RecordedEntry& entry : tick.entries) {
       if (!entry.value || is_of_tree(tick, entry.entry)) continue;
@@ -69,9 +70,23 @@ class WordMaker {
     NodeIndex node;
     const LeafNode* leaf;
     std::vector<LeafWord>* words;
-    RecordedState before = {};  // in the tick before
-    std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
+    RecordedState before = {};            // in the tick before
+    std::vector<NodeState> moments = {};  // of this tick, if it has several
+    std::size_t still = 0;  // ticks that were withheld, since the last word, without a drift
   };
+
+  // A leaf has a word for each moment that has ticked it.
+  void take_moments(const MomentsView& moments) {
+    constexpr std::uint64_t kMost = 10'000;  // a run ticks no more often in one period
+    for (Leaf& it : leaves_) it.moments.clear();
+    moments.each(moment_, [&](std::span<const NodeState> states, const TickMoment& moment, bool) {
+      for (Leaf& it : leaves_) {
+        const NodeState state = states[it.node];
+        if (state.ticked())
+          it.moments.insert(it.moments.end(), std::min(moment.times, kMost), state);
+      }
+    });
+  }
 
   // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
   // withheld is a word, but those behind which the leaf does not drift any more.
@@ -97,14 +112,23 @@ class WordMaker {
   void add(const RecordedTick& tick, Leaf& it) const {
     const RecordedState& state = tick.nodes[it.node];
     take_progress(state, it);
-    const bool begins = it.before.status != Status::Running;
+    const bool began = it.before.status == Status::Running;
     it.before = state;
     if (!state.ticked) return;
     it.still = 0;
-    const Status status = results_.of(tick, it.node);
+    if (tick.moments.empty()) return add_word(tick, it, results_.of(tick, it.node), !began);
+    bool runs = began;
+    for (const NodeState moment : it.moments) {
+      const bool is_halted = moment.status() == Status::Idle;
+      add_word(tick, it, is_halted ? Status::Running : moment.status(), !runs);
+      runs = moment.status() == Status::Running;
+    }
+  }
+
+  void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins) const {
     if (may_be_of_script(tree_, it.leaf->node, status, begins)) return;
     LeafWord word{.status = status};
-    if (status == Status::Running) word.progress = state.progress;
+    if (status == Status::Running) word.progress = tick.nodes[it.node].progress;
     for (const RecordedFault& fault : tick.faults) {
       if (fault.node == it.node) word.kind = LeafWord::Kind::Fault;
     }
@@ -133,6 +157,7 @@ class WordMaker {
   const Tree& tree_;
   RecordedWords& words_;
   const EndedResults results_;
+  std::vector<NodeState> moment_;
   std::vector<Leaf> leaves_;
   std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
 };
