@@ -216,6 +216,10 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   const LeafModel& model = models_.leaves[leaf];
   LeafMark& mark = this->mark(leaf);
   is(leaf, state.phase == Phase::Running, "tick without start, or while it is held");
+  if (mark.ticked && before_tick_again_) {
+    before_tick_again_(leaf);
+    mark.clear();
+  }
   mark.ticked = true;
   ++state.ticks;
   if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);

@@ -77,6 +77,9 @@ class ModelLeaves {
   void begin_tick();
   // Within it: from here on, marks say only what is done from here on.
   void clear_marks();
+  // Called before a leaf is ticked that has been ticked already; then its marks begin anew.
+  using BeforeTickAgain = std::function<void(std::uint32_t leaf)>;
+  void set_before_tick_again(BeforeTickAgain call) { before_tick_again_ = std::move(call); }
   // After it: what does not matter any more is 0, if it was so before the tick.
   void fold();
   std::span<const LeafMark> marks() const { return marks_; }
@@ -151,6 +154,7 @@ class ModelLeaves {
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> drifting_;  // the leaves that may
   std::string broken_;
+  BeforeTickAgain before_tick_again_;
 };
 
 }  // namespace lockstep::host

@@ -33,11 +33,21 @@ void SearchCoverage::after_tick(Ticker& ticker) {
     const std::uint8_t bits = kBits[static_cast<std::uint8_t>(activity[node]) % kWithheld];
     seen[node] = static_cast<std::uint8_t>(seen[node] | (is_ticked ? bits : 0u));
   }
-  for (const NodeIndex node : timeouts_) {
-    const bool fired = ticker.ticked(node) && ticker.status(node) == Status::Failure &&
-                       ticker.status(node + 1) == Status::Idle;
-    if (fired) seen_[node] |= kFired;
-  }
+  const auto look_at_timeouts = [this](auto state_of) {
+    for (const NodeIndex node : timeouts_) {
+      const NodeState it = state_of(node);
+      const bool fired = it.ticked() && it.status() == Status::Failure &&
+                         state_of(node + 1).status() == Status::Idle;
+      if (fired) seen_[node] |= kFired;
+    }
+  };
+  look_at_timeouts([&](NodeIndex node) { return ticker.node_state(node); });
+  ticker.moments().each_part(moment_, [&](std::span<const NodeState> states, bool, bool) {
+    for (NodeIndex node = 0; node < states.size(); ++node) {
+      if (states[node].ticked()) seen_[node] |= kBits[index_of(states[node].status())];
+    }
+    look_at_timeouts([&](NodeIndex node) { return states[node]; });
+  });
   for (Synchronized& it : synchronized_) look_at(ticker, it);
 }
 

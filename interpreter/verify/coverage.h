@@ -43,6 +43,7 @@ class SearchCoverage {
   void look_at(Ticker& ticker, Synchronized& it) const;
   static void add(const Synchronized& from, Synchronized& to);
 
+  std::vector<NodeState> moment_;
   std::vector<std::uint8_t> seen_;  // of each node: a bit for each status, and these
   std::vector<NodeIndex> timeouts_;
   std::vector<Synchronized> synchronized_;

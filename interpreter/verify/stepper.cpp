@@ -30,7 +30,9 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_leaves_(leaves_.states()),
       from_facts_(leaves_.facts()),
       property_bytes_(watch_.state_size()),
-      from_properties_(property_bytes_) {}
+      from_properties_(property_bytes_) {
+  ticker_.keep_moments();
+}
 
 StateBytes Stepper::first_state() {
   ticker_.restore(fresh_);

@@ -40,6 +40,10 @@ class Stepper {
   // `tick` calls it when it has ticked the root and is about to tick it again.
   using BeforeTickAgain = std::function<void(ModelLeaves& leaves)>;
   void set_before_tick_again(BeforeTickAgain call) { before_tick_again_ = std::move(call); }
+  // The same of a leaf that is ticked once more, without the root.
+  void set_before_leaf_again(ModelLeaves::BeforeTickAgain call) {
+    leaves_.set_before_tick_again(std::move(call));
+  }
   // How often the root was ticked: again if a node has asked for it.
   std::uint64_t root_ticks() const { return root_ticks_; }
   bool next() { return answers_.next(); }

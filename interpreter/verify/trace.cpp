@@ -206,32 +206,36 @@ LeafScripts Tracer::scripts(const TracedRun& run) {
     add_words(scripts);
     leaves.clear_marks();
   });
+  stepper_.set_before_leaf_again([&](std::uint32_t leaf) { add_word(scripts, leaf); });
   play(run, [&](Stepper&, Status, std::size_t) { add_words(scripts); });
   stepper_.set_before_tick_again(nullptr);
+  stepper_.set_before_leaf_again(nullptr);
   return scripts;
 }
 
 void Tracer::add_words(LeafScripts& scripts) {
-  const auto marks = stepper_.leaves().marks();
-  for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
-    const LeafMark& mark = marks[leaf];
-    if (!mark.ticked && !mark.drifted) continue;
-    auto& words = scripts.leaves[tree_.path(tree_.leaves[leaf].node)];
-    if (mark.drifted) {
-      words.push_back({.kind = LeafWord::Kind::Held, .progress = mark.held_progress});
-    }
-    if (!mark.ticked) continue;
-    LeafWord word{.kind = mark.faulted ? LeafWord::Kind::Fault : LeafWord::Kind::Tick,
-                  .status = mark.result,
-                  .progress = mark.result == Status::Running ? mark.progress : 0};
-    const auto& outputs = models_.leaves[leaf].outputs;
-    for (std::size_t i = 0; i < mark.written.size(); ++i) {
-      const auto& output = outputs[i % outputs.size()];
-      word.written.emplace_back(tree_.leaves[leaf].type->parameters[output.port].name,
-                                to_text(output.values[mark.written[i]]));
-    }
-    words.push_back(std::move(word));
+  const std::size_t leaves = stepper_.leaves().marks().size();
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) add_word(scripts, leaf);
+}
+
+void Tracer::add_word(LeafScripts& scripts, std::uint32_t leaf) {
+  const LeafMark& mark = stepper_.leaves().marks()[leaf];
+  if (!mark.ticked && !mark.drifted) return;
+  auto& words = scripts.leaves[tree_.path(tree_.leaves[leaf].node)];
+  if (mark.drifted) {
+    words.push_back({.kind = LeafWord::Kind::Held, .progress = mark.held_progress});
   }
+  if (!mark.ticked) return;
+  LeafWord word{.kind = mark.faulted ? LeafWord::Kind::Fault : LeafWord::Kind::Tick,
+                .status = mark.result,
+                .progress = mark.result == Status::Running ? mark.progress : 0};
+  const auto& outputs = models_.leaves[leaf].outputs;
+  for (std::size_t i = 0; i < mark.written.size(); ++i) {
+    const auto& output = outputs[i % outputs.size()];
+    word.written.emplace_back(tree_.leaves[leaf].type->parameters[output.port].name,
+                              to_text(output.values[mark.written[i]]));
+  }
+  words.push_back(std::move(word));
 }
 
 }  // namespace lockstep::host

@@ -82,6 +82,7 @@ class Tracer {
   std::vector<LeafAnswer> moved(std::vector<LeafAnswer> answers,
                                 std::span<const NodeIndex> nodes) const;
   void add_words(LeafScripts& scripts);
+  void add_word(LeafScripts& scripts, std::uint32_t leaf);
   [[noreturn]] void fail(const char* what) const;
 
   const Tree& tree_;

@@ -247,6 +247,33 @@ class VerdictMaker {
 
   // The leaves that a tick ends, and how.
   std::vector<std::string> ends_in(const Stepper& stepper) const {
+    const MomentsView moments = stepper.ticker().moments();
+    return moments.empty() ? ends_by_marks(stepper) : ends_in(moments, stepper);
+  }
+
+  // A leaf may end several times.
+  std::vector<std::string> ends_in(const MomentsView& moments, const Stepper& stepper) const {
+    std::vector<std::string> events;
+    const auto add = [&](NodeIndex node, std::string_view what) {
+      events.push_back(tree_.path(node) + ' ' + std::string(what));
+    };
+    std::vector<NodeState> before, moment;
+    for (const Activity it : stepper.before().run.activity) {
+      before.push_back(NodeState::of(it, false));
+    }
+    moments.each(moment, [&](std::span<const NodeState> now, const TickMoment&, bool) {
+      for (const LeafNode& leaf : tree_.leaves) {
+        const NodeState it = now[leaf.node];
+        const bool ran = before[leaf.node].status() == Status::Running;
+        if (it.ticked() && has_ended(it.status())) add(leaf.node, row_of(it.status()).counted);
+        if (ran && it.status() == Status::Idle) add(leaf.node, "is halted");
+      }
+      before.assign(now.begin(), now.end());
+    });
+    return events;
+  }
+
+  std::vector<std::string> ends_by_marks(const Stepper& stepper) const {
     std::vector<std::string> events;
     const auto marks = stepper.leaves().marks();
     for (std::size_t leaf = 0; leaf < marks.size(); ++leaf) {
