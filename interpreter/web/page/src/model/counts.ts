@@ -31,6 +31,25 @@ export class Counts {
     it.since = tick;
     it.flags = flags;
   }
+  // Of a tick of several moments: each of these, what is only counted, and at last the state after it.
+  moment(node: number, was: number, now: number, times: number, tick: number) {
+    const it = this.nodes[node];
+    it.counts = before(it, tick);
+    it.since = tick;
+    const status = now & STATUS;
+    if (now & TICKED && status > RUNNING) it.counts[status - 2] += times;
+    if ((was & STATUS) === RUNNING && status === IDLE) ++it.counts[HALTED];
+    if (now & HELD && !(was & HELD)) ++it.counts[HELDS];
+  }
+  add(node: number, counts: number[]) {
+    counts.forEach((count, kind) => (this.nodes[node].counts[kind] += count));
+  }
+  settle(flags: number[], tick: number) {
+    this.nodes.forEach((it, node) => {
+      it.since = tick + 1;
+      it.flags = flags[node];
+    });
+  }
   fault(node: number) {
     ++this.nodes[node].counts[FAULTS];
   }

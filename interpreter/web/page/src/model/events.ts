@@ -1,6 +1,6 @@
 // The events of a run, in order: for the log, and for going from one event to the next.
-import { HELD, STATUS } from "./columns";
-import { FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, type End, type Header, type LogLine } from "./recording";
+import { HELD, STATUS, TICKED } from "./columns";
+import { IDLE, RUNNING, SUCCESS, type End, type Header, type LogLine } from "./recording";
 import type { Shape } from "./shape";
 
 export type EventKind =
@@ -26,6 +26,9 @@ function isLandmark({ kind, again }: RunEvent): boolean {
   return LANDMARKS.has(kind) && !again;
 }
 
+// Of each status from Success on.
+const RESULTS: readonly [EventKind, string][] = [["success", "succeeded"], ["failure", "failed"], ["skipped", "skipped"]];
+
 // The run of the events, at the moment in which they happen.
 interface Happening {
   readonly header: Header | null;
@@ -48,22 +51,34 @@ export class Events {
     this.all.push({ line, kind, node, text, level, again: before !== undefined && line - before <= 2 });
   }
 
-  change(node: number, before: number, after: number) {
+  // `times`: of a moment of a tick that has several, in which each result is an event.
+  change(node: number, before: number, after: number, times = 0) {
     const was = before & STATUS, is = after & STATUS;
-    if (is !== was) this.statusChange(node, was, is);
+    if (times > 0 && after & TICKED && is > RUNNING) this.result(node, is, times);
+    else if (is !== was) this.statusChange(node, was, is);
     if ((before & HELD) === (after & HELD)) return;
     if (this.run.shape.nodes[node].keeper === null) return; // what is below a held node
     if (after & HELD) this.add("hold", node, "is held");
     else if (is === RUNNING) this.add("release", node, "goes on");
   }
 
+  private result(node: number, status: number, times: number) {
+    if (this.run.shape.nodes[node].isGroup) return;
+    const [kind, text] = RESULTS[status - SUCCESS];
+    this.add(kind, node, times > 1 ? `${text} ${times} times` : text);
+  }
+  // What a tick with very many moments only counts.
+  more(node: number, counts: number[]) {
+    RESULTS.forEach((_, place) => {
+      if (counts[place] > 0) this.result(node, SUCCESS + place, counts[place]);
+    });
+  }
+
   private statusChange(node: number, was: number, is: number) {
     const { children, isGroup } = this.run.shape.nodes[node];
     if (isGroup) return; // it runs as long as it has members
     const isLeaf = children.length === 0;
-    if (is === SUCCESS) this.add("success", node, "succeeded");
-    else if (is === FAILURE) this.add("failure", node, "failed");
-    else if (is === SKIPPED) this.add("skipped", node, "skipped");
+    if (is > RUNNING) this.result(node, is, 1);
     else if (is === RUNNING && isLeaf) this.add("start", node, "started");
     else if (is === IDLE && was === RUNNING && isLeaf) this.add("halt", node, "halted");
   }

@@ -75,11 +75,12 @@ export class Run {
     this.times.push(line.time_s);
     this.events.lateness();
     this.joins = line.full === true && this.lines === 1 && line.tick > 0;
+    const before = line.moments ? this.nodes.map(lastFlags) : null;
     if (line.full) this.forgetOthers(line);
     for (const [node, status, progress, ticked, held] of line.nodes ?? []) {
-      const flags = (STATUS_NUMBERS.get(status) ?? 0) | (ticked ? TICKED : 0) | (held ? HELD : 0);
-      this.change(node, progress, flags);
+      this.change(node, progress, flagsOf(status, ticked, held), before !== null);
     }
+    if (before) this.takeMoments(line, before);
     for (const [node, limit] of line.limits ?? []) {
       column(this.limits, node, () => new NumberColumn()).push(this.last, limit ?? Infinity);
     }
@@ -104,18 +105,40 @@ export class Run {
     const named = new Set((line.nodes ?? []).map((node) => node[0]));
     this.nodes.forEach((node, index) => {
       if (node.length === 0 || named.has(index)) return;
-      if (node.flags[node.length - 1] !== 0) this.change(index, 0, 0);
+      if (node.flags[node.length - 1] !== 0) this.change(index, 0, 0, line.moments !== undefined);
     });
   }
 
-  private change(node: number, progress: number, flags: number) {
+  // In such a tick nodes had several results. Each moment says how nodes were that differ from the one after it.
+  private takeMoments(line: TickLine, before: number[]) {
+    const after = this.nodes.map(lastFlags), state = [...after], rows: { times: number; flags: number[] }[] = [];
+    for (const [times, nodes] of [...(line.moments ?? [])].reverse()) {
+      for (const [node, status, ticked, held] of nodes) state[node] = flagsOf(status, ticked, held);
+      rows.unshift({ times, flags: [...state] });
+    }
+    for (const { times, flags } of rows) {
+      flags.forEach((now, node) => {
+        this.counts.moment(node, before[node], now, times, line.tick);
+        if (!this.joins) this.events.change(node, before[node], now, times);
+      });
+      before = flags;
+    }
+    for (const [node, ...counts] of line.more ?? []) {
+      this.counts.add(node, counts);
+      if (!this.joins) this.events.more(node, counts);
+    }
+    this.counts.settle(after, line.tick);
+  }
+
+  // `isPart`: what happened is told by the moments of the tick.
+  private change(node: number, progress: number, flags: number, isPart = false) {
     const changes = this.nodes[node];
     const before = changes.length === 0 ? 0 : changes.flags[changes.length - 1];
     if (changes.length > 0 && before === flags && changes.progress[changes.length - 1] === progress) return;
     changes.push(this.last, progress, flags);
-    if (before !== flags) this.counts.change(node, flags, this.ticks[this.last]);
+    if (before !== flags && !isPart) this.counts.change(node, flags, this.ticks[this.last]);
     this.thinner.count(this.nodes);
-    if (!this.joins) this.events.change(node, before, flags);
+    if (!this.joins && !isPart) this.events.change(node, before, flags);
   }
 
   private changeEntry(entry: number, value: string | null) {
@@ -152,6 +175,13 @@ export class Run {
     const place = this.nodes[node].at(line);
     return place < 0 ? 0 : this.nodes[node].flags[place] & STATUS;
   }
+}
+
+function flagsOf(status: string, ticked: number, held: number): number {
+  return (STATUS_NUMBERS.get(status) ?? 0) | (ticked ? TICKED : 0) | (held ? HELD : 0);
+}
+function lastFlags(node: NodeColumn): number {
+  return node.length === 0 ? 0 : node.flags[node.length - 1];
 }
 
 function column<T>(columns: Map<number, T>, node: number, make: () => T): T {
