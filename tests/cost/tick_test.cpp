@@ -198,7 +198,7 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
   Blackboard board(tree.tree());
   EntryChanges changes({0});
   std::string line;
-  line.reserve(json_lines().most_of_tick_end(0, 1));
+  line.reserve(json_lines().most_of_tick_end(0, 0, 1));
   const auto tick = [&](double value) {
     board.entries[0].value = value;
     ++board.entries[0].writes;

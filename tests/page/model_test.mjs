@@ -160,3 +160,26 @@ test("each span has a width: before the first tick, after one, of a part that be
     }
   }
 });
+
+test("a tick of several moments: the events and counts of each, and the state after it", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0)] },
+    // Arm fails twice and base succeeds, then arm begins again.
+    { tick: 1, time_s: 0.1, nodes: [[2, "success", 0, 1, 0]],
+      moments: [[2, [[1, "failure", 1, 0], [2, "idle", 0, 0]]], [1, [[1, "running", 1, 0], [2, "success", 1, 0]]]] },
+    { tick: 2, time_s: 0.2, nodes: [[1, "success", 0.5, 1, 0], [2, "idle", 0, 0, 0]] });
+  assert.deepEqual(run.events.all.filter((event) => event.line === 1).map((event) => [event.kind, event.node, event.text]),
+    [["failure", 1, "failed 2 times"], ["start", 1, "started"], ["success", 2, "succeeded"]]);
+  assert.equal(run.status(1, 1), 1);
+  const arm = run.countsOf(1), base = run.countsOf(2);
+  assert.deepEqual([arm.failed, arm.succeeded, arm.halted, base.succeeded], [2, 1, 0, 1]);
+});
+
+test("what a tick with very many moments only counts is counted, and an event", () => {
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0)], moments: [[1, []]], more: [[1, 3, 400, 0, 1, 0, 0]] });
+  assert.deepEqual(run.events.all.filter((event) => event.node === 1).map((event) => event.text),
+    ["started", "succeeded 3 times", "failed 400 times"]);
+  const { succeeded, failed, halted } = run.countsOf(1);
+  assert.deepEqual([succeeded, failed, halted], [3, 400, 1]);
+});

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <tuple>
 
 #include "compression/decompressed.h"
+#include "property/btcpp_tree.h"
 #include "property/random_tree.h"
 #include "recording/part_names.h"
 #include "recording/read/recording_parts.h"
@@ -37,11 +39,20 @@ struct Node {
   friend bool operator==(const Node&, const Node&) = default;
 };
 
+// One of several in a tick: each node's status, and whether it was ticked and held.
+struct Moment {
+  std::uint64_t times = 0;
+  std::vector<std::tuple<std::string, bool, bool>> nodes = {};
+
+  friend bool operator==(const Moment&, const Moment&) = default;
+};
+
 struct Tick {
   std::uint64_t tick = 0;
   std::uint64_t time = 0;  // ns
   std::vector<Node> nodes = {};
   std::map<std::uint32_t, std::optional<std::string>> entries = {};  // new values
+  std::vector<Moment> moments = {};
 
   friend bool operator==(const Tick&, const Tick&) = default;
 };
@@ -54,6 +65,20 @@ std::uint64_t nanoseconds(double seconds) {
 
 std::optional<std::string> text_of(const json& value) {
   return value.is_null() ? std::nullopt : std::optional(value.get<std::string>());
+}
+
+// From the last one back to the first: each says how nodes were that differ from the one after it.
+std::vector<Moment> moments_of_line(const json& line, const std::vector<Node>& after) {
+  std::vector<Moment> moments;
+  Moment moment;
+  for (const Node& it : after) moment.nodes.emplace_back(it.status, it.ticked, it.held);
+  const json all = line.value("moments", json::array());
+  for (auto it = all.rbegin(); it != all.rend(); ++it) {
+    moment.times = (*it)[0];
+    for (const json& node : (*it)[1]) moment.nodes[node[0]] = {node[1], node[2] == 1, node[3] == 1};
+    moments.insert(moments.begin(), moment);
+  }
+  return moments;
 }
 
 Ticks ticks_of_lines(const std::string& text) {
@@ -75,6 +100,7 @@ Ticks ticks_of_lines(const std::string& text) {
     for (const json& entry : it.value("entries", json::array())) {
       now.entries[entry[0]] = text_of(entry[1]);
     }
+    now.moments = moments_of_line(it, now.nodes);
     ticks.push_back(now);
   }
   return ticks;
@@ -83,6 +109,7 @@ Ticks ticks_of_lines(const std::string& text) {
 Ticks ticks_of(std::istream& in) {
   RecordingReader reader(in, "recording");
   Ticks ticks;
+  std::vector<NodeState> column;
   while (const auto tick = reader.next()) {
     Tick& it = ticks.emplace_back(Tick{.tick = tick->tick, .time = nanoseconds(tick->time)});
     for (const RecordedState& node : tick->nodes) {
@@ -90,6 +117,13 @@ Ticks ticks_of(std::istream& in) {
           {std::string(to_string(node.status)), node.progress, node.ticked, node.held});
     }
     for (const RecordedEntry& entry : tick->entries) it.entries[entry.entry] = entry.value;
+    tick->moments.each(
+        column, [&](std::span<const NodeState> nodes, const TickMoment& moment, bool) {
+          Moment& last = it.moments.emplace_back(Moment{moment.times});
+          for (const NodeState node : nodes) {
+            last.nodes.emplace_back(to_string(node.status()), node.ticked(), node.held());
+          }
+        });
   }
   CHECK(reader.error() == "");
   CHECK(reader.cut() == "");
@@ -285,11 +319,17 @@ std::string file_text(const std::string& path) {
 
 TEST_CASE("each format of a recording of a random tree says the same, tick by tick") {
   Counts counts;
-  std::size_t parts = 0;
+  std::size_t parts = 0, moments = 0;
   for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
     const Trial trial = random_trial(seed);
     INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
-    WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
+    // Each fourth is for BehaviorTree.CPP: its ticks may have several moments.
+    const bool is_btcpp = seed % 4 == 3;
+    const law::Document document = law::random_document(seed);
+    auto watched =
+        is_btcpp ? std::make_unique<WatchedRun>(law::tree_of(document), law::leaves_text(document))
+                 : std::make_unique<WatchedRun>(tree_text(trial.plan), leaves_text(trial.plan));
+    WatchedRun& run = *watched;
     const TemporaryPath file;
     const auto options = [&](const char* ending) {
       return RecorderOptions{.path = file.path() + ending,
@@ -310,6 +350,7 @@ TEST_CASE("each format of a recording of a random tree says the same, tick by ti
     const Ticks ticks = ticks_of_lines(text);
     std::istringstream in(text);
     CHECK(ticks_of(in) == ticks);
+    for (const Tick& it : ticks) moments += it.moments.size();
     DecompressedFile packed(file.path() + ".zst");
     const std::string unpacked{std::istreambuf_iterator<char>(packed.text()), {}};
     CHECK(unpacked == text);
@@ -340,6 +381,7 @@ TEST_CASE("each format of a recording of a random tree says the same, tick by ti
   CHECK(counts.progress > kTrees);
   CHECK(counts.entries > kTrees);
   CHECK(parts > 2 * kTrees);
+  CHECK(moments > 20);
 }
 
 }  // namespace lockstep::host::test

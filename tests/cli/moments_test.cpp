@@ -1,0 +1,238 @@
+// A tick in which nodes are begun again: what happened in it is told by everybody who watches, as a
+// tree in lockstep's own language tells it, which has a tick for each round.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "support/json.h"
+#include "support/program.h"
+
+using namespace lockstep::host::test;
+using nlohmann::json;
+
+namespace {
+
+// Of 3 attempts 2 fail. `reach` takes 3 ticks.
+const char* const kRetry =
+    R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main"><Sequence>
+    <Script code="n := 0"/>
+    <RetryUntilSuccessful name="retry" num_attempts="3"><Sequence name="try">
+      <Sleep name="reach" msec="300" _onSuccess="n := n + 1"/>
+      <ScriptCondition name="grasped" code="n &gt;= 3"/>
+    </Sequence></RetryUntilSuccessful></Sequence></BehaviorTree></root>)";
+
+// All rounds in one tick.
+std::string rounds(const std::string& times, const std::string& fails_before) {
+  return R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main"><Sequence>
+    <Script code="n := 0"/>
+    <RetryUntilSuccessful name="retry" num_attempts=")" +
+         times + R"("><Sequence name="try">
+      <Script name="count" code="n := n + 1"/>
+      <ScriptCondition name="grasped" code="n &gt; )" +
+         fails_before + R"("/>
+    </Sequence></RetryUntilSuccessful></Sequence></BehaviorTree></root>)";
+}
+
+struct Recorded {
+  TemporaryDirectory directory;
+  std::string tree, recording;
+  Outcome run;
+
+  explicit Recorded(const std::string& text, std::vector<std::string> more = {})
+      : tree(directory.file("tree.xml", text)), recording(directory.path("run.jsonl")) {
+    more.insert(more.begin(), {"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                               "--record", recording});
+    run = run_lockstep(more);
+  }
+  Outcome log(std::vector<std::string> words) const {
+    words.insert(words.begin() + 1, recording);
+    words.insert(words.begin(), "log");
+    return run_lockstep(words);
+  }
+  std::string events(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"events", "--format", "csv"});
+    return log(more).out;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("moments: the rounds of a Retry are events, in their order") {
+  const Recorded it(kRetry);
+  CHECK(it.run.code == 0);
+  CHECK(it.events({"--path", "*/reach"}) ==
+        "tick,time_s,event,what,value\n"
+        "0,0,start,Main/Sequence/retry/try/reach,\n"
+        "3,0.3,success,Main/Sequence/retry/try/reach,\n"
+        "3,0.3,start,Main/Sequence/retry/try/reach,\n"
+        "6,0.6,success,Main/Sequence/retry/try/reach,\n"
+        "6,0.6,start,Main/Sequence/retry/try/reach,\n"
+        "9,0.9,success,Main/Sequence/retry/try/reach,\n");
+  CHECK(it.events({"--path", "*/grasped"}) ==
+        "tick,time_s,event,what,value\n"
+        "3,0.3,failure,Main/Sequence/retry/try/grasped,\n"
+        "6,0.6,failure,Main/Sequence/retry/try/grasped,\n"
+        "9,0.9,success,Main/Sequence/retry/try/grasped,\n");
+}
+
+TEST_CASE("moments: a property sees each of them, in a run and in its recording") {
+  const std::vector<std::string> properties = {
+      "never grasped.failure",
+      "grasped.success only after grasped.failure",
+      "grasped.failure only after grasped.success",
+      "never reach.success and grasped.failure",
+      "never reach.running and grasped.failure",
+      "reach.success at most 1 ticks",
+      "grasped.failure leads to grasped.success within 6 ticks",
+      "grasped.failure leads to grasped.success within 5 ticks"};
+  std::vector<std::string> options;
+  for (const auto& each : properties) options.insert(options.end(), {"--property", each});
+  options.emplace_back("--json");
+  const Recorded it(kRetry, options);
+  json live = json::array(), recorded = json::array();
+  for (const json& each : json::parse(it.run.out).at("properties")) {
+    live.push_back({each.at("verdict"), each.at("tick")});
+  }
+  options.insert(options.begin(), "check");
+  for (const json& each : json::parse(it.log(options).out)) {
+    recorded.push_back({each.at("verdict"), each.at("tick")});
+  }
+  CHECK(live == json::parse(R"([["violated", 3], ["holds", 3], ["violated", 3], ["violated", 3],
+                                ["holds", null], ["holds", null], ["holds", null],
+                                ["violated", 8]])"));
+  CHECK(recorded == live);
+}
+
+TEST_CASE("moments: a recording has those of a tick that has several, and of no other") {
+  const Recorded it(kRetry);
+  std::size_t lines = 0;
+  std::ifstream file(it.recording);
+  for (std::string text; std::getline(file, text);) {
+    const json line = json::parse(text);
+    if (!line.contains("moments")) continue;
+    ++lines;
+    CHECK((line["tick"] == 3 || line["tick"] == 6));
+    CHECK(line["moments"].size() == 2);
+  }
+  CHECK(lines == 2);
+}
+
+TEST_CASE("moments: equal rounds of a tick are counted") {
+  const Recorded it(rounds("100", "7"));
+  CHECK(it.run.code == 0);
+  CHECK(it.events({"--path", "*/grasped"}) ==
+        "tick,time_s,event,what,value\n"
+        "0,0,failure,Main/Sequence/retry/try/grasped,7 times\n"
+        "0,0,success,Main/Sequence/retry/try/grasped,\n");
+}
+
+TEST_CASE("moments: what has no room is counted without its order") {
+  // Each round of the outer node has another number of attempts, so no two moments are equal.
+  const Recorded it(R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main">
+    <Sequence><Script code="n := 0; odd := false"/>
+    <Repeat num_cycles="600"><Sequence><Script code="n := n + 1; odd := !odd"/>
+      <ForceSuccess><ScriptCondition name="even" code="!odd"/></ForceSuccess>
+    </Sequence></Repeat></Sequence></BehaviorTree></root>)",
+                    {"--property", "never even.failure", "--property", "sometimes even.success"});
+  const auto events = it.events({"--path", "*/even"});
+  std::uint64_t failures = 0, successes = 0;
+  std::size_t lines = 0;
+  for (std::size_t at = events.find('\n') + 1; at < events.size();) {
+    const std::size_t end = events.find('\n', at);
+    const std::string line = events.substr(at, end - at);
+    const std::string value = line.substr(line.rfind(',') + 1);
+    const std::uint64_t times = value.empty() ? 1 : std::stoull(value);
+    (line.find(",failure,") != std::string::npos ? failures : successes) += times;
+    ++lines;
+    at = end + 1;
+  }
+  CHECK(failures == 300);
+  CHECK(successes == 300);
+  CHECK(lines < 300);
+  const Outcome check =
+      it.log({"check", "--property", "never even.failure", "--property", "sometimes even.success"});
+  CHECK(check.out.find("violated  0") != std::string::npos);
+}
+
+namespace {
+
+// The leaf is one of a plugin, so a scenario has its words.
+const char* const kAdvance =
+    R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main"><Sequence>
+    <Script code="n := 0"/>
+    <RetryUntilSuccessful name="retry" num_attempts="3"><Sequence name="try">
+      <Action ID="Advance" name="reach" step="0.5" _onSuccess="n := n + 1"/>
+      <ScriptCondition name="grasped" code="n &gt;= 3"/>
+    </Sequence></RetryUntilSuccessful></Sequence></BehaviorTree></root>)";
+
+Outcome test(const Recorded& it, const std::string& scenario, std::vector<std::string> more = {}) {
+  const std::string file = it.directory.file(
+      "t.test.xml", "<scenarios lockstep=\"1\" tree=\"tree.xml\">" + scenario + "</scenarios>");
+  more.insert(more.begin(), {"test", file, "--plugin", "motion"});
+  return run_lockstep(more);
+}
+
+}  // namespace
+
+TEST_CASE("moments: a recorded scenario has a word of a leaf for each of its ticks") {
+  const Recorded it(kAdvance, {"--plugin", "motion"});
+  CHECK(it.run.code == 0);
+  const Outcome scenario = it.log({"scenario", it.tree, "--plugin", "motion"});
+  CHECK(scenario.err == "");
+  CHECK(scenario.out.find("does=\"R0.5 S R0.5 S R0.5 S\"") != std::string::npos);
+}
+
+TEST_CASE("moments: scenarios and coverage see them") {
+  const Recorded it(kAdvance, {"--plugin", "motion"});
+  const std::string leaf =
+      "<leaf path=\"Main/Sequence/retry/try/reach\" does=\"R0.5 S R0.5 S R0.5 S\"/>";
+  const Outcome fails = test(it, "<scenario name=\"a\" rate=\"10\">" + leaf +
+                                     "<expect>never grasped.failure</expect></scenario>");
+  CHECK(fails.code == 1);
+  CHECK(fails.out.find("'never grasped.failure' is violated in tick 1") != std::string::npos);
+  CHECK(fails.out.find("Main/Sequence/retry/try/grasped: failure") != std::string::npos);
+  const Outcome covers = test(it,
+                              "<scenario name=\"a\" rate=\"10\">" + leaf +
+                                  "<expect result=\"success\" ticks=\"4\"/></scenario>",
+                              {"--coverage"});
+  CHECK(covers.code == 0);
+  CHECK(covers.out.find("Main/Sequence/retry/try/grasped  +       +        +") !=
+        std::string::npos);
+}
+
+TEST_CASE("moments: verify proves nothing of the last round only, and plays what it found") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("tree.xml",
+                     R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main">
+      <RetryUntilSuccessful name="retry" num_attempts="-1"><Sequence name="try">
+        <Action ID="Reach"/><Condition ID="Grasped"/>
+      </Sequence></RetryUntilSuccessful></BehaviorTree></root>)");
+  const std::string leaves =
+      directory.file("leaves.xml",
+                     "<leaves lockstep=\"1\" rate=\"10\"><leaf of=\"Reach\" result=\"success\" "
+                     "ticks=\"2..3\"/></leaves>");
+  const Outcome it = run_lockstep({"verify", tree, "--mock", "--leaves", leaves, "--property",
+                                   "never Grasped.failure", "--out", directory.path("out")});
+  CHECK(it.out.find("property 'never Grasped.failure'  NO") != std::string::npos);
+  const std::size_t fails = it.out.find("never fails");
+  CHECK(it.out.substr(fails, it.out.find('\n', fails) - fails).find("Grasped") ==
+        std::string::npos);
+  CHECK(it.out.find("Reach is halted") == std::string::npos);
+  CHECK(it.out.find("Reach succeeded, Main/retry/try/Grasped failed") != std::string::npos);
+  // The script makes the run that was found.
+  const Outcome check = run_lockstep({"log", "check", directory.path("out/tree.cycle.jsonl"),
+                                      "--property", "never Grasped.failure"});
+  CHECK(check.out.find("violated") != std::string::npos);
+}
+
+TEST_CASE("moments: a handler that succeeds while it is halted is told of, and not as halted") {
+  // The tree times out in the first child, so the last one is ticked once, in the halt.
+  const Recorded it(
+      R"(<root BTCPP_format="4" main_tree_to_execute="Main"><BehaviorTree ID="Main">
+      <Timeout msec="250"><TryCatch name="try" catch_on_halt="true">
+        <Sleep name="work" msec="1000"/><AlwaysSuccess name="handler"/>
+      </TryCatch></Timeout></BehaviorTree></root>)");
+  CHECK(it.events({"--path", "*/handler"}) ==
+        "tick,time_s,event,what,value\n"
+        "3,0.3,success,Main/Timeout/try/handler,\n");
+}
