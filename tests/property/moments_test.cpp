@@ -65,7 +65,11 @@ std::vector<NodeState> states(const Ticker& ticker) {
 
 std::string text(const std::vector<std::string>& told) {
   std::string all;
-  for (const std::string& it : told) all += it + ' ';
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    // What runs and is skipped was halted.
+    const bool is_implied = told[i] == "halt" && i + 1 < told.size() && told[i + 1] == "skipped";
+    if (!is_implied) all += told[i] + ' ';
+  }
   return all;
 }
 
