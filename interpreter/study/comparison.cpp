@@ -43,7 +43,7 @@ void tie_samples(Values& first, Values& second) {
   Values all = first, roundings;
   all.insert(all.end(), second.begin(), second.end());
   for (const double value : all) roundings.push_back(rounding_of(value));
-  tie(all, roundings);
+  tie_equal(all, roundings);
   std::copy_n(all.begin(), first.size(), first.begin());
   std::copy(all.begin() + std::ssize(first), all.end(), second.begin());
 }
@@ -55,7 +55,7 @@ void tie_differences(Values& differences, const Values& roundings) {
     const double size = std::abs(differences[i]);
     sizes.push_back(size > roundings[i] ? size : 0);
   }
-  tie(sizes, roundings);
+  tie_equal(sizes, roundings);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     differences[i] = sizes[i] == 0 ? 0 : std::copysign(sizes[i], differences[i]);
   }

@@ -21,7 +21,7 @@ std::vector<std::size_t> order_of(std::span<const double> values) {
 
 }  // namespace
 
-void tie(std::span<double> values, std::span<const double> roundings) {
+void tie_equal(std::span<double> values, std::span<const double> roundings) {
   std::optional<std::size_t> first;  // of those that are equal
   for (const std::size_t place : order_of(values)) {
     const double apart = first ? values[place] - values[*first] : 0;

@@ -148,7 +148,7 @@ TEST_CASE("rank tests: what is equal but for rounding is tied, so seconds say wh
         sizes.push_back(std::abs(seconds[i]) > roundings[i] ? std::abs(seconds[i]) : 0);
       }
       const double before = ranks_of(sizes).ties;
-      tie(sizes, roundings);
+      tie_equal(sizes, roundings);
       for (double& size : ticks) size = std::abs(size);
       CHECK(ranks_of(sizes).of == ranks_of(ticks).of);
       CHECK(ranks_of(sizes).ties == ranks_of(ticks).ties);
@@ -160,7 +160,7 @@ TEST_CASE("rank tests: what is equal but for rounding is tied, so seconds say wh
   const Values as_it_was = apart;
   Values roundings;
   for (const double value : apart) roundings.push_back(rounding_of(value));
-  tie(apart, roundings);
+  tie_equal(apart, roundings);
   CHECK(apart == as_it_was);
 }
 
