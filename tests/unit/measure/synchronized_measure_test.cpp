@@ -194,7 +194,7 @@ TEST_CASE("a tick in which a script of the node decides is no tick of its measur
       "Sequence[memory=true](Script[code=k:=0] Parallel[success_count=2]("
       "ParallelRelative[delta=1 while=k<1](a b) Script[code=k:=k+1] w))",
       "a+.2 b+.1 w=RRRRS");
-  CHECK(halted.ticks == 6);
+  CHECK(halted.ticks == 5);
   CHECK(halted.measure.distance().samples() == 1);
   CHECK(halted.measure.largest_spread() == 0);
   const Measured decided("Repeat[times=3](ParallelAbsolute[barriers=.5 success_if=true](a b))",

@@ -28,12 +28,12 @@ Told told_of(const std::string& tree, const std::string& leaves, std::uint64_t t
   return told;
 }
 
-constexpr const char* kTree = "Fallback(Sequence(c a) AlwaysRunning)";
+constexpr const char* kFlickering = "Fallback(Sequence(c a) AlwaysRunning)";
 constexpr const char* kFlickers = "c=SFSFSFSFSFSFSFSFSFSFSFSFSFSFSFSFSFSFSFSF a=R";
 
 TEST_CASE("an action that is started and halted ten times in a second is named once") {
-  CHECK(told_of(kTree, kFlickers, 19).warnings.empty());
-  const Told told = told_of(kTree, kFlickers, 40);
+  CHECK(told_of(kFlickering, kFlickers, 19).warnings.empty());
+  const Told told = told_of(kFlickering, kFlickers, 40);
   REQUIRE(told.warnings.size() == 1);
   CHECK(told.warnings[0].starts_with(
       "the action 'Test/Fallback/Sequence/a' was started and halted 10 times in 0.18 s, the last "
@@ -45,7 +45,7 @@ TEST_CASE("an action that is started and halted ten times in a second is named o
 }
 
 TEST_CASE("ten halts in more than a second are no warning, nor is an action that completes") {
-  CHECK(told_of(kTree, kFlickers, 40, std::chrono::milliseconds(60)).warnings.empty());
+  CHECK(told_of(kFlickering, kFlickers, 40, std::chrono::milliseconds(60)).warnings.empty());
   CHECK(told_of("KeepRunningUntilFailure(a)", "a=RSRSRSRSRSRSRSRSRSRSRSRSRSRSRSRSRSRS", 36)
             .warnings.empty());
 }
