@@ -51,10 +51,20 @@ std::string RunPackets::header(const RunStart& start) const {
                          .clock = start.real_time ? "wall" : "virtual",
                          .seed = run_.seed,
                          .arguments = run_.arguments,
-                         .values = run_.values,
+                         .values = start_values(),
                          .nodes = describe(tree_),
                          .entries = keys(),
                          .verify = run_.verify});
+}
+
+// A start value may be as secret as the entry that it is of.
+std::map<std::string, std::string, std::less<>> RunPackets::start_values() const {
+  auto values = run_.values;
+  if (!run_.entries) return values;
+  std::erase_if(values, [&](const auto& it) {
+    return std::ranges::find(*run_.entries, it.first) == run_.entries->end();
+  });
+  return values;
 }
 
 std::vector<RecordedKey> RunPackets::keys() const {

@@ -56,6 +56,7 @@ class RunPackets {
 
  private:
   std::vector<RecordedKey> keys() const;
+  std::map<std::string, std::string, std::less<>> start_values() const;
 
   const Tree& tree_;
   const RunDescription run_;

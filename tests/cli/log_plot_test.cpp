@@ -118,8 +118,8 @@ TEST_CASE("log measure tells which name it does not know") {
   const std::string recording = record(directory, kA1);
   const std::pair<std::string, std::string> wrong[] = {
       {"speed", "unknown measure 'speed', did you mean 'spread'?"},
-      {"color", "unknown measure 'color', there are: progress-distance[[K1:K2]], "},
-      {"progress-distance:x", "expected 'progress-distance[K1:K2]', with whole numbers"},
+      {"color", "unknown measure 'color', there are: progress-distance[[K1:K2]][:PATH], "},
+      {"progress-distance:x", "no parallel or barrier 'x', there are: 'Main/pull'"},
       {"progress-distance[3:2]", "expected 'progress-distance[K1:K2]', with whole numbers"},
       {"held", "expected 'held:NODE'"},
       {"held:pull",

@@ -1,5 +1,5 @@
-// A tick in which nodes are begun again: what happened in it is told by everybody who watches, as a
-// tree in lockstep's own language tells it, which has a tick for each round.
+// A tick in which nodes are begun again: each output reports what happened in it, as for a tree in
+// lockstep's own language, which has a tick for each round.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -89,7 +89,8 @@ TEST_CASE("moments: a property sees each of them, in a run and in its recording"
   options.emplace_back("--json");
   const Recorded it(kRetry, options);
   json live = json::array(), recorded = json::array();
-  for (const json& each : json::parse(it.run.out).at("properties")) {
+  const json summary = json::parse(it.run.out);
+  for (const json& each : summary.at("properties")) {
     live.push_back({each.at("verdict"), each.at("tick")});
   }
   options.insert(options.begin(), "check");
@@ -121,7 +122,8 @@ TEST_CASE("moments: equal rounds of a tick are counted") {
   CHECK(it.run.code == 0);
   CHECK(it.events({"--path", "*/grasped"}) ==
         "tick,time_s,event,what,value\n"
-        "0,0,failure,Main/Sequence/retry/try/grasped,7 times\n"
+        "0,0,failure,Main/Sequence/retry/try/grasped,\n"
+        "0,0,failure,Main/Sequence/retry/try/grasped,6 times\n"
         "0,0,success,Main/Sequence/retry/try/grasped,\n");
 }
 

@@ -125,8 +125,11 @@ class Claims {
       const auto it = found.violated.find(i);
       const auto claimed =
           it == found.violated.end() ? std::nullopt : Judgment::First(it->second.ticks);
-      same(properties[i].name() + " is violated", claimed, judgment_.violated[i],
-           judgment_.runs_to_violated[i]);
+      // The judge looks at the state after a tick. verify also looks at the moments within it, so
+      // it may see more, and sooner, but nothing less.
+      const Judgment::First& is = judgment_.violated[i];
+      if (claimed && (!is || *claimed <= *is)) continue;
+      same(properties[i].name() + " is violated", claimed, is, judgment_.runs_to_violated[i]);
     }
     if (found.broken) wrong_ = "a call of a leaf: " + found.broken->first;
     return wrong_;
@@ -180,11 +183,13 @@ class Claims {
   }
 
   void compare_nodes(const SearchResult& found) {
+    // What the judge sees after a tick, verify must have seen: here too it may see more.
     for (NodeIndex node = 0; node < judgment_.ticked.size(); ++node) {
-      same(tree_.path(node) + " succeeds", found.coverage.has_been(node, Status::Success),
-           judgment_.succeeded[node], "");
-      same(tree_.path(node) + " fails", found.coverage.has_been(node, Status::Failure),
-           judgment_.failed[node], "");
+      if (judgment_.succeeded[node])
+        same(tree_.path(node) + " succeeds", found.coverage.has_been(node, Status::Success), true,
+             "");
+      if (judgment_.failed[node])
+        same(tree_.path(node) + " fails", found.coverage.has_been(node, Status::Failure), true, "");
     }
   }
 

@@ -452,7 +452,7 @@ TEST_CASE("a golden recording is written by --update, and compared") {
   CHECK(contains(it.out, "the run is not that of"));
 }
 
-TEST_CASE("--update writes over nothing but the recordings of one scenario, in its folder") {
+TEST_CASE("test --update writes over nothing but the recordings of one scenario, in its folder") {
   const auto scenario = [](const std::string& name, const std::string& file) {
     return "<scenario name=\"" + name + "\"><expect same-as=\"" + file + "\"/></scenario>";
   };
@@ -484,7 +484,7 @@ TEST_CASE("--update writes over nothing but the recordings of one scenario, in i
   }
 }
 
-TEST_CASE("--update does not write the recording of a scenario that fails otherwise") {
+TEST_CASE("test --update does not write the recording of a scenario that fails otherwise") {
   const std::string rest = R"(<expect same-as="gold.jsonl"/></scenario>)";
   const Folder folder(R"(<scenario name="a"><expect result="failure"/>)" + rest);
   CHECK(folder.test({"--update"}).code == 1);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <functional>
 #include <set>
 #include <span>
 
@@ -178,24 +180,26 @@ class Adviser {
     }
   }
 
-  // Names that the tree gives: of a SubTree it may be that of its tree.
+  // Names that the tree gives: of a SubTree it may be that of its tree. A node may have thousands
+  // of children, so their names are in a table: a place is free, 0, or has the child with its name.
   void namesakes(std::uint32_t node) const {
-    std::vector<std::string_view> names;
+    std::vector<std::uint32_t> table(std::bit_ceil(2 * std::size_t{at(node).children}));
     for (const std::uint32_t child : children_in(definition_.nodes, node)) {
       const DefinitionNode& it = at(child);
       if (it.name == it.type->id || it.type->category == NodeCategory::SubTree) continue;
-      names.push_back(it.name);
+      std::size_t place = std::hash<std::string_view>()(it.name) & (table.size() - 1);
+      while (table[place] != 0 && at(table[place]).name != it.name) {
+        place = (place + 1) & (table.size() - 1);
+      }
+      if (table[place] != 0) {
+        return add(
+            child, Severity::Note,
+            fmt::format("'{}' is also the name of a child before it", brief(it.name)),
+            "paths tell them apart by '#2', which changes when the order does: give each its "
+            "own name");
+      }
+      table[place] = child;
     }
-    std::ranges::sort(names);
-    const auto twice = std::ranges::adjacent_find(names);
-    if (twice == names.end()) return;
-    std::uint32_t last = node;
-    for (const std::uint32_t child : children_in(definition_.nodes, node)) {
-      if (at(child).name == *twice) last = child;
-    }
-    add(last, Severity::Note,
-        fmt::format("'{}' is also the name of a child before it", brief(*twice)),
-        "paths tell them apart by '#2', which changes when the order does: give each its own name");
   }
 
   // A decorator or SubTree has its child's progress.

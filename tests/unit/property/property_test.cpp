@@ -243,8 +243,8 @@ TEST_CASE("a state has as few bytes as its largest number") {
       {"finally a.running", 1},
       {"a.running until a.failure", 1},
       {"a.running leads to a.failure", 1},
-      {"a.running leads to a.failure within 0 ticks", 0},
-      {"a.running leads to a.failure within 255 ticks", 1},
+      {"a.running leads to a.failure within 0 ticks", 1},
+      {"a.running leads to a.failure within 255 ticks", 2},
       {"a.running leads to a.failure within 256 ticks", 2},
       {"a.held at most 255 ticks", 1},
       {"a.held at most 1000000000 ticks", 4}};

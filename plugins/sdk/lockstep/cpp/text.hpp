@@ -194,7 +194,8 @@ constexpr bool are_choices(std::string_view words) {
 
 constexpr bool is_bool(std::string_view text) {
   text = trim(text);
-  return text == "true" || text == "false" || text == "1" || text == "0";
+  return text == "true" || text == "True" || text == "TRUE" || text == "1" || text == "false" ||
+         text == "False" || text == "FALSE" || text == "0";
 }
 
 // Items of which `is_item` is true, separated by ; or , or blanks.
