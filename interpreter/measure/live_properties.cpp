@@ -65,21 +65,21 @@ std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uin
     writes_[i] = entry.writes;
     checks_.compared()[i] = comparison.holds_for(entry.value, room_);
   }
-  const auto see = [&](auto state_of) {
+  const auto see = [&](auto state_of, bool is_first) {
     for (std::size_t place = 0; place < seen.size(); ++place) {
-      see_node(seen[place], state_of(checks_.nodes()[place]));
+      see_node(seen[place], state_of(checks_.nodes()[place]), is_first);
     }
   };
   std::span<const std::size_t> violated;
   const auto see_part = [&](std::span<const NodeState> states, bool is_first, bool is_last) {
-    see([&](NodeIndex node) { return states[node]; });
+    see([&](NodeIndex node) { return states[node]; }, is_first);
     violated = checks_.step(tick, {.is_first = is_first, .is_last = is_last});
   };
   if (const MomentsView moments = ticker.moments(); !moments.empty()) [[unlikely]] {
     moments.each_part(moment_, see_part);
     return violated;
   }
-  see([&](NodeIndex node) { return ticker.node_state(node); });
+  see([&](NodeIndex node) { return ticker.node_state(node); }, true);
   return checks_.step(tick);
 }
 

@@ -17,9 +17,11 @@ class Ticker;
 
 PropertyNames property_names(const Tree& tree);
 
-inline void see_node(SeenNode& seen, NodeState state) {
+// In a later moment of a tick `ticked` is what the tick has reached so far, so that its last moment
+// is the state after the tick.
+inline void see_node(SeenNode& seen, NodeState state, bool is_first = true) {
   seen.status = state.status();
-  seen.ticked = state.ticked();
+  seen.ticked = state.ticked() || (!is_first && seen.ticked);
   seen.held = state.held();
 }
 

@@ -108,7 +108,7 @@ PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, Ticker& ticker) 
     if (verdict != PropertyVerdict::Open) return;
     const auto nodes = property.nodes();
     for (std::size_t place = 0; place < nodes.size(); ++place) {
-      see_node(part.seen[place], state_of(nodes[place]));
+      see_node(part.seen[place], state_of(nodes[place]), of_tick.is_first);
     }
     verdict = property.step(own, {.nodes = part.seen, .comparisons = compared}, of_tick);
   };

@@ -32,7 +32,7 @@ void step(const RecordedTick& tick, PropertyChecks& checks, std::vector<NodeStat
   }
   tick.moments.each_part(moment, [&](std::span<const NodeState> states, bool first, bool last) {
     for (std::size_t place = 0; place < seen.size(); ++place) {
-      see_node(seen[place], states[checks.nodes()[place]]);
+      see_node(seen[place], states[checks.nodes()[place]], first);
     }
     checks.step(tick.tick, {.is_first = first, .is_last = last});
   });
