@@ -42,8 +42,8 @@ class RunWatchers {
   // Around the ticks of a program that ticks itself. The loop calls its observers.
   void before_tick(Ticker& ticker, Nanoseconds time);
   void after_tick(Ticker& ticker, const TickReport& report);
-  // The leaves were halted between two ticks, at `time`. Groot2 sees it at once, all others with the
-  // next tick.
+  // The leaves were halted between two ticks, at `time`. Groot2 sees it at once, all others with
+  // the next tick.
   void halted(Ticker& ticker, Nanoseconds time);
   // A loop has called them to the end of the run.
   void end_with_loop() { is_begun_ = false; }

@@ -73,8 +73,8 @@ Result<Order> set(const Tree& tree, const Fields& fields) {
     return problem(
         fmt::format("'{}' holds objects of a plugin: they have no text", printable(fields.entry)));
   }
-  auto value = is_any ? std::optional(value_of_any_type(fields.value))
-                      : parse_value(type, fields.value);
+  auto value =
+      is_any ? std::optional(value_of_any_type(fields.value)) : parse_value(type, fields.value);
   if (!value) {
     return problem(fmt::format("'{}' is not {}, which '{}' holds", printable(fields.value),
                                expected_text(type), printable(fields.entry)));

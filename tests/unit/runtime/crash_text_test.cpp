@@ -64,7 +64,8 @@ TEST_CASE("a crash names what it was in, and isolation only where it would help"
   CHECK(said(node).starts_with("lockstep: error: the control node 'Main/retry' (RecoveryNode of "));
   CHECK(said(node).find("--isolate") == std::string::npos);
   CHECK(said(node).find("the author of the plugin needs the backtrace") != std::string::npos);
-  CHECK(said(kCrashedLeaf).find("with --isolate --on-fault fail, the run survives") != std::string::npos);
+  CHECK(said(kCrashedLeaf).find("with --isolate --on-fault fail, the run survives") !=
+        std::string::npos);
   const CallSite& leaf =
       CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion", .is_local = true});
   CHECK(said(leaf).find("--isolate") == std::string::npos);
