@@ -165,22 +165,32 @@ class Judge {
   }
 
   void look_at_tick(std::size_t state) {
+    ReferenceMoment after;
     for (std::size_t node = 0; node < said_.ticked.size(); ++node) {
-      if (!tree_.ticked(node)) continue;
+      after.push_back({tree_.status(node), tree_.ticked(node)});
+    }
+    for (const ReferenceMoment& moment : tree_.moments()) look_at_moment(state, moment);
+    look_at_moment(state, after);
+  }
+
+  void look_at_moment(std::size_t state, const ReferenceMoment& moment) {
+    for (std::size_t node = 0; node < said_.ticked.size(); ++node) {
+      if (!moment[node].ticked) continue;
       if (!said_.ticked[node]) said_.runs_to_ticked[node] = run_to(state, true);
       said_.ticked[node] = true;
-      if (tree_.status(node) == Status::Success) said_.succeeded[node] = true;
-      if (tree_.status(node) == Status::Failure) said_.failed[node] = true;
+      if (moment[node].status == Status::Success) said_.succeeded[node] = true;
+      if (moment[node].status == Status::Failure) said_.failed[node] = true;
     }
     for (std::size_t i = 0; i < properties_.size(); ++i) {
-      if (said_.violated[i] || !holds(properties_[i].one) || !holds(properties_[i].other)) continue;
+      const NeverBoth& both = properties_[i];
+      if (said_.violated[i] || !holds(both.one, moment) || !holds(both.other, moment)) continue;
       said_.violated[i] = states_[state].ticks + 1;
       said_.runs_to_violated[i] = run_to(state, true);
     }
   }
 
-  bool holds(const NeverBoth::Fact& fact) const {
-    const Status status = tree_.status(fact.node);
+  static bool holds(const NeverBoth::Fact& fact, const ReferenceMoment& moment) {
+    const Status status = moment[fact.node].status;
     switch (fact.what) {
       case NeverBoth::What::Running:
         return status == Status::Running;
@@ -191,7 +201,7 @@ class Judge {
       case NeverBoth::What::Ticked:
         break;
     }
-    return tree_.ticked(fact.node);
+    return moment[fact.node].ticked;
   }
 
   void look_at_ends() {

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/status.h"
 #include "property/judged_leaves.h"
+#include "property/reference.h"
 
 namespace lockstep::host::test {
 
@@ -26,6 +28,9 @@ class JudgedTree {
   virtual std::size_t nodes() const = 0;
   virtual Status status(std::size_t node) const = 0;
   virtual bool ticked(std::size_t node) const = 0;
+  // The moments before the last one, which is the state after the tick. Empty as well where the
+  // interpreter has none.
+  virtual std::span<const ReferenceMoment> moments() const { return {}; }
 };
 
 // "never ONE and OTHER"

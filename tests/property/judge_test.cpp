@@ -67,6 +67,7 @@ class JudgedPlan final : public Judged<Reference> {
     return reference_.fault() ? std::nullopt : std::optional(status);
   }
   std::size_t nodes() const override { return nodes_; }  // without barriers and pools
+  std::span<const ReferenceMoment> moments() const override { return reference_.moments(); }
 
  private:
   const std::size_t nodes_;
@@ -125,10 +126,10 @@ class Claims {
       const auto it = found.violated.find(i);
       const auto claimed =
           it == found.violated.end() ? std::nullopt : Judgment::First(it->second.ticks);
-      // The judge looks at the state after a tick. verify also looks at the moments within it, so
-      // it may see more, and sooner, but nothing less.
+      // The reference for BehaviorTree.CPP has the state after a tick only, and verify its moments,
+      // too: it may see more, and sooner, but nothing less.
       const Judgment::First& is = judgment_.violated[i];
-      if (claimed && (!is || *claimed <= *is)) continue;
+      if (is_btcpp && claimed && (!is || *claimed <= *is)) continue;
       same(properties[i].name() + " is violated", claimed, is, judgment_.runs_to_violated[i]);
     }
     if (found.broken) wrong_ = "a call of a leaf: " + found.broken->first;
@@ -183,13 +184,11 @@ class Claims {
   }
 
   void compare_nodes(const SearchResult& found) {
-    // What the judge sees after a tick, verify must have seen: here too it may see more.
     for (NodeIndex node = 0; node < judgment_.ticked.size(); ++node) {
-      if (judgment_.succeeded[node])
-        same(tree_.path(node) + " succeeds", found.coverage.has_been(node, Status::Success), true,
-             "");
-      if (judgment_.failed[node])
-        same(tree_.path(node) + " fails", found.coverage.has_been(node, Status::Failure), true, "");
+      same(tree_.path(node) + " succeeds", found.coverage.has_been(node, Status::Success),
+           judgment_.succeeded[node], "");
+      same(tree_.path(node) + " fails", found.coverage.has_been(node, Status::Failure),
+           judgment_.failed[node], "");
     }
   }
 

@@ -522,6 +522,7 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
 
 Reference::Reference(const Plan& plan, LeafBehavior* behavior) : world_(std::make_unique<World>()) {
   world_->behavior = behavior;
+  world_->nodes = &nodes_;
   root_ = ReferenceNode::make(*this, plan);
   for (const Plan* group : groups_of(plan)) {
     if (group->kind == "barrier") {
@@ -556,6 +557,7 @@ Reference::~Reference() = default;
 Status Reference::tick(Nanoseconds now) {
   world_->now = now;
   ++world_->tick;
+  world_->begin_moments();
   try {
     for (ReferenceGroup* group : world_->groups) group->before_tick();
     const Status status = root_->tick();
@@ -615,6 +617,9 @@ Status Reference::status(std::size_t node) const {
 }
 bool Reference::ticked(std::size_t node) const {
   return nodes_[node]->last_tick == world_->tick;
+}
+const std::vector<ReferenceMoment>& Reference::moments() const {
+  return world_->moments;
 }
 bool Reference::held(std::size_t node) const {
   return nodes_[node]->paused;

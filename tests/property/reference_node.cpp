@@ -16,10 +16,13 @@ ReferenceNode::ReferenceNode(Reference& tree, const Plan& its_plan)
 }
 
 Status ReferenceNode::tick() {
+  in_tick = true;
   if (has_ended(status)) {
     for (auto& child : children) child->make_idle();
   }
   status = tick_with_scripts();
+  in_tick = false;
+  was_ticked = true;
   paused = false;
   last_tick = world.tick;
   for (ReferenceGroup* group : world.groups) group->was_ticked(*this);
@@ -59,13 +62,43 @@ void ReferenceNode::run(const char* hook) const {
   if (script != plan.hooks.end()) this->script().run(script->second);
 }
 
+// It has begun or completed in this moment, or something below it has.
+bool ReferenceNode::has_news() const {
+  const bool is_new = status != Status::Idle && !(runs() && at_begin == Status::Running);
+  if (was_ticked && is_new) return true;
+  return std::ranges::any_of(children, [](const auto& child) { return child->has_news(); });
+}
+
+void Reference::World::begin_moments() {
+  moments.clear();
+  is_halting = false;
+  for (ReferenceNode* node : *nodes) {
+    node->in_tick = node->was_ticked = false;
+    node->at_begin = node->status;
+  }
+}
+
+// Nodes that are in their ticks run.
+void Reference::World::end_moment() {
+  moments.emplace_back();
+  for (ReferenceNode* node : *nodes) {
+    node->at_begin = node->in_tick ? Status::Running : node->status;
+    moments.back().push_back({node->at_begin, node->in_tick || node->last_tick == tick});
+    node->was_ticked = false;
+  }
+}
+
 void ReferenceNode::make_idle() {
+  const bool is_outermost = !world.is_halting;
+  if (is_outermost && has_news()) world.end_moment();
+  world.is_halting = true;
   const bool was_running = runs();
   status = Status::Idle;
   paused = false;
   if (was_running) on_halt();
   for (auto& child : children) child->make_idle();
   if (was_running) run("on_halt");
+  if (is_outermost) world.is_halting = false;
 }
 
 void ReferenceNode::pause() {

@@ -21,6 +21,12 @@ struct Reference::World {
   Entries entries;
   std::vector<ReferenceGroup*> groups;
   std::map<std::string, long> cases;  // of the law, by name: how often they came up
+  const std::vector<ReferenceNode*>* nodes = nullptr;
+  std::vector<ReferenceMoment> moments;  // of this tick, but for the last one
+  bool is_halting = false;
+
+  void begin_moments();
+  void end_moment();
 };
 
 class ReferenceNode {
@@ -68,8 +74,13 @@ class ReferenceNode {
   std::uint32_t last_tick = 0;
   std::uint32_t withheld_in = 0;  // the last tick in which its synchronized parallel held it
   std::vector<double> snapshot;
+  // Of this moment.
+  bool in_tick = false;
+  bool was_ticked = false;
+  Status at_begin = Status::Idle;
 
  private:
+  bool has_news() const;
   Status tick_with_scripts();
   Status decided(Status result);
   Status ended(Status result);
