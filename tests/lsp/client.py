@@ -14,6 +14,7 @@ class Client:
         self.process = subprocess.Popen(
             [os.environ["LOCKSTEP"], "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE, env={**os.environ, **(environment or {})})
+        self.errors = ""
         self.number = 0
         self.versions = {}
         self.known = {}  # what is wrong, by URI
@@ -29,8 +30,11 @@ class Client:
         self.raw(data)
 
     def raw(self, data):
-        self.process.stdin.write(data)
-        self.process.stdin.flush()
+        try:
+            self.process.stdin.write(data)
+            self.process.stdin.flush()
+        except BrokenPipeError:
+            pass  # read() says how the server has ended
 
     def read(self):
         length = None
@@ -39,7 +43,9 @@ class Client:
             if name.lower() == b"content-length":
                 length = int(value)
         if length is None:
-            raise EOFError("the server has ended")
+            code = self.process.wait(timeout=60)
+            self.errors += self.process.stderr.read().decode()
+            raise EOFError(f"the server has ended with {code}:\n{self.errors}")
         return json.loads(self.process.stdout.read(length))
 
     def wait(self, is_it):
@@ -89,7 +95,7 @@ class Client:
         self.process.stdin.close()
         code = self.process.wait(timeout=60)
         self.process.stdout.close()
-        self.errors = self.process.stderr.read().decode()
+        self.errors += self.process.stderr.read().decode()
         self.process.stderr.close()
         return code
 

@@ -40,13 +40,13 @@ class ReadingClient(Client):
         try:
             while True:
                 self.messages.put(super().read())
-        except EOFError:
-            self.messages.put(None)
+        except Exception as end:
+            self.messages.put(end)
 
     def read(self):
         message = self.messages.get()
-        if message is None:
-            raise EOFError("the server has ended")
+        if isinstance(message, Exception):
+            raise message
         return message
 
     def stop(self):
@@ -55,7 +55,7 @@ class ReadingClient(Client):
         self.reader.join()
         self.process.stdin.close()
         code = self.process.wait(timeout=60)
-        self.errors = self.process.stderr.read().decode()
+        self.errors += self.process.stderr.read().decode()
         self.process.stdout.close()
         self.process.stderr.close()
         return code
