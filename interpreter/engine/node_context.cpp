@@ -35,6 +35,11 @@ struct NodeContext::Beside {
   NodeScripts scripts;
   Groups groups;
   HeldLeaves held_leaves;
+
+  // Of each node, and since which call of share_progress it is known.
+  std::vector<double> progress;
+  std::vector<std::uint64_t> known_since;
+  std::uint64_t shared = 0;  // how often
 };
 
 NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board,
@@ -55,6 +60,22 @@ NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboar
 }
 
 NodeContext::~NodeContext() = default;
+
+void NodeContext::share_progress() {
+  if (shares_progress_) return;
+  shares_progress_ = true;
+  if (++beside_->shared > 1) return;
+  beside_->progress.resize(tree_.nodes.size());
+  beside_->known_since.resize(tree_.nodes.size());
+}
+
+[[gnu::noinline]] double NodeContext::shared_progress(NodeIndex node) {
+  if (beside_->known_since[node] != beside_->shared) {
+    beside_->progress[node] = ask_progress(node);
+    beside_->known_since[node] = beside_->shared;
+  }
+  return beside_->progress[node];
+}
 
 [[gnu::noinline]] Status NodeContext::tick_apart(NodeIndex node) {
   return tick(node);

@@ -108,10 +108,16 @@ class NodeContext : public RunView {
 
   // In [0, 1]: 1 on Success, 0 when idle or failed.
   double progress(NodeIndex node) {
-    const Status now = status(node);
-    if (now == Status::Running) return nodes_[node].kind->progress(*this, node);
-    return now == Status::Success ? 1.0 : 0.0;
+    if (shares_progress_) [[unlikely]]
+      return shared_progress(node);
+    return ask_progress(node);
   }
+
+  // Until the next tick each node is asked for its progress once, however many ask for it: those
+  // who watch, and the nodes above it. Each of those who watch calls it before a tick, at the time
+  // of that tick. The first call allocates.
+  void share_progress();
+
 
   // --- what went wrong ---------------------------------------------------------------------------
 
@@ -166,6 +172,13 @@ class NodeContext : public RunView {
               LeafWatch* watch);
   ~NodeContext();
 
+  [[gnu::always_inline]] double ask_progress(NodeIndex node) {
+    const Status now = status(node);
+    if (now == Status::Running) return nodes_[node].kind->progress(*this, node);
+    return now == Status::Success ? 1.0 : 0.0;
+  }
+  double shared_progress(NodeIndex node);
+
   std::optional<Status> tick_interrupted(NodeIndex node);
   Status fail(NodeIndex node);
   void forget_descendants(NodeIndex node);
@@ -202,6 +215,7 @@ class NodeContext : public RunView {
   std::unique_ptr<NodeWatches> watches_;  // null: nobody has ever watched nodes
   std::unique_ptr<Moments> moments_;      // null: nobody asks for them
   bool notes_halts_;                      // somebody is told of halts: scripts, or who watches
+  bool shares_progress_ = false;          // until the next tick
 };
 
 }  // namespace lockstep::host

@@ -47,6 +47,7 @@ void take_state(RunState& to, const RunState& from) {
 
 // The compiled scripts of entries follow from their texts, so they need no restoring.
 void Ticker::restore(const SavedRun& from) {
+  shares_progress_ = false;
   take_state(state_, from.run);
   board_.entries = from.entries;  // each stays where it is
   ports_.names().restore(from.named);

@@ -13,6 +13,7 @@ Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, 
 Status Ticker::tick_root() {
   const InEngine scope(board_.lock.get());
   ++state_.tick_number;
+  shares_progress_ = false;
   state_.ended.clear();
   if (!held_leaves_.empty()) [[unlikely]]
     held_leaves_.look(*this);
@@ -69,6 +70,7 @@ Status Ticker::end_calls(Status result) {
 
 void Ticker::halt_all() {
   const InEngine scope(board_.lock.get());
+  shares_progress_ = false;
   state_.in_last_halt = true;
   halt_range(0, static_cast<NodeIndex>(tree_.nodes.size()));
   state_.in_last_halt = false;
@@ -91,6 +93,7 @@ void Ticker::watch_nodes(std::span<const NodeIndex> nodes, NodeWatch* watch) {
 }
 
 void Ticker::reset() {
+  shares_progress_ = false;
   state_.reset();
   parameters_.reset();
   scripts_.reset();

@@ -23,7 +23,10 @@ class Ticker : public NodeContext {
 
   // The time of the next tick, which must not decrease. From now on, progress is computed for that
   // time.
-  void set_now(Nanoseconds now) { state_.now = now; }
+  void set_now(Nanoseconds now) {
+    state_.now = now;
+    shares_progress_ = false;
+  }
 
   // Ticks the root once, at that time. The result is Running while the tree runs, and after a
   // fault.

@@ -71,6 +71,7 @@ RunDelta::RunDelta(const Tree& tree)
 // Only running nodes are asked. The progress of all others follows from their Activity, so it is
 // computed again only after a change of Activity.
 void RunDelta::before_tick(Ticker& ticker) {
+  ticker.share_progress();
   const std::span<const Activity> activity = ticker.run_state().activity;
   for_each_difference(activity, source_.data(), [&](NodeIndex node) {
     set_progress(node, ticker.progress(node));

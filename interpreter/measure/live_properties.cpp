@@ -44,6 +44,7 @@ LiveProperties::LiveProperties(const Tree& tree, PropertyChecks& checks)
 
 void LiveProperties::before_tick(Ticker& ticker) {
   ticker.keep_moments();
+  if (!asked_.empty()) ticker.share_progress();
   for (const std::size_t place : asked_) {
     checks_.seen()[place].progress = ticker.progress(checks_.nodes()[place]);
   }

@@ -42,9 +42,11 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
       parallel_ticks_(measuring.parallels().size()),
       node_ticks_(measuring.nodes().size()),
       user_ticks_(users_.size()),
-      has_others_(!(measuring.nodes().empty() && users_.empty() && slots_.empty())) {
+      has_others_(!(measuring.nodes().empty() && users_.empty() && slots_.empty())),
+      asks_(!measuring.nodes().empty()) {
   for (const NodeIndex node : measuring.parallels()) {
     parallels_.emplace_back(tree, node, measuring.needs_flags());
+    asks_ |= !compares_progress(synchronization(tree.nodes[node]));
   }
   for (const NodeIndex node : measuring.nodes()) {
     Node measured{.index = node, .parent = {}, .child = 0};
@@ -65,6 +67,7 @@ LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
 }
 
 void LiveTicks::before_tick(Ticker& ticker) {
+  if (asks_) ticker.share_progress();
   for (SynchronizedProbe& parallel : parallels_) parallel.before_tick(ticker);
   if (!has_others_) return;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

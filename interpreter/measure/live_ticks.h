@@ -39,6 +39,7 @@ class LiveTicks {
   std::vector<NodeTick> node_ticks_;
   std::vector<ResourceTick> user_ticks_;
   const bool has_others_;  // more than parallels
+  bool asks_;              // nodes for their progress, before a tick
   TickView view_;          // of all these
 };
 

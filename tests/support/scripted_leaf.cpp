@@ -72,6 +72,7 @@ void ScriptedLeaf::pause() {
 void ScriptedLeaf::resume() {
   told(Call::Resume);
   progress_ = progress();
+  --asked_;
   paused_at_.reset();
 }
 
@@ -103,6 +104,7 @@ std::int32_t ScriptedLeaf::tick() {
 }
 
 double ScriptedLeaf::progress() const {
+  ++asked_;
   if (script_.loss > 0 && paused_at_) {
     return std::max(0.0, progress_ - script_.loss * (*tree_tick_ - *paused_at_));
   }

@@ -30,6 +30,8 @@ class ScriptedLeaf {
   void pause();
   void resume();
   double progress() const;
+  // How often it was asked for its progress.
+  std::uint64_t asked() const { return asked_; }
   // As new.
   void rewind() {
     paused_at_.reset();
@@ -52,6 +54,7 @@ class ScriptedLeaf {
   std::size_t activation_ticks_ = 0;
   double progress_ = 0;
   std::optional<std::uint32_t> paused_at_;  // the first tick withheld
+  mutable std::uint64_t asked_ = 0;
 };
 
 // What the engine calls; `self` is a ScriptedLeaf.

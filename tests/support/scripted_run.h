@@ -45,6 +45,7 @@ class ScriptedRun {
   // Writes an entry, as a leaf would.
   void set(std::string_view key, Value value);
   std::string leaf_name(std::uint32_t leaf) const;
+  const ScriptedLeaf& leaf(std::size_t number) const { return leaves_[number]; }
   EventLog events;  // since it was last cleared
 
  private:
