@@ -90,9 +90,9 @@ std::optional<std::vector<Property>> read_properties(const PropertyOptions& opti
 
 std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
                                                     const PropertyOptions& options,
-                                                    const PropertyNames& names) {
+                                                    const std::function<PropertyNames()>& names) {
   if (options.texts.empty() && options.files.empty()) return of_file;
-  auto more = read_properties(options, names);
+  auto more = read_properties(options, names());
   if (!more) return std::nullopt;
   std::ranges::move(*more, std::back_inserter(of_file));
   return of_file;

@@ -1,11 +1,11 @@
 // Properties on the command line, the same for each command that has them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/tree.h"
 #include "property/property.h"
 
 namespace CLI {
@@ -24,9 +24,9 @@ void add_property_options(CLI::App& app, PropertyOptions& options);
 // Prints what is wrong, each at its column, and returns nothing then.
 std::optional<std::vector<Property>> read_properties(const PropertyOptions& options,
                                                      const PropertyNames& names);
-// Those of a tree file, and then these.
+// Those of a tree file, and then these: the names are made for these alone.
 std::optional<std::vector<Property>> all_properties(std::vector<Property> of_file,
                                                     const PropertyOptions& options,
-                                                    const PropertyNames& names);
+                                                    const std::function<PropertyNames()>& names);
 
 }  // namespace lockstep::host

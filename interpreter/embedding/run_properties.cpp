@@ -10,7 +10,7 @@
 namespace lockstep::host::embedding {
 
 std::optional<Problem> RunProperties::add(std::string_view text) {
-  auto property = Property::parse(text, property_names(tree_));
+  auto property = Property::parse(text, property_names(shape_of(tree_)));
   if (!property) {
     const PropertyError& it = property.error();
     return Problem{fmt::format("'{}', column {}: {}", brief(text), it.offset + 1, it.message),

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <utility>
 
-#include "core/parameter_value.h"
 #include "core/version.h"
 #include "core/wording.h"
 #include "engine/writers.h"
@@ -43,18 +42,19 @@ RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& f
 }
 
 std::string RunPackets::header(const RunStart& start) const {
-  return format_.header({.tree = tree_.id,
-                         .file = run_.tree_file,
-                         .version = kVersion,
-                         .law = kLawVersion,
-                         .rate_hz = run_.rate_hz,
-                         .clock = start.real_time ? "wall" : "virtual",
-                         .seed = run_.seed,
-                         .arguments = run_.arguments,
-                         .values = start_values(),
-                         .nodes = describe(tree_),
-                         .entries = keys(),
-                         .verify = run_.verify});
+  RecordingHeader header;
+  static_cast<Shape&>(header) = shape_of(tree_);
+  header.entries = entries_shown(std::move(header.entries));
+  header.file = run_.tree_file;
+  header.version = kVersion;
+  header.law = kLawVersion;
+  header.rate_hz = run_.rate_hz;
+  header.clock = start.real_time ? "wall" : "virtual";
+  header.seed = run_.seed;
+  header.arguments = run_.arguments;
+  header.values = start_values();
+  header.verify = run_.verify;
+  return format_.header(header);
 }
 
 // A start value may be as secret as the entry that it is of.
@@ -67,14 +67,14 @@ std::map<std::string, std::string, std::less<>> RunPackets::start_values() const
   return values;
 }
 
-std::vector<RecordedKey> RunPackets::keys() const {
+std::vector<ShapeEntry> RunPackets::entries_shown(std::vector<ShapeEntry> all) const {
   const auto who = writers(tree_);
-  std::vector<RecordedKey> keys;
+  std::vector<ShapeEntry> shown;
   for (const std::uint32_t slot : slots_) {
-    const auto& entry = tree_.slots[slot];
-    keys.push_back({entry.name, std::string(type_name(entry.type, entry.object)), who[slot]});
+    shown.push_back(std::move(all[slot]));
+    shown.back().writers = who[slot];
   }
-  return keys;
+  return shown;
 }
 
 void RunPackets::log(std::string_view who, std::string_view level, std::string_view text) {

@@ -55,7 +55,7 @@ class RunPackets {
   void log(std::string_view who, std::string_view level, std::string_view text);
 
  private:
-  std::vector<RecordedKey> keys() const;
+  std::vector<ShapeEntry> entries_shown(std::vector<ShapeEntry> all) const;
   std::map<std::string, std::string, std::less<>> start_values() const;
 
   const Tree& tree_;

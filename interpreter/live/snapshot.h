@@ -1,5 +1,5 @@
 // A run at one moment, for a terminal, a replay or a web page: the state of its nodes, the entries
-// of its blackboard, what its leaves logged last. Plain data. What does not change is in TreeShape.
+// of its blackboard, what its leaves logged last. Plain data. What does not change is in Shape.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct Snapshot {
     std::optional<RunResult> result = {};  // once the run has ended
   } header;
   std::vector<NodeView> nodes;           // by index
-  std::vector<EntryState> entries = {};  // in the order of TreeShape::entries
+  std::vector<EntryState> entries = {};  // in the order of Shape::entries
   RecentLines logs = {};
 };
 

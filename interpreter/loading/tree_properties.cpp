@@ -23,7 +23,7 @@ std::vector<Property> tree_properties(const Project& project, const Definition& 
     const Attribute* const text = document.find_attribute(child, "");
     const Attribute* const name = document.find_attribute(child, "name");
     if (text == nullptr || name == nullptr) continue;  // another language
-    if (!names) names = property_names(compile(definition));
+    if (!names) names = property_names(shape_of(compile(definition)));
     auto property = Property::parse(text->value, *names);
     if (!property) {
       const PropertyError& error = property.error();

@@ -3,11 +3,12 @@
 // child, or inverts it.
 #pragma once
 
-#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/status.h"
-#include "engine/node_kind.h"
+#include "engine/run_state.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
@@ -20,15 +21,8 @@ struct DecidingNode {
   std::size_t agreeing = 0;  // how many of the children have the same result
 };
 
-// A tree after its last tick, that of a run or of a recording.
-struct TickedTree {
-  std::function<std::vector<NodeIndex>(NodeIndex node)> children;
-  std::function<Status(NodeIndex node)> status;
-  std::function<bool(NodeIndex node)> ticked;  // by that tick
-};
-
-// From the root down. Looks only at nodes on the path and their children.
-std::vector<DecidingNode> deciding_path(const TickedTree& tree);
+// From the root down, after the last tick of a run.
+std::vector<DecidingNode> deciding_path(const Shape& shape, std::span<const NodeState> nodes);
 std::vector<DecidingNode> deciding_path(const Ticker& ticker);
 
 }  // namespace lockstep::host

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/parameter_value.h"
 #include "engine/blackboard.h"
 #include "engine/synchronized.h"
 #include "engine/ticker.h"
@@ -12,14 +11,10 @@ namespace lockstep::host {
 
 static_assert(kSameProgress == kProgressEpsilon);
 
-PropertyNames property_names(const Tree& tree) {
-  PropertyNames names;
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) names.paths.push_back(tree.path(node));
-  for (const Slot& slot : tree.slots) {
-    names.entries.push_back({.key = slot.name,
-                             .type = std::string(type_name(slot.type, slot.object)),
-                             .is_strict = slot.typing == Typing::Strict});
-  }
+PropertyNames property_names(const Shape& shape) {
+  PropertyNames names{.paths = paths_of(shape), .entries = {}};
+  for (const ShapeEntry& it : shape.entries)
+    names.entries.push_back({it.key, it.type, it.is_strict});
   return names;
 }
 

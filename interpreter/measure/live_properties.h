@@ -10,12 +10,13 @@
 #include "engine/moments.h"
 #include "engine/tree.h"
 #include "property/property_checks.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
 class Ticker;
 
-PropertyNames property_names(const Tree& tree);
+PropertyNames property_names(const Shape& shape);
 
 // In a later moment of a tick `ticked` is what the tick has reached so far, so that its last moment
 // is the state after the tick.

@@ -20,21 +20,6 @@ double number_of(const Value& value) {
 
 }  // namespace
 
-MeasuredTree measured_tree(const Tree& tree) {
-  MeasuredTree measured{.id = tree.id, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    const NodeLabel& label = tree.labels[node];
-    measured.paths.push_back(tree.path(node));
-    measured.nodes.push_back({label.parent, synchronization(tree.nodes[node]), label.type->latches,
-                              children_of(tree, node)});
-  }
-  for (const Slot& slot : tree.slots) {
-    measured.entries.push_back(slot.name);
-    measured.entry_types.emplace_back(to_string(slot.type));
-  }
-  return measured;
-}
-
 LiveTicks::LiveTicks(const Tree& tree, const Measuring& measuring)
     : users_(measuring.users().begin(), measuring.users().end()),
       slots_(measuring.entries().begin(), measuring.entries().end()),

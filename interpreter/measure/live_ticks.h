@@ -9,8 +9,6 @@
 
 namespace lockstep::host {
 
-MeasuredTree measured_tree(const Tree& tree);
-
 class LiveTicks {
  public:
   // Views what `measuring` measures in this tree.

@@ -115,8 +115,4 @@ Result<std::size_t> find_path(std::span<const std::string> paths, std::string_vi
   return problem(std::move(error));
 }
 
-std::string last_segment(std::string_view path) {
-  return std::string(path.substr(path.rfind('/') + 1));
-}
-
 }  // namespace lockstep::host

@@ -25,7 +25,5 @@ std::string measure_usages();
 // The only path that is `name` or ends in "/" + `name`; `what` is what the paths belong to.
 Result<std::size_t> find_path(std::span<const std::string> paths, std::string_view name,
                               std::string_view what = "node");
-// "arm" of "Main/pull/arm".
-std::string last_segment(std::string_view path);
 
 }  // namespace lockstep::host

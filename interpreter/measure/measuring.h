@@ -10,31 +10,16 @@
 #include <vector>
 
 #include "core/problem.h"
-#include "engine/node_kind.h"
 #include "measure/measure.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
-
-// The parts of a tree that can be measured.
-struct MeasuredTree {
-  struct Node {
-    NodeIndex parent = 0;  // the root is its own, and so is a group
-    Synchronization synchronization = Synchronization::None;
-    bool latches = false;                  // a parallel, also one that compares no progress
-    std::vector<NodeIndex> children = {};  // that it holds or ticks
-  };
-  std::string id;
-  std::vector<std::string> paths;        // of each node
-  std::vector<Node> nodes;               // in pre-order
-  std::vector<std::string> entries;      // of the blackboard: their keys
-  std::vector<std::string> entry_types;  // as to_string(ValueType) has them
-};
 
 class Measuring {
  public:
   // `specs` must outlive this, `tree` need not. If a measure names something that the tree does not
   // have, error() reports it.
-  Measuring(const MeasuredTree& tree, std::span<const MeasureSpec> specs);
+  Measuring(const Shape& tree, std::span<const MeasureSpec> specs);
 
   const std::string& error() const { return error_; }
 
@@ -61,16 +46,16 @@ class Measuring {
 
  private:
   void add(const MeasureSpec& spec, std::string node, const MeasureTarget& target);
-  void add_parallels(const MeasureSpec& spec, const MeasuredTree& tree);
-  void add_child(const MeasureSpec& spec, const MeasuredTree& tree);
-  void add_pair(const MeasureSpec& spec, const MeasuredTree& tree);
-  void add_user(const MeasureSpec& spec, const MeasuredTree& tree);
-  void add_pool(const MeasureSpec& spec, const MeasuredTree& tree);
-  void add_node(const MeasureSpec& spec, const MeasuredTree& tree);
-  void add_entry(const MeasureSpec& spec, const MeasuredTree& tree);
+  void add_parallels(const MeasureSpec& spec, const Shape& tree);
+  void add_child(const MeasureSpec& spec, const Shape& tree);
+  void add_pair(const MeasureSpec& spec, const Shape& tree);
+  void add_user(const MeasureSpec& spec, const Shape& tree);
+  void add_pool(const MeasureSpec& spec, const Shape& tree);
+  void add_node(const MeasureSpec& spec, const Shape& tree);
+  void add_entry(const MeasureSpec& spec, const Shape& tree);
   // Nothing: there is an error.
   std::optional<std::size_t> found(Result<std::size_t> place);
-  MeasureTarget target_of(const MeasuredTree& tree, NodeIndex parallel);
+  MeasureTarget target_of(const Shape& tree, NodeIndex parallel);
 
   std::vector<Column> columns_;
   std::vector<std::unique_ptr<Accumulator>> accumulators_;  // of each column

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <numeric>
-#include <set>
 
 #include "engine/resources.h"
 #include "engine/ticker.h"
@@ -23,52 +20,6 @@ std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
   std::vector<NodeIndex> children;
   for_each_child(tree, node, [&](NodeIndex child) { children.push_back(child); });
   return children;
-}
-
-namespace {
-
-// The last `segments` of a path; all of it when it has no more.
-std::string_view end_of(std::string_view path, std::size_t segments) {
-  std::size_t begin = path.size();
-  for (std::size_t i = 0; i < segments && begin != std::string_view::npos && begin > 0; ++i) {
-    begin = path.rfind('/', begin - 1);
-  }
-  return begin == std::string_view::npos ? path : path.substr(begin + 1);
-}
-
-// "left/…/arm" of "left/Sequence/carry/arm".
-std::string without_middle(std::string_view end) {
-  const auto first = end.find('/'), last = end.rfind('/');
-  if (first == last) return std::string(end);
-  return std::string(end.substr(0, first)) + "/…" + std::string(end.substr(last));
-}
-
-}  // namespace
-
-std::vector<std::string> names_of(std::span<const std::string> paths) {
-  std::vector<std::string> names(paths.begin(), paths.end());
-  std::vector<std::size_t> open(paths.size());  // those without a name yet
-  std::iota(open.begin(), open.end(), 0u);
-  for (std::size_t segments = 1; !open.empty(); ++segments) {
-    std::map<std::string_view, int> ends;  // how often
-    for (const std::string& path : paths) ++ends[end_of(path, segments)];
-    std::erase_if(open, [&](std::size_t i) {
-      const std::string_view end = end_of(paths[i], segments);
-      if (ends.at(end) == 1) names[i] = without_middle(end);
-      return ends.at(end) == 1 || end.size() == paths[i].size();
-    });
-  }
-  const std::set<std::string_view> different(names.begin(), names.end());
-  return different.size() == names.size() ? names : std::vector(paths.begin(), paths.end());
-}
-
-std::vector<std::string> child_names(const Tree& tree, NodeIndex node) {
-  std::vector<std::string> names;
-  const bool is_group = tree.is_group(node);
-  for (const NodeIndex child : children_of(tree, node)) {
-    names.push_back(is_group ? tree.path(child) : tree.segment(child));
-  }
-  return is_group ? names_of(names) : names;
 }
 
 Guards::Guards(std::vector<bool> guards) {

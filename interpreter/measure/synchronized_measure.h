@@ -24,10 +24,6 @@ class Ticker;
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
 // The nodes that the node may hold: the children of a parallel; of a group, what its members hold.
 std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
-// The ends of these paths, each as short as it can be and still differ from all others.
-std::vector<std::string> names_of(std::span<const std::string> paths);
-// The node's names for its children: the children of a parallel differ in their last segment.
-std::vector<std::string> child_names(const Tree& tree, NodeIndex node);
 
 // Finds from the states after each tick which children their node held in that tick.
 // It also keeps which children have succeeded: SynchronizedTick::succeeded.

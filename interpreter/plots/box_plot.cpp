@@ -14,6 +14,7 @@
 #include "plots/gnuplot.h"
 #include "plots/plot_style.h"
 #include "plots/templates.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 namespace {

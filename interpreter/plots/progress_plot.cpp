@@ -54,7 +54,7 @@ std::string held_lines(const ProgressPlot& plot, std::size_t child) {
   return text;
 }
 
-std::string law(const RecordedNode& node) {
+std::string law(const ShapeNode& node) {
   if (!node.resources.empty()) return counted(node.resources.size(), "resource");
   if (node.delta) return fmt::format("delta = {}", *node.delta);
   if (node.synchronization == Synchronization::Relative) return "delta from an entry";

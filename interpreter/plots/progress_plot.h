@@ -15,7 +15,7 @@ namespace lockstep::host {
 
 struct ProgressPlot {
   NodeIndex index = 0;  // in the recording
-  RecordedNode node;
+  ShapeNode node;
   std::vector<std::string> children;  // the names of those that are drawn
   std::size_t all_children = 0;       // how many the node has
   std::vector<ProgressSample> samples;

@@ -32,9 +32,8 @@ std::size_t columns_for(PlotSize size, std::size_t plots, std::size_t children) 
 // Collects the samples of one node.
 class Collector {
  public:
-  Collector(const RecordingHeader& header, NodeIndex node, std::vector<NodeIndex> children,
-            std::size_t plots, PlotSize size)
-      : probe_(header, node, std::move(children)), period_(period_of(header)) {
+  Collector(const RecordingHeader& header, NodeIndex node, std::size_t plots, PlotSize size)
+      : probe_(header, node), period_(period_of(header)) {
     plot_.index = node;
     plot_.node = header.nodes[node];
     plot_.children = drawn_children(probe_);
@@ -114,10 +113,9 @@ class Collector {
 
 std::vector<ProgressPlot> progress_plots(RecordingReader& reader, std::span<const NodeIndex> nodes,
                                          PlotSize size) {
-  const auto children = children_of(reader.header());
   std::vector<Collector> collectors;
   for (const NodeIndex node : nodes) {
-    collectors.emplace_back(reader.header(), node, children[node], nodes.size(), size);
+    collectors.emplace_back(reader.header(), node, nodes.size(), size);
   }
   while (const auto tick = reader.next()) {
     for (Collector& collector : collectors) collector.after_tick(*tick);

@@ -79,7 +79,7 @@ constexpr Tuple kTuples[] = {
 using Member = std::variant<
     std::monostate, std::string RecordingHeader::*, std::uint64_t RecordingHeader::*,
     double RecordingHeader::*, std::map<std::string, std::string, std::less<>> RecordingHeader::*,
-    std::vector<RecordedNode> RecordingHeader::*, std::vector<RecordedKey> RecordingHeader::*,
+    std::vector<ShapeNode> RecordingHeader::*, std::vector<ShapeEntry> RecordingHeader::*,
     std::string RecordedEnd::*, std::uint64_t RecordedEnd::*,
     std::optional<std::uint64_t> RecordedEnd::*, double RecordedEnd::*,
     std::vector<std::string> RecordedEnd::*, std::vector<LeafLine> RecordedEnd::*>;
@@ -112,7 +112,7 @@ constexpr Field kHeaderFields[] = {
     {"lockstep_recording", "Version", kAlways,
      "version of this format: 1. A reader refuses any other number, and skips keys that it does "
      "not know"},
-    {"tree", "Text", kAlways, "ID of the tree that runs", &RecordingHeader::tree},
+    {"tree", "Text", kAlways, "ID of the tree that runs", &RecordingHeader::id},
     {"file", "Text", kAlways, "the tree file as it was named on the command line",
      &RecordingHeader::file},
     {"version", "Text", kAlways, "the version of lockstep", &RecordingHeader::version},

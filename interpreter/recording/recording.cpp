@@ -6,7 +6,7 @@
 
 namespace lockstep::host {
 
-std::string kind_text(const RecordedNode& node) {
+std::string kind_text(const ShapeNode& node) {
   if (!node.resources.empty()) {
     return fmt::format("{} resources={}", node.kind, joined(node.resources, ";"));
   }
@@ -19,16 +19,6 @@ std::string kind_text(const RecordedNode& node) {
     return fmt::format("{} delta={}", node.kind, *node.delta);
   }
   return node.kind;
-}
-
-std::vector<bool> resource_users(const RecordingHeader& header) {
-  std::vector<bool> users(header.nodes.size());
-  for (const RecordedNode& node : header.nodes) {
-    if (node.synchronization != Synchronization::Resources) continue;
-    for (const NodeIndex child : node.members)
-      users[header.nodes[child].parent.value_or(child)] = true;
-  }
-  return users;
 }
 
 Nanoseconds period_of(const RecordingHeader& header) {

@@ -79,9 +79,7 @@ struct RecordedPartEnd {
 };
 
 // "Sequence", "ParallelAbsolute barriers=0.25;0.5".
-std::string kind_text(const RecordedNode& node);
-// By index: whether the node uses resources of a pool.
-std::vector<bool> resource_users(const RecordingHeader& header);
+std::string kind_text(const ShapeNode& node);
 // From one tick to the next; 0 when the rate is not known.
 Nanoseconds period_of(const RecordingHeader& header);
 

@@ -12,7 +12,7 @@ EndedResults::EndedResults(const RecordingHeader& header, const Tree& tree)
     types[tree.path(node)] = tree.labels[node].type;
   }
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
-    const RecordedNode& it = header.nodes[node];
+    const ShapeNode& it = header.nodes[node];
     const auto found = types.find(it.path);
     const NodeType* const type = found == types.end() ? nullptr : found->second;
     parents_.push_back(it.parent);

@@ -32,7 +32,7 @@ class WordMaker {
       leaves_.push_back({node, leaf->second, &words.leaves[leaf->first]});
     }
     const auto writers_of = writers(tree);
-    for (const RecordedKey& key : header.entries) {
+    for (const ShapeEntry& key : header.entries) {
       auto& of_key = writers_.emplace_back();
       const auto slot = std::ranges::find(tree.slots, key.key, &Slot::name);
       if (slot == tree.slots.end()) continue;
@@ -139,7 +139,7 @@ class WordMaker {
   // Entries that have changed in a tick of a leaf that may write them.
   void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) const {
     for (const RecordedEntry& entry : tick.entries) {
-      const RecordedKey& key = header_.entries[entry.entry];
+      const ShapeEntry& key = header_.entries[entry.entry];
       const auto& writers = writers_[entry.entry];
       const bool is_writer = std::ranges::find(writers, it.node) != writers.end();
       if (!is_writer || !entry.value) continue;

@@ -178,7 +178,7 @@ class Rehearser {
           fmt::format("write {} &lt; 0.1; the relations are &lt; &lt;= == != > >=", text.measure));
     }
     const MeasureSpec specs[] = {*measure};
-    const Measuring measuring(measured_tree(tree_), specs);
+    const Measuring measuring(shape_of(tree_), specs);
     if (!measuring.error().empty()) return report_.at_value(it.place, measuring.error());
     rehearsal_.limits.push_back(
         {std::move(*measure), *relation, *number, std::string(trimmed(it.texts[0])), &it});

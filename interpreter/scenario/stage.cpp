@@ -55,7 +55,7 @@ Stage::Stage(std::string file, Loaded loaded)
     : file_(std::move(file)),
       loaded_(std::move(loaded)),
       tree_(played_tree(loaded_.definition, {}, played_)),
-      names_(property_names(tree_)) {}
+      names_(property_names(shape_of(tree_))) {}
 
 SourceLocation Stage::location_of(NodeIndex node) const {
   return sources().locate(loaded_.definition.nodes[node].place);

@@ -80,9 +80,10 @@ Summary Statistics::summary() const {
     summary.why_failed.push_back(
         summarize(node, tree_.path(node.node), std::string(tree_.labels[node.node].type->id)));
   }
+  const Shape shape = shape_of(tree_);
   for (const Measured& node : nodes_) {
     if (node.measure.distance().samples() > 0) {
-      summary.synchronized_nodes.push_back(summary_of(node));
+      summary.synchronized_nodes.push_back(summary_of(node, shape));
     }
   }
   summary.never_reached = nodes_.size() - summary.synchronized_nodes.size();
@@ -98,10 +99,10 @@ std::optional<WorstTickSummary> Statistics::worst_tick() const {
                           .leaf_took = to_seconds(worst.leaf_took)};
 }
 
-SynchronizedSummary Statistics::summary_of(const Measured& measured) const {
-  const NodeIndex node = measured.probe.node();
-  return summarize(measured.measure, tree_.path(node), std::string(tree_.labels[node].type->id),
-                   child_names(tree_, node));
+SynchronizedSummary Statistics::summary_of(const Measured& measured, const Shape& shape) {
+  const NodeIndex index = measured.probe.node();
+  const ShapeNode& node = shape.nodes[index];
+  return summarize(measured.measure, node.path, node.kind, child_names(shape, index));
 }
 
 std::string describe_node(const Tree& tree, NodeIndex node) {

@@ -10,6 +10,7 @@
 #include "runtime/observer.h"
 #include "summary/capped_notes.h"
 #include "summary/summary.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
@@ -31,7 +32,7 @@ class Statistics final : public Observer {
   };
   void note(const Fault& fault, std::uint64_t tick);
   std::optional<WorstTickSummary> worst_tick() const;
-  SynchronizedSummary summary_of(const Measured& measured) const;
+  static SynchronizedSummary summary_of(const Measured& measured, const Shape& shape);
 
   const Tree& tree_;
   std::vector<Measured> nodes_;

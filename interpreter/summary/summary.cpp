@@ -15,6 +15,7 @@
 #include "summary/capped_notes.h"
 #include "terminal/style.h"
 #include "terminal/text_table.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 namespace {

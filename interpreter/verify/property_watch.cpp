@@ -130,7 +130,7 @@ bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {
 }
 
 PropertyNames names_with_facts(const Tree& tree, std::span<const FactRow> facts) {
-  PropertyNames names = property_names(tree);
+  PropertyNames names = property_names(shape_of(tree));
   for (const FactRow& it : facts) {
     names.entries.push_back({.key = "fact:" + it.name, .type = "bool", .is_strict = true});
   }

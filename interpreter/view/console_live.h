@@ -56,7 +56,7 @@ class ConsoleLive final : public Observer {
   DrawOptions draw_options() const;
 
   const Tree& tree_;
-  const TreeShape shape_;
+  const Shape shape_;
   LiveOptions options_;
   Outlet& out_;
   SnapshotFeed feed_;

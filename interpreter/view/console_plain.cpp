@@ -15,7 +15,7 @@
 namespace lockstep::host {
 
 ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
-    : tree_(tree), out_(out), real_time_(real_time) {
+    : tree_(tree), shape_(shape_of(tree)), out_(out), real_time_(real_time) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (tree.nodes[node].children == 0) leaves_.push_back({.node = node});
   }
@@ -141,7 +141,8 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
 std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
                                   const SynchronizedTick& tick) const {
   const NodeIndex self = node.probe.node();
-  const auto name_of = [&](std::size_t number) { return child_names(tree_, self)[number]; };
+  const std::vector<std::string> names = child_names(shape_, self);
+  const auto name_of = [&](std::size_t number) { return names[number]; };
   if (is_pool(tree_, self)) {
     return ownership_text({.resources = tree_.group(self).resources,
                            .members = node.limits.size(),

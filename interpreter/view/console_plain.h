@@ -12,6 +12,7 @@
 #include "measure/synchronized_measure.h"
 #include "runtime/observer.h"
 #include "runtime/outlet.h"
+#include "trace/shape.h"
 #include "view/line_budget.h"
 
 namespace lockstep::host {
@@ -69,6 +70,7 @@ class ConsolePlain final : public Observer {
   void tell(NodeIndex node, std::string_view what);
 
   const Tree& tree_;
+  const Shape shape_;
   Outlet& out_;
   RealTime real_time_;
   LineBudget budget_{kBurst};

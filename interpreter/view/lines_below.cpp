@@ -35,7 +35,7 @@ std::string entry_line(std::string_view key, const EntryState& entry, const Draw
 
 }  // namespace
 
-std::string entry_lines(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options,
+std::string entry_lines(const Shape& tree, const Snapshot& snapshot, const DrawOptions& options,
                         std::size_t room) {
   const std::vector<std::size_t> known = latest(snapshot, options.entries);
   std::size_t shown = std::min({options.entries, known.size(), room});
@@ -43,7 +43,7 @@ std::string entry_lines(const TreeShape& tree, const Snapshot& snapshot, const D
   if (shown == 0) return {};
   std::string text;
   for (std::size_t i = 0; i < shown; ++i) {
-    text += entry_line(tree.entries[known[i]], snapshot.entries[known[i]], options);
+    text += entry_line(tree.entries[known[i]].key, snapshot.entries[known[i]], options);
   }
   if (shown == known.size()) return text;
   TextLine rest(options.width, options.color, options.unicode);

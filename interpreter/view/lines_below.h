@@ -5,13 +5,13 @@
 #include <string>
 
 #include "live/snapshot.h"
-#include "view/tree_shape.h"
+#include "trace/shape.h"
 #include "view/tree_view.h"
 
 namespace lockstep::host {
 
 // At most `room` lines, and at most options.entries entries; the last line counts the others.
-std::string entry_lines(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options,
+std::string entry_lines(const Shape& tree, const Snapshot& snapshot, const DrawOptions& options,
                         std::size_t room);
 
 // The last lines that leaves logged: at most `room` and at most options.logs.

@@ -6,7 +6,7 @@ namespace lockstep::host {
 namespace {
 
 // Where browsing begins: at the first leaf that runs, else at the root.
-NodeIndex first_active(const TreeShape& tree, const Snapshot& now) {
+NodeIndex first_active(const Shape& tree, const Snapshot& now) {
   for (NodeIndex node = 0; node < now.nodes.size(); ++node) {
     if (now.nodes[node].activity == Activity::Running && tree.nodes[node].children.empty()) {
       return node;

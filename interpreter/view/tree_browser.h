@@ -10,7 +10,7 @@ namespace lockstep::host {
 class TreeBrowser {
  public:
   // `tree` must outlive it.
-  explicit TreeBrowser(const TreeShape& tree) : tree_(tree) {}
+  explicit TreeBrowser(const Shape& tree) : tree_(tree) {}
 
   // Returns false if the key has no meaning here. `now` is the current view, with this many rows.
   bool press(Key key, const Snapshot& now, std::size_t rows);
@@ -21,7 +21,7 @@ class TreeBrowser {
   bool move(std::ptrdiff_t rows, const Snapshot& now);
   bool fold(const Snapshot& now);
 
-  const TreeShape& tree_;
+  const Shape& tree_;
   Browsing browsing_;
 };
 

@@ -11,7 +11,7 @@ namespace lockstep::host {
 namespace {
 
 // One past the last node below `node`: in pre-order, the next one that is not deeper.
-NodeIndex end_of(const TreeShape& tree, NodeIndex node) {
+NodeIndex end_of(const Shape& tree, NodeIndex node) {
   NodeIndex end = node + 1;
   while (end < tree.nodes.size() && tree.nodes[end].depth > tree.nodes[node].depth) ++end;
   return end;
@@ -20,7 +20,7 @@ NodeIndex end_of(const TreeShape& tree, NodeIndex node) {
 // The order in which nodes get a row.
 class Ranking {
  public:
-  Ranking(const TreeShape& tree, const Snapshot& snapshot) : tree_(tree), snapshot_(snapshot) {
+  Ranking(const Shape& tree, const Snapshot& snapshot) : tree_(tree), snapshot_(snapshot) {
     from_active_.resize(tree.nodes.size());
     for (NodeIndex node = 0; node < tree.nodes.size(); ++node) place(node);
   }
@@ -89,7 +89,7 @@ class Ranking {
     return it.children.empty() ? Runs : LeadsToIt;
   }
 
-  const TreeShape& tree_;
+  const Shape& tree_;
   const Snapshot& snapshot_;
   std::vector<Distance> from_active_;
 };
@@ -131,7 +131,7 @@ std::string Tally::text() const {
   return text;
 }
 
-std::vector<NodeIndex> unfolded(const TreeShape& tree, const std::set<NodeIndex>& folded) {
+std::vector<NodeIndex> unfolded(const Shape& tree, const std::set<NodeIndex>& folded) {
   std::vector<NodeIndex> nodes;
   for (NodeIndex node = 0; node < tree.nodes.size();) {
     nodes.push_back(node);
@@ -140,7 +140,7 @@ std::vector<NodeIndex> unfolded(const TreeShape& tree, const std::set<NodeIndex>
   return nodes;
 }
 
-Tally tally_below(const TreeShape& tree, const Snapshot& snapshot, NodeIndex node) {
+Tally tally_below(const Shape& tree, const Snapshot& snapshot, NodeIndex node) {
   Tally tally;
   const NodeIndex end = end_of(tree, node);
   for (NodeIndex below = node + 1; below < end; ++below) {
@@ -149,7 +149,7 @@ Tally tally_below(const TreeShape& tree, const Snapshot& snapshot, NodeIndex nod
   return tally;
 }
 
-Layout lay_out(const TreeShape& tree, const Snapshot& snapshot, const Browsing& browsing,
+Layout lay_out(const Shape& tree, const Snapshot& snapshot, const Browsing& browsing,
                std::size_t room) {
   Layout layout{.rows = unfolded(tree, browsing.folded)};
   layout.all = layout.rows.size();

@@ -10,7 +10,7 @@
 
 #include "core/status.h"
 #include "live/snapshot.h"
-#include "view/tree_shape.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
@@ -43,12 +43,12 @@ struct Layout {
 // At most `room` rows, at least 1; one of them is left free for a note when there are more nodes.
 // Without a cursor: running nodes first, then waiting ones, then completed and idle ones, the
 // nearest to the running nodes first.
-Layout lay_out(const TreeShape& tree, const Snapshot& snapshot, const Browsing& browsing,
+Layout lay_out(const Shape& tree, const Snapshot& snapshot, const Browsing& browsing,
                std::size_t room);
 
 // The nodes that have a row with enough room, in the order of the tree.
-std::vector<NodeIndex> unfolded(const TreeShape& tree, const std::set<NodeIndex>& folded);
+std::vector<NodeIndex> unfolded(const Shape& tree, const std::set<NodeIndex>& folded);
 // The nodes below one.
-Tally tally_below(const TreeShape& tree, const Snapshot& snapshot, NodeIndex node);
+Tally tally_below(const Shape& tree, const Snapshot& snapshot, NodeIndex node);
 
 }  // namespace lockstep::host

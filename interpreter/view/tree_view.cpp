@@ -38,7 +38,7 @@ const Browsing& browsing_of(const DrawOptions& options) {
 
 class View {
  public:
-  View(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options)
+  View(const Shape& tree, const Snapshot& snapshot, const DrawOptions& options)
       : tree_(tree), snapshot_(snapshot), options_(options), browsing_(browsing_of(options)) {}
 
   std::string draw() {
@@ -160,7 +160,7 @@ class View {
     const auto [entry, is_new] = children_.try_emplace(parent);
     Children& children = entry->second;
     if (!is_new) return children;
-    for (const NodeIndex child : tree_.nodes[parent].in_step) {
+    for (const NodeIndex child : tree_.nodes[parent].held()) {
       const NodeView& view = snapshot_.nodes[child];
       children.progress.push_back(view.progress);
       const bool is_left_out =
@@ -176,7 +176,7 @@ class View {
 
   void add_bar(TextLine& line, NodeIndex node, Style style) const {
     const NodeIndex self = *tree_.nodes[node].keeper;
-    const auto& in_step = tree_.nodes[self].in_step;
+    const auto& in_step = tree_.nodes[self].held();
     const auto& [progress, counted, least, name] = children_of(self);
     const auto found = std::lower_bound(in_step.begin(), in_step.end(), node);
     const auto place = static_cast<std::size_t>(found - in_step.begin());
@@ -199,11 +199,11 @@ class View {
   void add_ownership(TextLine& line, NodeIndex pool, std::size_t place) const {
     const ShapeNode& shape = tree_.nodes[pool];
     const auto limit = [&](std::size_t child) {
-      return snapshot_.nodes[shape.in_step[child] - 1].limit;
+      return snapshot_.nodes[shape.held()[child] - 1].limit;
     };
     const std::string text = ownership_text(
         {.resources = shape.resources,
-         .members = shape.in_step.size(),
+         .members = shape.held().size(),
          .limit = limit,
          .name_of = [&](std::size_t child) { return printable(shape.names[child]); }},
         place);
@@ -220,9 +220,8 @@ class View {
                          .progress = progress,
                          .name_of =
                              [&](std::size_t child) {
-                               return shape.names.empty()
-                                          ? tree_.nodes[shape.in_step[child]].segment
-                                          : shape.names[child];
+                               return shape.names.empty() ? tree_.nodes[shape.held()[child]].segment
+                                                          : shape.names[child];
                              },
                          .group = shape.parent || node == 0 ? "" : shape.segment},
                         place);
@@ -233,19 +232,21 @@ class View {
     const ShapeNode& shape = tree_.nodes[node];
     const double most =
         std::min(1.0, farthest(shape.synchronization, snapshot_.nodes[node].limit, least));
+    const auto barriers =
+        shape.barriers ? std::span<const double>(*shape.barriers) : std::span<const double>();
     const bool relative = shape.synchronization == Synchronization::Relative;
     ProgressBar bar{.progress = progress,
-                    .marks = shape.barriers,
+                    .marks = barriers,
                     .cells = std::clamp<std::size_t>(options_.width / 4, 8, 40)};
     // An idle node has no limit yet.
-    if (shape.barriers.empty() && most > 0 && compares_progress(shape.synchronization))
+    if (barriers.empty() && most > 0 && compares_progress(shape.synchronization))
       bar.marks = {&most, 1};
     if (relative) bar.band_begin = least;
     if (relative) bar.band_end = most;
     return to_text(bar, options_.unicode);
   }
 
-  const TreeShape& tree_;
+  const Shape& tree_;
   const Snapshot& snapshot_;
   const DrawOptions& options_;
   const Browsing& browsing_;
@@ -259,7 +260,7 @@ std::size_t rows_for_nodes(const DrawOptions& options) {
   return options.height > 3 ? options.height - 2 : 1;
 }
 
-std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options) {
+std::string draw(const Shape& tree, const Snapshot& snapshot, const DrawOptions& options) {
   return View(tree, snapshot, options).draw();
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "live/snapshot.h"
+#include "trace/shape.h"
 #include "view/tree_layout.h"
-#include "view/tree_shape.h"
 
 namespace lockstep::host {
 
@@ -25,6 +25,6 @@ std::size_t rows_for_nodes(const DrawOptions& options);
 
 // At most height - 1 lines of at most `width` columns, each ending in a newline. tree_layout.h says
 // which nodes are shown when the tree has more. Entries and logs take the room that nodes leave.
-std::string draw(const TreeShape& tree, const Snapshot& snapshot, const DrawOptions& options);
+std::string draw(const Shape& tree, const Snapshot& snapshot, const DrawOptions& options);
 
 }  // namespace lockstep::host

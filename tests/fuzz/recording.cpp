@@ -56,13 +56,12 @@ void replay(const std::string& text) {
   Recording recording(text);
   RecordingTimeline timeline(recording.reader, {.distance = 100, .most_memory = 1000});
   if (timeline.size() == 0) return;
-  const TreeShape shape = shape_of(recording.reader.header());
   const DrawOptions options{.width = 40, .height = 10};
   const auto draw = [&] {
-    const auto snapshot = snapshot_of(recording.reader.header(), shape, timeline.now(), nullptr);
+    const auto snapshot = snapshot_of(recording.reader.header(), timeline.now(), nullptr);
     const ReplayPlayer player(timeline, 1);
-    draw_replay(shape, snapshot, player, options);
-    draw_moment(recording.reader.header(), shape, snapshot, timeline.now(), options);
+    draw_replay(recording.reader.header(), snapshot, player, options);
+    draw_moment(recording.reader.header(), snapshot, timeline.now(), options);
   };
   const Moment first = timeline.now();
   draw();

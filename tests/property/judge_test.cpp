@@ -225,7 +225,7 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed) {
 
   std::vector<Property> properties;
   for (const NeverBoth& it : both) {
-    auto property = Property::parse(text_of(it, tree), property_names(tree));
+    auto property = Property::parse(text_of(it, tree), property_names(shape_of(tree)));
     REQUIRE(property);
     properties.push_back(std::move(*property));
   }

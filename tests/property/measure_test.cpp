@@ -22,7 +22,7 @@ constexpr double kRate = 10;  // of WatchedRun
 
 // All measures of a tree with all their arguments, as far as it has such nodes.
 std::vector<MeasureSpec> all_of(const Tree& tree) {
-  const MeasuredTree measured = measured_tree(tree);
+  const Shape measured = shape_of(tree);
   std::vector<MeasureSpec> specs;
   const auto add = [&](const std::string& text) {
     const MeasureSpec spec = parse_measure(text).value();

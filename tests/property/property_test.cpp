@@ -87,7 +87,7 @@ struct Verdict {
 using Verdicts = std::map<std::string, int>;  // how often each verdict
 
 void check_verdicts(WatchedRun& run, std::uint64_t ticks, std::uint64_t seed, Verdicts& seen) {
-  const PropertyNames names = property_names(run.run.tree());
+  const PropertyNames names = property_names(shape_of(run.run.tree()));
   PropertyGenerator generator(seed, names);
   std::vector<std::string> texts;
   std::vector<Property> properties;

@@ -469,7 +469,7 @@ int run(RunCommandOptions options) {
   if (!options.leaves.empty() && !leaves.give(runnable.tree)) return kExitUsage;
   if (!knows_recorded_keys(options, runnable.tree)) return kExitUsage;
   auto properties = all_properties(std::move(runnable.properties), options.properties,
-                                   property_names(runnable.tree));
+                                   [&] { return property_names(shape_of(runnable.tree)); });
   if (!properties) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);

@@ -83,15 +83,14 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
                             *options.at, moment.tick));
   }
   constexpr unsigned kUnlimited = 1'000'000;
-  const TreeShape shape = shape_of(reader.header());
   const bool ended = moment.tick == found.last && reader.end();
-  const std::string text = draw_moment(
-      reader.header(), shape,
-      snapshot_of(reader.header(), shape, moment, ended ? &*reader.end() : nullptr), moment,
-      {.width = kUnlimited,
-       .height = kUnlimited,
-       .color = wants_color(results_file()),
-       .unicode = has_unicode()});
+  const std::string text =
+      draw_moment(reader.header(),
+                  snapshot_of(reader.header(), moment, ended ? &*reader.end() : nullptr), moment,
+                  {.width = kUnlimited,
+                   .height = kUnlimited,
+                   .color = wants_color(results_file()),
+                   .unicode = has_unicode()});
   return first_failure(code, write_results(text));
 }
 

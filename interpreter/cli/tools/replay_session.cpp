@@ -31,7 +31,7 @@ constexpr std::chrono::milliseconds kLastFrame{300};  // for the terminal to tak
 class ReplaySession {
  public:
   ReplaySession(const RecordingHeader& header, RecordingTimeline& timeline, double speed)
-      : header_(header), shape_(shape_of(header)), player_(timeline, speed) {}
+      : header_(header), player_(timeline, speed) {}
 
   int play() {
     while (!player_.has_quit() && !player_.timeline().failed() && StopSignals::received() == 0) {
@@ -64,8 +64,8 @@ class ReplaySession {
     const RecordingTimeline& timeline = player_.timeline();
     const auto& end = timeline.outcome().end;
     const bool ended = timeline.at_end() && end;
-    snapshot_ = snapshot_of(header_, shape_, timeline.now(), ended ? &*end : nullptr);
-    std::string frame = draw_replay(shape_, snapshot_, player_, options());
+    snapshot_ = snapshot_of(header_, timeline.now(), ended ? &*end : nullptr);
+    std::string frame = draw_replay(header_, snapshot_, player_, options());
     if (frame != shown_ && screen_.show("", frame)) shown_ = std::move(frame);
   }
 
@@ -112,9 +112,8 @@ class ReplaySession {
   }
 
   const RecordingHeader& header_;
-  const TreeShape shape_;
   ReplayPlayer player_;
-  TreeBrowser browser_{shape_};
+  TreeBrowser browser_{header_};
   Snapshot snapshot_;  // that is shown
   RawTerminal terminal_{STDIN_FILENO, results_file()};
   TerminalWait wait_{STDIN_FILENO};

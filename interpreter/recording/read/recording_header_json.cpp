@@ -6,6 +6,7 @@
 #include <span>
 #include <unordered_set>
 
+#include "core/language.h"
 #include "core/resource_set.h"
 #include "core/wording.h"
 #include "recording/lines.h"
@@ -84,8 +85,16 @@ bool is_yes(JsonValue value, std::size_t index) {
   throw JsonError(fmt::format("'guard' of node {} is not true", index));
 }
 
-RecordedNode node_from(JsonObject object, std::size_t index) {
-  RecordedNode node;
+// A recording names kinds, and does not say in which language.
+bool latches(std::string_view kind) {
+  return std::ranges::any_of(languages(), [&](const LanguageRules* rules) {
+    return std::ranges::any_of(
+        rules->kinds, [&](const NodeKind* it) { return it->type.latches && it->type.id == kind; });
+  });
+}
+
+ShapeNode node_from(JsonObject object, std::size_t index) {
+  ShapeNode node;
   std::uint64_t place = 0;
   bool is_absolute = false, is_relative = false;
   object.read({{lines::kHeaderNode["index"], into(place)},
@@ -122,21 +131,22 @@ RecordedNode node_from(JsonObject object, std::size_t index) {
   if (is_absolute) node.synchronization = Synchronization::Absolute;
   if (is_relative) node.synchronization = Synchronization::Relative;
   if (!node.resources.empty()) node.synchronization = Synchronization::Resources;
+  node.latches = latches(node.kind);
   return node;
 }
 
-std::vector<RecordedNode> nodes_from(JsonValue value) {
-  std::vector<RecordedNode> nodes;
+std::vector<ShapeNode> nodes_from(JsonValue value) {
+  std::vector<ShapeNode> nodes;
   nodes.reserve(value.count_items());
   value.each_item([&](JsonValue item) { nodes.push_back(node_from(item.object(), nodes.size())); });
   return nodes;
 }
 
-std::vector<RecordedKey> keys_from(JsonValue value) {
-  std::vector<RecordedKey> keys;
+std::vector<ShapeEntry> keys_from(JsonValue value) {
+  std::vector<ShapeEntry> keys;
   keys.reserve(value.count_items());
   value.each_item([&](JsonValue item) {
-    RecordedKey& it = keys.emplace_back();
+    ShapeEntry& it = keys.emplace_back();
     item.object().read(
         {{lines::kHeaderEntry["key"], into(it.key)}, {lines::kHeaderEntry["type"], into(it.type)}});
   });
@@ -167,18 +177,18 @@ auto into_header(double& rate) {
 auto into_header(Arguments& arguments) {
   return [&arguments](JsonValue value) { arguments = arguments_from(value); };
 }
-auto into_header(std::vector<RecordedNode>& nodes) {
+auto into_header(std::vector<ShapeNode>& nodes) {
   return [&nodes](JsonValue value) { nodes = nodes_from(value); };
 }
-auto into_header(std::vector<RecordedKey>& keys) {
+auto into_header(std::vector<ShapeEntry>& keys) {
   return [&keys](JsonValue value) { keys = keys_from(value); };
 }
 
 // The nodes are in pre-order: the parent of a node is the node before it, or one of its ancestors.
 // Groups, without parents, are behind them.
-void check_order(std::span<const RecordedNode> nodes) {
+void check_order(std::span<const ShapeNode> nodes) {
   std::vector<NodeIndex> open;
-  const auto is_group = [](const RecordedNode& node) { return !node.members.empty(); };
+  const auto is_group = [](const ShapeNode& node) { return !node.members.empty(); };
   while (nodes.size() > 1 && is_group(nodes.back()) && !nodes.back().parent) {
     nodes = nodes.first(nodes.size() - 1);
   }
@@ -193,10 +203,10 @@ void check_order(std::span<const RecordedNode> nodes) {
 }
 
 // A path is what a node is known by.
-void check_paths(std::span<const RecordedNode> nodes) {
+void check_paths(std::span<const ShapeNode> nodes) {
   std::unordered_set<std::string_view> paths;
   paths.reserve(nodes.size());
-  for (const RecordedNode& node : nodes) {
+  for (const ShapeNode& node : nodes) {
     if (!paths.insert(node.path).second)
       throw JsonError(fmt::format("two nodes have the path '{}'", brief(node.path)));
   }
@@ -233,6 +243,7 @@ RecordingHeader RecordingJson::header(std::string& line) {
   if (header.nodes.empty()) throw JsonError("'nodes' is empty");
   check_order(header.nodes);
   check_paths(header.nodes);
+  complete(header);
   return header;
 }
 

@@ -36,7 +36,7 @@ int level_number(std::string_view level) {
 }
 
 // A number or a truth value where the type of the entry is one.
-Json value_of(const RecordedKey& key, const std::optional<std::string>& text) {
+Json value_of(const ShapeEntry& key, const std::optional<std::string>& text) {
   if (!text) return nullptr;
   if (key.type == "bool") return *text == "true";
   const bool is_number = key.type == "int" || key.type == "double";
@@ -89,7 +89,7 @@ bool McapMessages::finish(const std::optional<RecordedEnd>& end) {
     const std::uint64_t time = start_ + in_nanoseconds(end->time);
     for (const LeafLine& it : end->logs) add_log(it, time);
     const bool is_good = end->result == "success";
-    add_log({header_.tree, is_good ? "info" : "warning",
+    add_log({header_.id, is_good ? "info" : "warning",
              "run ended: " + end->result + " (" + end->reason + ")"},
             time);
   }

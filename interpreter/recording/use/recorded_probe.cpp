@@ -5,26 +5,8 @@
 #include <utility>
 
 #include "engine/resources.h"
-#include "measure/measure_spec.h"
 
 namespace lockstep::host {
-
-std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header) {
-  std::vector<NodeIndex> nodes;
-  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
-    if (header.nodes[node].synchronization != Synchronization::None) nodes.push_back(node);
-  }
-  return nodes;
-}
-
-std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header) {
-  std::vector<std::vector<NodeIndex>> children(header.nodes.size());
-  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
-    if (const auto parent = header.nodes[node].parent) children[*parent].push_back(node);
-    if (!header.nodes[node].members.empty()) children[node] = header.nodes[node].members;
-  }
-  return children;
-}
 
 namespace {
 
@@ -41,22 +23,19 @@ constexpr std::uint64_t kNamesSucceeded = 3;
 
 }  // namespace
 
-RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node,
-                             std::vector<NodeIndex> children)
+RecordedProbe::RecordedProbe(const RecordingHeader& header, NodeIndex node)
     : node_(node),
-      children_(std::move(children)),
+      children_(header.nodes[node].held()),
+      names_(child_names(header, node)),
       held_(children_.size()),
       synchronizes_(header.nodes[node].synchronization != Synchronization::None) {
-  const RecordedNode& it = header.nodes[node];
+  const ShapeNode& it = header.nodes[node];
   ignores_idle_ = it.ignores_idle;
   is_pool_ = it.synchronization == Synchronization::Resources;
   names_succeeded_ = header.law >= kNamesSucceeded;
-  for (const NodeIndex child : children_) {
-    const RecordedNode& held = header.nodes[child];
-    names_.push_back(it.members.empty() ? last_segment(held.path) : held.path);
-    if (!it.members.empty()) members_.push_back(held.parent.value_or(0));
+  for (const NodeIndex child : it.members) {
+    members_.push_back(header.nodes[child].parent.value_or(0));
   }
-  if (!it.members.empty()) names_ = names_of(names_);
   guards_ = guards_of(header, children_, is_pool_);
   find_around(header);
   last_.resize(children_.size(), Status::Idle);
@@ -146,15 +125,14 @@ bool RecordedProbe::is_left_out(std::size_t child) const {
 }
 
 std::vector<RecordedMeasure> measures_of(const RecordingHeader& header) {
-  auto children = children_of(header);
   const std::vector<NodeIndex> nodes = synchronized_nodes(header);
   std::vector<RecordedMeasure> measures;
   measures.reserve(nodes.size());
   for (const NodeIndex node : nodes) {
-    const std::size_t count = children[node].size();
-    const RecordedNode& it = header.nodes[node];
-    RecordedProbe probe(header, node, std::move(children[node]));
-    SynchronizedMeasure measure(count, probe.guards(), it.synchronization, !it.members.empty());
+    const ShapeNode& it = header.nodes[node];
+    RecordedProbe probe(header, node);
+    SynchronizedMeasure measure(probe.children().size(), probe.guards(), it.synchronization,
+                                !it.members.empty());
     measures.push_back({std::move(probe), std::move(measure)});
   }
   return measures;

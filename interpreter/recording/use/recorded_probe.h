@@ -11,13 +11,9 @@
 
 namespace lockstep::host {
 
-std::vector<NodeIndex> synchronized_nodes(const RecordingHeader& header);
-// The children of each node, by index.
-std::vector<std::vector<NodeIndex>> children_of(const RecordingHeader& header);
-
 class RecordedProbe {
  public:
-  RecordedProbe(const RecordingHeader& header, NodeIndex node, std::vector<NodeIndex> children);
+  RecordedProbe(const RecordingHeader& header, NodeIndex node);
   // Valid until the next call.
   SynchronizedTick read(const RecordedTick& tick);
 

@@ -45,16 +45,6 @@ RunIsOver how_it_ended(const std::optional<RecordedEnd>& end) {
 
 }  // namespace
 
-PropertyNames property_names(const RecordingHeader& header) {
-  PropertyNames names;
-  for (const RecordedNode& node : header.nodes) names.paths.push_back(node.path);
-  for (const RecordedKey& entry : header.entries) {
-    // In a tree for BehaviorTree.CPP it may hold other values, and the header does not say so.
-    names.entries.push_back({.key = entry.key, .type = entry.type, .is_strict = false});
-  }
-  return names;
-}
-
 void check_recording(RecordingReader& reader, PropertyChecks& checks) {
   std::uint64_t next = 0;
   std::vector<NodeState> moment;

@@ -8,8 +8,6 @@
 
 namespace lockstep::host {
 
-PropertyNames property_names(const RecordingHeader& header);
-
 // Reads to the end; then check reader.error().
 void check_recording(RecordingReader& reader, PropertyChecks& checks);
 

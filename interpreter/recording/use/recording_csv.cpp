@@ -19,7 +19,7 @@ bool is_active(const RecordedState& node) {
 bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names, TickRange range) {
   constexpr std::size_t kFull = 1u << 16u;
   std::vector<std::string> paths;
-  for (const RecordedNode& node : reader.header().nodes) {
+  for (const ShapeNode& node : reader.header().nodes) {
     paths.push_back(csv_field(names == CsvNames::Printable ? printable(node.path) : node.path));
   }
   std::string rows = "tick,time_s,node,path,status,progress,ticked,held\n";

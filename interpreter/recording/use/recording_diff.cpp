@@ -35,7 +35,7 @@ std::vector<Pair> pair_nodes(const RecordingHeader& a, const RecordingHeader& b,
   for (NodeIndex node = 0; node < b.nodes.size(); ++node) in_b.emplace(b.nodes[node].path, node);
   std::vector<Pair> pairs;
   for (NodeIndex node = 0; node < a.nodes.size(); ++node) {
-    const RecordedNode& one = a.nodes[node];
+    const ShapeNode& one = a.nodes[node];
     const auto found = in_b.find(one.path);
     if (found == in_b.end()) {
       add(values, "node " + one.path, kind_text(one), std::nullopt);
@@ -45,7 +45,7 @@ std::vector<Pair> pair_nodes(const RecordingHeader& a, const RecordingHeader& b,
     pairs.push_back({node, found->second});
     in_b.erase(found);
   }
-  for (const RecordedNode& one : b.nodes) {
+  for (const ShapeNode& one : b.nodes) {
     if (in_b.contains(one.path)) add(values, "node " + one.path, std::nullopt, kind_text(one));
   }
   return pairs;
@@ -53,7 +53,7 @@ std::vector<Pair> pair_nodes(const RecordingHeader& a, const RecordingHeader& b,
 
 Values compare_headers(const RecordingHeader& a, const RecordingHeader& b) {
   Values values;
-  add(values, "tree", a.tree, b.tree);
+  add(values, "tree", a.id, b.id);
   add(values, "rate_hz", fmt::format("{}", a.rate_hz), fmt::format("{}", b.rate_hz));
   add(values, "clock", a.clock, b.clock);
   add(values, "seed", std::to_string(a.seed), std::to_string(b.seed));

@@ -59,12 +59,12 @@ class Events {
   }
 
  private:
-  bool is_group(const RecordedNode& it) const {  // it runs as long as it has members
+  bool is_group(const ShapeNode& it) const {  // it runs as long as it has members
     return !it.members.empty() || !it.resources.empty();
   }
 
   void add_node(NodeIndex node, std::span<const NodeState> now, std::uint64_t times = 0) {
-    const RecordedNode& it = header_.nodes[node];
+    const ShapeNode& it = header_.nodes[node];
     if (is_group(it)) return;
     const NodeState before = before_[node], state = now[node];
     // A node below a held one is held with it.
@@ -87,7 +87,7 @@ class Events {
       before_.assign(now.begin(), now.end());
     });
     for (const NodeTotals& it : moments.rest) {
-      const RecordedNode& node = header_.nodes[it.node];
+      const ShapeNode& node = header_.nodes[it.node];
       if (is_group(node)) continue;
       for (const Status result : {Status::Success, Status::Failure, Status::Skipped}) {
         if (it.of(result) > 0) add_result(node, result, it.of(result));
@@ -95,7 +95,7 @@ class Events {
     }
   }
 
-  void add_result(const RecordedNode& node, Status result, std::uint64_t times) {
+  void add_result(const ShapeNode& node, Status result, std::uint64_t times) {
     add(to_string(result), node.path, times == 1 ? "" : fmt::format("{} times", times));
   }
 

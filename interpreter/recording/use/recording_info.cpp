@@ -7,7 +7,6 @@
 #include "core/diagnostics.h"
 #include "core/wording.h"
 #include "measure/decision.h"
-#include "measure/measure_spec.h"
 #include "recording/use/recorded_probe.h"
 #include "summary/summary.h"
 #include "terminal/style.h"
@@ -17,7 +16,7 @@ namespace {
 
 void write_header(const RecordingHeader& header, std::string& out, bool color) {
   out += fmt::format("{} from {}, recorded by lockstep {}\n",
-                     styled(printable(header.tree), Style::Strong, color), printable(header.file),
+                     styled(printable(header.id), Style::Strong, color), printable(header.file),
                      printable(header.version));
   out +=
       fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n", counted(header.nodes.size(), "node"),
@@ -33,14 +32,13 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
 // The nodes, and how the last tick has left them, in the words of the path that decided.
 void write_tree(const RecordingHeader& header, const RecordedTick* last, std::string& out) {
   constexpr std::size_t kDeepest = 20;  // what is deeper stands below that
-  std::vector<std::size_t> depths;
   out += last == nullptr ? "  the tree:\n" : fmt::format("  the tree after tick {}:\n", last->tick);
   for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
-    const RecordedNode& node = header.nodes[index];
-    depths.push_back(node.parent ? depths[*node.parent] + 1 : 0);
-    const std::string name = last_segment(node.path), kind = kind_text(node);
-    out += fmt::format("{:{}}{}", "", 4 + 2 * std::min(depths.back(), kDeepest), printable(name));
-    if (name != kind) out += fmt::format(" ({})", printable(kind));
+    const ShapeNode& node = header.nodes[index];
+    const std::string kind = kind_text(node);
+    out +=
+        fmt::format("{:{}}{}", "", 4 + 2 * std::min(node.depth, kDeepest), printable(node.segment));
+    if (node.segment != kind) out += fmt::format(" ({})", printable(kind));
     if (last != nullptr) out += fmt::format(": {}", to_string(last->nodes[index].status));
     out += '\n';
   }
@@ -75,14 +73,11 @@ std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const Rec
   const auto& end = reader.end();
   const bool failed = end && end->result == to_string(RunResult::Failure);
   if (!failed || last.tick + 1 != end->ticks) return {};
-  const auto children = children_of(header);
+  std::vector<NodeState> nodes;
+  for (const RecordedState& it : last.nodes) nodes.push_back(it.state());
   std::vector<DecidingSummary> path;
-  for (const DecidingNode& node : deciding_path({
-           .children = [&](NodeIndex node) { return children[node]; },
-         .status = [&](NodeIndex node) { return last.nodes[node].status; },
-         .ticked = [&](NodeIndex node) { return last.nodes[node].ticked; },
-       })) {
-    const RecordedNode& it = header.nodes[node.node];
+  for (const DecidingNode& node : deciding_path(header, nodes)) {
+    const ShapeNode& it = header.nodes[node.node];
     path.push_back(summarize(node, it.path, it.kind));
   }
   return path;
@@ -132,7 +127,7 @@ std::string info_text(RecordingReader& reader, bool color) {
     for (const NodeIndex child : probe.children()) paths.push_back(header.nodes[child].path);
     append_fall_notes(measure.falls(), paths, notes);
     measure.run_ended(from_seconds(time));
-    const RecordedNode& node = header.nodes[probe.node()];
+    const ShapeNode& node = header.nodes[probe.node()];
     reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
   }
   for (const std::string& note : notes) {

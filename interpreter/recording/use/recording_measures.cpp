@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
-#include "core/language.h"
 #include "core/value.h"
 #include "json/json.h"
 #include "measure/measure_spec.h"
@@ -21,33 +20,6 @@ namespace {
 // '-' for what was not reached.
 std::string text_of(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.6g}", value);
-}
-
-// A recording names kinds, and does not say in which language.
-bool latches(const RecordedNode& node) {
-  return std::ranges::any_of(languages(), [&](const LanguageRules* rules) {
-    return std::ranges::any_of(rules->kinds, [&](const NodeKind* it) {
-      return it->type.latches && it->type.id == node.kind;
-    });
-  });
-}
-
-MeasuredTree measured_tree(const RecordingHeader& header) {
-  MeasuredTree tree{.id = header.tree, .paths = {}, .nodes = {}, .entries = {}, .entry_types = {}};
-  auto children = children_of(header);
-  tree.paths.reserve(header.nodes.size());
-  tree.nodes.reserve(header.nodes.size());
-  for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
-    const RecordedNode& node = header.nodes[index];
-    tree.paths.push_back(node.path);
-    tree.nodes.push_back({node.parent.value_or(index), node.synchronization, latches(node),
-                          std::move(children[index])});
-  }
-  for (const RecordedKey& entry : header.entries) {
-    tree.entries.push_back(entry.key);
-    tree.entry_types.push_back(entry.type);
-  }
-  return tree;
 }
 
 // A bool is 1 or 0.
@@ -67,10 +39,9 @@ class RecordedTicks {
         user_ticks_(measuring.users().size()),
         numbers_(header.entries.size(), kNoValue),
         measured_numbers_(measuring.entries().size()) {
-    auto children = children_of(header);
     parallels_.reserve(measuring.parallels().size());
     for (const NodeIndex node : measuring.parallels()) {
-      parallels_.emplace_back(header, node, std::move(children[node]));
+      parallels_.emplace_back(header, node);
     }
   }
 
@@ -110,7 +81,7 @@ class RecordedTicks {
 Result<std::vector<MeasuredValue>> measure_recording(RecordingReader& reader,
                                                      std::span<const MeasureSpec> measures) {
   const RecordingHeader& header = reader.header();
-  Measuring measuring(measured_tree(header), measures);
+  Measuring measuring(header, measures);
   if (!measuring.error().empty()) return problem(measuring.error());
   RecordedTicks ticks(header, measuring);
   EndView end{.rate = header.rate_hz, .real_time = header.clock != "virtual"};

@@ -41,7 +41,7 @@ class Trace {
     text_ = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n";
     begin_event("M", 0);
     text_ += ",\"name\":\"process_name\",\"args\":{\"name\":";
-    append_json(text_, header.tree + " (lockstep)");
+    append_json(text_, header.id + " (lockstep)");
     text_ += "}}";
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) name_track(node);
     for (auto& it : compared_children(header)) counters_.push_back({std::move(it)});

@@ -21,7 +21,7 @@ namespace {
 // --- header and closing line
 // -----------------------------------------------------------------------
 
-Json json_of(const RecordedNode& node, std::size_t index) {
+Json json_of(const ShapeNode& node, std::size_t index) {
   Json json = {{lines::kHeaderNode["index"], index},
                {lines::kHeaderNode["path"], node.path},
                {lines::kHeaderNode["kind"], node.kind},
@@ -39,7 +39,7 @@ Json json_of(const RecordedNode& node, std::size_t index) {
   return json;
 }
 
-Json json_of(const RecordedKey& entry) {
+Json json_of(const ShapeEntry& entry) {
   Json json = {{lines::kHeaderEntry["key"], entry.key}, {lines::kHeaderEntry["type"], entry.type}};
   if (!entry.writers.empty()) json[lines::kHeaderEntry["writers"]] = entry.writers;
   return json;
@@ -61,7 +61,7 @@ Json json_of(const std::vector<Item>& items) {
   return list;
 }
 
-Json json_of(const std::vector<RecordedNode>& nodes) {
+Json json_of(const std::vector<ShapeNode>& nodes) {
   Json list = Json::array();
   for (std::size_t index = 0; index < nodes.size(); ++index) {
     list.push_back(json_of(nodes[index], index));

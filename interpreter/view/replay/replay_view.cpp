@@ -19,7 +19,7 @@ TextLine new_line(const DrawOptions& options) {
   return {options.width, options.color, options.unicode};
 }
 
-std::string fault_text(const TreeShape& shape, const RecordedFault& fault) {
+std::string fault_text(const Shape& shape, const RecordedFault& fault) {
   return fmt::format("fault: {}: {}", shape.nodes[fault.node].segment, fault.message);
 }
 
@@ -38,7 +38,7 @@ RunResult result_of(const RecordedEnd& end) {
   return RunResult::Stopped;
 }
 
-void add_warnings(TextLine& line, const TreeShape& shape, const RecordingTimeline& timeline) {
+void add_warnings(TextLine& line, const Shape& shape, const RecordingTimeline& timeline) {
   const Moment& now = timeline.now();
   if (now.lost > 0) {
     line.add("  ");
@@ -72,8 +72,7 @@ void add_keys(TextLine& line, const ReplayPlayer& player, const DrawOptions& opt
 
 }  // namespace
 
-Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, const Moment& moment,
-                     const RecordedEnd* end) {
+Snapshot snapshot_of(const RecordingHeader& header, const Moment& moment, const RecordedEnd* end) {
   Snapshot snapshot{.header = {.rate_hz = header.rate_hz,
                                .real_time = header.clock != "virtual",
                                .tick = moment.tick,
@@ -94,15 +93,14 @@ Snapshot snapshot_of(const RecordingHeader& header, const TreeShape& shape, cons
     view.limit = state.limit;
     view.round = state.round;
     view.activity = state.held ? Activity::Paused : static_cast<Activity>(state.status);
-    if (shape.nodes[node].keeper) {
+    if (header.nodes[node].keeper) {
       view.progress = shown_progress(view.activity, state.progress);
     }
   }
   return snapshot;
 }
 
-std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
-                        const Snapshot& snapshot, const Moment& moment,
+std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Moment& moment,
                         const DrawOptions& options) {
   DrawOptions tree = options;
   tree.entries = 0;  // those of this tick follow
@@ -114,15 +112,15 @@ std::string draw_moment(const RecordingHeader& header, const TreeShape& shape,
   }
   for (const RecordedEntry& entry : moment.entries) {
     TextLine line = new_line(options);
-    line.add(header.entries[entry.entry].key + " = " + shown_value(entry));
+    line.add(shape.entries[entry.entry].key + " = " + shown_value(entry));
     text += line.text() + "\n";
   }
   for (const LeafLine& log : moment.logs) text += log_line(log, options);
   return text;
 }
 
-std::string draw_replay(const TreeShape& shape, const Snapshot& snapshot,
-                        const ReplayPlayer& player, const DrawOptions& options) {
+std::string draw_replay(const Shape& shape, const Snapshot& snapshot, const ReplayPlayer& player,
+                        const DrawOptions& options) {
   DrawOptions above = options;
   above.height -= std::min(above.height, kStatusLines);
   above.logs = kLogLines;

@@ -40,7 +40,7 @@ Counted count(const std::string& tree, const std::string& leaves, std::uint64_t 
   LineFeed lines(compiled, {.tree_file = "test.xml"}, json_lines());
   StatusFeed statuses(compiled);
   SnapshotFeed snapshots(compiled);
-  auto property = Property::parse("never a.progress > 0.9", property_names(compiled));
+  auto property = Property::parse("never a.progress > 0.9", property_names(shape_of(compiled)));
   REQUIRE(property);
   PropertyObserver properties(compiled, {*property}, [](const Property&, std::string) {});
   Statistics statistics(compiled);

@@ -20,6 +20,12 @@ using test::TemporaryPath;
 using test::TextFile;
 using test::WatchedRun;
 
+std::vector<std::string> keys(const Shape& shape) {
+  std::vector<std::string> keys;
+  for (const ShapeEntry& it : shape.entries) keys.push_back(it.key);
+  return keys;
+}
+
 // Each look at this clock is a second later, so that each tick is published.
 Nanoseconds hurried() {
   static Nanoseconds now{0};
@@ -78,7 +84,7 @@ TEST_CASE("a snapshot has the value of each entry, and the tick of its last chan
   Shown shown(feed, all);
   run.watch({&writes, &feed, &shown}, 6);
   REQUIRE(all.size() == 6);
-  REQUIRE(shape_of(run.run.tree()).entries == std::vector<std::string>{"pause", "plan"});
+  REQUIRE(keys(shape_of(run.run.tree())) == std::vector<std::string>{"pause", "plan"});
   CHECK(all[0].entries == std::vector<EntryState>(2));
   CHECK(all[1].entries[1] == EntryState{"0.5;1", false, 1});
   CHECK(all[2].entries[1] == EntryState{"0.5;1", false, 1});
@@ -138,14 +144,13 @@ TEST_CASE("a replay has the entries and logs of the live snapshots, forward and 
   std::istringstream in(file.text());
   RecordingReader reader(in, "run.jsonl");
   const RecordingHeader& header = reader.header();
-  const TreeShape shape = shape_of(header);
-  CHECK(shape.entries == shape_of(run.run.tree()).entries);
+  CHECK(keys(header) == keys(shape_of(run.run.tree())));
   RecordingTimeline timeline(reader, {.distance = 300});
   REQUIRE(timeline.size() == live.size());
   CHECK(timeline.keyframes() > 3);
   CHECK(live.back().logs.earlier > 0);
   const auto check = [&] {
-    const Snapshot replayed = snapshot_of(header, shape, timeline.now(), nullptr);
+    const Snapshot replayed = snapshot_of(header, timeline.now(), nullptr);
     const Snapshot& expected = live[timeline.now().tick];
     CAPTURE(timeline.now().tick);
     CHECK(replayed.entries == expected.entries);
@@ -162,9 +167,10 @@ TEST_CASE("a replay has the entries and logs of the live snapshots, forward and 
 struct Board {
   // Each with its value and the tick of its last change.
   explicit Board(const std::vector<std::pair<std::string, EntryState>>& entries) {
-    shape.nodes.push_back({.segment = "wait", .kind = "Wait", .parent = {}});
+    shape.nodes.push_back({.path = "Test/wait", .kind = "Wait", .name = "wait"});
+    complete(shape);
     for (const auto& [key, state] : entries) {
-      shape.entries.push_back(key);
+      shape.entries.push_back({.key = key, .type = {}});
       snapshot.entries.push_back(state);
     }
   }
@@ -174,7 +180,7 @@ struct Board {
     CHECK(lines < static_cast<std::ptrdiff_t>(std::max(options.height, 3u)));
     return text.substr(text.find('\n', text.find('\n') + 1) + 1);
   }
-  TreeShape shape{.id = "Test"};
+  Shape shape{.id = "Test"};
   Snapshot snapshot{.header = {}, .nodes = std::vector<NodeView>(1)};
 };
 
@@ -226,7 +232,7 @@ TEST_CASE("a value fits into one line of the terminal, whatever it is") {
 TEST_CASE("entries take no room from the nodes of the tree") {
   Board board({{"a", at(1, "1")}, {"b", at(2, "2")}});
   for (int i = 0; i < 3; ++i) {
-    board.shape.nodes.push_back({.segment = "c", .kind = "Wait", .parent = {}});
+    board.shape.nodes.push_back({.path = "Test/c", .kind = "Wait", .name = "c"});
     board.snapshot.nodes.emplace_back();
   }
   const auto drawn = [&](unsigned height) {

@@ -19,7 +19,7 @@ double measured(const char* text, std::string_view tree, std::string_view leaves
   const auto spec = parse_measure(text);
   REQUIRE(spec);
   test::ScriptedRun run(tree, leaves);
-  Measuring measuring(measured_tree(run.tree()), {&*spec, 1});
+  Measuring measuring(shape_of(run.tree()), {&*spec, 1});
   INFO(measuring.error());
   REQUIRE_FALSE(measuring.columns().empty());
   LiveTicks ticks(run.tree(), measuring);
@@ -41,7 +41,7 @@ std::string error_of(const char* text, std::string_view tree, std::string_view l
   const auto spec = parse_measure(text);
   if (!spec) return spec.error().message;
   const test::ScriptedRun run(tree, leaves);
-  return Measuring(measured_tree(run.tree()), {&*spec, 1}).error();
+  return Measuring(shape_of(run.tree()), {&*spec, 1}).error();
 }
 
 }  // namespace
@@ -299,11 +299,9 @@ TEST_CASE("axes of plots name the measure and its unit") {
 }
 
 TEST_CASE("an entry is measured when it is a number") {
-  MeasuredTree tree{.id = "Main",
-                    .paths = {"Main/a"},
-                    .nodes = {{}},
-                    .entries = {"lap", "part/lap", "name"},
-                    .entry_types = {"int", "double", "string"}};
+  Shape tree{.id = "Main",
+             .nodes = {{.path = "Main/a", .kind = "a", .name = "a"}},
+             .entries = {{"lap", "int"}, {"part/lap", "double"}, {"name", "string"}}};
   const auto measure = [&](const char* text) {
     const MeasureSpec spec = parse_measure(text).value();
     Measuring measuring(tree, {&spec, 1});

@@ -197,8 +197,8 @@ void fill(std::vector<LeafLine>& logs) {
 void fill(std::map<std::string, std::string, std::less<>>& texts) {
   texts["x"] = "1";
 }
-void fill(std::vector<RecordedNode>&) {}  // sample_header
-void fill(std::vector<RecordedKey>&) {}
+void fill(std::vector<ShapeNode>&) {}  // sample_header
+void fill(std::vector<ShapeEntry>&) {}
 
 template <class Record>
 Record filled(const Object& object) {
@@ -212,25 +212,25 @@ std::string sample_header(std::uint64_t first_tick) {
   header.clock = "virtual";
   header.first_tick = first_tick;
   header.entries = {{.key = "k", .type = "number", .writers = {2}}};
-  const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> RecordedNode& {
-    RecordedNode& node = header.nodes.emplace_back();
+  const auto add = [&](const char* path, std::optional<NodeIndex> parent) -> ShapeNode& {
+    ShapeNode& node = header.nodes.emplace_back();
     node.path = node.kind = node.name = path;
     node.parent = parent;
     return node;
   };
-  RecordedNode& root = add("p", std::nullopt);
+  ShapeNode& root = add("p", std::nullopt);
   root.synchronization = Synchronization::Absolute;
   root.barriers = {0.5};
-  RecordedNode& inner = add("q", 0);
+  ShapeNode& inner = add("q", 0);
   inner.synchronization = Synchronization::Relative;
   inner.delta = 0.25;
   add("a", 1).is_guard = true;
-  RecordedNode& group = add("g", std::nullopt);
+  ShapeNode& group = add("g", std::nullopt);
   group.synchronization = Synchronization::Absolute;
   group.barriers = {0.5};
   group.members = {2};
   group.ignores_idle = true;
-  RecordedNode& pool = add("r", std::nullopt);
+  ShapeNode& pool = add("r", std::nullopt);
   pool.synchronization = Synchronization::Resources;
   pool.resources = {"arm"};
   pool.members = {2};

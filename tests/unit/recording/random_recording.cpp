@@ -71,8 +71,11 @@ std::string RandomRecording::text() const {
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {
   RandomRecording recording;
-  recording.header = {
-      .tree = "Main", .file = "a.xml", .version = "0.1.0", .rate_hz = 10, .clock = "virtual"};
+  recording.header.id = "Main";
+  recording.header.file = "a.xml";
+  recording.header.version = "0.1.0";
+  recording.header.rate_hz = 10;
+  recording.header.clock = "virtual";
   recording.header.nodes.push_back({.path = "Main/root", .kind = "Parallel", .name = "root"});
   for (std::size_t node = 1; node < options.nodes; ++node) {
     recording.header.nodes.push_back({.path = fmt::format("Main/root/{}", node),

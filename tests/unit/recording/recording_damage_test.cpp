@@ -59,7 +59,7 @@ Reading read(const std::string& text) {
 
 // Each of the following is true when `json` says the same.
 
-bool same(const RecordedNode& node, const Json& json) {
+bool same(const ShapeNode& node, const Json& json) {
   const bool same_parent =
       node.parent ? json.at("parent") == *node.parent : json.at("parent").is_null();
   const bool same_barriers =
@@ -71,7 +71,7 @@ bool same(const RecordedNode& node, const Json& json) {
 }
 
 bool same(const RecordingHeader& header, const Json& json) {
-  bool is_same = json.at("lockstep_recording") == 1 && json.at("tree") == header.tree &&
+  bool is_same = json.at("lockstep_recording") == 1 && json.at("tree") == header.id &&
                  json.at("file") == header.file && json.at("version") == header.version &&
                  json.at("rate_hz") == header.rate_hz && json.at("clock") == header.clock &&
                  json.at("seed") == header.seed && json.at("arguments") == header.arguments &&

@@ -154,7 +154,7 @@ TEST_CASE("of different trees the nodes with the same path are compared") {
   const RecordingDiff in_tick = diff_of(one.text(), other.text());
   REQUIRE(in_tick.tick);
   CHECK(in_tick.tick->nodes[0].path == "Main/root/2");
-  for (RecordedNode& node : other.header.nodes) node.path = "Other" + node.path;
+  for (ShapeNode& node : other.header.nodes) node.path = "Other" + node.path;
   CHECK(!diff_of(one.text(), other.text()).has_common_nodes);
 }
 

@@ -21,7 +21,7 @@ using test::WatchedRun;
 class Signs final : public LineFormat {
  public:
   std::string header(const RecordingHeader& header) const override {
-    return "run of " + header.tree + "\n";
+    return "run of " + header.id + "\n";
   }
   std::string end(const RecordedEnd& end) const override { return end.result + "\n"; }
   void set_tick_end(std::string& text, const TickEnd& end) const override {

@@ -281,11 +281,10 @@ TEST_CASE("a replay shows each node as the live view of the run does") {
   run.watch({&recorder, &live});
   Opened opened(file.text());
   const RecordingHeader& header = opened.reader.header();
-  const TreeShape shape = shape_of(header);
   REQUIRE(opened.timeline.size() == live.ticks.size());
   bool any_held = false;
   for (const std::vector<Activity>& expected : live.ticks) {
-    const Snapshot snapshot = snapshot_of(header, shape, opened.timeline.now(), nullptr);
+    const Snapshot snapshot = snapshot_of(header, opened.timeline.now(), nullptr);
     for (NodeIndex node = 0; node < expected.size(); ++node) {
       CHECK(snapshot.nodes[node].activity == expected[node]);
       any_held = any_held || expected[node] == Activity::Paused;
@@ -294,10 +293,10 @@ TEST_CASE("a replay shows each node as the live view of the run does") {
   }
   CHECK(any_held);
   const RecordedEnd* const end = &*opened.timeline.outcome().end;
-  CHECK(draw(shape, snapshot_of(header, shape, opened.timeline.now(), end),
-             {.width = 72, .height = 24}) ==
-        draw(shape_of(run.run.tree()), snapshot_of(header, shape, opened.timeline.now(), end),
-             {.width = 72, .height = 24}));
+  CHECK(draw(header, snapshot_of(header, opened.timeline.now(), end),
+             {.width = 72, .height = 24}) == draw(shape_of(run.run.tree()),
+                                                  snapshot_of(header, opened.timeline.now(), end),
+                                                  {.width = 72, .height = 24}));
 }
 
 TEST_CASE("the last tick of a replay has the result of the run") {
@@ -308,11 +307,10 @@ TEST_CASE("the last tick of a replay has the result of the run") {
                       {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     run.watch({&recorder});
     Opened opened(file.text());
-    const TreeShape shape = shape_of(opened.reader.header());
-    const std::string text = draw(shape,
-                                  snapshot_of(opened.reader.header(), shape, opened.timeline.now(),
-                                              &*opened.timeline.outcome().end),
-                                  {.width = 72, .height = 24});
+    const std::string text = draw(
+        opened.reader.header(),
+        snapshot_of(opened.reader.header(), opened.timeline.now(), &*opened.timeline.outcome().end),
+        {.width = 72, .height = 24});
     return text.substr(0, text.find('\n'));
   };
   CHECK(first_line("a=R") == "Test  10 Hz (virtual)  tick 0  0.000 s  success");
@@ -323,11 +321,10 @@ TEST_CASE("below the tree: where the replay is, what is missing, which keys ther
   Played played(with_gap());
   played.press(" nnn");
   const RecordingHeader& header = played.opened.reader.header();
-  const TreeShape shape = shape_of(header);
   const auto status = [&](unsigned height) {
-    const Snapshot now = snapshot_of(header, shape, played.opened.timeline.now(), nullptr);
+    const Snapshot now = snapshot_of(header, played.opened.timeline.now(), nullptr);
     const std::string text =
-        draw_replay(shape, now, played.player, {.width = 100, .height = height});
+        draw_replay(header, now, played.player, {.width = 100, .height = height});
     CHECK(std::count(text.begin(), text.end(), '\n') < static_cast<std::ptrdiff_t>(height));
     return text.substr(text.rfind('\n', text.rfind('\n', text.size() - 2) - 1) + 1);
   };

@@ -44,7 +44,7 @@ struct Stages {
     return std::binary_search(rows.begin(), rows.end(), node);
   }
 
-  TreeShape tree;
+  Shape tree;
   Snapshot now;
 };
 
@@ -85,7 +85,7 @@ TEST_CASE("where not even that fits: what runs comes before what waits") {
 TEST_CASE("of a deep tree what runs, and what is nearest above it") {
   std::string text = "a";
   for (int depth = 0; depth < 30; ++depth) text = "Inverter(" + text + ")";
-  const TreeShape tree = shape_of(tree_from_text(text));
+  const Shape tree = shape_of(tree_from_text(text));
   Snapshot now;
   now.nodes.resize(tree.nodes.size(), {.activity = Activity::Running});
   CHECK(lay_out(tree, now, {}, 5).rows == std::vector<NodeIndex>{27, 28, 29, 30});
@@ -183,7 +183,7 @@ TEST_CASE("keys fold and unfold: the node at the cursor, of a leaf its parent") 
   CHECK(browser.browsing().folded == std::set<NodeIndex>{14});
   press({KeyKind::Character, 'F'});
   CHECK(browser.browsing().folded.empty());
-  const TreeShape leaf = shape_of(tree_from_text("a"));
+  const Shape leaf = shape_of(tree_from_text("a"));
   Snapshot now;
   now.nodes.resize(1);
   TreeBrowser alone(leaf);

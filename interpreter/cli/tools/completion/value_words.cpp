@@ -80,8 +80,8 @@ RecordingWords recording_words(const std::string& file) {
   DecompressedFile text(file);
   if (!text.is_open()) return words;
   const RecordingReader reader(text.text(), file);
-  for (const RecordedNode& node : reader.header().nodes) add_once(words.nodes, node.path);
-  for (const RecordedKey& entry : reader.header().entries) add_once(words.keys, entry.key);
+  for (const ShapeNode& node : reader.header().nodes) add_once(words.nodes, node.path);
+  for (const ShapeEntry& entry : reader.header().entries) add_once(words.keys, entry.key);
   return words;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/tools/log/recorded_tree.h"
 #include "leaves/leaf_file.h"
 #include "leaves/models.h"
+#include "measure/live_properties.h"
 #include "recording/use/recorded_properties.h"
 #include "scenario/leaf_audit.h"
 

@@ -34,8 +34,8 @@ class UnknownPaths {
  public:
   UnknownPaths(const std::vector<std::string>& patterns, const RecordingHeader& header)
       : header_(header), patterns_(patterns) {
-    for (const RecordedNode& it : header.nodes) see(it.path);
-    for (const RecordedKey& it : header.entries) see(it.key);
+    for (const ShapeNode& it : header.nodes) see(it.path);
+    for (const ShapeEntry& it : header.entries) see(it.key);
   }
 
   // Also who logs, which may be a plugin.
@@ -46,8 +46,8 @@ class UnknownPaths {
   int tell() const {
     if (patterns_.empty()) return kExitSuccess;
     std::vector<std::string_view> known;
-    for (const RecordedNode& it : header_.nodes) known.emplace_back(it.path);
-    for (const RecordedKey& it : header_.entries) known.emplace_back(it.key);
+    for (const ShapeNode& it : header_.nodes) known.emplace_back(it.path);
+    for (const ShapeEntry& it : header_.entries) known.emplace_back(it.key);
     const std::string& first = patterns_.front();
     print_error(fmt::format("--path {}: no node, entry or leaf that logs is called so", first),
                 suggest(first, known, "there are"));

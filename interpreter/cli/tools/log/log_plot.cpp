@@ -17,6 +17,7 @@
 #include "plots/progress_plot.h"
 #include "recording/use/recorded_probe.h"
 #include "runtime/stop_signals.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 namespace {

@@ -16,7 +16,7 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
   LoadCommandOptions load;
   load.plugins = plugins;
   load.unknown = MissingNodes::AreMocked;
-  load.main_tree = header.tree;
+  load.main_tree = header.id;
   load.main_file = MainFile::IsRegular;
   for (const auto& [name, value] : header.arguments) {
     load.arguments.push_back(fmt::format("{}={}", name, value));

@@ -121,10 +121,10 @@ class VerifyCommand {
     const Runnable runnable = make_runnable(std::move(*loaded));
     const auto file = read_leaves(options_.leaves, diagnostics_);
     if (!file) return refuse();
-    auto properties =
-        all_properties(runnable.properties, options_.properties,
-                       names_with_facts(runnable.tree, *file != nullptr ? (*file)->facts
-                                                                        : std::vector<FactRow>()));
+    auto properties = all_properties(runnable.properties, options_.properties, [&] {
+      return names_with_facts(runnable.tree,
+                              *file != nullptr ? (*file)->facts : std::vector<FactRow>());
+    });
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
