@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "core/utf8.h"
@@ -16,10 +19,30 @@ std::string dumped(const Scalar& value) {
   return value.dump(-1, ' ', false, Scalar::error_handler_t::replace);
 }
 
+// Eight letters at a time, each in a byte of `letters`: a byte's high bit is set in the result for
+// one that is not plain, and maybe for one above it (S. E. Anderson, "Bit Twiddling Hacks").
+std::uint64_t not_plain(std::uint64_t letters) {
+  constexpr std::uint64_t kOnes = ~std::uint64_t{0} / 255, kHigh = kOnes * 0x80;
+  const auto less = [](std::uint64_t bytes, std::uint64_t than) {
+    return (bytes - kOnes * than) & ~bytes;
+  };
+  const auto is = [&](char letter) {
+    return less(letters ^ (kOnes * static_cast<unsigned char>(letter)), 1);
+  };
+  return (letters | less(letters, ' ') | is('\x7F') | is('"') | is('\\')) & kHigh;
+}
+
+// Each letter from ' ' to '~' but '"' and '\\'.
 bool is_plain(std::string_view text) {
-  return std::ranges::all_of(text, [](char letter) {
-    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
-  });
+  constexpr std::size_t kBlock = sizeof(std::uint64_t);
+  std::uint64_t letters = 0;
+  for (; text.size() >= kBlock; text.remove_prefix(kBlock)) {
+    std::memcpy(&letters, text.data(), kBlock);
+    if (not_plain(letters) != 0) return false;
+  }
+  letters = ~std::uint64_t{0} / 255 * ' ';
+  std::memcpy(&letters, text.data(), text.size());
+  return not_plain(letters) == 0;
 }
 
 // As a terminal that shows it would not obey it.
@@ -115,7 +138,7 @@ void Json::add_text(std::string& text, std::size_t indent, std::size_t depth) co
       member.second.add_text(text, indent, depth + 1);
     });
   } else if (const auto* number = std::get_if<double>(&value_)) {
-    text += dumped(*number);
+    append_json(text, *number);
   } else if (const auto* whole = std::get_if<std::int64_t>(&value_)) {
     text += std::to_string(*whole);
   } else if (const auto* natural = std::get_if<std::uint64_t>(&value_)) {
@@ -132,6 +155,16 @@ void append_json(std::string& to, std::string_view text) {
     ((to += '"') += text) += '"';
   } else {
     to += dumped(text);
+  }
+}
+
+void append_json(std::string& to, double number) {
+  if (number == 1) {
+    to += "1.0";
+  } else if (number == 0 && !std::signbit(number)) {
+    to += "0.0";
+  } else {
+    to += dumped(number);
   }
 }
 

@@ -74,5 +74,6 @@ struct JsonMember {
 
 // Adds a text with its quotes. Allocates nothing where `to` has room, if nothing must be escaped.
 void append_json(std::string& to, std::string_view text);
+void append_json(std::string& to, double number);
 
 }  // namespace lockstep::host

@@ -23,6 +23,7 @@ constexpr double kRate = 10;  // of WatchedRun
 // All measures of a tree with all their arguments, as far as it has such nodes.
 std::vector<MeasureSpec> all_of(const Tree& tree) {
   const Shape measured = shape_of(tree);
+  const std::vector<std::string> paths = paths_of(measured);
   std::vector<MeasureSpec> specs;
   const auto add = [&](const std::string& text) {
     const MeasureSpec spec = parse_measure(text).value();
@@ -33,7 +34,7 @@ std::vector<MeasureSpec> all_of(const Tree& tree) {
   // A SyncProgress also goes by its child, which comes behind it: one of the two is enough.
   const auto add_held_by = [&](const std::string& path) {
     bool has_child = false;
-    for (auto other = measured.paths.rbegin(); other != measured.paths.rend(); ++other) {
+    for (auto other = paths.rbegin(); other != paths.rend(); ++other) {
       const bool is_child = has_child && other[-1].starts_with(*other + '/');
       has_child = !is_child && add(fmt::format("held-by:{}:{}", path, *other));
     }
@@ -44,11 +45,11 @@ std::vector<MeasureSpec> all_of(const Tree& tree) {
     if (measure->of == MeasureOf::Run || measure->of == MeasureOf::Parallel) add(name);
     const bool names_one = measure->of == MeasureOf::Child || measure->of == MeasureOf::User ||
                            measure->of == MeasureOf::Pool;
-    for (const std::string& path : measured.paths) {
+    for (const std::string& path : paths) {
       if (names_one) add(fmt::format("{}:{}", name, path));
     }
   }
-  for (const std::string& path : measured.paths) {
+  for (const std::string& path : paths) {
     add(fmt::format("predictability:{}@0.5", path));
     add_held_by(path);
   }

@@ -1,5 +1,7 @@
 #include "recording/use/mcap_messages.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::string_view kStatus =
     R"({"title":"lockstep.Status","type":"object","properties":{"tick":{"type":"integer"},)"
+    R"("times":{"type":"integer"},)"
     R"("changes":{"type":"array","items":{"type":"object","properties":{"path":{"type":"string"},)"
     R"("status":{"type":"string"},"progress":{"type":"number"},"ticked":{"type":"boolean"},)"
     R"("held":{"type":"boolean"}}}}}})";
@@ -96,21 +99,43 @@ bool McapMessages::finish(const std::optional<RecordedEnd>& end) {
   return file_.finish();
 }
 
+// Of a tick with several moments, a message each: what the state after the tick does not show.
 void McapMessages::add_statuses(const RecordedTick& tick, std::uint64_t time) {
-  Json changes = Json::array();
-  bool is_new = false;
-  for (NodeIndex node = 0; node < before_.size(); ++node) {
-    const RecordedState& state = tick.nodes[node];
-    if (state == std::exchange(before_[node], state)) continue;
-    is_new = true;
-    changes.push_back({{"path", header_.nodes[node].path},
-                       {"status", to_string(state.status)},
-                       {"progress", state.progress},
-                       {"ticked", state.ticked},
-                       {"held", state.held}});
-  }
-  const Json message{{"tick", tick.tick}, {"changes", std::move(changes)}};
-  if (is_new) file_.add(status_, time, message.text());
+  tick.moments.each(moment_, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
+    begin_statuses(tick, it.times);
+    for (NodeIndex node = 0; node < before_.size(); ++node) {
+      RecordedState state = tick.nodes[node];
+      state.status = now[node].status();
+      state.ticked = now[node].ticked();
+      state.held = now[node].held();
+      add_status(node, state);
+    }
+    end_statuses(time);
+  });
+  begin_statuses(tick, 1);
+  for (NodeIndex node = 0; node < before_.size(); ++node) add_status(node, tick.nodes[node]);
+  end_statuses(time);
+}
+
+// As text at once: in most ticks this is nearly all that there is to write.
+void McapMessages::begin_statuses(const RecordedTick& tick, std::uint64_t times) {
+  text_ = fmt::format(R"({{"tick":{},)", tick.tick);
+  if (times > 1) text_ += fmt::format(R"("times":{},)", times);
+  text_ += R"("changes":[)";
+}
+
+void McapMessages::add_status(NodeIndex node, const RecordedState& state) {
+  if (state == std::exchange(before_[node], state)) return;
+  if (text_.back() != '[') text_ += ',';
+  append_json(text_ += R"({"path":)", header_.nodes[node].path);
+  (text_ += R"(,"status":")") += to_string(state.status);
+  append_json(text_ += R"(","progress":)", state.progress);
+  text_ += state.ticked ? R"(,"ticked":true)" : R"(,"ticked":false)";
+  text_ += state.held ? R"(,"held":true})" : R"(,"held":false})";
+}
+
+void McapMessages::end_statuses(std::uint64_t time) {
+  if (text_.back() != '[') file_.add(status_, time, text_ += "]}");
 }
 
 void McapMessages::add_progress(const Compared& compared, const RecordedTick& tick,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "recording/recording.h"
@@ -31,6 +32,9 @@ class McapMessages {
   };
 
   void add_statuses(const RecordedTick& tick, std::uint64_t time);
+  void begin_statuses(const RecordedTick& tick, std::uint64_t times);
+  void add_status(NodeIndex node, const RecordedState& state);
+  void end_statuses(std::uint64_t time);
   void add_progress(const Compared& compared, const RecordedTick& tick, std::uint64_t time);
   void add_log(const LeafLine& line, std::uint64_t time);
   std::uint16_t channel_of(std::uint32_t entry);
@@ -42,6 +46,8 @@ class McapMessages {
   std::vector<Compared> compared_;
   std::map<std::uint32_t, std::uint16_t> entries_;  // channels
   std::vector<RecordedState> before_;
+  std::vector<NodeState> moment_;
+  std::string text_;  // of the message
 };
 
 }  // namespace lockstep::host

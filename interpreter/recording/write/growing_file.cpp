@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -80,11 +81,11 @@ void GrowingFile::add_plain(std::string_view text, Failure failure, std::uint64_
   while (!failed_ && !text.empty()) {
     const std::string_view some = text.substr(0, write_some(text, failure));
     written += some.size();
-    const auto newline = some.rfind('\n');
-    if (newline == std::string_view::npos) {
+    const void* const newline = ::memrchr(some.data(), '\n', some.size());
+    if (newline == nullptr) {
       unfinished_ += some.size();
     } else {
-      unfinished_ = some.size() - newline - 1;
+      unfinished_ = static_cast<std::size_t>(some.end() - static_cast<const char*>(newline)) - 1;
       take_name(failure);
     }
     text.remove_prefix(some.size());

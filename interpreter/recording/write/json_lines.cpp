@@ -245,12 +245,30 @@ static_assert(std::ranges::all_of(kStatuses, [](const StatusRow& row) {
   return row.name.size() <= std::string_view("success").size();
 }));
 
-char* put_node(char* to, const NodeChange& change) {
+// The last progress that was written, as its text: a node often has the progress of the one above.
+class ProgressText {
+ public:
+  char* put(char* to, double progress) {
+    if (begin_ == nullptr || progress != number_ ||
+        std::signbit(progress) != std::signbit(number_)) {
+      char* const end = put_progress(to, progress);
+      begin_ = to, end_ = end, number_ = progress;
+      return end;
+    }
+    return std::copy(begin_, end_, to);
+  }
+
+ private:
+  const char *begin_ = nullptr, *end_ = nullptr;  // in what is written
+  double number_ = 0;
+};
+
+char* put_node(char* to, const NodeChange& change, ProgressText& text) {
   constexpr std::string_view kFlags[] = {",0,0]", ",0,1]", ",1,0]", ",1,1]"};
   const Activity activity = change.activity();
   to = put_integer(put(to, "["), change.node);
   to = put(put(put(to, ",\""), to_string(status_of(activity))), "\",");
-  to = put_progress(to, change.progress);
+  to = text.put(to, change.progress);
   return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
 }
 
@@ -312,10 +330,11 @@ class JsonLines final : public LiveFormat {
                 bool first) const override {
     const std::size_t count = std::min(nodes.size(), room.size() / kMostOfNode);
     char* to = room.data();
+    ProgressText text;
     for (const NodeChange& change : nodes.first(count)) {
       if (!first) *to++ = ',';
       first = false;
-      to = put_node(to, change);
+      to = put_node(to, change, text);
     }
     return {to, count};
   }
