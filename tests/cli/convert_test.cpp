@@ -191,6 +191,27 @@ TEST_CASE("convert writes the operators and texts of scripts as the other langua
   CHECK(contains(back.out, "code=\"k == 0 &amp;&amp; (s == 'or' || k > 5)\""));
 }
 
+TEST_CASE("convert writes no operator by way of an argument of the file") {
+  const TemporaryDirectory directory;
+  const auto converted = [&](const std::string& value, const std::string& script) {
+    const std::string tree = "<root lockstep=\"1\"><arg name=\"x\" default='" + value +
+                             "'/>\n<BehaviorTree ID=\"Main\"><Check code='" + script +
+                             "'/></BehaviorTree></root>";
+    return run_lockstep({"convert", directory.file("tree.xml", tree)});
+  };
+  const Outcome good = converted("5", "k and ${x} > 3 or k");
+  CHECK(good.code == 0);
+  CHECK(contains(good.out, "code=\"k &amp;&amp; ${x} > 3 || k\""));
+  CHECK(converted("salt and pepper", "k == \"${x}\"").code == 0);
+  for (const char* value : {"k and k", "or", "\"a\" == k"}) {
+    const Outcome bad = converted(value, "k == ${x}");
+    INFO(value << bad.out << bad.err);
+    CHECK(bad.code == 3);
+    CHECK(contains(bad.err, "tree.xml:2:32: error: a script with this argument cannot"));
+  }
+  CHECK(contains(converted("5", "k % 2 and k").err, "error: unexpected '%' cannot"));
+}
+
 TEST_CASE("convert keeps processing instructions where BehaviorTree.CPP takes them") {
   const TemporaryDirectory directory;
   const std::string ours = directory.file(
@@ -227,6 +248,60 @@ TEST_CASE("convert warns of a Sleep that may be held") {
   CHECK(contains(told("<ParallelRelative delta=\"1\"><Sequence>\n<Sleep msec=\"100\"/></Sequence>"
                       "</ParallelRelative>"),
                  "tree.xml:4:1: warning: 'Sleep' is not quite the same"));
+  // By way of SubTrees, too.
+  const std::string trees =
+      "</BehaviorTree><BehaviorTree ID=\"A\"><SubTree ID=\"B\"/></BehaviorTree>"
+      "<BehaviorTree ID=\"B\">\n<Sleep msec=\"1\"/>";
+  CHECK(told("<SubTree ID=\"A\"/>" + trees).empty());
+  CHECK(contains(told("<ParallelAbsolute><Inverter><SubTree ID=\"A\"/></Inverter>"
+                      "</ParallelAbsolute>" +
+                      trees),
+                 "tree.xml:4:1: warning: 'Sleep' is not quite the same"));
+}
+
+TEST_CASE("convert warns of a child that may be skipped, where the languages differ then") {
+  const TemporaryDirectory directory;
+  const auto told = [&](const std::string& node) {
+    const std::string tree = around("BTCPP_format=\"4\"", node)
+                                 .insert(23,
+                                         "<BehaviorTree ID=\"S\"><ScriptCondition "
+                                         "code=\"1\" _skipIf=\"k\"/></BehaviorTree>");
+    return run_lockstep({"convert", directory.file("tree.xml", tree)}).err;
+  };
+  const std::string good = "<ScriptCondition code=\"k\"/>";
+  const std::string skipped = "<ScriptCondition code=\"k\" _while=\"k\"/>";
+  const std::string decided = "<ScriptCondition code=\"k\" _failureIf=\"k\"/>";
+  const std::string rest = "<AlwaysSuccess _skipIf=\"k\"/>";
+  const auto branch = [&](const std::string& tag, const std::string& condition) {
+    return told("<" + tag + ">" + condition + rest + "</" + tag + ">");
+  };
+  const std::string is_error = "a condition that is skipped is an error";
+  for (const char* tag : {"IfThenElse", "WhileDoElse"}) {
+    CHECK(branch(tag, good).empty());
+    CHECK(contains(branch(tag, skipped), is_error));
+    CHECK(contains(branch(tag, "<Inverter>" + skipped + "</Inverter>"), is_error));
+    CHECK(contains(branch(tag, "<SubTree ID=\"S\"/>"), is_error));
+    CHECK(contains(branch(tag, "<Sequence>" + skipped + skipped + "</Sequence>"), is_error));
+    CHECK(branch(tag, "<Sequence>" + skipped + good + "</Sequence>").empty());
+  }
+  CHECK(branch("IfThenElse", decided).empty());
+  CHECK(contains(branch("WhileDoElse", decided), "runs once for each branch"));
+  const auto delay = [&](const std::string& child) {
+    return told("<Delay delay_msec=\"10\">" + child + "</Delay>");
+  };
+  CHECK(delay(good).empty());
+  CHECK(contains(delay(skipped), "the time is not waited for again"));
+}
+
+TEST_CASE("convert keeps the blackboard of a SubTree of version 3") {
+  const TemporaryDirectory directory;
+  for (const char* word : {"__autoremap", "__shared_blackboard", "_autoremap"}) {
+    const std::string node = std::string("<SubTreePlus ID=\"S\" ") + word + "=\"true\"/>";
+    const Outcome here =
+        run_lockstep({"convert", directory.file("tree.xml", around("BTCPP_format=\"3\"", node))});
+    INFO(word << here.err);
+    CHECK(contains(here.out, "<SubTree ID=\"S\" _autoremap=\"true\"/>"));
+  }
 }
 
 TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
@@ -294,6 +369,8 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
       {"<Precondition if=\"x\"><A/></Precondition>", "hint: give its child failure_if, success_if"},
       {"<Switch2 variable=\"{x}\" case_1=\"{y}\" case_2=\"2\"><A/><A/><A/></Switch2>",
        "3:25: error: a case that is an entry cannot"},
+      {"<Switch2 variable=\"{x}\" case_1=\"1\" case_2=\"1\"><A/><A/><A/></Switch2>",
+       "3:36: error: a case that is given twice cannot"},
       {"<Switch2 case_1=\"1\" case_2=\"2\"><A/><A/><A/></Switch2>",
        "3:1: error: a Switch without 'variable' cannot"},
       {"<Switch2 variable=\"{a.b}\" case_1=\"1\" case_2=\"2\"><A/><A/><A/></Switch2>",

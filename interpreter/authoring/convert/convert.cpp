@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "authoring/convert/circumstances.h"
 #include "authoring/convert/script_text.h"
 #include "authoring/convert/switch_node.h"
 #include "authoring/edit/text_edit.h"
@@ -39,6 +40,7 @@ class Converter {
       : document_(document),
         conversion_(conversion),
         report_(report),
+        circumstances_(document, conversion),
         text_(document.source()->text()),
         scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict) {}
 
@@ -162,28 +164,50 @@ class Converter {
                Severity::Warning);
   }
 
-  // Warns once of each name that this file does not declare.
-  void warn_of_arguments(const Attribute& attribute) {
-    const std::string_view text = attribute.value;
+  // Calls use(offset, name) for each ${name}.
+  template <class Use>
+  static void for_each_argument(std::string_view text, Use use) {
     for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", at + 2)) {
       const auto close = text.find('}', at);
       if (close == std::string_view::npos) return;
-      const std::string_view name = text.substr(at + 2, close - at - 2);
       const bool is_literal = at > 0 && text[at - 1] == '$';
-      if (is_literal || is_declared(name) || !told_.insert(name).second) continue;
-      report_.in_value(attribute.place, at,
-                       fmt::format("'${{{}}}' is a text for BehaviorTree.CPP", brief(name)),
-                       "it has no arguments: write the value, or an entry", Severity::Warning);
+      if (!is_literal) use(at, text.substr(at + 2, close - at - 2));
     }
   }
 
-  bool is_declared(std::string_view argument) const {
+  // Warns once of each name that this file does not declare.
+  void warn_of_arguments(const Attribute& attribute) {
+    for_each_argument(attribute.value, [&](std::size_t at, std::string_view name) {
+      if (declaration_of(name) != 0 || !told_.insert(name).second) return;
+      report_.in_value(attribute.place, at,
+                       fmt::format("'${{{}}}' is a text for BehaviorTree.CPP", brief(name)),
+                       "it has no arguments: write the value, or an entry", Severity::Warning);
+    });
+  }
+
+  // With the defaults of the arguments that this file declares.
+  std::string with_defaults(std::string_view text) const {
+    std::string all;
+    std::size_t end = 0;
+    for_each_argument(text, [&](std::size_t at, std::string_view name) {
+      const std::uint32_t declaration = declaration_of(name);
+      const Attribute* value =
+          declaration == 0 ? nullptr : document_.find_attribute(declaration, "default");
+      if (value == nullptr) return;
+      all.append(text.substr(end, at - end)).append(value->value);
+      end = at + name.size() + 3;
+    });
+    return all.append(text.substr(end));
+  }
+
+  // The 'arg' element of that name; 0 if there is none.
+  std::uint32_t declaration_of(std::string_view argument) const {
     const auto elements = document_.elements();
     for (const std::uint32_t child : children_in(elements, 0)) {
       const Attribute* name = document_.find_attribute(child, "name");
-      if (elements[child].tag == "arg" && name != nullptr && name->value == argument) return true;
+      if (elements[child].tag == "arg" && name != nullptr && name->value == argument) return child;
     }
-    return false;
+    return 0;
   }
 
   // Releases before 4.8.4 take it, and lockstep does.
@@ -245,46 +269,12 @@ class Converter {
         add_attribute(token, it.theirs, "-1");
       }
     }
-    const bool differs = (!pair_->is_different_when_held || may_be_held()) &&
-                         (!pair_->has_condition_that_runs || condition_may_run(element));
-    if (pair_->difference.empty() || !differs || report_.counted_only(Severity::Warning)) return;
-    report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
-               std::string(pair_->difference), Severity::Warning);
-  }
-
-  bool may_be_held() const {
-    return std::ranges::any_of(open_, [](const Open& it) {
-      return it.tag == "ParallelAbsolute" || it.tag == "ParallelRelative";
-    });
-  }
-
-  // Whether something in the first child may run for several ticks, as far as the file says it.
-  bool condition_may_run(std::uint32_t element) const {
-    const auto elements = document_.elements();
-    const std::uint32_t first = element + 1;
-    if (first >= elements[element].end) return false;
-    for (std::uint32_t node = first; node < elements[first].end; ++node) {
-      const std::string_view tag = elements[node].tag;
-      const Attribute* id = is_explicit_tag(tag) ? document_.find_attribute(node, "ID") : nullptr;
-      const std::string_view type = id == nullptr ? tag : id->value;
-      const NodeType* known = conversion_.from_nodes.find(type);
-      if (known != nullptr ? known->can_run : tag == "Action" || is_modeled_action(type)) {
-        return true;
-      }
+    for (const btcpp::Difference& it : pair_->differences) {
+      if (!circumstances_.apply(it.when, element) || report_.counted_only(Severity::Warning))
+        continue;
+      report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
+                 std::string(it.what), Severity::Warning);
     }
-    return false;
-  }
-
-  bool is_modeled_action(std::string_view type) const {
-    const auto elements = document_.elements();
-    for (const std::uint32_t part : children_in(elements, 0)) {
-      if (elements[part].tag != kModels) continue;
-      for (const std::uint32_t model : children_in(elements, part)) {
-        const Attribute* id = document_.find_attribute(model, "ID");
-        if (id != nullptr && id->value == type && elements[model].tag == "Action") return true;
-      }
-    }
-    return false;
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
@@ -391,9 +381,13 @@ class Converter {
   bool is_script(std::string_view name) const { return pair_ != nullptr && name == "code"; }
 
   void convert_script(const XmlToken& token, const Attribute& attribute, std::string_view name) {
-    const auto script =
-        to_ours() ? script_to_ours(attribute.value) : script_to_theirs(attribute.value);
+    const auto script = converted_script(attribute.value);
     if (script) {
+      const auto whole = converted_script(with_defaults(attribute.value));
+      if (!whole || *whole != with_defaults(*script)) {
+        return cannot(attribute.place, "a script with this argument",
+                      "its default is in other words there: write it here in its place");
+      }
       if (*script == attribute.value && name == attribute.name) return keep(token, attribute);
       return replace(token, name, *script);
     }
@@ -402,6 +396,10 @@ class Converter {
         attribute.place, script.error().offset,
         fmt::format("{} cannot be said in {}", script.error().message, conversion_.to.title),
         script.error().hint);
+  }
+
+  tl::expected<std::string, Expression::Error> converted_script(std::string_view script) const {
+    return to_ours() ? script_to_ours(script) : script_to_theirs(script);
   }
 
   bool is_fixed(std::string_view name) const {
@@ -431,7 +429,10 @@ class Converter {
 
   void to_our_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view name = attribute.name, value = attribute.value;
-    if (name == "__shared_blackboard") return replace(token, "_autoremap", value);
+    const bool is_subtree = pair_ != nullptr && pair_->ours == "SubTree";
+    if (is_subtree && (name == "__shared_blackboard" || name == "__autoremap")) {
+      return replace(token, "_autoremap", value);
+    }
     if (const auto hook = hook_named(name, conversion_.from)) {
       return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
     }
@@ -548,6 +549,7 @@ class Converter {
   const Document& document_;
   const Conversion& conversion_;
   const Reporter& report_;
+  const Circumstances circumstances_;
   std::string_view text_;
   Scanner scanner_;
   TextEdit edits_;

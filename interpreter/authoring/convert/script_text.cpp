@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/wording.h"
 #include "expression/token.h"
 
@@ -21,8 +23,14 @@ Converted convert_tokens(std::string_view script, Replace replace) {
   std::size_t end = 0;
   while (true) {
     const std::size_t copied = end;
+    end = std::min(script.find_first_not_of(" \t\r\n", end), script.size());
+    if (script.substr(end).starts_with("${")) {  // an argument
+      end = std::min(script.find('}', end), script.size() - 1) + 1;
+      text += script.substr(copied, end - copied);
+      continue;
+    }
     const auto token = next_token(script, end);
-    if (!token) return std::string(script);
+    if (!token) return tl::unexpected(token.error());
     text += script.substr(copied, token->offset - copied);
     if (token->symbol == Symbol::End) return text;
     const std::string_view written = script.substr(token->offset, end - token->offset);

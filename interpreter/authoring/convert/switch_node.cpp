@@ -93,6 +93,10 @@ class Switch {
     if (value.starts_with('{') && value.ends_with('}')) {
       refuse(name, "a case that is an entry", "write its value");
     }
+    for (std::uint32_t before = 1; before < number; ++before) {
+      if (value_of(case_name(before)) != value) continue;
+      refuse(name, "a case that is given twice", "remove it and its child, which is never chosen");
+    }
     return std::string(value);
   }
 

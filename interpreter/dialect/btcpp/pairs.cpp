@@ -32,19 +32,33 @@ constexpr AttributePair kMaxFailures[] = {{"max_failures", "failure_count", Conv
 constexpr AttributePair kVariable[] = {{"variable", "on", Conversions::WithoutBraces}};
 constexpr AttributePair kWaitDuration[] = {{"wait_duration", "seconds"}};
 
-constexpr std::string_view kRounds =
-    "for BehaviorTree.CPP, a round that ends at once is followed by the next one in the same "
-    "period; in lockstep's language each round takes a tick";
-constexpr std::string_view kDecides =
-    "for BehaviorTree.CPP, it decides after each child; in lockstep's language when all were "
-    "ticked, and conditions are asked in every tick";
-constexpr std::string_view kStands =
-    "while it is held, the time of a Wait stands still; that of a Sleep goes on";
-
-constexpr std::string_view kAsks =
-    "for BehaviorTree.CPP, an action that is the condition keeps its result, and a condition that "
-    "runs does not halt the branch; in lockstep's language the action begins again in the next "
-    "tick, and the branch is halted";
+constexpr Difference kRounds[] = {
+    {"for BehaviorTree.CPP, a round that ends at once is followed by the next one in the same "
+     "period; in lockstep's language each round takes a tick"}};
+constexpr Difference kDecides[] = {
+    {"for BehaviorTree.CPP, it decides after each child; in lockstep's language when all were "
+     "ticked, and conditions are asked in every tick"}};
+constexpr Difference kStands[] = {
+    {"while it is held, the time of a Wait stands still; that of a Sleep goes on", When::IsHeld}};
+constexpr Difference kSkipped = {
+    "for BehaviorTree.CPP, a condition that is skipped is an error; in lockstep's language the "
+    "node "
+    "is skipped then",
+    When::FirstIsSkipped};
+constexpr Difference kBranches[] = {kSkipped};
+constexpr Difference kAsks[] = {
+    {"for BehaviorTree.CPP, an action that is the condition keeps its result, and a condition that "
+     "runs does not halt the branch; in lockstep's language the action begins again in the next "
+     "tick, and the branch is halted",
+     When::ConditionRuns},
+    {"for BehaviorTree.CPP, a script that decides the condition runs once for each branch; in "
+     "lockstep's language it runs in every tick",
+     When::FirstIsDecided},
+    kSkipped};
+constexpr Difference kWaits[] = {
+    {"for BehaviorTree.CPP, the time is not waited for again after the child was skipped; in "
+     "lockstep's language it is",
+     When::FirstIsSkipped}};
 
 constexpr std::string_view kOneEach =
     "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
@@ -76,17 +90,17 @@ constexpr NodePair kPairs[] = {
      .ours = "Parallel",
      .in_ours = kKeepsResults,
      .attributes = kCounts,
-     .difference = kDecides,
+     .differences = kDecides,
      .remark = "counts are 1 or more"},
     {.theirs = "Repeat",
      .ours = "Repeat",
      .attributes = kCycles,
-     .difference = kRounds,
+     .differences = kRounds,
      .remark = "one iteration in each tick"},
     {.theirs = "RetryUntilSuccessful",
      .ours = "Retry",
      .attributes = kAttempts,
-     .difference = kRounds,
+     .differences = kRounds,
      .remark = kOneEach},
     {.theirs = "Inverter", .ours = "Inverter"},
     {.theirs = "ForceSuccess", .ours = "ForceSuccess"},
@@ -98,18 +112,15 @@ constexpr NodePair kPairs[] = {
      .words = kThenSkip,
      .remark = kFirstResult},
     {.theirs = "Timeout", .ours = "Timeout", .in_ours = kWallClock, .attributes = kMsec},
-    {.theirs = "Delay", .ours = "Delay", .in_ours = kWallClock, .attributes = kDelayMsec},
-    {.theirs = "Sleep",
-     .ours = "Wait",
-     .attributes = kMsec,
-     .difference = kStands,
-     .is_different_when_held = true},
+    {.theirs = "Delay",
+     .ours = "Delay",
+     .in_ours = kWallClock,
+     .attributes = kDelayMsec,
+     .differences = kWaits},
+    {.theirs = "Sleep", .ours = "Wait", .attributes = kMsec, .differences = kStands},
     {.theirs = "SubTree", .ours = "SubTree", .words = kSubTreeWords},
-    {.theirs = "IfThenElse", .ours = "IfThenElse"},
-    {.theirs = "WhileDoElse",
-     .ours = "WhileDoElse",
-     .difference = kAsks,
-     .has_condition_that_runs = true},
+    {.theirs = "IfThenElse", .ours = "IfThenElse", .differences = kBranches},
+    {.theirs = "WhileDoElse", .ours = "WhileDoElse", .differences = kAsks},
     {.theirs = "Script", .ours = "Script"},
     {.theirs = "ScriptCondition", .ours = "Check", .words = kCode},
     {.theirs = "AlwaysSuccess", .ours = "AlwaysSuccess"},

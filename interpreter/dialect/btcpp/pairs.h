@@ -36,6 +36,21 @@ struct AttributePair {
   Conversions conversion = Conversions::None;
 };
 
+// What may be seen of a node that makes it differ.
+enum class When : unsigned char {
+  Always,
+  IsHeld,          // it is below a synchronized node
+  ConditionRuns,   // its first child, for several ticks
+  FirstIsSkipped,  // its first child
+  FirstIsDecided,  // its first child has a success_if or failure_if
+};
+
+// What a node does there and here.
+struct Difference {
+  std::string_view what;
+  When when = When::Always;
+};
+
 struct NodePair {
   std::string_view theirs;
   std::string_view ours = {};  // "": none
@@ -43,9 +58,7 @@ struct NodePair {
   FixedAttribute in_ours = {};
   std::span<const AttributePair> attributes = {};  // that differ
   std::span<const AttributePair> words = {};       // more of them, for hints alone
-  std::string_view difference = {};                // in what they do; "" = none
-  bool is_different_when_held = false;             // and only below a synchronized node
-  bool has_condition_that_runs = false;            // and only with such a first child
+  std::span<const Difference> differences = {};
   std::string_view remark = {};  // of a hint: what is different, or what to do instead
 };
 
