@@ -178,7 +178,8 @@ struct Definition {
       }
     }
     for (const DefinitionNode& node : nodes) {
-      if (node.type->category != NodeCategory::Condition) continue;
+      const NodeCategory category = node.type->category;  // a decorator's decides, too
+      if (category != NodeCategory::Condition && category != NodeCategory::Decorator) continue;
       for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
         add(ports[node.first + i].script);
       }

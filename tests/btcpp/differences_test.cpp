@@ -20,7 +20,7 @@ std::vector<std::string> rows_of_page() {
     if (line.rfind("| ", 0) != 0 || line.rfind("| |", 0) == 0) continue;
     const std::string row = line.substr(2, line.find(" |", 2) - 2);
     const bool is_no_row = row == "There" || row == "Not there" || row == "Surprise" ||
-                           row == "Depth of elements in a file" ||
+                           row == "Depth of elements below BehaviorTree" ||
                            row.find("() const") != row.npos || row.rfind("void on", 0) == 0;
     if (!is_no_row) rows.push_back(row);
   }
@@ -75,9 +75,9 @@ const Elsewhere kElsewhere[] = {
     {"RetryUntilSuccessful num_attempts=\"-1\"", "cli/btcpp_test.cpp", "times in one period"},
     {"RetryUntilSuccessful num_attempts=\"-2\"", "nodes/btcpp_decorator_laws.h", "num_attempts=-2"},
     {"Switch and scripts differ", "nodes/btcpp_control_laws.h", "16abc"},
-    {"4.6 and older", "unit/definition/limits_test.cpp", "nested(kMaxDepth)"},
-    {"4.7, 4.8", "unit/definition/limits_test.cpp", "nested(kMaxDepth)"},
-    {"4.9, 4.10", "unit/definition/limits_test.cpp", "nested(kMaxDepth)"},
+    {"4.6 and older", "cli/convert_test.cpp", "nested deeper than 256 levels"},
+    {"4.7, 4.8", "cli/convert_test.cpp", "nested deeper than 256 levels"},
+    {"4.9, 4.10", "cli/convert_test.cpp", "nested deeper than 256 levels"},
 };
 
 }  // namespace

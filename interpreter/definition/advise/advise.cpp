@@ -13,6 +13,7 @@
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "definition/types/script_types.h"
+#include "expression/evaluator.h"
 #include "expression/operator_words.h"
 
 namespace lockstep::host {
@@ -50,7 +51,7 @@ class Adviser {
     if (!definition_.boards.empty()) return;  // any entry may be made while the tree runs
     unwritten_entries();
     missing_names();
-    if (!definition_.rules->strict_types && !definition_.shares_entries) useless_texts();
+    if (!definition_.shares_entries) useless_values();
   }
 
  private:
@@ -261,9 +262,9 @@ class Adviser {
     });
   }
 
-  // Scripts that fail for a start value that is a text and stays one: `_skipIf="!wanted"` with
-  // wanted="maybe".
-  void useless_texts() const {
+  // Scripts that fail for start values that stay as they are: `_skipIf="!wanted"` with
+  // wanted="maybe", or with wanted="2".
+  void useless_values() const {
     std::vector<bool> changes(definition_.entries.size());
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       const bool is_target = parameter.is_key && !parameter.own_only;
@@ -277,29 +278,59 @@ class Adviser {
     for (std::size_t i = 0; i < conditions.size(); ++i) {
       const BoundScript& script = definition_.scripts[i];
       if (script.code == nullptr) continue;
-      std::vector<StaticType> types;
-      std::string texts;
-      for (std::size_t name = 0; name < script.entries.size(); ++name) {
-        const BlackboardEntry& entry = definition_.entries[script.entries[name]];
-        const auto* text = std::get_if<std::string>(&entry.initial);
-        const bool is_text =
-            text != nullptr && !changes[script.entries[name]] && !parse_flag(*text);
-        types.push_back(is_text ? StaticType{ValueType::String} : StaticType{});
-        if (!is_text) continue;
-        texts += fmt::format("{}'{}' is the text '{}'", texts.empty() ? "" : ", ",
-                             script.code->names()[name], brief(*text));
-      }
-      if (texts.empty()) continue;
+      std::string values;
       const auto wrong = [&](std::size_t offset, std::string message) {
         if (!told.emplace(script.place.byte, offset).second) return;
-        report_.in_value(script.place, offset, std::move(message), texts, Severity::Warning);
+        report_.in_value(script.place, offset, std::move(message), values, Severity::Warning);
       };
-      const StaticType value =
-          infer_types(*script.code, types, {.assigned = [](auto&&...) {}, .wrong = wrong});
-      if (conditions[i] && !may_be_yes_or_no(value)) {
-        wrong(0, fmt::format("a condition is {}, not a text", kCondition));
+      std::vector<Entry> entries;  // those that stay
+      for (std::size_t name = 0; name < script.entries.size(); ++name) {
+        const BlackboardEntry& it = definition_.entries[script.entries[name]];
+        if (changes[script.entries[name]] || std::holds_alternative<NoValue>(it.initial)) continue;
+        entries.push_back(
+            {.value = it.initial, .type = it.type, .typing = it.typing, .object = it.object});
+        values += fmt::format("{}'{}' is {}", values.empty() ? "" : ", ",
+                              script.code->names()[name], Operand::of(it.initial).shown());
       }
+      if (fails_by_type(script, changes, conditions[i], wrong)) continue;
+      if (entries.size() == script.entries.size()) fails(script, entries, conditions[i], wrong);
     }
+  }
+
+  // Whether a part of it takes no text, and gets one that is neither a yes nor a no.
+  using Wrong = std::function<void(std::size_t offset, std::string message)>;
+  bool fails_by_type(const BoundScript& script, const std::vector<bool>& changes, bool is_condition,
+                     const Wrong& wrong) const {
+    std::vector<StaticType> types;
+    bool has_text = false, fails = false;
+    for (const std::uint32_t entry : script.entries) {
+      const auto* text = std::get_if<std::string>(&definition_.entries[entry].initial);
+      const bool is_text = text != nullptr && !changes[entry] && !parse_flag(*text);
+      types.push_back(is_text ? StaticType{ValueType::String} : StaticType{});
+      has_text |= is_text;
+    }
+    if (!has_text) return false;
+    const auto also = [&](std::size_t offset, std::string message) {
+      fails = true;
+      wrong(offset, std::move(message));
+    };
+    const StaticType value =
+        infer_types(*script.code, types, {.assigned = [](auto&&...) {}, .wrong = also});
+    if (is_condition && !may_be_yes_or_no(value)) {
+      also(0, fmt::format("a condition is {}, not a text", kCondition));
+    }
+    return fails;
+  }
+
+  // A script all of whose entries stay as they are, so it assigns none.
+  static void fails(const BoundScript& script, std::vector<Entry>& entries, bool is_condition,
+                    const Wrong& wrong) {
+    std::vector<Entry*> all;
+    for (Entry& entry : entries) all.push_back(&entry);
+    Evaluator evaluator;
+    const bool works = is_condition ? evaluator.test(*script.code, all) != Truth::Error
+                                    : evaluator.execute(*script.code, all);
+    if (!works) wrong(0, evaluator.error());
   }
 
   // '=' where '==' was meant: the value of the condition is that of an assignment.
