@@ -108,7 +108,8 @@ class CastMaker {
     auto& recording = recordings_[row.recording];
     if (recording == nullptr) {
       recording = std::make_unique<RecordedWords>(read_recorded_words(row.recording, tree_));
-      if (!recording->error.empty()) report_.at_value(row.source, recording->error);
+      const std::string& error = recording->outcome.error;
+      if (!error.empty()) report_.at_value(row.source, error);
     }
     const auto words = recording->leaves.find(tree_.path(leaf.node));
     // One that the recording never ticks.

@@ -151,7 +151,7 @@ void GoldenFiles::check(const ScenarioFile& file, const Scenario& scenario,
     };
     if (!is_below(folder, path)) {
       refuse("it is not below the folder of the scenario file", "name a recording in that folder");
-    } else if (fs::exists(path) && !is_recording(path)) {
+    } else if (fs::exists(path) && !(fs::is_regular_file(path) && is_recording(path))) {
       refuse("it is not a recording", "name another file, or remove this one");
     } else if (users_.at(path).size() > 1) {
       refuse("it is the recording of several scenarios", "name a file for each");

@@ -168,15 +168,16 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
   RecordedWords words;
   NamedRecording file(path);
   if (!file.is_open()) {
-    words.error = fmt::format("'{}' cannot be read: {}", path, std::strerror(errno));
+    words.outcome.error = fmt::format("'{}' cannot be read: {}", path, std::strerror(errno));
     return words;
   }
   RecordingReader reader(file.text(), path);
   if (reader.error().empty()) {
     const RecordingHeader& header = reader.header();
     if (header.first_tick > 0) {
-      words.error = fmt::format("'{}' begins with tick {}: a scenario needs the begin of the run",
-                                path, header.first_tick);
+      words.outcome.error =
+          fmt::format("'{}' begins with tick {}: a scenario needs the begin of the run", path,
+                      header.first_tick);
       return words;
     }
     words.tree_file = header.file;
@@ -193,7 +194,7 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
     words.ticks = ticks;
     if (reader.end()) words.result = reader.end()->result;
   }
-  words.error = reader.error();
+  words.outcome = reader.outcome();
   return words;
 }
 

@@ -8,13 +8,14 @@
 
 #include "engine/tree.h"
 #include "leaves/leaf_script.h"
+#include "recording/read/recording_reader.h"
 
 namespace lockstep::host {
 
 struct RecordedWords : LeafScripts {
-  std::string error;      // "": it could be read
-  std::string result;     // of the run; "": it is cut
-  std::string tree_file;  // as its user named it
+  RecordingOutcome outcome;  // of reading it
+  std::string result;        // of the run; "": it is cut
+  std::string tree_file;     // as its user named it
   std::map<std::string, std::string, std::less<>> arguments;
   // A change that came into an entry from outside: nobody in the tree writes it.
   struct Change {

@@ -171,6 +171,9 @@ TEST_CASE("a recording that ends early is read, and that is said") {
     CHECK(!outcome.out.empty());
     CHECK(contains(outcome.err, "the recording is cut"));
   }
+  const Outcome scenario = log({"scenario", cut});
+  CHECK(scenario.code == 0);
+  CHECK(contains(scenario.err, "the recording is cut"));
 }
 
 TEST_CASE("a recording with lost ticks is read, and that is said") {

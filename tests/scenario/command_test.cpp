@@ -1,4 +1,6 @@
 // lockstep test from outside: what it finds, prints and writes.
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -463,6 +465,7 @@ TEST_CASE("test --update writes over nothing but the recordings of one scenario,
               {scenario("a", "notes.txt"), "it is not a recording"},
               {scenario("a", "../other.jsonl"), "it is not below the folder of the scenario file"},
               {scenario("a", "link.jsonl"), "it is a symbolic link"},
+              {scenario("a", "pipe.jsonl"), "it is not a recording"},
               {scenario("a", "gold.jsonl") + scenario("b", "x/../gold.jsonl"),
                "it is the recording of several scenarios"}};
   for (const auto& [text, why] : rows) {
@@ -471,6 +474,7 @@ TEST_CASE("test --update writes over nothing but the recordings of one scenario,
     const std::string notes = directory.file("notes.txt", "precious");
     std::filesystem::create_directory(directory.path("x"));
     std::filesystem::create_symlink("../elsewhere.jsonl", directory.path("link.jsonl"));
+    REQUIRE(mkfifo(directory.path("pipe.jsonl").c_str(), 0600) == 0);
     const std::string before = read_file(folder.file());
     const Outcome it = folder.test({"--update"});
     INFO(text << '\n' << it.out << it.err);

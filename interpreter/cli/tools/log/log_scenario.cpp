@@ -26,10 +26,7 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
   const RecordedTree recorded(header, options.tree, options.plugins);
   if (recorded.code() != kExitSuccess) return recorded.code();
   const RecordedWords words = read_recorded_words(options.file, recorded.tree());
-  if (!words.error.empty()) {
-    print_error(words.error);
-    return kExitInvalidTree;
-  }
+  if (const int code = report_end(words.outcome); code != kExitSuccess) return code;
   const std::string name =
       options.name.empty()
           ? fmt::format("as in {}", std::filesystem::path(options.file).filename().string())

@@ -32,8 +32,8 @@ bool save_scenarios(const std::string& path, const VerifyReport& report, const T
     const auto files = report.files.find(finding.name);
     if (files == report.files.end()) continue;
     const RecordedWords words = read_recorded_words(files->second.recording, tree);
-    if (!words.error.empty()) {
-      print_error("--save: " + words.error);
+    if (!words.outcome.error.empty()) {
+      print_error("--save: " + words.outcome.error);
       return false;
     }
     scenarios += to_text(words, text_of(finding, properties, tree));
