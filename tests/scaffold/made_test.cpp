@@ -133,7 +133,9 @@ TEST_CASE("a project in C builds and passes its tests, and nodes can be inserted
        "leaf Lists" + kListPorts + " --port 'd:list of bool' --port e:number=1",
        "leaf Awkward --port progress:double=1 --port create:string --port ports:int=1",
        "leaf IsOpen --kind condition --doc 'Whether */ the \"door\" is open' --port limit:double",
-       "leaf Plain", "node TryAll --kind control", "node Twice --kind decorator"},
+       "leaf Plain", "node TryAll --kind control", "node Twice --kind decorator",
+       // In small letters they are words of C, or functions of its library.
+       "leaf Int", "leaf Enum --port x:int", "leaf Exit --kind condition"},
       "build/robot.so", directory);
 }
 

@@ -65,6 +65,7 @@ TEST_CASE("a leaf that cannot be is refused, and the source stays as it was") {
         {"leaf PortsType", "a node cannot be called 'PortsType'"},
         {"leaf None", "a node cannot be called 'None'"},
         {"leaf Self", "a node cannot be called 'Self'"},
+        {"leaf Lockstep", "a node cannot be called 'Lockstep'"},
         {"leaf Sleep", "'Sleep' is a node of lockstep"},
         {"leaf open-door", "'open-door' cannot be the name of a node"},
         {"leaf Action", "a node cannot be called 'Action'"},

@@ -43,16 +43,16 @@ constexpr std::string_view kTakenTargets[] = {"all",        "clean",         "de
                                               "package",    "rebuild_cache", "test"};
 // Sources of plugins use these words, they are keywords of a language, or tags of trees that are no
 // nodes.
-constexpr std::string_view kTakenIds[] = {"Action",        "BehaviorTree",   "Condition",
-                                          "ConditionNode", "Control",        "ControlNode",
-                                          "Decorator",     "DecoratorNode",  "StatefulActionNode",
-                                          "False",         "Here",           "InOut",
-                                          "Input",         "Leaf",           "LeafType",
-                                          "None",          "Output",         "Plugin",
-                                          "Port",          "Ports",          "PortsType",
-                                          "Self",          "Status",         "SubTree",
-                                          "Token",         "TreeNodesModel", "True",
-                                          "Type"};
+constexpr std::string_view kTakenIds[] = {"Action",        "BehaviorTree",  "Condition",
+                                          "ConditionNode", "Control",       "ControlNode",
+                                          "Decorator",     "DecoratorNode", "StatefulActionNode",
+                                          "False",         "Here",          "InOut",
+                                          "Input",         "Leaf",          "LeafType",
+                                          "Lockstep",      "None",          "Output",
+                                          "Plugin",        "Port",          "Ports",
+                                          "PortsType",     "Self",          "Status",
+                                          "SubTree",       "Token",         "TreeNodesModel",
+                                          "True",          "Type"};
 
 // Macros of headers are called so: EOF, M_PI, L_tmpnam. No list has them all.
 bool is_like_a_macro(std::string_view id) {
