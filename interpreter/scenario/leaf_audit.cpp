@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
 #include "core/wording.h"
+#include "scenario/recorded_calls.h"
 #include "scenario/script_results.h"
 
 namespace lockstep::host {
@@ -37,17 +37,18 @@ class Auditor {
  public:
   Auditor(const RecordingHeader& header, const Tree& tree, const LeafModels& models,
           std::size_t most)
-      : header_(header), tree_(tree), most_(most) {
-    std::map<std::string, const LeafModel*> by_path;
-    for (const LeafModel& model : models.leaves) by_path[tree.path(model.node)] = &model;
-    for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
-      const auto model = by_path.find(header.nodes[node].path);
-      if (model != by_path.end()) leaves_.push_back({node, model->second});
+      : header_(header), tree_(tree), most_(most), calls_(header, tree) {
+    for (const auto& [node, leaf] : calls_.leaves()) {
+      leaves_.push_back(
+          {node, &models.leaves[static_cast<std::size_t>(leaf - tree.leaves.data())]});
     }
   }
 
   void look(const RecordedTick& tick) {
-    for (AuditedLeaf& leaf : leaves_) look(tick.tick, tick.nodes[leaf.node], leaf);
+    calls_.take(tick);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      look(tick.tick, tick.nodes[leaves_[i].node], calls_.of(i), leaves_[i]);
+    }
   }
   std::vector<LeafBreach> take() { return std::move(found_); }
 
@@ -57,7 +58,8 @@ class Auditor {
     found_.push_back({header_.nodes[leaf.node].path, tick, std::move(message)});
   }
 
-  void look(std::uint64_t tick, const RecordedState& state, AuditedLeaf& leaf) {
+  void look(std::uint64_t tick, const RecordedState& state,
+            std::span<const RecordedCalls::Call> calls, AuditedLeaf& leaf) {
     const LeafModel& model = *leaf.model;
     // Progress is that at the start of this tick: after the one before, and a tick without one.
     const double moved = state.progress - leaf.progress;
@@ -69,21 +71,21 @@ class Auditor {
     }
     leaf.progress = state.progress;
     leaf.was_held = state.held;
-    const bool is_judged = !may_be_of_script(tree_, model.node, state.status, leaf.ticks == 0);
-    if (state.ticked && is_judged) {
+    for (const RecordedCalls::Call& call : calls) {
+      if (call.begins) leaf.ticks = 0;
+      if (may_be_of_script(tree_, model.node, call.status, call.begins)) continue;
       ++leaf.ticks;
-      count(tick, state, leaf);
+      count(tick, call.status, leaf);
     }
     if (state.status != Status::Running) leaf.ticks = 0;
   }
 
-  void count(std::uint64_t tick, const RecordedState& state, AuditedLeaf& leaf) {
+  void count(std::uint64_t tick, Status status, AuditedLeaf& leaf) {
     const LeafModel& model = *leaf.model;
-    const bool has_result = has_ended(state.status);
-    if (has_result && !may_have(model.results, state.status)) {
+    const bool has_result = has_ended(status);
+    if (has_result && !may_have(model.results, status)) {
       add(tick, leaf,
-          fmt::format("had the result {}, which the leaf file does not allow",
-                      to_string(state.status)));
+          fmt::format("had the result {}, which the leaf file does not allow", to_string(status)));
     }
     const bool is_early = has_result && leaf.ticks < model.least_ticks;
     const bool is_late = model.most_ticks != 0 && leaf.ticks == model.most_ticks + 1;
@@ -103,6 +105,7 @@ class Auditor {
   const RecordingHeader& header_;
   const Tree& tree_;
   const std::size_t most_;
+  RecordedCalls calls_;
   std::vector<AuditedLeaf> leaves_;
   std::vector<LeafBreach> found_;
 };

@@ -12,6 +12,7 @@
 #include "recording/read/recording_parts.h"
 #include "recording/read/recording_reader.h"
 #include "scenario/ended_results.h"
+#include "scenario/recorded_calls.h"
 #include "scenario/script_results.h"
 
 namespace lockstep::host {
@@ -21,15 +22,13 @@ namespace {
 class WordMaker {
  public:
   WordMaker(const RecordingHeader& header, const Tree& tree, RecordedWords& words)
-      : header_(header), tree_(tree), words_(words), results_(header, tree) {
-    std::map<std::string, const LeafNode*> by_path;
-    for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
+      : header_(header), tree_(tree), words_(words), results_(header, tree), calls_(header, tree) {
     std::map<std::string, NodeIndex> recorded;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       recorded[header.nodes[node].path] = node;
-      const auto leaf = by_path.find(header.nodes[node].path);
-      if (leaf == by_path.end()) continue;
-      leaves_.push_back({node, leaf->second, &words.leaves[leaf->first]});
+    }
+    for (const auto& [node, leaf] : calls_.leaves()) {
+      leaves_.push_back({node, leaf, &words.leaves[header.nodes[node].path]});
     }
     const auto writers_of = writers(tree);
     for (const ShapeEntry& key : header.entries) {
@@ -44,8 +43,8 @@ class WordMaker {
   }
 
   void add(const RecordedTick& tick) {
-    if (!tick.moments.empty()) take_moments(tick.moments);
-    for (Leaf& it : leaves_) add(tick, it);
+    calls_.take(tick);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) {
       if (!entry.value || is_of_tree(tick, entry.entry)) continue;
       const std::string& key = header_.entries[entry.entry].key;
@@ -70,23 +69,9 @@ class WordMaker {
     NodeIndex node;
     const LeafNode* leaf;
     std::vector<LeafWord>* words;
-    RecordedState before = {};            // in the tick before
-    std::vector<NodeState> moments = {};  // of this tick, if it has several
-    std::size_t still = 0;  // ticks that were withheld, since the last word, without a drift
+    RecordedState before = {};  // in the tick before
+    std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
-
-  // A leaf has a word for each moment that has ticked it.
-  void take_moments(const MomentsView& moments) {
-    constexpr std::uint64_t kMost = 10'000;  // a run ticks no more often in one period
-    for (Leaf& it : leaves_) it.moments.clear();
-    moments.each(moment_, [&](std::span<const NodeState> states, const TickMoment& moment, bool) {
-      for (Leaf& it : leaves_) {
-        const NodeState state = states[it.node];
-        if (state.ticked())
-          it.moments.insert(it.moments.end(), std::min(moment.times, kMost), state);
-      }
-    });
-  }
 
   // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
   // withheld is a word, but those behind which the leaf does not drift any more.
@@ -109,19 +94,15 @@ class WordMaker {
     }
   }
 
-  void add(const RecordedTick& tick, Leaf& it) const {
-    const RecordedState& state = tick.nodes[it.node];
-    take_progress(state, it);
-    const bool began = it.before.status == Status::Running;
-    it.before = state;
-    if (!state.ticked) return;
-    it.still = 0;
-    if (tick.moments.empty()) return add_word(tick, it, results_.of(tick, it.node), !began);
-    bool runs = began;
-    for (const NodeState moment : it.moments) {
-      const bool is_halted = moment.status() == Status::Idle;
-      add_word(tick, it, is_halted ? Status::Running : moment.status(), !runs);
-      runs = moment.status() == Status::Running;
+  // A word for each tick that it got.
+  void add(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls, Leaf& it) const {
+    take_progress(tick.nodes[it.node], it);
+    it.before = tick.nodes[it.node];
+    if (it.before.ticked) it.still = 0;
+    for (const RecordedCalls::Call& call : calls) {
+      Status status = tick.moments.empty() ? results_.of(tick, it.node) : call.status;
+      if (status == Status::Idle) status = Status::Running;
+      add_word(tick, it, status, call.begins);
     }
   }
 
@@ -157,7 +138,7 @@ class WordMaker {
   const Tree& tree_;
   RecordedWords& words_;
   const EndedResults results_;
-  std::vector<NodeState> moment_;
+  RecordedCalls calls_;
   std::vector<Leaf> leaves_;
   std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
 };

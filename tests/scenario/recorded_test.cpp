@@ -96,6 +96,33 @@ TEST_CASE("a result that a script of a leaf gives is no word of the leaf") {
   CHECK(contains(words(R"(while="n == 0")", "0.5"), R"(/a" does="R0.5 S"/>)"));
 }
 
+TEST_CASE("an action that keeps its result gets no tick, and each round within a tick is one") {
+  for (const std::string nodes :
+       {R"(<Repeat num_cycles="2"><WhileDoElse><Advance name="a" step="0.5"/>
+           <Advance name="b" step="0.4"/></WhileDoElse></Repeat>)",
+        R"(<Repeat num_cycles="3"><Sequence><Advance name="a" step="0.5"/>
+           <Advance name="b" step="0.4"/></Sequence></Repeat>)"}) {
+    INFO(nodes);
+    const TemporaryDirectory directory;
+    const std::string file = directory.file(
+        "t.xml", R"(<root BTCPP_format="4"><plugin name="motion"/><BehaviorTree ID="T">)" + nodes +
+                     "</BehaviorTree></root>");
+    const std::string run = directory.path("run.jsonl"), test = directory.path("t.test.xml");
+    REQUIRE(run_lockstep({"run", file, "--clock", "virtual", "--rate", "10", "--view", "none",
+                          "--record", run})
+                .code == 0);
+    REQUIRE(run_lockstep({"log", "scenario", run, "--save", test}).code == 0);
+    const Outcome played = run_lockstep({"test", test, "--out", directory.path("failed")});
+    INFO(read_file(test) << played.out);
+    CHECK(played.code == 0);
+    const std::string leaves = directory.file("t.leaves.xml", R"(<leaves lockstep="1">
+        <leaf path="*/a" ticks="2"/><leaf path="*/b" ticks="3"/></leaves>)");
+    const Outcome audited = run_lockstep({"log", "check", run, "--leaves", leaves});
+    INFO(audited.out << audited.err);
+    CHECK(audited.code == 0);
+  }
+}
+
 TEST_CASE("the scenario of a recording is the run once more, whatever its leaves do by chance") {
   const std::string nodes[] = {
       R"(<ParallelAbsolute barriers="0.3;0.6"><Advance name="a"/><Advance name="b"/>

@@ -1,0 +1,50 @@
+// The ticks that the leaves of a recording got: one for each moment of a tick that has reached the
+// leaf. An action that has completed and keeps its result, as the condition of a WhileDoElse of
+// BehaviorTree.CPP, is reached without a tick.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/tree.h"
+#include "recording/recording.h"
+
+namespace lockstep::host {
+
+class RecordedCalls {
+ public:
+  struct Call {
+    Status status;  // after it; Idle: an ancestor has ended it in the same tick
+    bool begins;    // an activation
+  };
+
+  // Of the leaves that the tree has at the path of a node of the recording.
+  RecordedCalls(const RecordingHeader& header, const Tree& tree);
+
+  struct Leaf {
+    NodeIndex node;  // in the recording
+    const LeafNode* leaf;
+  };
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+
+  // The next tick of the recording.
+  void take(const RecordedTick& tick);
+  // What the leaf of this number got in it.
+  std::span<const Call> of(std::size_t leaf) const { return followed_[leaf].calls; }
+
+ private:
+  struct Followed {
+    std::optional<NodeIndex> keeper;  // its parent, if that does not begin it again
+    Status before = Status::Idle, keeper_before = Status::Idle;
+    std::vector<Call> calls = {};
+  };
+  template <class StateOf>
+  void reach(const StateOf& state_of);
+
+  std::vector<Leaf> leaves_;
+  std::vector<Followed> followed_;  // of each leaf
+  std::vector<NodeState> moment_;
+};
+
+}  // namespace lockstep::host
