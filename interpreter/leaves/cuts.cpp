@@ -13,10 +13,16 @@ constexpr double kRounding = 1e-9;
 constexpr std::size_t kMostCuts = 1000;
 
 void add(std::vector<double>& values, double value) {
-  if (value <= kRounding || value > 1 + kRounding) return;
-  value = std::min(value, 1.0);
   const auto at = std::ranges::lower_bound(values, value - kRounding);
   if (at == values.end() || *at > value + kRounding) values.insert(at, value);
+}
+
+void add_at(Cuts& cuts, double value) {
+  if (value > kRounding && value <= 1 + kRounding) add(cuts.at, std::min(value, 1.0));
+}
+
+void add_behind(Cuts& cuts, double value) {
+  if (value >= -kRounding && value < 1 - kRounding) add(cuts.behind, std::max(value, 0.0));
 }
 
 class CutFinder {
@@ -40,47 +46,54 @@ class CutFinder {
     Cuts& here = cuts_[node];
     here.deltas = above.deltas;
     here.is_unknown = above.is_unknown;
-    pull(above, parent, node, here.values);
+    pull(above, parent, node, here);
     const Synchronization way = synchronization(tree_.nodes[parent]);
     if (compares_progress(way) && !tree_.is_group(parent)) add_own(parent, here);
     if (const Member* member = barrier_member(tree_, parent)) add_own(member->group, here);
     add_compared(node);
-    if (here.values.size() > kMostCuts) here.is_unknown = true;
-    if (here.is_unknown) here.values.clear();
+    if (here.at.size() + here.behind.size() > kMostCuts) here.is_unknown = true;
+    if (!here.is_unknown) return;
+    here.at.clear();
+    here.behind.clear();
   }
 
-  void pull(const Cuts& above, NodeIndex parent, NodeIndex node, std::vector<double>& values) {
+  void pull(const Cuts& above, NodeIndex parent, NodeIndex node, Cuts& here) {
     const auto children = static_cast<double>(tree_.nodes[parent].children);
     const double place = place_of(parent, node);
     switch (tree_.labels[parent].type->progress_share) {
       case ProgressShare::EachChild:
-        return add_part(above, children, place, values);
+        return add_part(above, children, place, here);
       case ProgressShare::EachButLast:
-        if (place + 1 < children) return add_part(above, children - 1, place, values);
+        if (place + 1 < children) return add_part(above, children - 1, place, here);
         break;
       case ProgressShare::EachRound:
-        return add_rounds(above, parent, node, values);
+        return add_rounds(above, parent, here);
       case ProgressShare::NotByPlace:
         break;
     }
-    add_part(above, 1, 0, values);
+    add_part(above, 1, 0, here);
   }
 
-  static void add_part(const Cuts& above, double parts, double part, std::vector<double>& values) {
-    for (const double cut : above.values) add(values, parts * cut - part);
+  static void add_part(const Cuts& above, double parts, double part, Cuts& here) {
+    for (const double cut : above.at) add_at(here, parts * cut - part);
+    for (const double cut : above.behind) add_behind(here, parts * cut - part);
   }
 
-  void add_rounds(const Cuts& above, NodeIndex repeat, NodeIndex node,
-                  std::vector<double>& values) {
-    if (is_bound(repeat) && !above.values.empty()) cuts_[node].is_unknown = true;
+  // The end of a round is the beginning of the next one.
+  void add_rounds(const Cuts& above, NodeIndex repeat, Cuts& here) {
+    const bool has_cuts = !above.at.empty() || !above.behind.empty();
+    if (is_bound(repeat) && has_cuts) here.is_unknown = true;
     const double rounds = is_bound(repeat) ? 1 : rounds_of(repeat);
-    for (const double cut : above.values) {
+    for (const double cut : above.at) {
       const double done = rounds * cut;
-      add(values, done - (std::ceil(done - kRounding) - 1));
+      add_at(here, done - (std::ceil(done - kRounding) - 1));
+    }
+    for (const double cut : above.behind) {
+      const double done = rounds * cut;
+      add_behind(here, done - std::floor(done + kRounding));
     }
   }
 
-  // At a constant and behind it, a comparison may differ.
   void add_compared(NodeIndex node) {
     for (const Observed::Progress& it : compared_) {
       if (it.node == node) add_list(std::span(&it.constant, 1), true, cuts_[node]);
@@ -124,11 +137,9 @@ class CutFinder {
 
   // A child that goes on at a barrier is at it or behind it, which is not the same.
   static void add_list(std::span<const double> list, bool ticks_at_barrier, Cuts& cuts) {
-    for (const double barrier : list) add(cuts.values, barrier);
-    if (!ticks_at_barrier) return;
-    const std::vector<double> at = cuts.values;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      add(cuts.values, (at[i] + (i + 1 < at.size() ? at[i + 1] : 1.0)) / 2);
+    for (const double barrier : list) {
+      add_at(cuts, barrier);
+      if (ticks_at_barrier) add_behind(cuts, barrier);
     }
   }
 
@@ -139,6 +150,16 @@ class CutFinder {
 };
 
 }  // namespace
+
+// Between a cut and the next one is what is behind the first and not at the second.
+std::vector<double> Cuts::levels() const {
+  std::vector<double> all = at;
+  for (const double cut : behind) {
+    const auto next = std::ranges::upper_bound(at, cut + kRounding);
+    add(all, (cut + (next == at.end() ? 1.0 : *next)) / 2);
+  }
+  return all;
+}
 
 std::vector<Cuts> cuts_of(const Tree& tree, const BarriersOfEntries& entries,
                           std::span<const Observed::Progress> compared) {

@@ -11,9 +11,13 @@ namespace lockstep::host {
 
 // The cuts of one node.
 struct Cuts {
-  std::vector<double> values;  // in (0, 1], rising: what its progress is compared with
+  std::vector<double> at;      // in (0, 1], rising: it is asked whether its progress is there yet
+  std::vector<double> behind;  // in [0, 1), rising: the same, whether it is further than this
   std::vector<double> deltas;  // it is compared with others that are so far away
   bool is_unknown = false;     // something above compares it with what is not known
+
+  // In (0, 1]: with 0, one value of each part of the way whose values all compare alike.
+  std::vector<double> levels() const;
 };
 
 // The barriers that an entry may hold, by slot. An entry that is not there is unknown.

@@ -337,7 +337,7 @@ class ModelMaker {
       find_levels(leaf, own);
       const std::vector<double> steps = model.levels;
       if (model.has_progress && !is_on_grid) {
-        for (const double cut : all_cuts[model.node].values) add_level(model, cut);
+        for (const double level : all_cuts[model.node].levels()) add_level(model, level);
       }
       count_steps(model, steps);
     }
@@ -379,7 +379,7 @@ class ModelMaker {
       add_level(model, static_cast<double>(part) / model.parts);
     }
     if (way && way->kind == Kind::Grid) return;
-    for (const double cut : cuts.values) add_level(model, cut);
+    for (const double level : cuts.levels()) add_level(model, level);
   }
 
   static void add_level(LeafModel& model, double value) {
