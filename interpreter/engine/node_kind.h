@@ -72,6 +72,9 @@ struct NodeKind {
   // Of a group: the statuses of its members and of all around them, also where a node around them
   // has ended.
   bool reads_ended_members = false;
+  // A child behind the first may run and get no tick: what was held in it is so in the next tick,
+  // too.
+  bool passes_over_branches = false;
   // Whether equal children may change places (verify/symmetry.h).
   IfMoved if_moved = IfMoved::Differs;
   bool has_any_order = false;  // its children get their ticks whatever the others do

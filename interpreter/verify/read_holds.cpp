@@ -12,6 +12,12 @@ ReadHolds::ReadHolds(const Tree& tree, const std::vector<bool>& leaves) : tree_(
     const bool is_leaf = tree.labels[node].type->leaf != nullptr;
     by_itself_.push_back(is_leaf ? leaves[it.params] : it.kind->reads_own_hold);
   }
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (!tree.nodes[node].kind->passes_over_branches) continue;
+    for (NodeIndex at = tree.nodes[node + 1].end; at < tree.nodes[node].end; ++at) {
+      by_itself_[at] = true;
+    }
+  }
   for (const Member& it : tree.members) {
     if (tree.nodes[it.group].kind->reads_hold_of_members) by_a_group_.push_back(it.node);
   }

@@ -1,5 +1,6 @@
-// Of which nodes a state says that they are held: those of which some node reads it (NodeKind). All
-// others are held again by the next tick, so they count as if they ran.
+// Of which nodes a state says that they are held: those of which some node reads it, and those that
+// the next tick may pass over (NodeKind). All others are held again by the next tick, so they count
+// as if they ran.
 #pragma once
 
 #include <vector>

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <deque>
 
+#include "dialect/btcpp/rules.h"
 #include "verify/chance_runs.h"
 #include "verify/verified.h"
 
@@ -49,6 +50,15 @@ TEST_CASE("a guard that has its turn while the other member is held may retry fo
       "ParallelAbsolute[barriers=1](UseResources[pool=p resources=A](Retry[attempts=3](c?)) "
       "UseResources[pool=p resources=A](x)) resources[name=p]");
   CHECK(it.said("always ends").starts_with("NO"));
+}
+
+TEST_CASE("what is held in a branch that a tick passes over is still held") {
+  // The condition takes time again and again while the branch runs.
+  const auto tree = "WhileDoElse(Fallback(Sleep[msec=200]) ParallelAbsolute[barriers=.5](a b))";
+  const auto wrong = contradiction_of(tree_from_text(tree, btcpp::kRules));
+  CHECK((wrong ? to_text(*wrong) : "") == "");
+  const Verified it(tree, "", {}, 10, {"b.held at most 1 ticks"}, btcpp::kRules);
+  CHECK(it.said("property 'b.held at most 1 ticks'") == "NO");
 }
 
 TEST_CASE("a state that says less than a group reads is contradicted by a run") {

@@ -120,6 +120,7 @@ constexpr NodeKind kWhile{
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
     .fold = fold::dead_when_idle,
+    .passes_over_branches = kRule == Rule::Strict,
     .if_moved = IfMoved::FromChild};
 
 }  // namespace lockstep::host::branches
