@@ -54,21 +54,21 @@ Status EndedResults::result_in(NodeIndex parent, NodeIndex node) const {
 Status EndedResults::below(const RecordedTick& tick, NodeIndex parent, NodeIndex node) const {
   const Rule rule = rules_[parent];
   const bool is_ordered = rule == Rule::AllOf || rule == Rule::OneOf;
+  const bool is_last = is_last_ticked(tick, parent, node);
+  if (rule == Rule::Choice && !is_last && node == children_[parent].front()) {
+    return tick.nodes[children_[parent][1]].ticked ? Status::Success : Status::Failure;
+  }
   const Status above = of(tick, parent);
   if (above == Status::Skipped) return Status::Skipped;
   if (tick.nodes[parent].status != Status::Idle) {
     // These do not halt what they have ticked.
     return is_ordered ? Status::Skipped : Status::Running;
   }
-  const bool is_last = is_last_ticked(tick, parent, node);
   switch (rule) {
     case Rule::AllOf:
       return is_last ? above : Status::Success;
     case Rule::OneOf:
       return is_last ? above : Status::Failure;
-    case Rule::Choice:
-      if (is_last || node != children_[parent].front()) return above;
-      return tick.nodes[children_[parent][1]].ticked ? Status::Success : Status::Failure;
     case Rule::Opposite:
       if (above == Status::Running) return above;
       return above == Status::Success ? Status::Failure : Status::Success;
