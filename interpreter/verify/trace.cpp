@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace lockstep::host {
 
@@ -36,8 +37,12 @@ StateBytes Tracer::state_of(StateId state) {
   StateBytes here = stepper_.first_state();
   const std::vector<StateId> way = found_.way_to(state);
   for (std::size_t i = 1; i < way.size(); ++i) {
-    first_step(here, way[i - 1], way[i]);
-    here = stepper_.fold();
+    StateBytes next;  // a tick is folded once
+    find_step(here, way[i - 1], [&] {
+      next = stepper_.fold();
+      return found_.store.is(way[i], next);
+    });
+    here = std::move(next);
   }
   return here;
 }

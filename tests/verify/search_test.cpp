@@ -269,6 +269,12 @@ TEST_CASE("a search that has reached a limit makes no further ticks") {
   CHECK(looks < 16);  // those of the first state, in place of 64 states
 }
 
+TEST_CASE("hashes in place of states: a property that looks below what has ended") {
+  const Verified it("Sequence[memory=true](Fallback(c?) KeepRunningUntilFailure(AlwaysSuccess))",
+                    "", {.hash_bits = 64}, 10, {"never Fallback.success and not c.failure"});
+  CHECK(it.findings() == "trap, property/never Fallback.success and not c.failure");
+}
+
 TEST_CASE("hashes in place of states: the same states, findings and runs in less memory") {
   constexpr auto kDeadlock =
       "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
