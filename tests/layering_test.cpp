@@ -277,6 +277,27 @@ TEST_CASE("layers: a folder includes only the rooms on which it depends") {
   CHECK(seen > 100);  // or the reader of #include lines is broken
 }
 
+TEST_CASE("layers: a room depends on no other than it includes") {
+  constexpr std::string_view kInterpreter = "interpreter/";
+  std::map<std::string, std::set<std::string>> included;  // by room
+  for (const std::string& file : sources_under("interpreter")) {
+    const Room* const from = room_of(std::string_view(file).substr(kInterpreter.size()));
+    if (from == nullptr) continue;
+    for (const Include& include : includes_of(file)) {
+      const Room* const to = room_of(include.path);
+      if (include.quoted && to != nullptr) included[from->folder].insert(to->folder);
+    }
+  }
+  // Who loads trees links the list of languages: core/language.h.
+  included["loading/"].insert("dialect/");
+  for (const Room& room : rooms()) {
+    for (const std::string& below : room.depends) {
+      INFO(room.folder << " depends on " << below);
+      CHECK(included[room.folder].count(below) == 1);
+    }
+  }
+}
+
 TEST_CASE("layers: a library is seen only where the table says") {
   std::set<std::string> xml;
   check_all([&](const Include& include) {
