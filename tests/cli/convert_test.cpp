@@ -226,6 +226,36 @@ TEST_CASE("convert keeps processing instructions where BehaviorTree.CPP takes th
   CHECK(contains(there.err, "note: '<?x y?>' is left out"));
 }
 
+TEST_CASE("convert writes only declarations that XML has") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><AlwaysSuccess/>"
+      "</BehaviorTree>";
+  const struct {
+    std::string before, inside, after;
+    bool is_kept;
+  } rows[] = {{"<?xml version=\"1.0\"?><?a b?><!DOCTYPE root>", "<?a?>", "<?a?>", true},
+              {"\xEF\xBB\xBF<?xml version=\"1.0\"?>", "", "", true},
+              {"<!DOCTYPE root [<!ENTITY a \"b\">]>", "", "", false},
+              {"<!DOCTYPE root [ ]>", "", "", false},
+              {"<!DOCTYPE>", "", "", false},
+              {"<!DOCTYPE root><!DOCTYPE root>", "", "", false},
+              {"", "<!DOCTYPE root>", "", false},
+              {"", "", "<!DOCTYPE root>", false},
+              {" <?xml version=\"1.0\"?>", "", "", false},
+              {"<?xml version=\"1.0\"?><?xml version=\"1.0\"?>", "", "", false},
+              {"<?xml?>", "", "", false},
+              {"<?XML a?>", "<? a?>", "<?xml version=\"1.0\"?>", false}};
+  for (const auto& [before, inside, after, is_kept] : rows) {
+    INFO(before << inside << after);
+    const std::string text = before + tree + inside + "</root>" + after;
+    const Outcome here = run_lockstep({"convert", directory.file("tree.xml", text)});
+    CHECK(here.code == 0);
+    CHECK(contains(here.err, "is left out") == !is_kept);
+    CHECK(run_lockstep({"check", directory.file("ours.xml", here.out)}).code == 0);
+  }
+}
+
 TEST_CASE("convert writes 256 levels for BehaviorTree.CPP") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", around("lockstep=\"1\"", nested(256)));

@@ -84,7 +84,12 @@ class Converter {
         return comment(token);
       case TokenKind::Instruction:
         is_prolog_ = is_prolog;
-        if (!to_ours() && !is_prolog) leave_out_instruction(token);
+        if (to_ours() ? !is_strict(token) : !is_prolog) leave_out_instruction(token);
+        return;
+      case TokenKind::Doctype:
+        if (to_ours() && (next_ > 0 || !is_strict(token) || std::exchange(has_doctype_, true))) {
+          leave_out_instruction(token);
+        }
         return;
       default:
         return;
@@ -522,13 +527,24 @@ class Converter {
     edits_.remove(token.begin, is_section ? section + 3 : end);
   }
 
-  // BehaviorTree.CPP takes them at the beginning of a file only.
+  // Whether an instruction or a DOCTYPE is one of XML, too.
+  bool is_strict(const XmlToken& token) const {
+    const bool is_declaration = token.value.starts_with("<?xml") && is_xml_blank(token.value[5]);
+    if (is_declaration && text_.find('<') != token.begin) return false;
+    if (is_declaration && token.begin > 0 && is_xml_blank(text_[token.begin - 1])) return false;
+    Scanner strict(token.value);
+    return strict.next().kind == token.kind && strict.next().kind == TokenKind::End;
+  }
+
+  // BehaviorTree.CPP takes them at the beginning of a file only, and then any.
   void leave_out_instruction(const XmlToken& token) {
     edits_.remove(token.begin, token.begin + token.value.size());
     if (report_.counted_only(Severity::Note)) return;
     const std::uint32_t element = next_ == 0 ? 0 : next_ - 1;
     report_.at(place_of(element), fmt::format("'{}' is left out", brief(token.value)),
-               "BehaviorTree.CPP takes processing instructions only at the beginning of a file",
+               to_ours() ? "it has no effect, and XML does not have it there"
+                         : "BehaviorTree.CPP takes processing instructions only at the beginning "
+                           "of a file",
                Severity::Note);
   }
 
@@ -554,9 +570,10 @@ class Converter {
   Scanner scanner_;
   TextEdit edits_;
   std::vector<Open> open_;
-  std::uint32_t next_ = 0;           // element
-  const NodePair* pair_ = nullptr;   // of the innermost element
-  bool is_switch_ = false;           // likewise
+  std::uint32_t next_ = 0;          // element
+  const NodePair* pair_ = nullptr;  // of the innermost element
+  bool is_switch_ = false;          // likewise
+  bool has_doctype_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments
 };
