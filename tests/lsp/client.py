@@ -11,10 +11,10 @@ PLUGINS = ["--plugin-path", os.environ["BUILD"] + "/plugins"]
 
 class Client:
     def __init__(self, *options, environment=None):
+        self.told = tempfile.TemporaryFile()  # what it writes to stderr; nothing reads it meanwhile
         self.process = subprocess.Popen(
             [os.environ["LOCKSTEP"], "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, env={**os.environ, **(environment or {})})
-        self.errors = ""
+            stderr=self.told, env={**os.environ, **(environment or {})})
         self.number = 0
         self.versions = {}
         self.known = {}  # what is wrong, by URI
@@ -44,9 +44,13 @@ class Client:
                 length = int(value)
         if length is None:
             code = self.process.wait(timeout=60)
-            self.errors += self.process.stderr.read().decode()
             raise EOFError(f"the server has ended with {code}:\n{self.errors}")
         return json.loads(self.process.stdout.read(length))
+
+    @property
+    def errors(self):
+        number = self.told.fileno()
+        return os.pread(number, os.fstat(number).st_size, 0).decode()  # the server writes where it was
 
     def wait(self, is_it):
         for message in self.kept:
@@ -95,8 +99,6 @@ class Client:
         self.process.stdin.close()
         code = self.process.wait(timeout=60)
         self.process.stdout.close()
-        self.errors += self.process.stderr.read().decode()
-        self.process.stderr.close()
         return code
 
     # Files. Each returns what is wrong with the text, once the server has said so.

@@ -36,7 +36,6 @@ class Plugins(unittest.TestCase):
             client.process.stdin.close()
             client.process.wait(timeout=60)
             client.process.stdout.close()
-            client.process.stderr.close()
         self.addCleanup(end)
         return client
 

@@ -28,7 +28,6 @@ class Protocol(unittest.TestCase):
         process.stdin.close()
         process.wait(timeout=60)
         process.stdout.close()
-        process.stderr.close()
         self.directory.cleanup()
 
     def ends(self):
@@ -116,8 +115,8 @@ class Protocol(unittest.TestCase):
                 client = Client()
                 client.raw(frame)
                 self.assertEqual(2, client.process.wait(timeout=60))
-                self.assertIn(b"lockstep: error: ", client.process.stderr.read())
-                for file in (client.process.stdin, client.process.stdout, client.process.stderr):
+                self.assertIn("lockstep: error: ", client.errors)
+                for file in (client.process.stdin, client.process.stdout):
                     file.close()
 
     def test_frames_in_pieces(self):

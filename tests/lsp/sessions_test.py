@@ -55,9 +55,7 @@ class ReadingClient(Client):
         self.reader.join()
         self.process.stdin.close()
         code = self.process.wait(timeout=60)
-        self.errors += self.process.stderr.read().decode()
         self.process.stdout.close()
-        self.process.stderr.close()
         return code
 
 
