@@ -46,7 +46,7 @@ def main(arguments):
         tests = read(file)
         rows, whole = defaultdict(Row), Row()
         for test, outcome, seconds in sorted(tests):
-            for row in (rows[test.split(": ")[0]], whole):
+            for row in (rows[test.split(":")[0]], whole):
                 row.count(outcome, seconds)
             if outcome != "passed":
                 notes.append(f"{outcome}, {name}: {test}")

@@ -30,7 +30,7 @@ with tempfile.TemporaryDirectory() as directory:
     directory = pathlib.Path(directory)
     good = ran(directory / "good", [("unit: <b> & c", "true", "TIMEOUT 9"), ("unit: a", "true", "TIMEOUT 9")])
     mixed = ran(directory / "mixed", [
-        ("cli: fails", "false", "TIMEOUT 9"), ("cli: passes", "true", "TIMEOUT 9"), ("cli: too long", "sleep 9", "TIMEOUT 0.1"),
+        ("cli: fails", "false", "TIMEOUT 9"), ("cli:passes", "true", "TIMEOUT 9"), ("cli: too long", "sleep 9", "TIMEOUT 0.1"),
         ("cli: crashes", 'sh -c "kill -SEGV \\$\\$"', "TIMEOUT 9"), ("help: not here", 'sh -c "exit 77"', "SKIP_RETURN_CODE 77"),
         ("web_NOT_BUILT", "/nowhere/web", "TIMEOUT 9")])
 
