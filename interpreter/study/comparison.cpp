@@ -48,19 +48,6 @@ void tie_samples(Values& first, Values& second) {
   std::copy(all.begin() + std::ssize(first), all.end(), second.begin());
 }
 
-// The same of the sizes of differences. One within its rounding is none.
-void tie_differences(Values& differences, const Values& roundings) {
-  Values sizes;
-  for (std::size_t i = 0; i < differences.size(); ++i) {
-    const double size = std::abs(differences[i]);
-    sizes.push_back(size > roundings[i] ? size : 0);
-  }
-  tie_equal(sizes, roundings);
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    differences[i] = sizes[i] == 0 ? 0 : std::copysign(sizes[i], differences[i]);
-  }
-}
-
 void compare(Values first, Values second, Comparison& comparison) {
   comparison.count = {first.size(), second.size()};
   if (first.empty() || second.empty()) return;

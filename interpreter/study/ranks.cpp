@@ -30,6 +30,18 @@ void tie_equal(std::span<double> values, std::span<const double> roundings) {
   }
 }
 
+void tie_differences(std::span<double> differences, std::span<const double> roundings) {
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < differences.size(); ++i) {
+    const double size = std::abs(differences[i]);
+    sizes.push_back(size > roundings[i] ? size : 0);
+  }
+  tie_equal(sizes, roundings);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    differences[i] = sizes[i] == 0 ? 0 : std::copysign(sizes[i], differences[i]);
+  }
+}
+
 Ranks ranks_of(std::span<const double> values) {
   const std::vector<std::size_t> order = order_of(values);
   Ranks ranks{.of = std::vector<double>(values.size())};

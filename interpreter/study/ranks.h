@@ -17,6 +17,8 @@ inline double rounding_of(double largest) {
 // Makes values equal that differ by no more than the larger of their roundings. So 1.23 - 1.2 and
 // 0.53 - 0.5 are tied, as 3 ticks and 3 ticks are.
 void tie_equal(std::span<double> values, std::span<const double> roundings);
+// The same of the sizes of differences. One within its rounding is none.
+void tie_differences(std::span<double> differences, std::span<const double> roundings);
 
 struct Ranks {
   std::vector<double> of;  // each value, from 1; equal ones share theirs

@@ -1,9 +1,11 @@
 #include "study/shift.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "study/nth_sum.h"
+#include "study/rank_tests.h"
 #include "study/ranks.h"
 
 namespace lockstep::host {
@@ -33,16 +35,68 @@ std::uint64_t least_accepted(std::uint64_t count, double variance) {
   return low;
 }
 
-// The shift among `count` numbers, of which `nth` gives the n-th smallest. Shifts that are not
-// among them have the ties of the samples only, so the variance is the same for all.
+// The median of `count` numbers, of which `nth` gives the n-th smallest.
+template <class Nth>
+double median_among(std::uint64_t count, Nth nth) {
+  const double low = nth((count - 1) / 2), high = nth(count / 2);
+  return low + (high - low) / 2;
+}
+
+// Shifts that are not among the numbers have the ties of the samples only, so the variance is the
+// same for all.
 template <class Nth>
 Shift shift_among(std::uint64_t count, double variance, Nth nth) {
-  const double low = nth((count - 1) / 2), high = nth(count / 2);
-  Shift shift{.estimate = low + (high - low) / 2};
+  Shift shift{.estimate = median_among(count, nth)};
   const std::uint64_t outside = least_accepted(count, variance);
   if (outside > 0) shift.interval = Interval{nth(outside - 1), nth(count - outside)};
   return shift;
 }
+
+// Of few differences: each shift is tested, from the outside to the first that is not rejected.
+// Between two neighbors of the means of each two, all shifts have the same ranks.
+class ExactShifts {
+ public:
+  explicit ExactShifts(const Values& differences) : differences_(differences) {
+    Values roundings;
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double low = differences[j], high = differences[i];
+        means_.push_back(low + (high - low) / 2);
+        roundings.push_back(rounding_of(std::max(std::abs(low), std::abs(high))));
+      }
+    }
+    tie_equal(means_, roundings);
+    std::ranges::sort(means_);
+    means_.erase(std::unique(means_.begin(), means_.end()), means_.end());
+  }
+
+  // Nothing if no shift is rejected.
+  std::optional<Interval> accepted() const {
+    const std::size_t last = means_.size() - 1;
+    // Beyond all means each difference has the same sign: one choice of signs of all.
+    if (std::ldexp(2, -static_cast<int>(differences_.size())) >= 1 - kConfidence)
+      return std::nullopt;
+    std::size_t low = 0, high = last;
+    while (low < last && !is_accepted(means_[low]) && !is_accepted(between(low))) ++low;
+    while (high > low && !is_accepted(means_[high]) && !is_accepted(between(high - 1))) --high;
+    return Interval{means_[low], means_[high]};
+  }
+
+ private:
+  double between(std::size_t i) const { return means_[i] + (means_[i + 1] - means_[i]) / 2; }
+  bool is_accepted(double shift) const {
+    Values shifted, roundings;
+    for (const double value : differences_) {
+      shifted.push_back(value - shift);
+      roundings.push_back(rounding_of(std::max(std::abs(value), std::abs(shift))));
+    }
+    tie_differences(shifted, roundings);
+    return signed_rank(shifted).p >= 1 - kConfidence;
+  }
+
+  const Values& differences_;
+  Values means_;
+};
 
 }  // namespace
 
@@ -59,10 +113,12 @@ Shift shift_between(std::span<const double> first, std::span<const double> secon
 
 Shift shift_of(std::span<const double> differences) {
   const Values x = sorted(differences);
-  const double variance =
-      signed_rank_variance(static_cast<double>(x.size()), 0, ranks_of(differences).ties);
-  return shift_among(std::uint64_t{x.size()} * (x.size() + 1) / 2, variance,
-                     [&](std::uint64_t n) { return nth_own_sum(x, n) / 2; });
+  const std::uint64_t means = std::uint64_t{x.size()} * (x.size() + 1) / 2;
+  const auto nth = [&](std::uint64_t n) { return nth_own_sum(x, n) / 2; };
+  if (x.size() <= kMostExactPairs) return {median_among(means, nth), ExactShifts(x).accepted()};
+  return shift_among(
+      means, signed_rank_variance(static_cast<double>(x.size()), 0, ranks_of(differences).ties),
+      nth);
 }
 
 }  // namespace lockstep::host

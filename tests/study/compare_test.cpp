@@ -124,8 +124,8 @@ TEST_CASE("the cells of a paired study are compared run by run") {
   CHECK(distance["n_a"] == 40);
   CHECK(distance["effect"].get<double>() == Approx(larger / 40.0));
   CHECK(distance["difference"].get<double>() == Approx((means[409] + means[410]) / 2));
-  CHECK(distance["difference_low"] == means[263]);  // the 264th of 820 from either end
-  CHECK(distance["difference_high"] == means[556]);
+  CHECK(distance["difference_low"] == means[264]);  // the 265th of 820 from either end
+  CHECK(distance["difference_high"] == means[555]);
   CHECK(distance["p"] < 1e-4);
 }
 

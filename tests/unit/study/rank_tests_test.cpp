@@ -94,40 +94,62 @@ TEST_CASE("rank tests: signed ranks as published") {
   Values differences;
   for (std::size_t i = 0; i < before.size(); ++i) differences.push_back(after[i] - before[i]);
   const RankTest test = signed_rank(differences);
-  CHECK(test.p == Approx(0.0440).margin(5e-5));  // exactly 0.0391
-  CHECK(exact_p(differences) == Approx(0.0391).margin(5e-5));
+  CHECK(test.p == Approx(0.0390625));
   CHECK(test.effect == Approx((2.0 - 7.0) / 9));
 }
 
-TEST_CASE("rank tests: signed ranks are near to what all signs give") {
+TEST_CASE("rank tests: signed ranks of few pairs have the p that all choices of signs give") {
   RandomStream random(2019, 0);
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    Values differences(11);
-    for (double& value : differences) value = random.next_double() - 0.3;
-    CHECK(signed_rank(differences).p == Approx(exact_p(differences)).margin(0.015));
+  for (int repeat = 0; repeat < 120; ++repeat) {
+    // Few levels have ties and pairs without a difference; 0 is none.
+    const double levels = repeat % 7;
+    Values differences(1 + static_cast<std::size_t>(repeat) % 12);
+    for (double& value : differences) {
+      const double at = random.next_double();
+      value = levels == 0 ? at - 0.3 : std::floor(levels * at) - 1;
+    }
+    INFO(repeat);
+    CHECK(signed_rank(differences).p == Approx(exact_p(differences)).epsilon(1e-12));
   }
 }
 
-TEST_CASE("rank tests: with equal values, a small p is near to what all signs and choices give") {
+TEST_CASE("rank tests: where the exact p ends, the normal distribution is near to it") {
+  RandomStream random(2019, 1);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    Values differences(kMostExactPairs), sizes;
+    for (double& value : differences) {
+      value = std::floor(9 * random.next_double()) - 3;
+      sizes.push_back(std::abs(value));
+    }
+    const Ranks ranks = ranks_of(sizes);
+    double off = 0, squares = 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (sizes[i] == 0) continue;
+      off += std::copysign(ranks.of[i] / 2, differences[i]);
+      squares += ranks.of[i] * ranks.of[i] / 4;
+    }
+    CHECK(signed_rank(differences).p == Approx(rank_sum_p(off, squares)).margin(0.01));
+  }
+  const int most = static_cast<int>(kMostExactPairs);
+  CHECK(signed_rank(Values(kMostExactPairs, 1.0)).p == Approx(std::ldexp(2.0, -most)));
+  CHECK(signed_rank(Values(kMostExactPairs + 1, 1.0)).p > std::ldexp(2.0, -most));
+}
+
+TEST_CASE("rank tests: with equal values, a small p is near to what all choices give") {
   RandomStream random(2026, 0);
-  double worst = 0, worst_between = 0;
+  double worst = 0;
   for (int repeat = 0; repeat < 60; ++repeat) {
     const double levels = 3 + repeat % 6;
-    Values differences(12), first(6), second(7);
-    for (double& value : differences) value = std::floor(levels * random.next_double()) - 1;
+    Values first(6), second(7);
     for (Values* values : {&first, &second}) {
       for (double& value : *values) value = std::floor(levels * random.next_double());
     }
     // Where p is large, it says nothing, and a normal distribution is far from so few values.
-    const double paired = exact_p(differences), between = exact_p(first, second);
-    const double off = std::abs(signed_rank(differences).p - paired);
-    const double off_between = std::abs(mann_whitney(first, second).p - between);
-    if (paired < 0.1) worst = std::max(worst, off);
-    if (between < 0.1) worst_between = std::max(worst_between, off_between);
+    const double exact = exact_p(first, second);
+    if (exact < 0.1) worst = std::max(worst, std::abs(mann_whitney(first, second).p - exact));
   }
   CHECK(worst > 0);
   CHECK(worst < 0.05);
-  CHECK(worst_between < 0.05);
 }
 
 TEST_CASE("rank tests: what is equal but for rounding is tied, so seconds say what ticks say") {
@@ -165,10 +187,10 @@ TEST_CASE("rank tests: what is equal but for rounding is tied, so seconds say wh
 }
 
 TEST_CASE("rank tests: a pair without a difference has a rank") {
-  // By hand: ranks 4 to 9 for 2 to 7, 3 for -1; half of their sum with signs is 18, of the variance
-  // (9 * 10 * 19 - 2 * 3 * 5) / 24 = 70.
+  // By hand: ranks 4 to 9 for 2 to 7, 3 for -1. Of the 128 choices of their signs, those with a
+  // negative sum of at most 3 are as far: none and -1 alone; and as many on the other side.
   const Values few{0, 0, 2, 3, 4, 5, 6, 7, -1};
-  CHECK(signed_rank(few).p == Approx(std::erfc(17.5 / std::sqrt(2 * 70.0))));
+  CHECK(signed_rank(few).p == Approx(4.0 / 128));
   CHECK(signed_rank(few).effect == Approx(5.0 / 9));
   // Without it, p would be 0.017 of these, and 0.12 or more when all are a little larger or
   // smaller.

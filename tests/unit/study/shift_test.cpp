@@ -146,6 +146,19 @@ TEST_CASE("shifts: a shift of which p is at least 0.05 is in the interval, with 
   CHECK(at_end > 0);  // as shift.h says
 }
 
+TEST_CASE("shifts: of few pairs, the interval has exactly the shifts that the exact test accepts") {
+  RandomStream random(1963, 3);
+  for (int repeat = 0; repeat < 60; ++repeat) {
+    Values differences = steps(random, 6 + static_cast<std::size_t>(repeat) % 9, 2 + repeat % 5, 0);
+    for (double& value : differences) value *= 0.1;  // sums that round
+    const auto interval = shift_of(differences).interval;
+    REQUIRE(interval);
+    for (double by = -0.5125; by < 1; by += 0.05) {  // between all means of two
+      CHECK(contains(interval, by) == (signed_rank(shifted(differences, -by)).p >= 0.05));
+    }
+  }
+}
+
 TEST_CASE("shifts: many zeros are no reason to leave 0 out") {
   // 78 differences up, the smaller ones, 22 down and 56 zeros: without the zeros' ranks, p would be
   // 0.05 and more while the interval is above 0.
