@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "blackboard/conversion.h"
+#include "core/any_value.h"
 #include "core/element_types.h"
 #include "core/identifier.h"
 #include "core/pre_order.h"
@@ -269,13 +270,6 @@ class Builder {
     if (port.direction != Direction::Output || !has_type) return {};
     if (port.type == ValueType::Number) return std::int64_t{0};
     return with_type(port.type, []<class T>(std::type_identity<T>) { return Value(T{}); });
-  }
-
-  static Value value_of_any_type(const std::string& text) {
-    if (const auto whole = parse_int(text)) return *whole;
-    if (const auto real = parse_double(text)) return *real;
-    if (const auto flag = parse_flag(text)) return *flag;
-    return text;
   }
 
   void check_output(std::string_view port) const {
