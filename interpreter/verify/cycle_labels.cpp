@@ -26,11 +26,19 @@ class CycleLabels {
 
   CycleGraph find() {
     CycleGraph found;
-    std::vector<StateId> states = states_in_cycles();
-    if (states.empty()) return found;
+    std::vector<StateId> states;
+    try {
+      states = states_in_cycles();
+    } catch (const OutOfTime&) {
+      found.cut = SearchEnd::Time;
+    }
+    if (states.empty() && !found.cut) return found;
+    // Without edges where the time is over: without labels they would say something false.
     found.graph = std::make_unique<Graph>();
     found.graph->ends = graph_.ends;
     found.graph->shape = graph_.shape;
+    found.graph->time_limit = graph_.time_limit;
+    if (found.cut) return found;
     // States that were forgotten are found again, all in their order.
     if (store_.keeps_hashes()) {
       states = expanded_states();
@@ -130,7 +138,7 @@ class CycleLabels {
   void add_loops_until(StateId last, Graph& into) {
     for (auto state = static_cast<StateId>(into.expanded()); state < last; ++state) {
       loops_.clear();
-      for (const Edge& edge : graph_.edges_of(state)) {
+      for (const Edge& edge : graph_.edges[state]) {
         if (edge.to == state) {
           loops_.push_back({state, into.labels.add(graph_.labels.packed(edge.label))});
         }

@@ -128,7 +128,8 @@ class FixedConditions {
 
 std::vector<std::string> false_for_ever(const Tree& tree, const LeafModels& models, Tracer& tracer,
                                         const std::vector<bool>& reached,
-                                        const std::function<std::string(NodeIndex)>& at) {
+                                        const std::function<std::string(NodeIndex)>& at,
+                                        const std::optional<Nanoseconds>& until) {
   FixedConditions conditions(tree, models);
   if (conditions.empty()) return {};
   std::uint64_t ticks = 0;
@@ -136,7 +137,8 @@ std::vector<std::string> false_for_ever(const Tree& tree, const LeafModels& mode
     if (!reached[state]) continue;
     const bool is_done = tracer.for_each_tick(state, [&](const Stepper& stepper) {
       conditions.look_at(stepper.ticker());
-      return (ticks += stepper.root_ticks()) <= kMostTicksFromTrap;
+      return (ticks += stepper.root_ticks()) <= kMostTicksFromTrap &&
+             !(until && monotonic_now() > *until);
     });
     if (!is_done) return {};
   }

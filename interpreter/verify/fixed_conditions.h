@@ -14,6 +14,7 @@ namespace lockstep::host {
 // names a node with its place. A line for each condition; none where that are too many ticks.
 std::vector<std::string> false_for_ever(const Tree& tree, const LeafModels& models, Tracer& tracer,
                                         const std::vector<bool>& reached,
-                                        const std::function<std::string(NodeIndex)>& at);
+                                        const std::function<std::string(NodeIndex)>& at,
+                                        const std::optional<Nanoseconds>& until);
 
 }  // namespace lockstep::host

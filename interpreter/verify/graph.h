@@ -11,6 +11,7 @@
 
 #include "verify/edge_rows.h"
 #include "verify/label_table.h"
+#include "verify/time_limit.h"
 
 namespace lockstep::host {
 
@@ -21,6 +22,7 @@ struct Graph {
   LabelShape shape;
   // Of each state that was looked at, if something may change places: see read_equals.
   std::vector<std::uint32_t> equals = {};
+  TimeLimit* time_limit = nullptr;  // must outlive this; one thread walks then
 
   std::size_t states() const { return ends.size(); }
   // States that were looked at: their edges are known. Others may do anything.
@@ -28,7 +30,10 @@ struct Graph {
   std::size_t memory() const {
     return edges.memory() + labels.memory() + equals.size() * sizeof equals[0];
   }
-  EdgeRow edges_of(StateId state) const { return state < expanded() ? edges[state] : EdgeRow(); }
+  EdgeRow edges_of(StateId state) const {
+    if (time_limit != nullptr) time_limit->look();
+    return state < expanded() ? edges[state] : EdgeRow();
+  }
   bool has(const Edge& edge, std::size_t bit) const { return labels.has(edge.label, bit); }
   void read(const Edge& edge, Label& into) const {
     shape.clear(into);

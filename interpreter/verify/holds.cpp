@@ -57,6 +57,7 @@ Graph FollowedChildren::graph(Labels labels, const Wanted& is_wanted) const {
   }
   Graph followed{.edges = {}, .ends = {}, .labels = {}, .shape = graph_.shape};
   followed.ends.resize(graph_.states() * count);
+  followed.time_limit = graph_.time_limit;
   Tick tick;
   std::vector<Choice> choices;
   std::vector<std::vector<Edge>> edges(count);

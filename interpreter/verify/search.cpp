@@ -32,6 +32,7 @@ class Searcher {
           std::make_unique<Expander>(tree, models, properties, period, result_.symmetry, limits));
     }
     result_.graph.shape = expanders_[0]->label_shape();
+    result_.graph.time_limit = result_.time_limit.get();
     merger_.emplace(expanders_, result_.graph);
   }
 
@@ -149,6 +150,9 @@ class Searcher {
     // Also where the search was at a limit, something is left for them.
     SearchLimits limits = limits_;
     if (limits.time) *limits.time += *limits.time / 20;
+    const TimeLimit::Span span(*result_.time_limit, limits.time
+                                                        ? std::optional(room_.began + *limits.time)
+                                                        : std::nullopt);
     limits.memory +=
         std::min(limits.memory / 8, std::numeric_limits<std::size_t>::max() - limits.memory);
     SearchRoom room{limits, room_.began, memory()};

@@ -28,6 +28,7 @@ struct SearchResult {
   Symmetry symmetry;
   bool rising_answers = true;  // as in the limits
   StateStore store;
+  std::unique_ptr<TimeLimit> time_limit = std::make_unique<TimeLimit>();  // of both graphs
   std::vector<StateId> depths;  // the first state of each depth
   // How many states were known before each of these rows of states was looked at.
   static constexpr StateId kStatesOfRow = 64;

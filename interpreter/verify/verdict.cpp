@@ -74,6 +74,30 @@ class VerdictMaker {
     return std::move(trail.run);
   }
 
+  // Nothing: the time is over.
+  template <class Question>
+  auto in_time(const Question& question) -> std::optional<decltype(question())> {
+    const TimeLimit::Span span(*found_.time_limit, options_.until);
+    try {
+      return question();
+    } catch (const OutOfTime&) {
+      return std::nullopt;
+    }
+  }
+  // A question that has a wrong answer, or may have.
+  template <class Question>
+  auto answer(std::string name, const Question& question) {
+    auto answer = in_time(question);
+    if (!answer) {
+      say(std::move(name), not_known("--time"));
+      verdict_.is_cut = true;
+    }
+    return answer;
+  }
+  static std::string not_known(std::string_view limit) {
+    return fmt::format("not known: {} leaves nothing for it", limit);
+  }
+
   void say_symmetry() {
     for (const EqualChildren& it : found_.symmetry.classes()) {
       const NodeIndex first = it.places.front().node;
@@ -103,8 +127,10 @@ class VerdictMaker {
   }
 
   void look_for_traps() {
-    can_end_ = can_end(graph_);
     if (!models_.tree_ends) return;
+    auto can = answer("can always end", [&] { return can_end(graph_); });
+    if (!can) return;
+    can_end_ = *std::move(can);
     const auto doomed = std::find(can_end_.begin(), can_end_.end(), false);
     if (doomed == can_end_.end()) {
       if (found_.is_complete()) say_good("can always end", "yes");
@@ -115,16 +141,18 @@ class VerdictMaker {
     const std::size_t ticks = found_.depth_of(state);
     const std::vector<bool> reached = reachable_from(graph_, state);
     const EdgeFilter inside = [&](const Edge& edge) { return bool(reached[edge.to]); };
-    auto cycle = fair_cycle(cycles_, inside);
-    if (cycle.empty() || !reached[cycle.front().from]) cycle = any_cycle(cycles_, inside);
-    add_lasso(state, cycle, trap);
+    const auto cycle = in_time([&] {
+      auto fair = fair_cycle(cycles_, inside);
+      return fair.empty() || !reached[fair.front().from] ? any_cycle(cycles_, inside) : fair;
+    });
+    add_lasso(state, cycle.value_or(std::vector<CycleStep>()), trap);
     trap.message = ticks == 0
                        ? "it can never end"
                        : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
     trap.more = why_it_stands(trap);
     if (!found_.store.keeps_hashes()) {
       const auto place = [&](NodeIndex node) { return at(node); };
-      for (auto& line : false_for_ever(tree_, models_, tracer_, reached, place)) {
+      for (auto& line : false_for_ever(tree_, models_, tracer_, reached, place, options_.until)) {
         trap.more.push_back(std::move(line));
       }
     }
@@ -216,7 +244,12 @@ class VerdictMaker {
   void look_for_cycles() {
     if (!models_.tree_ends) return;
     const EdgeFilter alive = [&](const Edge& edge) { return bool(can_end_[edge.to]); };
-    auto cycle = fair_cycle(cycles_, alive);
+    const auto answered = answer("always ends", [&] {
+      if (can_end_.empty()) throw OutOfTime();  // it was not even known what can end
+      return fair_cycle(cycles_, alive);
+    });
+    if (!answered) return;
+    const std::vector<CycleStep>& cycle = *answered;
     if (cycle.empty()) {
       if (!found_.is_complete()) return;
       const bool has_trap = !verdict_.findings.empty();
@@ -309,9 +342,10 @@ class VerdictMaker {
 
   void look_for_starvation() {
     for (std::size_t i = 0; i < held_.size() && !models_.tree_ends; ++i) {
-      const auto& endless = hold_of(i).for_ever;
-      if (!endless) continue;
       const NodeIndex child = held_[i].child;
+      const auto hold = answer("held: " + tree_.path(child), [&] { return hold_of(i); });
+      if (!hold || !hold->for_ever) continue;
+      const auto& endless = hold->for_ever;
       Finding finding{.name = "starvation/" + tree_.path(child), .message = {}};
       finding.node = child;
       const StateId start = endless->cycle.front().from;
@@ -352,14 +386,13 @@ class VerdictMaker {
   // One answer for all of them.
   const HoldOfChild& hold_of(std::size_t held) {
     const std::vector<std::size_t> all = like(held);
-    const auto [it, is_new] = holds_.try_emplace(all.front());
-    if (is_new) {
-      const Holds holds(graph_, cycles_, all);
-      it->second.longest = holds.longest();
-      // Without an end only where a cycle is.
-      if (!it->second.longest) it->second.for_ever = holds.for_ever();
-    }
-    return it->second;
+    if (const auto known = holds_.find(all.front()); known != holds_.end()) return known->second;
+    HoldOfChild hold;
+    const Holds holds(graph_, cycles_, all);
+    hold.longest = holds.longest();
+    // Without an end only where a cycle is.
+    if (!hold.longest) hold.for_ever = holds.for_ever();
+    return holds_.emplace(all.front(), std::move(hold)).first->second;
   }
 
   // Why it is not asked who is held for how long. Where that may be a finding, it always is.
@@ -367,7 +400,6 @@ class VerdictMaker {
     // Of each state and each child that may be in its place.
     constexpr std::size_t kBytesOfFollowed = 300;
     if (!models_.tree_ends || holds_.contains(like(held).front())) return "";
-    if (options_.until && monotonic_now() > *options_.until) return "--time";
     const std::size_t children = like(held).size();
     const std::size_t most = options_.memory - std::min(options_.memory, found_.memory());
     const bool is_much = children > 1 && found_.store.size() > most / kBytesOfFollowed / children;
@@ -379,15 +411,17 @@ class VerdictMaker {
     for (std::size_t i = 0; i < held_.size(); ++i) {
       const std::string name = "held: " + tree_.path(held_[i].child);
       if (const auto limit = too_much_for_holds(i); !limit.empty()) {
-        say(name, fmt::format("not known: {} leaves nothing for it", limit));
+        say(name, not_known(limit));
         continue;
       }
-      const HoldOfChild& hold = hold_of(i);
-      if (!hold.longest) {
-        say(name, hold.for_ever ? "may be held for ever" : "as long as others take");
+      const auto hold = in_time([&] { return hold_of(i); });
+      if (!hold) {
+        if (models_.tree_ends) say(name, not_known("--time"));
+      } else if (!hold->longest) {
+        say(name, hold->for_ever ? "may be held for ever" : "as long as others take");
       } else {
-        say(name, *hold.longest == 0 ? "never"
-                                     : fmt::format("at most {}", counted(*hold.longest, "tick")));
+        say(name, *hold->longest == 0 ? "never"
+                                      : fmt::format("at most {}", counted(*hold->longest, "tick")));
       }
     }
   }
@@ -441,8 +475,11 @@ class VerdictMaker {
       finding.more.push_back(last_tick_of(finding));
     } else {
       const std::size_t bit = cycles_.shape.owed_bit(number);
-      const auto cycle =
-          fair_cycle(cycles_, [&](const Edge& edge) { return cycles_.has(edge, bit); });
+      const auto answered = answer(fmt::format("property '{}'", name), [&] {
+        return fair_cycle(cycles_, [&](const Edge& edge) { return cycles_.has(edge, bit); });
+      });
+      if (!answered) return;
+      const std::vector<CycleStep>& cycle = *answered;
       if (cycle.empty()) {
         if (found_.is_complete()) say_good(fmt::format("property '{}'", name), "holds");
         return;

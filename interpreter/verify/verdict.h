@@ -30,6 +30,7 @@ struct Verdict {
   std::vector<Finding> findings;  // those of which it is sure
   std::vector<VerdictLine> facts;
   std::vector<std::string> assumed;
+  bool is_cut = false;  // the time was over before each question was answered
 
   bool has_findings() const;  // that are not accepted
   // Leaves out the findings whose names none of these patterns means.
@@ -40,8 +41,7 @@ struct VerdictOptions {
   double rate = 10;
   // Where a node is written, for messages: "tree.xml:5:9".
   std::function<std::string(NodeIndex)> place = {};
-  // Who is held for how long is information, which is left out then.
-  std::optional<Nanoseconds> until = {};  // of monotonic_now
+  std::optional<Nanoseconds> until = {};  // of monotonic_now; what was found is shown after it, too
   std::size_t memory = std::numeric_limits<std::size_t>::max();
 };
 

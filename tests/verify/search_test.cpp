@@ -110,6 +110,29 @@ TEST_CASE("a limit of memory counts what a round takes, and what the verdict nee
   CHECK(it.found.memory() < kMost);
 }
 
+TEST_CASE("the questions of a verdict end with the time, and what is not answered is not proven") {
+  const auto said = [](const Verdict& verdict, std::string_view name) {
+    const auto line = std::ranges::find(verdict.facts, name, &VerdictLine::name);
+    return line == verdict.facts.end() ? "" : line->text;
+  };
+  const std::string nothing_left = "not known: --time leaves nothing for it";
+  const Verified it(absolute(2, 1), R"(<leaf path="*" step="0..1"/>)");
+  const auto verdict_until = [&](Nanoseconds until) {
+    return make_verdict(it.tree, it.models, it.properties, it.found, {.until = until});
+  };
+  const Verdict cut = verdict_until(Nanoseconds(0));
+  CHECK(cut.is_cut);
+  for (const std::string& name :
+       {std::string("can always end"), std::string("always ends"), "held: " + it.tree.path(1)}) {
+    CHECK(said(cut, name) == nothing_left);
+  }
+  CHECK(said(cut, "results") == said(it.verdict, "results"));
+  const Verdict enough = verdict_until(monotonic_now() + std::chrono::hours(1));
+  CHECK_FALSE(enough.is_cut);
+  CHECK(enough.facts.size() == it.verdict.facts.size());
+  CHECK(said(enough, "can always end") == "yes");
+}
+
 TEST_CASE("who is held for how long is not asked where a limit leaves nothing for it") {
   const Verified it(absolute(2, 1), R"(<leaf path="*" step="0..1"/>)");
   const std::string name = "held: " + it.tree.path(1);

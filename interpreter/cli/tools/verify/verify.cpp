@@ -26,6 +26,9 @@
 namespace lockstep::host {
 namespace {
 
+// Of --time: the rest is for the questions about what was found. Runs by chance are beyond it.
+constexpr double kTimeOfSearch = 0.85, kTimeOfChance = 0.03;
+
 struct VerifyOptions {
   LoadCommandOptions load;
   std::string tree, leaves;
@@ -181,11 +184,12 @@ class VerifyCommand {
     SearchResult found = [&] {
       SearchLine line;
       const SearchLimits limited = limits(line);
-      if (limited.time) options.until = began + *limited.time;
+      if (options_.time) options.until = began + from_seconds(*options_.time);
       options.memory = limited.memory;
       return search(runnable.tree, models, properties_, from_seconds(1 / rate), limited);
     }();
     Verdict verdict = make_verdict(runnable.tree, models, properties_, found, options);
+    if (verdict.is_cut && found.is_complete()) found.end = SearchEnd::Time;
     if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
@@ -194,6 +198,11 @@ class VerifyCommand {
     Tracer tracer(runnable.tree, models, properties_, period, found);
     ChanceLimits chance = usual_chance(found);
     chance.stop_signal = StopSignals::received;
+    if (options.until) {
+      const Nanoseconds left =
+          *options.until + from_seconds(*options_.time * kTimeOfChance) - monotonic_now();
+      chance.time = std::min(chance.time, std::max(Nanoseconds(0), left));
+    }
     if (const auto wrong =
             find_contradiction(runnable.tree, models, properties_, period, found, chance)) {
       report.internal_error = to_text(*wrong);
@@ -221,7 +230,7 @@ class VerifyCommand {
   SearchLimits limits(SearchLine& line) const {
     SearchLimits limits{.states = options_.states, .memory = usual_memory()};
     if (options_.memory_mib) limits.memory = *options_.memory_mib << 20u;
-    if (options_.time) limits.time = from_seconds(*options_.time);
+    if (options_.time) limits.time = from_seconds(*options_.time * kTimeOfSearch);
     if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
     limits.stop_signal = StopSignals::received;
     limits.jobs = options_.jobs;
