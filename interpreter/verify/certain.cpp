@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <set>
 
+#include "core/language.h"
+#include "core/wording.h"
+#include "engine/writers.h"
 #include "expression/expression.h"
 #include "verify/chance_runs.h"
 #include "verify/verifiable.h"
@@ -30,31 +33,12 @@ bool has_clocks(const Tree& tree) {
   });
 }
 
-// The entries that the tree itself writes, or its leaves.
-std::vector<bool> written_entries(const Tree& tree) {
-  std::vector<bool> written(tree.slots.size());
-  for (const Script& script : tree.scripts) {
-    if (script.code == nullptr) continue;
-    for (std::size_t i = 0; i < script.slots.size(); ++i) {
-      if (script.code->uses()[i].is_assigned) written[script.slots[i]] = true;
-    }
-  }
-  for (const LeafNode& leaf : tree.leaves) {
-    for (std::size_t i = 0; i < leaf.type->parameters.size(); ++i) {
-      const std::uint32_t slot = tree.ports[leaf.first_port + i].slot;
-      const bool is_output = leaf.type->parameters[i].direction != Direction::Input;
-      if (is_output && slot != PortBinding::kUnbound) written[slot] = true;
-    }
-  }
-  return written;
-}
-
 // Whoever starts the tree may give it other start values.
 bool has_start_values(const Tree& tree, const LeafModels& models) {
-  const std::vector<bool> written = written_entries(tree);
+  const auto written = writers(tree);  // by the tree itself, or by its leaves
   for (std::size_t slot = 0; slot < tree.slots.size(); ++slot) {
     const bool has_value = !std::holds_alternative<NoValue>(tree.slots[slot].initial);
-    if (models.entries[slot] && (has_value || !written[slot])) return true;
+    if (models.entries[slot] && (has_value || written[slot].empty())) return true;
   }
   return false;
 }
@@ -92,8 +76,10 @@ class Certainties {
     }
   }
 
-  // The child before it decides, or keeps all behind it from their ticks.
+  // Its hook reads what is not there yet, or the child before it decides, or keeps all behind it
+  // from their ticks.
   std::string why_dead(NodeIndex node) const {
+    if (found_.faults.contains(node)) return why_unset(node);
     const NodeIndex parent = tree_.labels[node].parent;
     const Status goes_on = tree_.labels[parent].type->goes_on_after;
     NodeIndex before = 0;
@@ -101,8 +87,51 @@ class Certainties {
     if (before == 0 || goes_on == Status::Idle || found_.coverage.has_been(before, goes_on)) {
       return "";
     }
-    return fmt::format("'{}' before it never {}", tree_.labels[before].name,
-                       goes_on == Status::Success ? "succeeds" : "fails");
+    const std::string why = found_.faults.contains(before) ? why_unset(before) : "";
+    return fmt::format("'{}' before it never {}{}{}", tree_.labels[before].name,
+                       goes_on == Status::Success ? "succeeds" : "fails", why.empty() ? "" : ": ",
+                       why);
+  }
+
+  // "its while reads 'k', which has no value yet: 'later' writes it, which comes after it"
+  std::string why_unset(NodeIndex node) const {
+    std::string why = why_unset(own_script(node), node, "it");
+    for (const HookedNode& it : tree_.hooked) {
+      if (it.node != node) continue;
+      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
+        if (!why.empty()) return why;
+        why = why_unset(it.script(hook), node,
+                        fmt::format("its {}", attribute_of(hook, *tree_.rules)));
+      }
+    }
+    return why;
+  }
+
+  std::string why_unset(std::uint32_t number, NodeIndex node, std::string_view what) const {
+    if (number >= tree_.scripts.size() || tree_.scripts[number].code == nullptr) return "";
+    const Script& script = tree_.scripts[number];
+    for (std::size_t i = 0; i < script.slots.size(); ++i) {
+      const Slot& slot = tree_.slots[script.slots[i]];
+      const std::vector<NodeIndex>& who = writers_[script.slots[i]];
+      const bool is_read = script.code->uses()[i].is_read;
+      const bool is_unset = std::holds_alternative<NoValue>(slot.initial) && !who.empty() &&
+                            std::ranges::min(who) > node;
+      if (!is_read || !is_unset) continue;
+      return fmt::format("{} reads '{}', which has no value yet: '{}' writes it, which comes after",
+                         what, brief(slot.name), tree_.labels[std::ranges::min(who)].name);
+    }
+    return "";
+  }
+
+  std::uint32_t own_script(NodeIndex node) const {
+    const NodeType& type = *tree_.labels[node].type;
+    const auto it = std::ranges::find(type.parameters, true, &Parameter::is_script);
+    if (type.leaf != nullptr || type.mock != nullptr || type.reads_ports ||
+        it == type.parameters.end()) {
+      return HookedNode::kNoScript;
+    }
+    const auto at = static_cast<std::uint32_t>(it - type.parameters.begin());
+    return static_cast<std::uint32_t>(tree_.cells[tree_.nodes[node].params + at].integer);
   }
 
   void add_endless() {
@@ -129,6 +158,7 @@ class Certainties {
   const std::span<const Place> places_;
   const SearchResult& found_;
   const Graph& graph_;
+  const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
   std::vector<Certainty> certainties_;
 };
 

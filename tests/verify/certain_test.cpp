@@ -31,6 +31,16 @@ constexpr Row kRows[] = {
    "barrier[name=g barriers=.5]",
    "'b' can never run, whatever the leaves do: 'Parallel' before it never succeeds\n"
    "this tree can never end: whatever its leaves do, it stands still: `lockstep verify` shows how\n"},
+  {"a hook reads what only a later node writes",
+   "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
+   "'a' can never run, whatever the leaves do: its while reads 'k', which has no value yet: 'Script' writes it, "
+   "which comes after\n'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
+   "'k', which has no value yet: 'Script' writes it, which comes after\n"},
+  {"a condition reads what only a later node writes",
+   "Sequence(Check[code=k<2] Script[code=k:=1])",
+   "'Script' can never run, whatever the leaves do: 'Check' before it never succeeds: it reads 'k', which has no "
+   "value yet: 'Script' writes it, which comes after\n"},
+  {"a node before it writes the entry", "Sequence[memory=true](Script[code=k:=1] a[while=k<2])", ""},
   {"an endless tree", "Repeat(ForceSuccess(a))", "this tree never ends, whatever its leaves do\n"},
 };
 // clang-format on
