@@ -64,7 +64,8 @@ struct BlackboardEntry {
   Place first_use = {};                // of the attribute that names it first
   const ObjectType* object = nullptr;  // of type Object: which
   Typing typing = Typing::Strict;
-  bool is_present = true;  // from the beginning; false: until something makes it
+  bool is_present = true;     // from the beginning; false: until something makes it
+  bool is_set_later = false;  // from outside, while the tree runs
 };
 
 // A script, with the entry of each name that it uses.

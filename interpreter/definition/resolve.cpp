@@ -85,7 +85,8 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   const bool is_expandable = check_references(trees, report);
   if (is_expandable && !main && options.may_lack_main) check_unused(trees, {}, report);
   if (!is_expandable || !main) return std::nullopt;
-  Definition definition = expand(trees, *main, options.values, report);
+  Definition definition =
+      expand(trees, *main, options.values, report, Expansion::OfMain, options.later);
   definition.stand_ins = stand_ins;
   if (rules.checks_unused_trees) check_unused(trees, *main, report);
   resolve_resources(definition, report);

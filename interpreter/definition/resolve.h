@@ -16,6 +16,7 @@ namespace lockstep::host {
 struct ResolveOptions {
   std::string main_tree;  // "": main_tree_to_execute, or the only
   StartValues values;
+  StartValues later = {};  // texts of entries that get a value while the tree runs
   MissingNodes unknown = MissingNodes::AreErrors;
   Mocks mocks = {};
   MockOutputs mock_outputs = {};

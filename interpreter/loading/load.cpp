@@ -87,11 +87,12 @@ tl::expected<Meaning, LoadFailure> meaning_of(const Project* project, const Load
   std::optional<Definition> definition;
   if (project != nullptr) {
     warn_of_shadowed(*plugins.plugins, *project->rules, diagnostics);
-    definition = resolve(*project, make_catalog(*plugins.plugins, *project->rules),
-                         {options.main_tree, options.values, options.unknown, options.mocks,
-                          options.mock_outputs, options.opens_entries, options.has_outside,
-                          options.may_lack_main, options.is_part, options.elsewhere},
-                         diagnostics);
+    definition =
+        resolve(*project, make_catalog(*plugins.plugins, *project->rules),
+                {options.main_tree, options.values, options.later, options.unknown, options.mocks,
+                 options.mock_outputs, options.opens_entries, options.has_outside,
+                 options.may_lack_main, options.is_part, options.elsewhere},
+                diagnostics);
   }
   if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
   if (!definition) return tl::unexpected(LoadFailure::NothingToRun);

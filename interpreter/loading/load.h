@@ -20,9 +20,10 @@ namespace lockstep::host {
 
 struct LoadOptions {
   PluginOptions plugins;
-  Arguments arguments;    // of <arg>
-  StartValues values;     // of blackboard entries
-  std::string main_tree;  // "": the one that the file names, or its only one
+  Arguments arguments;     // of <arg>
+  StartValues values;      // of blackboard entries
+  StartValues later = {};  // of entries that get one while the tree runs: it has their types
+  std::string main_tree;   // "": the one that the file names, or its only one
   MainFile main_file = MainFile::MayBePipe;
   Arguments ros_packages = {};  // the share directories of ROS packages, by name
   MissingNodes unknown = MissingNodes::AreErrors;

@@ -16,6 +16,10 @@ Tree played_tree(const Definition& given, const std::set<NodeIndex>& real, Playe
   return compile(definition);
 }
 
+bool is_start(const SetEntry& it) {
+  return it.time.value_or(static_cast<double>(it.tick)) == 0;
+}
+
 }  // namespace
 
 Stage::Key Stage::key_of(const Scenario& scenario) {
@@ -27,7 +31,15 @@ Stage::Key Stage::key_of(const Scenario& scenario) {
 StartValues Stage::start_values(const Scenario& scenario) {
   StartValues values;
   for (const SetEntry& it : scenario.changes) {
-    if (it.time.value_or(static_cast<double>(it.tick)) == 0) values[it.key] = it.value;
+    if (is_start(it)) values[it.key] = it.value;
+  }
+  return values;
+}
+
+StartValues Stage::later_values(const Scenario& scenario) {
+  StartValues values;
+  for (const SetEntry& it : scenario.changes) {
+    if (!is_start(it)) values.try_emplace(it.key, it.value);
   }
   return values;
 }
@@ -39,6 +51,7 @@ std::shared_ptr<const Stage> Stage::load(const Key& key, const std::string* text
   LoadOptions load = options;
   load.arguments = key.arguments;
   load.values = key.values;
+  load.later = key.later;
   load.main_tree = key.main;
   load.main_file = MainFile::IsRegular;
   load.unknown = MissingNodes::AreMocked;

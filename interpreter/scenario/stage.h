@@ -21,12 +21,15 @@ class Stage {
   struct Key {
     std::string tree, main;
     Arguments arguments;
-    StartValues values = {};  // of entries that nothing in the tree declares
+    // Of entries that nothing in the tree declares: before the first tick, and first after it.
+    StartValues values = {}, later = {};
     friend auto operator<=>(const Key&, const Key&) = default;
   };
   static Key key_of(const Scenario& scenario);
   // What the scenario writes into entries before the first tick.
   static StartValues start_values(const Scenario& scenario);
+  // And later: the first value of each entry.
+  static StartValues later_values(const Scenario& scenario);
 
   // Null, with errors, if it cannot be loaded; `failure` says why. `text` is in place of the main
   // file, or null. Several share `plugins`.

@@ -94,13 +94,14 @@ TestRun::LoadedStage& TestRun::stage(const Stage::Key& key) {
   return loaded;
 }
 
-// Start values declare entries, as `--set` does. Most trees need none, so that scenarios with
-// different values share a stage.
+// Values declare entries, as `--set` does; one that comes later is unset before. Most trees need
+// none, so that scenarios with different values share a stage.
 void TestRun::load_stage(Part& part) {
   Stage::Key key = Stage::key_of(*part.scenario);
   const LoadedStage* found = &stage(key);
   if (found->stage == nullptr) {
     key.values = Stage::start_values(*part.scenario);
+    key.later = Stage::later_values(*part.scenario);
     found = &stage(key);
   }
   const LoadedStage& loaded = *found;

@@ -176,13 +176,44 @@ TEST_CASE("a value before the first tick declares an entry, as --set does") {
   };
   for (const Row& row :
        {Row{R"(<set key="k" value="3"/>)", 1, 0}, Row{R"(<set key="k" value="1" tick="0"/>)", 3, 0},
-        Row{R"(<set key="k" value="1" time="0"/>)", 3, 0},
-        Row{R"(<set key="k" value="1" tick="1"/>)", 3, 3}, Row{R"(<set key="k" value="x"/>)", 3, 1},
+        Row{R"(<set key="k" value="1" time="0"/>)", 3, 0}, Row{R"(<set key="k" value="x"/>)", 3, 1},
         Row{"", 3, 3}}) {
     const Folder folder(scenario(row.set, row.ticks), kEntry);
     const Outcome it = folder.test();
     INFO(row.set << '\n' << it.out << it.err);
     CHECK(it.code == row.code);
+  }
+}
+
+TEST_CASE("a value in a later tick declares an entry, which is unset before") {
+  constexpr auto kEntry = R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
+<Wait seconds="0.2"/><Wait seconds="0.2" skip_if="k &gt; 2"/><Script code="m := k"/></Sequence>
+</BehaviorTree></root>)";
+  struct Row {
+    const char *set, *out;
+    int ticks, code;
+  };
+  for (const Row& row :
+       {Row{R"(<set key="k" value="3" tick="1"/>)", "1 passed", 3, 0},
+        Row{R"(<set key="k" value="3" time="0.15"/>)", "1 passed", 3, 0},
+        Row{R"(<set key="k" value="1" tick="1"/>)", "1 passed", 5, 0},
+        Row{R"(<set key="k" value="1" tick="1"/><set key="k" value="3" tick="2"/>)", "1 passed", 3,
+            0},
+        Row{R"(<set key="k" value="1" tick="0"/><set key="k" value="3" tick="2"/>)", "1 passed", 3,
+            0},
+        // Too late: the entry is unset where it is read.
+        Row{R"(<set key="k" value="3" tick="3"/>)", "an entry without value", 3, 1},
+        Row{R"(<set key="k" value="3" tick="1"/><set key="k" value="x" tick="2"/>)",
+            "'x' is no value of 'k'", 3, 3},
+        Row{R"(<set key="j" value="3" tick="1"/>)", "nothing declares the entry 'k'", 3, 3}}) {
+    const Folder folder(R"(<scenario name="a">)" + std::string(row.set) +
+                            R"(<expect result="success" ticks=")" + std::to_string(row.ticks) +
+                            R"("/></scenario>)",
+                        kEntry);
+    const Outcome it = folder.test();
+    INFO(row.set << '\n' << it.out << it.err);
+    CHECK(it.code == row.code);
+    CHECK(contains(it.out + it.err, row.out));
   }
 }
 

@@ -218,7 +218,8 @@ class Adviser {
   void unwritten_entries() const {
     std::vector<bool> valued(definition_.entries.size());  // has a value at some time
     for (std::size_t i = 0; i < valued.size(); ++i) {
-      valued[i] = !std::holds_alternative<NoValue>(definition_.entries[i].initial);
+      const BlackboardEntry& it = definition_.entries[i];
+      valued[i] = it.is_set_later || !std::holds_alternative<NoValue>(it.initial);
     }
     for_each_port([&](const Parameter& parameter, std::uint32_t entry) {
       const bool is_target = parameter.is_key && !parameter.own_only;

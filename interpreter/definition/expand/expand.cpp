@@ -24,8 +24,12 @@ namespace {
 class Expander {
  public:
   Expander(CheckedTrees& trees, const StartValues& values, const Reporter& report,
-           Expansion expansion)
-      : trees_(trees), values_(values), report_(report), is_part_(expansion == Expansion::OfPart) {}
+           Expansion expansion, const StartValues& later)
+      : trees_(trees),
+        values_(values),
+        later_(later),
+        report_(report),
+        is_part_(expansion == Expansion::OfPart) {}
 
   Definition expand(std::string_view main) {
     definition_.id = main;
@@ -46,7 +50,8 @@ class Expander {
     add(trees_.trees.at(main).root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
-    if (is_strict() && !is_part_) declare_entries(definition_, literals_, report_, guessed_);
+    if (is_strict() && !is_part_)
+      declare_entries(definition_, literals_, report_, guessed_, later_texts());
     for (const Hint& hint : hints_) compare(hint);
     check_set_keys(scope);
     return std::move(definition_);
@@ -439,6 +444,15 @@ class Expander {
     return std::move(read->value);
   }
 
+  StartTexts later_texts() const {
+    StartTexts texts;
+    for (std::uint32_t i = 0; i < definition_.entries.size(); ++i) {
+      const auto value = later_.find(definition_.entries[i].name);
+      if (value != later_.end()) texts.emplace(i, value->second);
+    }
+    return texts;
+  }
+
   void check_set_keys(const Scope& scope) {
     std::vector<std::string_view> keys;
     for (const BlackboardEntry& entry : definition_.entries) {
@@ -454,6 +468,7 @@ class Expander {
 
   CheckedTrees& trees_;
   const StartValues& values_;
+  const StartValues& later_;
   const Reporter& report_;
   const bool is_part_;
   Definition definition_;
@@ -472,8 +487,8 @@ class Expander {
 }  // namespace
 
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
-                  const Reporter& report, Expansion expansion) {
-  return Expander(trees, values, report, expansion).expand(main);
+                  const Reporter& report, Expansion expansion, const StartValues& later) {
+  return Expander(trees, values, report, expansion, later).expand(main);
 }
 
 }  // namespace lockstep::host

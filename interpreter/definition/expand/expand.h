@@ -16,9 +16,11 @@ using StartValues = std::map<std::string, std::string, std::less<>>;
 // OfPart: the tree is for others, from which it may get entries, their types and groups.
 enum class Expansion : bool { OfMain, OfPart };
 
+// Values of `later` come while the tree runs: they have types only.
 // `main` is an ID in `trees`, which can be expanded (check_references). Parts with errors are left
 // out, so that the rest is still checked. Moves out of `trees` what the definition keeps.
 Definition expand(CheckedTrees& trees, std::string_view main, const StartValues& values,
-                  const Reporter& report, Expansion expansion = Expansion::OfMain);
+                  const Reporter& report, Expansion expansion = Expansion::OfMain,
+                  const StartValues& later = {});
 
 }  // namespace lockstep::host

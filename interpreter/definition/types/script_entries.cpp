@@ -20,12 +20,17 @@ namespace {
 class Declarer {
  public:
   Declarer(Definition& definition, const StartTexts& starts, std::span<const std::uint32_t> guessed,
-           const Reporter& report)
-      : definition_(definition), starts_(starts), guessed_(guessed), report_(report) {}
+           const StartTexts& later, const Reporter& report)
+      : definition_(definition),
+        starts_(starts),
+        guessed_(guessed),
+        later_(later),
+        report_(report) {}
 
   void declare() {
     declare_made();
     for (const auto& [entry, text] : starts_) declare_started(definition_.entries[entry], text);
+    for (const auto& [entry, text] : later_) declare_later(definition_.entries[entry], text);
     declare_made();
     for (const std::uint32_t entry : guessed_) declare_guessed(definition_.entries[entry]);
     if (definition_.scripts.empty()) return;
@@ -120,6 +125,13 @@ class Declarer {
     it.initial = *std::move(value);
   }
 
+  static void declare_later(BlackboardEntry& it, std::string_view text) {
+    it.is_set_later = true;
+    if (it.is_present) return;
+    declare_started(it, text);
+    it.initial = {};
+  }
+
   // Whether there is one.
   bool find_undeclared(const BoundScript& script) const {
     bool found = false;
@@ -197,6 +209,7 @@ class Declarer {
   Definition& definition_;
   const StartTexts& starts_;
   const std::span<const std::uint32_t> guessed_;
+  const StartTexts& later_;
   const Reporter& report_;
   std::vector<StaticType> types_;  // of the value of each script
 };
@@ -204,8 +217,8 @@ class Declarer {
 }  // namespace
 
 void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report,
-                     std::span<const std::uint32_t> guessed) {
-  Declarer(definition, starts, guessed, report).declare();
+                     std::span<const std::uint32_t> guessed, const StartTexts& later) {
+  Declarer(definition, starts, guessed, later, report).declare();
 }
 
 }  // namespace lockstep::host
