@@ -38,6 +38,28 @@ TEST_CASE("two recordings of the same run do not differ, though their files have
   CHECK(parse_json(as_json.out)["same"] == true);
 }
 
+TEST_CASE("start values that differ are a difference of two recordings, whatever the ticks do") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence>
+<Script code="m := k &gt; 0"/><Script code="m := j &gt; 0"/></Sequence></BehaviorTree></root>)");
+  const auto record = [&](const std::string& name, const char* k, const char* j) {
+    const std::string file = directory.path(name);
+    REQUIRE(call({"run", tree, "--clock", "virtual", "--view", "none", "--set", k, "--set", j,
+                  "--record", file})
+                .code == 0);
+    return file;
+  };
+  const std::string a = record("a", "k=1", "j=1"), b = record("b", "k=2", "j=1");
+  const Outcome outcome = call({"log", "diff", a, b});
+  CHECK(outcome.code == 1);
+  CHECK(outcome.out.starts_with(
+      "--- " + a + "\n+++ " + b +
+      "\n@@ header @@\n-start value k 1\n+start value k 2\n@@ tick 0 @@\n"));
+  CHECK_FALSE(contains(outcome.out, "start value j"));
+  CHECK(call({"log", "diff", a, record("c", "k=1", "j=1")}).out == "");
+}
+
 TEST_CASE("the first tick in which two runs differ, as text and as JSON") {
   const TemporaryDirectory directory;
   const std::string a = record(directory, "a", "0.5"), b = record(directory, "b", "0.25");

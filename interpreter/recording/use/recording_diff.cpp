@@ -57,11 +57,15 @@ Values compare_headers(const RecordingHeader& a, const RecordingHeader& b) {
   add(values, "rate_hz", fmt::format("{}", a.rate_hz), fmt::format("{}", b.rate_hz));
   add(values, "clock", a.clock, b.clock);
   add(values, "seed", std::to_string(a.seed), std::to_string(b.seed));
-  auto names = a.arguments;
-  names.insert(b.arguments.begin(), b.arguments.end());
-  for (const auto& [name, value] : names) {
-    add(values, "argument " + name, find(a.arguments, name), find(b.arguments, name));
-  }
+  const auto compare = [&](const std::string& what, const auto& in_a, const auto& in_b) {
+    auto names = in_a;
+    names.insert(in_b.begin(), in_b.end());
+    for (const auto& [name, value] : names) {
+      add(values, what + name, find(in_a, name), find(in_b, name));
+    }
+  };
+  compare("argument ", a.arguments, b.arguments);
+  compare("start value ", a.values, b.values);
   return values;
 }
 
