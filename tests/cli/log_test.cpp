@@ -43,9 +43,9 @@ TEST_CASE("log csv prints a row for each tick and active node") {
   CHECK(outcome.err.empty());
   const auto rows = lines(outcome.out);
   REQUIRE(rows.size() == 1 + 10 * 3);
-  CHECK(rows[0] == "tick,time_s,node,path,status,progress,ticked,held");
-  CHECK(rows[1] == "0,0,0,Main/pull,running,0,1,0");
-  CHECK(rows[9] == "2,0.02,2,Main/pull/base,running,0.6,0,1");  // the first tick that holds it
+  CHECK(rows[0] == "tick,time_s,node,path,status,progress,ticked,held,results");
+  CHECK(rows[1] == "0,0,0,Main/pull,running,0,1,0,");
+  CHECK(rows[9] == "2,0.02,2,Main/pull/base,running,0.6,0,1,");  // the first tick that holds it
 }
 
 TEST_CASE("log csv --out writes the same table to a file, but never over the recording") {
@@ -228,7 +228,7 @@ TEST_CASE("a reader that goes away is no error") {
     const Outcome outcome = run({.arguments = {"-c", before + "\"$0\" log csv \"$1\" | head -n 1",
                                                LOCKSTEP_BINARY_DIR "/lockstep", recording},
                                  .program = "/bin/sh"});
-    CHECK(outcome.out == "tick,time_s,node,path,status,progress,ticked,held\n");
+    CHECK(outcome.out == "tick,time_s,node,path,status,progress,ticked,held,results\n");
     CHECK(outcome.err.empty());
   }
 }

@@ -74,6 +74,34 @@ TEST_CASE("moments: the rounds of a Retry are events, in their order") {
         "9,0.9,success,Main/Sequence/retry/try/grasped,\n");
 }
 
+TEST_CASE("moments: a table has a row for each tick and node, with the results within the tick") {
+  const Recorded it(kRetry);
+  std::vector<std::string> grasped, reach;
+  for (const std::string& row : lines(it.log({"csv"}).out)) {
+    if (contains(row, "/grasped,")) grasped.push_back(row);
+    if (contains(row, "/reach,")) reach.push_back(row);
+  }
+  CHECK(grasped ==
+        std::vector<std::string>{"3,0.3,5,Main/Sequence/retry/try/grasped,idle,0,1,0,failure",
+                                 "6,0.6,5,Main/Sequence/retry/try/grasped,idle,0,1,0,failure",
+                                 "9,0.9,5,Main/Sequence/retry/try/grasped,success,0,1,0,"});
+  REQUIRE(reach.size() == 10);
+  CHECK(reach[3] == "3,0.3,4,Main/Sequence/retry/try/reach,running,1,1,0,success");
+  CHECK(reach[4].ends_with(",1,0,"));
+  const Recorded many(rounds("1000", "999"));
+  CHECK(contains(many.log({"csv"}).out, "\"999 times failure, success\"\n"));
+}
+
+TEST_CASE("moments: a replay in the terminal shows the results within a tick") {
+  const Recorded it(kRetry);
+  const auto printed = [&](const std::string& tick) {
+    return run_lockstep({"replay", it.recording, "--print", "--at", tick}).out;
+  };
+  CHECK(contains(printed("3"), "within this tick: Main/Sequence/retry/try/reach: success\n"));
+  CHECK(contains(printed("3"), "within this tick: Main/Sequence/retry/try/grasped: failure\n"));
+  CHECK_FALSE(contains(printed("2"), "within this tick"));
+}
+
 TEST_CASE("moments: a property sees each of them, in a run and in its recording") {
   const std::vector<std::string> properties = {
       "never grasped.failure",

@@ -92,7 +92,10 @@ class Version:
             if not HAS_BINARIES and name in NEED_BINARIES:
                 continue
             printed = self.call(line, work)
-            if without_version(printed) != without_version((self.folder / "expected" / name).read_bytes()):
+            expected = (self.folder / "expected" / name).read_bytes()
+            if name.endswith(".csv"):
+                printed = with_columns_of(expected, printed)
+            if without_version(printed) != without_version(expected):
                 (work / name).write_bytes(printed)
                 wrong.append(name)
         return wrong
@@ -102,6 +105,12 @@ def without_version(data):
     """The version of lockstep is the first one in a recording, and in study.json; `law` is that of its semantics."""
     data = re.sub(rb'"version": ?"[^"]*"', b'"version":"-"', data, count=1)
     return re.sub(rb'"law": ?[0-9]+', b'"law":0', data, count=1)
+
+
+def with_columns_of(then, now):
+    """A table may get more columns, behind those that it had."""
+    count = then.split(b"\n")[0].count(b",") + 1
+    return b"\n".join(b",".join(row.split(b",")[:count]) for row in now.split(b"\n"))
 
 
 def is_same(then, now):

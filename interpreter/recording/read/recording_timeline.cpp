@@ -4,6 +4,8 @@
 #include <iterator>
 #include <utility>
 
+#include "recording/read/tick_results.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -34,6 +36,7 @@ void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
   moment.time = tick.time;
   moment.nodes.assign(tick.nodes.begin(), tick.nodes.end());
   moment.faults.assign(tick.faults.begin(), tick.faults.end());
+  moment.results = results_within(tick);
   moment.entries.assign(tick.entries.begin(), tick.entries.end());
   moment.logs.assign(tick.logs.begin(), tick.logs.end());
   moment.lost = lost;
@@ -66,6 +69,7 @@ std::size_t RecordingTimeline::Keyframe::memory() const {
   std::size_t size = sizeof(Keyframe) + moment.nodes.size() * sizeof(RecordedState);
   for (const RecordedFault& fault : moment.faults) size += sizeof fault + fault.message.size();
   for (const RecordedEntry& it : moment.entries) size += sizeof it + it.value.value_or("").size();
+  for (const std::string& it : moment.results) size += sizeof it + it.capacity();
   return size + memory_of(moment.logs) + moment.past.memory();
 }
 

@@ -34,6 +34,7 @@ struct Moment {
   double time = 0;  // seconds
   std::vector<RecordedState> nodes;
   std::vector<RecordedFault> faults;
+  std::vector<std::string> results = {};    // of each node within the tick; empty: of one moment
   std::vector<RecordedEntry> entries = {};  // that have changed in this tick
   std::vector<LeafLine> logs = {};
   std::uint64_t lost = 0;  // ticks just before it that are not in the recording

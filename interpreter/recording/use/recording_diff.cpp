@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/wording.h"
+#include "recording/read/tick_results.h"
 
 namespace lockstep::host {
 namespace {
@@ -113,31 +114,6 @@ std::vector<std::string> texts(const RecordingHeader& header,
   return texts;
 }
 
-// Of each node, what results it had in the moments of a tick.
-std::vector<std::string> results(const RecordedTick& tick) {
-  std::vector<std::string> results(tick.nodes.size());
-  std::vector<NodeState> column;
-  const auto add = [&](NodeIndex node, Status result, std::uint64_t times) {
-    std::string& text = results[node];
-    if (!text.empty()) text += ", ";
-    if (times > 1) text += fmt::format("{} times ", times);
-    text += to_string(result);
-  };
-  tick.moments.each(column, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
-    for (NodeIndex node = 0; node < now.size(); ++node) {
-      if (now[node].ticked() && has_ended(now[node].status())) {
-        add(node, now[node].status(), it.times);
-      }
-    }
-  });
-  for (const NodeTotals& it : tick.moments.rest) {
-    for (const Status result : {Status::Success, Status::Failure, Status::Skipped}) {
-      if (it.of(result) > 0) add(it.node, result, it.of(result));
-    }
-  }
-  return results;
-}
-
 // Compares tick by tick until one differs.
 class Comparison {
  public:
@@ -212,7 +188,10 @@ class Comparison {
   }
 
   void compare_moments(const RecordedTick& a, const RecordedTick& b, TickDifference& tick) const {
-    const std::vector<std::string> in_a = results(a), in_b = results(b);
+    // A tick of one moment has its results in the states.
+    std::vector<std::string> in_a = results_within(a), in_b = results_within(b);
+    in_a.resize(a.nodes.size());
+    in_b.resize(b.nodes.size());
     for (const auto& [node_a, node_b] : pairs_) {
       const std::string &of_a = in_a[node_a], &of_b = in_b[node_b];
       if (of_a == of_b) continue;

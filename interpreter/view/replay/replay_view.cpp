@@ -23,6 +23,27 @@ std::string fault_text(const Shape& shape, const RecordedFault& fault) {
   return fmt::format("fault: {}: {}", shape.nodes[fault.node].segment, fault.message);
 }
 
+// What nodes returned before the state that is shown: "grasped: failure, success".
+template <class Add>
+void each_result(const Moment& moment, const Add& add) {
+  for (NodeIndex node = 0; node < moment.results.size(); ++node) {
+    if (!moment.results[node].empty()) add(node, moment.results[node]);
+  }
+}
+
+constexpr std::string_view kWithin = "within this tick: ";
+
+// A line for all of them; empty: the tick has one moment.
+std::string results_line(const Shape& shape, const Moment& moment, const DrawOptions& options) {
+  TextLine line = new_line(options);
+  std::string_view between = kWithin;
+  each_result(moment, [&](NodeIndex node, const std::string& results) {
+    line.add(fmt::format("{}{}: {}", between, shape.nodes[node].segment, results), Style::Active);
+    between = "; ";
+  });
+  return between == kWithin ? std::string() : line.text() + "\n";
+}
+
 std::string where(const ReplayPlayer& player) {
   const RecordingTimeline& timeline = player.timeline();
   return fmt::format("  tick {} of {}  {:.3f} of {:.3f} s  speed {:.6g}", timeline.now().tick,
@@ -110,6 +131,11 @@ std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Mome
     line.add(fault_text(shape, fault), Style::Bad);
     text += line.text() + "\n";
   }
+  each_result(moment, [&](NodeIndex node, const std::string& results) {
+    TextLine line = new_line(options);
+    line.add(fmt::format("{}{}: {}", kWithin, shape.nodes[node].path, results));
+    text += line.text() + "\n";
+  });
   for (const RecordedEntry& entry : moment.entries) {
     TextLine line = new_line(options);
     line.add(shape.entries[entry.entry].key + " = " + shown_value(entry));
@@ -121,8 +147,9 @@ std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Mome
 
 std::string draw_replay(const Shape& shape, const Snapshot& snapshot, const ReplayPlayer& player,
                         const DrawOptions& options) {
+  const std::string results = results_line(shape, player.timeline().now(), options);
   DrawOptions above = options;
-  above.height -= std::min(above.height, kStatusLines);
+  above.height -= std::min(above.height, kStatusLines + (results.empty() ? 0u : 1u));
   above.logs = kLogLines;
   TextLine status = new_line(options);
   status.add(player.paused() ? (player.timeline().at_end() ? "end" : "paused") : "plays",
@@ -131,7 +158,7 @@ std::string draw_replay(const Shape& shape, const Snapshot& snapshot, const Repl
   add_warnings(status, shape, player.timeline());
   TextLine keys = new_line(options);
   add_keys(keys, player, options);
-  return draw(shape, snapshot, above) + status.text() + "\n" + keys.text() + "\n";
+  return draw(shape, snapshot, above) + results + status.text() + "\n" + keys.text() + "\n";
 }
 
 }  // namespace lockstep::host

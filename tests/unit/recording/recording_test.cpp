@@ -143,19 +143,19 @@ std::string csv_of(const std::string& recording, std::string* error = nullptr,
 TEST_CASE("a recording as a table") {
   std::string error = "unset", cut = "unset";
   CHECK(csv_of(kWholeRecording, &error, &cut) ==
-        "tick,time_s,node,path,status,progress,ticked,held\n"
-        "0,0,0,Test/ParallelAbsolute,running,0,1,0\n"
-        "0,0,1,Test/ParallelAbsolute/a,running,0,1,0\n"
-        "0,0,2,Test/ParallelAbsolute/b,running,0,1,0\n"
-        "1,0.1,0,Test/ParallelAbsolute,running,0.25,1,0\n"
-        "1,0.1,1,Test/ParallelAbsolute/a,running,0.25,1,0\n"
-        "1,0.1,2,Test/ParallelAbsolute/b,running,0.5,0,1\n"
-        "2,0.2,0,Test/ParallelAbsolute,running,0.5,1,0\n"
-        "2,0.2,1,Test/ParallelAbsolute/a,running,0.5,1,0\n"
-        "2,0.2,2,Test/ParallelAbsolute/b,success,0.5,1,0\n"
-        "3,0.3,0,Test/ParallelAbsolute,success,0.75,1,0\n"
-        "3,0.3,1,Test/ParallelAbsolute/a,success,0.75,1,0\n"
-        "3,0.3,2,Test/ParallelAbsolute/b,success,1,0,0\n");
+        "tick,time_s,node,path,status,progress,ticked,held,results\n"
+        "0,0,0,Test/ParallelAbsolute,running,0,1,0,\n"
+        "0,0,1,Test/ParallelAbsolute/a,running,0,1,0,\n"
+        "0,0,2,Test/ParallelAbsolute/b,running,0,1,0,\n"
+        "1,0.1,0,Test/ParallelAbsolute,running,0.25,1,0,\n"
+        "1,0.1,1,Test/ParallelAbsolute/a,running,0.25,1,0,\n"
+        "1,0.1,2,Test/ParallelAbsolute/b,running,0.5,0,1,\n"
+        "2,0.2,0,Test/ParallelAbsolute,running,0.5,1,0,\n"
+        "2,0.2,1,Test/ParallelAbsolute/a,running,0.5,1,0,\n"
+        "2,0.2,2,Test/ParallelAbsolute/b,success,0.5,1,0,\n"
+        "3,0.3,0,Test/ParallelAbsolute,success,0.75,1,0,\n"
+        "3,0.3,1,Test/ParallelAbsolute/a,success,0.75,1,0,\n"
+        "3,0.3,2,Test/ParallelAbsolute/b,success,1,0,0,\n");
   CHECK(error == "");
   CHECK(cut == "");
 }
@@ -163,7 +163,7 @@ TEST_CASE("a recording as a table") {
 TEST_CASE("an idle node has a row only when it was ticked") {
   // a is ticked in tick 0; b fails in it, and a is halted.
   const std::string table = csv_of(record("Sequence[memory=true](Parallel(a b) c)", "a=R b=F c=S"));
-  CHECK(table.find("0,0,2,Test/Sequence/Parallel/a,idle,0,1,0\n") != std::string::npos);
+  CHECK(table.find("0,0,2,Test/Sequence/Parallel/a,idle,0,1,0,\n") != std::string::npos);
   CHECK(table.find("/c,") == std::string::npos);
 }
 
@@ -171,9 +171,9 @@ TEST_CASE("progress of a child is what its synchronized node used, not what was 
   // Before tick 2 both are still successful; the node's new activation begins at 0.
   const std::string table =
       csv_of(record("Repeat[times=2](ParallelRelative[delta=1](a b))", "a+.5 b+.5"));
-  CHECK(table.find("1,0.1,2,Test/Repeat/ParallelRelative/a,success,0.5,1,0\n") !=
+  CHECK(table.find("1,0.1,2,Test/Repeat/ParallelRelative/a,success,0.5,1,0,\n") !=
         std::string::npos);
-  CHECK(table.find("2,0.2,2,Test/Repeat/ParallelRelative/a,running,0,1,0\n") != std::string::npos);
+  CHECK(table.find("2,0.2,2,Test/Repeat/ParallelRelative/a,running,0,1,0,\n") != std::string::npos);
 }
 
 TEST_CASE("what a synchronized node used is of its tick only") {
@@ -183,8 +183,8 @@ TEST_CASE("what a synchronized node used is of its tick only") {
       csv_of(record("Sequence[memory=true](Repeat[times=2](ParallelRelative[delta=1](a b)) c)",
                     "a=SS b=SS c=R", 3));
   const std::string a = "Test/Sequence/Repeat/ParallelRelative/a,success,";
-  CHECK(table.find("1,0.1,3," + a + "0,1,0\n") != std::string::npos);
-  CHECK(table.find("2,0.2,3," + a + "1,0,0\n") != std::string::npos);
+  CHECK(table.find("1,0.1,3," + a + "0,1,0,\n") != std::string::npos);
+  CHECK(table.find("2,0.2,3," + a + "1,0,0,\n") != std::string::npos);
 }
 
 TEST_CASE("faults that the run went on after are in their tick, and counted") {
@@ -233,7 +233,7 @@ TEST_CASE("lost ticks have no rows, and info tells of them") {
   const std::string table = csv_of(text);
   CHECK(table.find("\n1,") == std::string::npos);
   CHECK(table.find("\n2,") == std::string::npos);
-  CHECK(table.find("\n3,0.3,2,Test/ParallelAbsolute/b,success,1,0,0\n") != std::string::npos);
+  CHECK(table.find("\n3,0.3,2,Test/ParallelAbsolute/b,success,1,0,0,\n") != std::string::npos);
   std::istringstream in(text);
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
