@@ -28,6 +28,20 @@ struct Fields {
   bool on = true;
 };
 
+// A value is a text, as in --set, or a number or a truth value of JSON.
+std::string text_of(JsonValue value) {
+  if (bool flag = false; value.get(flag)) return flag ? "true" : "false";
+  if (std::int64_t whole = 0; value.get(whole)) return std::to_string(whole);
+  if (double real = 0; value.get(real)) return fmt::format("{}", real);
+  return std::string(value.text());
+}
+
+bool flag_of(JsonValue value) {
+  bool flag = true;
+  if (!value.get(flag)) throw JsonError("'on' is not true or false");
+  return flag;
+}
+
 Fields read_fields(std::string& text) {
   Fields fields;
   JsonReader().read(text, [&](JsonObject object) {
@@ -35,10 +49,10 @@ Fields read_fields(std::string& text) {
                  {"ticks", into(fields.ticks), kMayLack},
                  {"factor", into(fields.factor), kMayLack},
                  {"entry", into(fields.entry), kMayLack},
-                 {"value", into(fields.value), kMayLack},
+                 {"value", [&](JsonValue value) { fields.value = text_of(value); }, kMayLack},
                  {"node", into(fields.node), kMayLack},
                  {"when", into(fields.when), kMayLack},
-                 {"on", [&](JsonValue value) { value.get(fields.on); }, kMayLack}});
+                 {"on", [&](JsonValue value) { fields.on = flag_of(value); }, kMayLack}});
   });
   return fields;
 }

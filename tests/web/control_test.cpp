@@ -74,6 +74,35 @@ TEST_CASE("a run on the wall clock stands while it is paused, and misses no dead
   CHECK(contains(outcome.out, "success after "));
 }
 
+TEST_CASE("a flag of a tree is set by a text or by a value of JSON, and does what it says") {
+  const std::string tree = R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
+<Script code="go := true"/><KeepRunningUntilFailure><Sleep msec="10" _failureIf="!go"/></KeepRunningUntilFailure>
+</Sequence></BehaviorTree></root>)";
+  for (const json& no : {json("false"), json("0"), json("False"), json(false), json(0)}) {
+    INFO(no.dump());
+    Controlled it(tree, {"--clock", "virtual", "--max-ticks", "100000"});
+    it.order({{"do", "step"}, {"ticks", 3}});
+    it.wait_for_tick(2);
+    CHECK(it.order({{"do", "set"}, {"entry", "go"}, {"value", "true"}}).status == 204);
+    it.order({{"do", "step"}, {"ticks", 3}});
+    it.wait_for_tick(5);
+    CHECK(it.order({{"do", "set"}, {"entry", "go"}, {"value", no}}).status == 204);
+    it.order({{"do", "resume"}});
+    CHECK(contains(it.events().finish(), "\"end\""));
+    CHECK(contains(it.run().process().finish().out, "failure after"));
+  }
+}
+
+TEST_CASE("a breakpoint that is neither on nor off is refused") {
+  Controlled it(kPull, {"--clock", "virtual", "--set", "pause=0.05"});
+  const Response wrong =
+      it.order({{"do", "break"}, {"node", 0}, {"when", "begins"}, {"on", "false"}});
+  CHECK(wrong.status == 400);
+  CHECK(contains(wrong.body, "'on' is not true or false"));
+  it.order({{"do", "halt"}});
+  it.events().finish();
+}
+
 TEST_CASE("a run pauses at its breakpoints") {
   Controlled it(kPull, {"--clock", "virtual", "--set", "pause=0.05"});
   const auto stop = [](int node, const char* when, bool on = true) {
