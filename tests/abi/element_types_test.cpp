@@ -128,8 +128,9 @@ TEST_CASE("a program that does not answer describe as it should is an error of t
         "2:1: 'Hull' cannot be described: its program ended with exit code 3 before it answered "
         "describe | run it by hand to see what it prints");
   CHECK(error("bad") ==
-        "2:1: 'Hull' cannot be described: its program answers describe wrongly: the type of a port "
-        "is 'thing', "
+        "2:1: 'Hull' cannot be described: its program answers describe wrongly: port 'size.x': the "
+        "type "
+        "of a port is 'thing', "
         "expected bool, int, double, string, number, or 'list of ' and one of the first four | "
         "docs/programs.md has the answers to describe");
 }

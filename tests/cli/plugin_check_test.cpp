@@ -88,6 +88,78 @@ TEST_CASE("plugin check: a leaf that ends its process is named, and the others a
   CHECK(contains(hung.out, ": its process ended with exit code 6"));
 }
 
+TEST_CASE(
+    "plugin check and run: what a program describes wrongly is named, with the leaf and port") {
+  const TemporaryDirectory directory;
+  const std::string program = directory.file("shape.py", R"(#!/usr/bin/python3
+import json, os, sys
+print(json.dumps(dict(lockstep=1, leaves=[{"id": "Shape", "more_ports": ["size.*"], "ports": [
+    {"name": "kind", "type": "string", "fixed": True, "choices": ["round", "square"]}]}])), flush=True)
+for line in sys.stdin:
+    request = json.loads(line)
+    if request["do"] == "describe":
+        print(open(os.path.dirname(sys.argv[0]) + "/answer").read(), flush=True)
+    elif request["do"] == "tick":
+        print(json.dumps(dict(leaf=request["leaf"], status="success")), flush=True)
+    elif request["do"] in ("create", "halt"):
+        print(json.dumps(dict(leaf=request["leaf"], done=True)), flush=True)
+)");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string tree =
+      directory.file("t.xml",
+                     "<root lockstep=\"1\"><plugin name=\"shape\" program=\"shape.py\"/>\n"
+                     "<BehaviorTree ID=\"T\"><Shape kind=\"round\" size.r=\"2\"/>"
+                     "</BehaviorTree></root>");
+  const std::string wrongly = "answers describe wrongly: ", whose = "what it describes for 'Shape'";
+  const std::pair<std::string, std::string> rows[] = {
+      {R"({"ports":[{"name":"size.r"}]})", wrongly + "port 'size.r': 'type' is missing"},
+      {R"({"ports":[{"name":"size.a","type":"int"},{"name":"size.r","type":"real"}]})",
+       wrongly + "port 'size.r': the type of a port is 'real', expected "},
+      {R"({"ports":[{"type":"double"}]})", wrongly + "a port: 'name' is missing"},
+      {R"({"ports":[7]})", wrongly + "a port: "},
+      {R"({"ports":{"name":"size.r"}})", wrongly + "'ports' is not a list"},
+      {R"({"ports":null})", wrongly + "'ports' is not a list"},
+      {R"({})", wrongly + "expected 'ports' or 'refused'"},
+      {R"([])", wrongly + "expected a JSON object"},
+      {R"({"leaf":1,"done":true})", wrongly + "expected 'ports' or 'refused'"},
+      {R"({"ports":[{"name":"size.r","type":"double"})", wrongly + "not JSON"},
+      {"Traceback (most recent call last):", wrongly + "not JSON"},
+      {"", wrongly + "not JSON"},
+      {R"({"ports":[{"name":"size.r","type":"double","direction":"up"}]})",
+       wrongly + "port 'size.r': the direction of a port is 'up'"},
+      {R"({"ports":[{"name":"size.r","type":"double","min":"a"}]})",
+       wrongly + "port 'size.r': 'min' is not a number"},
+      {R"({"ports":[{"name":"size.r","type":"double","default":[1]}]})",
+       wrongly + "port 'size.r': a default is not"},
+      {R"({"ports":[{"name":"size.r","type":"double","optional":"yes"}]})",
+       wrongly + "port 'size.r': a flag is not true or false"},
+      {R"({"refused":7})", wrongly + "'refused' is not a string"},
+      {R"({"ports":[{"name":"","type":"double"}]})", whose},
+      {R"({"ports":[{"name":"size r","type":"double"}]})", "port 1 is named 'size r'"},
+      {R"({"ports":[{"name":"size.r","type":"double","min":5,"max":1}]})",
+       "port 1 ('size.r') has min 5 and max 1"},
+      {R"({"ports":[{"name":"size.r","type":"double","default":"far"}]})",
+       "port 1 ('size.r') has the default 'far'"},
+      {R"({"ports":[{"name":"size.r","type":"int"},{"name":"size.r","type":"int"}]})",
+       "port 2 is named 'size.r', as a port before it"},
+      {R"({"ports":[{"name":"kind","type":"string"}]})", "port 1 is named 'kind', as a port"}};
+  for (const auto& [answer, message] : rows) {
+    directory.file("answer", answer);
+    const Outcome checked = check_plugin(program);
+    INFO(answer << '\n' << checked.out << checked.err);
+    CHECK(checked.code == 4);
+    CHECK(contains(checked.out, "wrong 'Shape' with kind=\"round\" "));
+    CHECK(contains(checked.out, message));
+    CHECK_FALSE(contains(checked.out, "guardian"));
+    const Outcome run = run_lockstep(
+        {"run", tree, "--plugin-path", directory.path(""), "--clock", "virtual", "--view", "none"});
+    INFO(run.err);
+    CHECK(run.code == 3);
+    CHECK(contains(run.err, "t.xml:2:22: error: "));
+    CHECK(contains(run.err, message));
+  }
+}
+
 TEST_CASE("plugin check: what is no plugin, and an option for programs") {
   CHECK(contains(check_plugin("/nowhere/x.so").err, "'/nowhere/x.so' is no plugin"));
   CHECK(check_plugin("/nowhere/x.so").code == 2);

@@ -41,6 +41,7 @@ Result<std::string> Conversation::start(const std::string& path) {
 }
 
 Result<std::string> Conversation::ask(std::string_view line, std::string_view what) {
+  if (is_gone()) return problem(why_gone());
   process_.write(line);  // a deaf one says nothing, either
   auto answer = next_line(fmt::format("answered {}", what));
   while (answer) {

@@ -58,8 +58,9 @@ const char* keep_or_null(OwnedDescriptors& tables, std::string_view text) {
   return text.empty() ? nullptr : tables.keep(text);
 }
 
-void read_port_fact(JsonValue value, OwnedDescriptors& tables) {
-  lockstep_port& port = tables.add_port();
+namespace {
+
+void read_fact(JsonValue value, lockstep_port& port, OwnedDescriptors& tables) {
   const auto into_text = [&](const char*& text) {
     return [&](JsonValue it) { text = keep_or_null(tables, it.text()); };
   };
@@ -90,6 +91,20 @@ void read_port_fact(JsonValue value, OwnedDescriptors& tables) {
   port.max = is_limited ? most : 0;
   if (optional) port.flags |= LOCKSTEP_OPTIONAL;
   if (fixed) port.flags |= LOCKSTEP_FIXED;
+}
+
+}  // namespace
+
+void read_port_fact(JsonValue value, OwnedDescriptors& tables) {
+  lockstep_port& port = tables.add_port();
+  try {
+    read_fact(value, port, tables);
+  } catch (const NotJson&) {
+    throw;
+  } catch (const JsonError& error) {
+    if (port.name == nullptr) throw JsonError(fmt::format("a port: {}", error.what()));
+    throw JsonError(fmt::format("port '{}': {}", brief(port.name), error.what()));
+  }
 }
 
 }  // namespace lockstep::host
