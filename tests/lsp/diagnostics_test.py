@@ -100,6 +100,65 @@ class Diagnostics(unittest.TestCase):
         for text in ("<rot lockstep=\"1\"/>", "<tree><BehaviorTree/></tree>"):
             self.assertIn("'root'", self.client.open(SOURCE / "b.xml", text)[0]["message"])
 
+    def said_of(self, files):
+        """What the server and `check` say of each of these texts, which are files of one folder."""
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in files.items():
+                (Path(folder) / name).write_text(text)
+            found = {}
+            for name in files:
+                path = Path(folder) / name
+                found[name] = said(self.client.open(path))
+                self.client.close(path)
+            return found
+
+    def worst(self, found):
+        return min((severity for _, _, severity, _, _ in found), default=4)
+
+    def test_a_model_that_is_older_than_the_tree_is_a_hint(self):
+        tree = '''<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence>
+<Go goal="{goal}" speed="fast" done="{done}"/><See target="{t}"/></Sequence></BehaviorTree>
+<TreeNodesModel>%s</TreeNodesModel></root>'''
+        go = '<Action ID="Go"><input_port name="goal" type="%s"/>%s</Action>'
+        see = '<Condition ID="See"><input_port name="target"/></Condition>'
+        models = {
+            "no port of this name": go % ("std::string", "") + see,
+            "another type": go % ("std::string", '<input_port name="speed" type="double"/>') + see,
+            "an input that is an output": go % ("int", '<input_port name="speed"/><output_port name="goal"/>') + see,
+            "an output with a constant": go % ("int", '<output_port name="speed"/><input_port name="done"/>') + see,
+            "another kind": '<Condition ID="Go"/><Control ID="See"/>',
+            "a decorator": '<Decorator ID="Go"/><SubTree ID="See"/>',
+            "a type that nobody knows": go % ("my::Pose", '<input_port name="speed" type="?"/>') + see,
+            "one of two leaves": see,
+        }
+        for claim, model in models.items():
+            with self.subTest(claim):
+                found = self.said_of({"t.xml": tree % model})["t.xml"]
+                self.assertGreaterEqual(self.worst(found), SEVERITIES["warning"], found)
+
+    def test_parts_of_a_project_have_no_error_that_is_none(self):
+        main = '<root %s><BehaviorTree ID="Main"><SubTree ID="Part" goal="1"/></BehaviorTree></root>'
+        parts = '<root %s><BehaviorTree ID="Part">%s</BehaviorTree><BehaviorTree ID="B"><AlwaysFailure/></BehaviorTree></root>'
+        deep = '<root %s><BehaviorTree ID="Deep"><AlwaysSuccess/></BehaviorTree></root>'
+        theirs, ours, include = 'BTCPP_format="4"', 'lockstep="1"', '<include path="parts.xml"/><BehaviorTree ID="Main"'
+        projects = {
+            "none includes the other": {"main.xml": main % theirs, "deep.xml": deep % theirs,
+                                        "parts.xml": parts % (theirs, '<SubTree ID="Deep"/>')},
+            "the main file includes them": {"main.xml": main.replace('<BehaviorTree ID="Main"', include) % ours,
+                                            "parts.xml": parts % (ours, "<AlwaysSuccess/>")},
+            "two trees and no main tree": {"parts.xml": parts % (ours, "<AlwaysSuccess/>")},
+            "models only": {"models.xml": f'<root {theirs}><TreeNodesModel><Action ID="Go"/></TreeNodesModel></root>'},
+        }
+        for claim, files in projects.items():
+            for name, messages in self.said_of(files).items():
+                with self.subTest(claim, file=name):
+                    self.assertGreater(self.worst(messages), SEVERITIES["error"], messages)
+        for root in [theirs, ours]:  # what is wrong in a part is an error as before
+            found = self.said_of({"parts.xml": parts % (root, "<Sequence/>")})["parts.xml"]
+            self.assertEqual(self.worst(found), SEVERITIES["error"])
+        # A tree of this language includes what it needs.
+        self.assertEqual(self.worst(self.said_of({"main.xml": main % ours})["main.xml"]), SEVERITIES["error"])
+
     def test_hints_for_editors_without_related_information(self):
         client = Client()
         client.start(SOURCE, related=False)
