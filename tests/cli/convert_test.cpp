@@ -1,4 +1,5 @@
 // lockstep convert: the same tree in the other language.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "support/json.h"
@@ -212,6 +213,191 @@ TEST_CASE("convert writes no operator by way of an argument of the file") {
   CHECK(contains(converted("5", "k % 2 and k").err, "error: unexpected '%' cannot"));
 }
 
+// --- scripts, run in both languages -------------------------------------------------------------
+
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string escaped;
+  for (const char it : text) {
+    if (it == '&') {
+      escaped += "&amp;";
+    } else if (it == '<') {
+      escaped += "&lt;";
+    } else if (it == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += it;
+    }
+  }
+  return escaped;
+}
+
+enum class Where { Condition, Value, Skip, Failure, Success, While, End };
+constexpr const char* kHooks[][2] = {{"", ""},
+                                     {"", ""},
+                                     {"skip_if", "_skipIf"},
+                                     {"failure_if", "_failureIf"},
+                                     {"success_if", "_successIf"},
+                                     {"while", "_while"},
+                                     {"on_end", "_post"}};
+
+std::string tree_with(const std::string& script, Where where, bool is_ours) {
+  const std::string memory = is_ours ? R"( memory="true")" : "";
+  const std::string code = escaped(script), after = R"(<Script code="hit := 1"/>)";
+  std::string nodes;
+  if (where == Where::Condition) {
+    nodes = (is_ours ? "<Check code=\"" : "<ScriptCondition code=\"") + code + "\"/>" + after;
+  } else if (where == Where::Value) {
+    nodes = "<Script code=\"v := " + code + "\"/>" + after;
+  } else {
+    const char* const hook = kHooks[static_cast<std::size_t>(where)][is_ours ? 0 : 1];
+    nodes = (is_ours ? R"(<Wait seconds="0.3" )" : R"(<Sleep msec="300" )") + std::string(hook) +
+            "=\"" + code + "\"/>" + after;
+  }
+  return around(
+      is_ours ? R"(lockstep="1")" : R"(BTCPP_format="4")",
+      "<Sequence" + memory +
+          R"(><Script code="b := 80; s := 0.5; t := 'docked'; r := true; w := 1; hit := 0; q := ''"/>)" +
+          "<ForceSuccess><Sequence" + memory + ">" + nodes +
+          "</Sequence></ForceSuccess></Sequence>");
+}
+
+struct Played {
+  bool is_loaded = false, has_fault = false;
+  std::string said = {};  // result, ticks, and when each entry got which value
+};
+
+// `true` of BehaviorTree.CPP is the number 1.
+Played play(const TemporaryDirectory& directory, const std::string& text) {
+  const std::string recording = directory.path("run.jsonl");
+  const Outcome run =
+      run_lockstep({"run", directory.file("run.xml", text), "--clock", "virtual", "--rate", "10",
+                    "--view", "none", "--json", "--record", recording});
+  if (run.code == 3) return {};
+  const auto summary = parse_json(run.out);
+  Played played{.is_loaded = true, .has_fault = summary["result"] == "fault"};
+  played.said = summary["result"].dump() + " " + summary["ticks"].dump() + "\n";
+  std::vector<std::string> entries =
+      lines(run_lockstep({"log", "events", recording, "--event", "entry", "--format", "csv"}).out);
+  for (std::string& it : entries) {
+    if (it.ends_with(",true")) it.replace(it.size() - 4, 4, "1");
+    if (it.ends_with(",false")) it.replace(it.size() - 5, 5, "0");
+  }
+  std::sort(entries.begin(), entries.end());
+  for (const std::string& it : entries) played.said += it + "\n";
+  return played;
+}
+
+constexpr const char* kScripts[] = {"5",
+                                    "0x1F",
+                                    "2.5",
+                                    "1e3",
+                                    "'a text'",
+                                    "\"it is\"",
+                                    "true",
+                                    "false",
+                                    "b",
+                                    "r",
+                                    "1 + 2 * 3",
+                                    "7 / 2",
+                                    "-1",
+                                    "~w",
+                                    "'dock' + 'ed' == t",
+                                    "'battery: ' .. b",
+                                    "'speed: ' .. s",
+                                    "0 < s <= 1",
+                                    "b > 20 && !(t == 'lost')",
+                                    "b < 20 || s == 0",
+                                    "b > 50 ? 'go' : 'charge'",
+                                    "6 & 3 | 8",
+                                    "6 ^ 3",
+                                    "0.1 + 0.2 == 0.3",
+                                    "'10' < '9'",
+                                    "'2.5 m' > 2",
+                                    "'16abc' == 16",
+                                    "r && 0.5",
+                                    "((b + 1) * 2)",
+                                    "b - 1 - 1",
+                                    "w == 1",
+                                    "!r",
+                                    "t != 'docked'",
+                                    "1 == 1.0",
+                                    "r == 'true'",
+                                    "0 ? 1 : 2",
+                                    "b / 3",
+                                    "1 / 0",
+                                    "9007199254740991",
+                                    "9007199254740993",
+                                    "b := 3",
+                                    "w += 1",
+                                    "s *= 2",
+                                    "s -= 0.25; s /= 0.5",
+                                    "t += 'x'",
+                                    "a := c := 'both'; a .. c",
+                                    "b := 79.0",
+                                    "b := '75'",
+                                    "b := 2.5",
+                                    "w := 0.5",
+                                    "r := 0",
+                                    "r := 5",
+                                    "q := 5",
+                                    "t := '' .. 5",
+                                    "z := 1; z := 2.5",
+                                    "z := 'a'; z := 1",
+                                    "z := true; z := 7",
+                                    "z = 1",
+                                    "q := r",
+                                    "b == 80 and r",
+                                    "b == 80 or r",
+                                    "t == \"docked\"",
+                                    "t == \"it's\"",
+                                    "b > 1 ? (w := 4) : (w := 5)",
+                                    "b\n>\n3",
+                                    "w=1",
+                                    "w = b = 3",
+                                    "!(!r)",
+                                    "b .. ''",
+                                    "true + true",
+                                    "'5' == 5",
+                                    "'abc' == 0",
+                                    "'' == 0",
+                                    "z := 5 > 3; z && 1",
+                                    "'True' && !'false'"};
+
+}  // namespace
+
+// Entries of lockstep's language have types: there, a script may be an error that it is not in
+// the other one. That is reported. Nothing is another value without a word.
+TEST_CASE("a converted script has the same ticks and entries, or one language reports an error") {
+  const TemporaryDirectory directory;
+  int same = 0, refused = 0, number = 0;
+  for (const std::string script : kScripts) {
+    const Where other = static_cast<Where>(1 + number++ % 6);
+    for (const Where where : {Where::Condition, other}) {
+      for (const bool is_ours : {true, false}) {
+        const std::string text = tree_with(script, where, is_ours);
+        const Played here = play(directory, text);
+        if (!here.is_loaded) continue;
+        const Outcome converted = run_lockstep({"convert", directory.file("tree.xml", text)});
+        INFO(text << converted.out << converted.err);
+        if (converted.code != 0) {
+          CHECK(contains(converted.err, "error"));
+          ++refused;
+          continue;
+        }
+        const Played there = play(directory, converted.out);
+        const Played& of_ours = is_ours ? here : there;
+        if (!of_ours.is_loaded || of_ours.has_fault) continue;
+        CHECK(there.said == here.said);
+        ++same;
+      }
+    }
+  }
+  CHECK(same > 150);
+  CHECK(refused > 2);
+}
+
 TEST_CASE("convert keeps processing instructions where BehaviorTree.CPP takes them") {
   const TemporaryDirectory directory;
   const std::string ours = directory.file(
@@ -354,7 +540,8 @@ TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
   }
   const std::string modeled =
       "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><WhileDoElse><Ours/><AlwaysSuccess/>"
-      "</WhileDoElse></BehaviorTree><TreeNodesModel><Action ID=\"Ours\"/></TreeNodesModel></root>";
+      "</WhileDoElse></BehaviorTree><TreeNodesModel><Action "
+      "ID=\"Ours\"/></TreeNodesModel></root>";
   const std::string file = directory.file("modeled.xml", modeled);
   CHECK(contains(run_lockstep({"convert", "--to", "btcpp4", file}).err, "'WhileDoElse'"));
 }
