@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "core/any_value.h"
 #include "core/suggest.h"
 #include "core/wording.h"
 #include "document/reporter.h"
@@ -38,13 +39,15 @@ std::uint32_t parts_for(const std::vector<double>& deltas) {
 class ModelMaker {
  public:
   ModelMaker(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
-             std::vector<NodeProblem>& problems, const Observed& observed, Declared declared)
+             std::vector<NodeProblem>& problems, const Observed& observed, Declared declared,
+             const GivenOutputs& outputs)
       : tree_(tree),
         file_(file),
         diagnostics_(diagnostics),
         problems_(problems),
         observed_(observed),
-        declared_(declared) {}
+        declared_(declared),
+        outputs_(outputs) {}
 
   LeafModels make() {
     make_general();
@@ -276,6 +279,13 @@ class ModelMaker {
             model.outputs.end()) {
           continue;
         }
+        if (auto value = given(type, type.parameters[port])) {
+          models_.declared.push_back(fmt::format("'{}' writes {} to '{}'", type.id,
+                                                 brief(to_text(*value)),
+                                                 type.parameters[port].name));
+          model.outputs.push_back({port, slot, {*std::move(value)}});
+          continue;
+        }
         if (type.parameters[port].type == ValueType::Bool) {
           model.outputs.push_back({port, slot, {Value(false), Value(true)}});
           continue;
@@ -291,6 +301,13 @@ class ModelMaker {
       }
       std::erase_if(model.outputs, [&](const auto& it) { return !matters[it.slot]; });
     }
+  }
+
+  std::optional<Value> given(const NodeType& type, const Parameter& port) const {
+    auto it = outputs_.find(fmt::format("{}.{}", type.id, port.name));
+    if (it == outputs_.end()) it = outputs_.find(port.name);
+    if (it == outputs_.end()) return std::nullopt;
+    return port.is_generic ? value_of_any_type(it->second) : parse_value(port.type, it->second);
   }
 
   // --- progress ----------------------------------------------------------------------------------
@@ -419,6 +436,7 @@ class ModelMaker {
   std::vector<NodeProblem>& problems_;
   const Observed& observed_;
   const Declared declared_;
+  const GivenOutputs& outputs_;
   std::vector<std::vector<Statement>> said_;  // of each leaf, by its plugin, what counts
   std::optional<Reporter> report_;
   std::vector<Way> ways_;  // of each leaf
@@ -466,8 +484,8 @@ std::vector<bool> entries_of_engine(const Tree& tree) {
 
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
                        std::vector<NodeProblem>& problems, const Observed& observed,
-                       Declared declared) {
-  return ModelMaker(tree, file, diagnostics, problems, observed, declared).make();
+                       Declared declared, const GivenOutputs& outputs) {
+  return ModelMaker(tree, file, diagnostics, problems, observed, declared, outputs).make();
 }
 
 }  // namespace lockstep::host

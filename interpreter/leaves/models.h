@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,11 +93,14 @@ struct NodeProblem {
 // Whether the statements of plugins about their leaves count.
 enum class Declared : std::uint8_t { Counts, Ignored };
 
+// Texts of values that leaves write, by "PORT" or "ID.PORT", where nothing else says which.
+using GivenOutputs = std::map<std::string, std::string, std::less<>>;
+
 // `file` may be null, and wins over what plugins declare. Errors in the file go to `diagnostics`;
 // those of nodes, which need something that nothing says, to `problems`.
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
                        std::vector<NodeProblem>& problems, const Observed& observed = {},
-                       Declared declared = Declared::Counts);
+                       Declared declared = Declared::Counts, const GivenOutputs& outputs = {});
 
 // The entries that the engine itself reads or writes: in scripts, parameters and built-in nodes.
 std::vector<bool> entries_of_engine(const Tree& tree);

@@ -252,6 +252,25 @@ TEST_CASE(
   const Outcome wrong = run_mocked(tree, {"--mock-output", "level=high"});
   CHECK(wrong.code == 2);
   CHECK(contains(wrong.err, "'level' of 'Look' is a number"));
+  for (const std::string command : {"check", "show", "verify"}) {
+    INFO(command);
+    const auto call = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), {command, tree, "--mock"});
+      if (command == "verify") more.insert(more.end(), {"--out", directory.path("out")});
+      return run_lockstep(more);
+    };
+    CHECK(call(said).code == 0);
+    CHECK(contains(call({"--mock-output", "far=1"}).err, "no stand-in has such an output"));
+    CHECK(contains(call({"--mock-output", "level=high"}).err, "'level' of 'Look' is a number"));
+  }
+  std::vector<std::string> verify{"verify", tree, "--mock", "--out", directory.path("out")};
+  CHECK(contains(run_lockstep(verify).err, "nothing says which values"));
+  verify.insert(verify.end(), said.begin(), said.end());
+  const Outcome verified = run_lockstep(verify);
+  INFO(verified.out << verified.err);
+  CHECK(contains(verified.out, "'Look' writes 0.5 to 'level'"));
+  verify.insert(verify.end(), {"--mock-output", "level=0.25"});
+  CHECK(contains(run_lockstep(verify).out, "results         failure"));
 }
 
 TEST_CASE("run --mock takes a SubTree whose tree is not there, and check, and show") {

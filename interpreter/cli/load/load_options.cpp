@@ -114,8 +114,21 @@ void add_load_options(CLI::App& app, LoadCommandOptions& options) {
   add_plugin_options(app, options.plugins);
 }
 
+namespace {
+
+void add_mock_output(CLI::App& app, LoadCommandOptions& options) {
+  app.add_option("--mock-output", options.mock_outputs,
+                 "With --mock: what leaves that succeed write to this output; ID.PORT=VALUE is "
+                 "for one leaf; may be repeated")
+      ->type_name("PORT=VALUE")
+      ->allow_extra_args(false);
+}
+
+}  // namespace
+
 void add_mock_option(CLI::App& app, LoadCommandOptions& options) {
   app.add_flag("--mock", options.mock, "Accept nodes that no plugin has, and trees of other files");
+  add_mock_output(app, options);
 }
 
 void add_mock_options(CLI::App& app, LoadCommandOptions& options) {
@@ -128,11 +141,7 @@ void add_mock_options(CLI::App& app, LoadCommandOptions& options) {
          "many seconds; also instead of a leaf of a plugin; may be repeated")
       ->type_name("ID=RESULT[:S]")
       ->allow_extra_args(false);
-  app.add_option("--mock-output", options.mock_outputs,
-                 "With --mock: what leaves that succeed write to this output; ID.PORT=VALUE is "
-                 "for one leaf; may be repeated")
-      ->type_name("PORT=VALUE")
-      ->allow_extra_args(false);
+  add_mock_output(app, options);
 }
 
 tl::expected<Loaded, LoadFailure> load_given(const std::string& path,

@@ -35,7 +35,7 @@ void add_plugin_options(CLI::App& app, PluginOptions& options);
 // The plugin options, --arg, --set, --tree and --ros-package.
 void add_load_options(CLI::App& app, LoadCommandOptions& options);
 
-// --mock alone: for a command that does not run the tree.
+// --mock and --mock-output: for a command that does not run the tree.
 void add_mock_option(CLI::App& app, LoadCommandOptions& options);
 // --mock, --mock-leaf and --mock-output.
 void add_mock_options(CLI::App& app, LoadCommandOptions& options);

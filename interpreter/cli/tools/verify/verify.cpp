@@ -41,7 +41,6 @@ struct VerifyOptions {
   bool json = false;
   std::string format = "text";
   std::vector<std::string> only;
-  bool mock = false;
   bool symmetry = true, compact = false;
   std::string out = ".";
   std::string save;  // a file of scenarios; "": none
@@ -132,7 +131,8 @@ class VerifyCommand {
     properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const LeafModels models =
-        make_models(runnable.tree, file->get(), diagnostics_, problems, observed(runnable.tree));
+        make_models(runnable.tree, file->get(), diagnostics_, problems, observed(runnable.tree),
+                    Declared::Counts, given_outputs());
     places.report(problems, diagnostics_);
     if (diagnostics_.has_errors()) return refuse();
     print_diagnostics(diagnostics_, Severity::Warning);
@@ -141,14 +141,12 @@ class VerifyCommand {
 
  private:
   tl::expected<Loaded, LoadFailure> load() {
-    LoadCommandOptions load = options_.load;
-    if (options_.mock) load.unknown = MissingNodes::AreMocked;
-    auto loaded = load_given(options_.tree, load, diagnostics_);
+    auto loaded = load_given(options_.tree, options_.load, diagnostics_);
     if (loaded) return loaded;
     const bool lacks_nodes = std::ranges::any_of(diagnostics_.all(), [](const Diagnostic& it) {
       return it.message.starts_with("unknown node ");
     });
-    if (lacks_nodes && !options_.mock) {
+    if (lacks_nodes && !options_.load.mock) {
       diagnostics_.note({}, "verify --mock takes nodes that no plugin has for leaves");
     }
     print_diagnostics(diagnostics_, Severity::Note);
@@ -168,6 +166,16 @@ class VerifyCommand {
       }
     }
     return observed;
+  }
+
+  // Of --mock-output, which loading has checked.
+  GivenOutputs given_outputs() const {
+    GivenOutputs outputs;
+    for (const std::string& it : options_.load.mock_outputs) {
+      const auto sign = it.find('=');
+      outputs[it.substr(0, sign)] = it.substr(sign + 1);
+    }
+    return outputs;
   }
 
   int refuse() {
@@ -346,7 +354,7 @@ std::function<int()> define_verify(CLI::App& app) {
   app.add_flag("!--no-symmetry", options->symmetry,
                "Count states that differ only in which equal child does what, each for itself");
   app.add_flag("--json", options->json, "The same as --format json");
-  app.add_flag("--mock", options->mock, "Take nodes that no plugin has for leaves");
+  add_mock_option(app, options->load);
   add_load_options(app, options->load);
   add_program_option(app, options->load.plugins);
   return [options] { return verify(*options); };
