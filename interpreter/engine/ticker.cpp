@@ -48,7 +48,11 @@ Status Ticker::tick_root_again() {
 }
 
 void Ticker::keep_moments() {
-  if (moments_ == nullptr) moments_ = std::make_unique<Moments>(tree_);
+  if (moments_ != nullptr) return;
+  moments_ = std::make_unique<Moments>(tree_);
+  const bool shares = shares_progress_;
+  share_progress();  // who watches will ask for it, in ticks that must not allocate
+  shares_progress_ = shares;
   is_plain_ = false;
 }
 

@@ -76,10 +76,9 @@ class Certainties {
     }
   }
 
-  // Its hook reads what is not there yet, or the child before it decides, or keeps all behind it
-  // from their ticks.
+  // The child before it decides, or keeps all behind it from their ticks, as one does that reads
+  // what is not there yet.
   std::string why_dead(NodeIndex node) const {
-    if (found_.faults.contains(node)) return why_unset(node);
     const NodeIndex parent = tree_.labels[node].parent;
     const Status goes_on = tree_.labels[parent].type->goes_on_after;
     NodeIndex before = 0;

@@ -44,7 +44,8 @@ except lockstep.Error as error:
   INFO(outcome.err);
   CHECK(outcome.out ==
         "success 0\n"
-        "True ['held', 'node', 'path', 'progress', 'status', 'tick', 'ticked', 'time_s']\n"
+        "True ['held', 'node', 'path', 'progress', 'results', 'status', 'tick', 'ticked', "
+        "'time_s']\n"
         "6 ['failure', 'failure', 'failure', 'success', 'success', 'success']\n"
         "3 none.xml: error: cannot be read: No such file or directory\n");
 }

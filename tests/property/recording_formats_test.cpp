@@ -161,7 +161,7 @@ std::string short_csv(const std::string& table) {
         cells.back() += it;
       }
     }
-    REQUIRE(cells.size() == 8);
+    REQUIRE(cells.size() == 9);
     for (const std::size_t column : {0, 1, 2, 4, 5, 6}) rows += cells[column] + ",";
     rows += cells[7] + "\n";
   }

@@ -187,7 +187,7 @@ class TreesTest(unittest.TestCase):
                 tables = [it.astype(object).where(it.notna(), None).to_dict("records") for it in tables]
             recorded, runs, summary = tables
             self.assertEqual(recorded[0], {"tick": 0, "time_s": 0.0, "node": 0, "path": "OpenDoor/open", "ticked": True,
-                                           "status": "running", "progress": 0.0, "held": False})
+                                           "status": "running", "progress": 0.0, "held": False, "results": None})
             self.assertEqual({row["barriers"] for row in runs}, {"", "0.5", "0.25;0.5"})
             self.assertEqual({row["slack"] for row in runs}, {0.4})
             self.assertIsInstance(runs[0]["spread OpenDoor/open/pull"], float)

@@ -33,8 +33,7 @@ constexpr Row kRows[] = {
    "this tree can never end: whatever its leaves do, it stands still: `lockstep verify` shows how\n"},
   {"a hook reads what only a later node writes",
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
-   "'a' can never run, whatever the leaves do: its while reads 'k', which has no value yet: 'Script' writes it, "
-   "which comes after\n'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
+   "'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
    "'k', which has no value yet: 'Script' writes it, which comes after\n"},
   {"a condition reads what only a later node writes",
    "Sequence(Check[code=k<2] Script[code=k:=1])",

@@ -66,8 +66,8 @@ std::function<int()> define_log(CLI::App& app) {
   app.require_subcommand(1);
   CLI::App* table = app.add_subcommand(
       "csv",
-      "One row per tick and active node: tick,time_s,node,path,status,progress,ticked,"
-      "held,results");
+      "One row per tick and active node: tick, time_s, node, path, status, progress, ticked, held, "
+      "results");
   CLI::App* summary =
       app.add_subcommand("info", "Print the tree, how the run ended, and the measures");
   for (CLI::App* command : {table, summary}) add_recording_file(*command, options->file);

@@ -92,7 +92,7 @@ def study(tree, *, runs=None, grid=None, args=None, measure=(), out=None, plots=
 
 
 def read(recording):
-    "A recording as a table: tick, time_s, node, path, status, progress, ticked, held."
+    "A recording as a table: tick, time_s, node, path, status, progress, ticked, held, results."
     return _table(_call(["log", "csv", recording]).stdout, flags=("ticked", "held"))
 
 
