@@ -21,7 +21,7 @@ std::string dumped(const Scalar& value) {
 
 // Eight letters at a time, each in a byte of `letters`: a byte's high bit is set in the result for
 // one that is not plain, and maybe for one above it (S. E. Anderson, "Bit Twiddling Hacks").
-std::uint64_t not_plain(std::uint64_t letters) {
+[[gnu::always_inline]] inline std::uint64_t not_plain(std::uint64_t letters) {
   constexpr std::uint64_t kOnes = ~std::uint64_t{0} / 255, kHigh = kOnes * 0x80;
   const auto less = [](std::uint64_t bytes, std::uint64_t than) {
     return (bytes - kOnes * than) & ~bytes;
