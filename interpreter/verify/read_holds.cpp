@@ -6,11 +6,14 @@
 
 namespace lockstep::host {
 
-ReadHolds::ReadHolds(const Tree& tree, const std::vector<bool>& leaves) : tree_(tree) {
+ReadHolds::ReadHolds(const Tree& tree, const std::vector<bool>& leaves,
+                     const std::vector<bool>& watched)
+    : tree_(tree) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const Node& it = tree.nodes[node];
     const bool is_leaf = tree.labels[node].type->leaf != nullptr;
-    by_itself_.push_back(is_leaf ? leaves[it.params] : it.kind->reads_own_hold);
+    by_itself_.push_back((is_leaf ? leaves[it.params] : it.kind->reads_own_hold) ||
+                         (!watched.empty() && watched[node]));
   }
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (!tree.nodes[node].kind->passes_over_branches) continue;

@@ -166,7 +166,7 @@ std::vector<bool> drifting(const LeafModels& models) {
 
 StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
                      std::vector<bool> watched, const Symmetry& symmetry)
-    : tree_(tree), fresh_(fresh), holds_(tree, drifting(models)), order_(tree, symmetry) {
+    : tree_(tree), fresh_(fresh), holds_(tree, drifting(models), watched), order_(tree, symmetry) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
     if (models.entries[slot]) entries_.push_back(slot);
   }
