@@ -118,7 +118,6 @@ class NodeContext : public RunView {
   // of that tick. The first call allocates.
   void share_progress();
 
-
   // --- what went wrong ---------------------------------------------------------------------------
 
   // Under FaultPolicy::Fail the fault is noted in RunState::tolerated, and a leaf's slot is marked

@@ -73,10 +73,10 @@ TEST_CASE(
        "t.leaves"});
   CHECK(contains(chosen, R"(/a" does="F"/>)"));
   CHECK(contains(chosen, R"(/c" does="F"/>)"));
-  const std::string skipped = scenario_of(
-      {R"(<Parallel><WhileDoElse><Advance name="a"/><BatteryAbove name="c"/>
+  const std::string skipped =
+      scenario_of({R"(<Parallel><WhileDoElse><Advance name="a"/><BatteryAbove name="c"/>
 <Wait seconds="1" skip_if="true"/></WhileDoElse><Advance name="y"/></Parallel>)",
-       script("T/Parallel/WhileDoElse/a = F\nT/Parallel/y = R0.1 S\n"), "t.leaves"});
+                   script("T/Parallel/WhileDoElse/a = F\nT/Parallel/y = R0.1 S\n"), "t.leaves"});
   CHECK(contains(skipped, R"(/a" does="F*2"/>)"));
   const std::string never_runs = scenario_of(
       {R"(<Parallel><Inverter><BatteryAbove name="c"/></Inverter><Fallback><BatteryAbove name="d"/>

@@ -17,7 +17,7 @@ namespace lockstep::host {
 using StartTexts = std::map<std::uint32_t, std::string_view>;
 
 // Gives the entries that only scripts use their types. One that nothing declares is an error, but
-// for those of `guessed`, which nodes use that nobody knows: such an entry may have any type. Those
+// for those of `guessed`, which are used by unknown nodes: such an entry may have any type. Those
 // of `later` get such a value while the tree runs, and have none before.
 void declare_entries(Definition& definition, const StartTexts& starts, const Reporter& report,
                      std::span<const std::uint32_t> guessed = {}, const StartTexts& later = {});

@@ -42,8 +42,7 @@ constexpr Difference kStands[] = {
     {"while it is held, the time of a Wait stands still; that of a Sleep goes on", When::IsHeld}};
 constexpr Difference kSkipped = {
     "for BehaviorTree.CPP, a condition that is skipped is an error; in lockstep's language the "
-    "node "
-    "is skipped then",
+    "node is skipped then",
     When::FirstIsSkipped};
 constexpr Difference kBranches[] = {kSkipped};
 constexpr Difference kAsks[] = {

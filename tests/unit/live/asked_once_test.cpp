@@ -27,7 +27,7 @@ std::uint64_t asked(WatchedRun& run) {
   return run.run.leaf(0).asked();
 }
 
-// Leaf a, by nobody and by all who watch, in so many ticks.
+// How often leaf a is asked in so many ticks: without observers, and with all of them.
 Counted count(const std::string& tree, const std::string& leaves, std::uint64_t ticks) {
   Counted counted;
   WatchedRun alone(tree, leaves);
