@@ -62,14 +62,15 @@ std::string CallSite::text() const {
 }
 
 // Between two calls there is a moment without one, in which the site changes. So what was read
-// between two equal looks at the function belongs to one call.
+// between two equal looks at the function belongs to one call, if no other has begun meanwhile: of
+// a tick, a halt and a tick, both looks could be at a tick, and the site that of the halt.
 CallMark::Look CallMark::look() const {
-  std::uint8_t before = function_.load(std::memory_order_acquire);
   while (true) {
+    const std::uint64_t serial = serial_.load(std::memory_order_acquire);
+    const std::uint8_t before = function_.load(std::memory_order_acquire);
     const Look seen = as_read(before);
     const std::uint8_t after = function_.load(std::memory_order_acquire);
-    if (before == after) return seen;
-    before = after;
+    if (before == after && serial == serial_.load(std::memory_order_acquire)) return seen;
   }
 }
 
