@@ -11,14 +11,6 @@
 namespace lockstep::host {
 namespace {
 
-// A name may have a '/' in a tree for BehaviorTree.CPP, so what is above it counts.
-std::string segment_of(const Shape& shape, const ShapeNode& node) {
-  const std::string& above = node.parent ? shape.nodes[*node.parent].path : shape.id;
-  const bool is_below = node.path.size() > above.size() && node.path[above.size()] == '/' &&
-                        node.path.starts_with(above);
-  return is_below ? node.path.substr(above.size() + 1) : last_segment(node.path);
-}
-
 // Whether measures compare the progress of the children.
 bool is_measured(const ShapeNode& node) {
   return node.latches || compares_progress(node.synchronization);
@@ -81,7 +73,7 @@ Shape shape_of(const Tree& tree) {
 void complete(Shape& shape) {
   for (NodeIndex index = 0; index < shape.nodes.size(); ++index) {
     ShapeNode& node = shape.nodes[index];
-    node.segment = segment_of(shape, node);
+    node.segment = last_segment(node.path);
     if (!node.parent) continue;
     ShapeNode& parent = shape.nodes[*node.parent];  // comes before it
     node.depth = parent.depth + 1;
