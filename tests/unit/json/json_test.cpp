@@ -12,6 +12,30 @@ using Other = nlohmann::ordered_json;
 
 namespace {
 
+// Texts are looked at eight letters at a time.
+TEST_CASE("each letter is escaped as nlohmann's library does it, wherever it stands") {
+  for (int letter = 1; letter < 256; ++letter) {
+    for (std::size_t length = 1; length < 20; ++length) {
+      for (std::size_t place = 0; place < length; ++place) {
+        std::string text(length, 'a');
+        text[place] = static_cast<char>(letter);
+        std::string json;
+        append_json(json, text);
+        const auto expected = Other(text).dump(-1, ' ', false, Other::error_handler_t::replace);
+        if (json != expected) FAIL_CHECK(letter << " at " << place << " of " << length);
+      }
+    }
+  }
+}
+
+TEST_CASE("a number is written as nlohmann's library does it") {
+  for (const double number : {0.0, -0.0, 1.0, -1.0, 0.5, 1e-7, 1e300, 0.1 + 0.2}) {
+    std::string json;
+    append_json(json, number);
+    CHECK(json == Other(number).dump());
+  }
+}
+
 const std::string kOdd = "é 漢 \x1b[2J \x7f \u0085 \u009b \u200f \u202e \u2028 \u2069 \\ \" \n";
 
 Json value() {
