@@ -124,7 +124,8 @@ function draws(page) {
 }
 
 async function launch(tries = 3) {
-  const launched = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu"] });
+  const args = ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"];
+  const launched = await chromium.launch({ executablePath: "/usr/bin/chromium", args, timeout: 120_000 });
   const page = await launched.newPage();
   if (await draws(page)) {
     await page.close();
@@ -162,7 +163,8 @@ export async function close(expected = /^$/) {
   assert.deepEqual(complaints.filter((one) => !expected.test(one)), [], "the browser complains");
 }
 
-// Asserts again in the next frames until all holds; what still fails after a minute fails. The page draws when it can.
+// Asserts again in the next frames until all holds; what still fails after a minute fails. The page draws when it can, and
+// a busy machine may draw nothing for a while.
 export async function eventually(page, assertions) {
   const until = Date.now() + 60_000;
   for (;;) {
@@ -171,7 +173,10 @@ export async function eventually(page, assertions) {
     } catch (error) {
       if (Date.now() > until) throw error;
     }
-    await page.evaluate(() => new Promise(requestAnimationFrame));
+    await page.evaluate(() => new Promise((done) => {
+      requestAnimationFrame(done);
+      setTimeout(done, 500);
+    }));
   }
 }
 
