@@ -1,6 +1,7 @@
 """A page whose commands are tested, from its first line to its last: tutorial_test.py PAGE BUILD WORK [--write].
 
-The commands of each ```console block run in one directory, and what they print is compared; a line … stands for any lines.
+The commands of each ```console block run in one directory, and what they print is compared; a line … stands for any lines,
+and … in a line for any text.
 A run may fail where it prints so, which the page then shows. A block behind <!-- file NAME --> is that file. A command in a
 row of README.md's table must succeed. --write puts what is printed into the page."""
 import os
@@ -36,7 +37,8 @@ def run(command):
 
 
 def same(expected, printed):
-    pattern = "".join(".*" if line == "…" else re.escape(line) + "\n" for line in expected.splitlines())
+    lines = expected.splitlines()
+    pattern = "".join(".*" if line == "…" else re.escape(line).replace("…", "[^\n]*") + "\n" for line in lines)
     pattern = re.sub(r"passed,\\ \d+\\\.\d+\\ s", r"passed,\\ \\d+\\.\\d+\\ s", pattern)  # how long it took
     return re.fullmatch(pattern, printed, re.S) is not None
 
@@ -62,7 +64,7 @@ def play(block):
         printed = run(command)
         if not same(expected, printed):
             wrong.append(f"$ {command}\nexpected:\n{expected}printed:\n{printed}")
-        text += f"$ {command}\n" + printed
+        text += f"$ {command}\n" + (expected if same(expected, printed) else printed)
     return text + "```\n"
 
 
