@@ -4,11 +4,11 @@
 
 #include <string_view>
 
-#include "remote/json_lines/guardian.h"
-#include "remote/shared_memory/served_plugin.h"
-#include "runtime/crash_report.h"
-#include "runtime/plugin_thread.h"
-#include "system/descriptors.h"
+#include "base/system/descriptors.h"
+#include "leaves/remote/json_lines/guardian.h"
+#include "leaves/remote/shared_memory/served_plugin.h"
+#include "run/crash_report.h"
+#include "run/plugin_thread.h"
 
 namespace {
 

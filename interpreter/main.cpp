@@ -1,12 +1,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/system/descriptors.h"
 #include "cli/command.h"
 #include "cli/exit_code.h"
-#include "runtime/crash_report.h"
-#include "runtime/fuse.h"
-#include "runtime/plugin_thread.h"
-#include "system/descriptors.h"
+#include "run/crash_report.h"
+#include "run/fuse.h"
+#include "run/plugin_thread.h"
 
 // NOLINTBEGIN(bugprone-reserved-identifier)
 // Plugins that end the process call this: a name of the program is found before that of the C

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/core/language.h"
+#include "base/core/version.h"
 #include "cli/command.h"
-#include "core/language.h"
-#include "core/version.h"
-#include "loading/plugin_directories.h"
 #include "lockstep/leaf.h"
-#include "recording/lines.h"
+#include "record/lines.h"
+#include "run/loading/plugin_directories.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,16 +8,16 @@
 #include <set>
 #include <utility>
 
-#include "authoring/check/certainties.h"
+#include "base/core/pre_order.h"
+#include "base/core/wording.h"
+#include "base/terminal/outlet.h"
 #include "cli/check_formats.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
-#include "core/pre_order.h"
-#include "core/wording.h"
-#include "runtime/outlet.h"
+#include "verify/check/certainties.h"
 
 namespace lockstep::host {
 namespace {

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/path_in_uri.h"
-#include "core/utf8.h"
-#include "core/version.h"
-#include "json/json.h"
+#include "base/core/path_in_uri.h"
+#include "base/core/utf8.h"
+#include "base/core/version.h"
+#include "base/json/json.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 
 namespace lockstep::host {
 

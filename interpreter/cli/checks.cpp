@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/core/version.h"
+#include "base/terminal/terminal.h"
 #include "cli/about.h"
 #include "cli/command.h"
 #include "cli/exit_code.h"
 #include "cli/help_text.h"
-#include "core/version.h"
-#include "terminal/terminal.h"
 
 namespace lockstep::host {
 

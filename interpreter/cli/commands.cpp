@@ -11,6 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/descriptors.h"
+#include "base/system/own_thread.h"
+#include "base/terminal/outlet.h"
+#include "base/terminal/raw_terminal.h"
 #include "cli/command.h"
 #include "cli/command_program.h"
 #include "cli/console.h"
@@ -18,12 +22,8 @@
 #include "cli/run/groot.h"
 #include "cli/usage.h"
 #include "engine/call_mark.h"
-#include "runtime/fuse.h"
-#include "runtime/outlet.h"
-#include "system/descriptors.h"
-#include "system/own_thread.h"
-#include "terminal/raw_terminal.h"
-#include "web/server_socket.h"
+#include "run/fuse.h"
+#include "show/web/server_socket.h"
 
 namespace lockstep::host {
 

@@ -10,11 +10,11 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/system/descriptors.h"
+#include "base/terminal/outlet.h"
+#include "base/terminal/terminal.h"
 #include "cli/exit_code.h"
-#include "runtime/outlet.h"
-#include "runtime/stop_signals.h"
-#include "system/descriptors.h"
-#include "terminal/terminal.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 namespace {

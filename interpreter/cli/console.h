@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 
 namespace lockstep::host {
 

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/core/diagnostics.h"
+#include "base/core/value.h"
+#include "base/terminal/text_table.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "core/diagnostics.h"
-#include "core/value.h"
-#include "terminal/text_table.h"
-#include "web/attach_socket.h"
-#include "web/browser.h"
-#include "web/registry.h"
-#include "web/server_socket.h"
+#include "show/web/attach_socket.h"
+#include "show/web/browser.h"
+#include "show/web/registry.h"
+#include "show/web/server_socket.h"
 
 namespace lockstep::host {
 namespace {

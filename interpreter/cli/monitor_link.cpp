@@ -1,8 +1,8 @@
 #include "cli/monitor_link.h"
 
-#include "runtime/outlet.h"
-#include "web/browser.h"
-#include "web/http_server.h"
+#include "base/terminal/outlet.h"
+#include "show/web/browser.h"
+#include "show/web/http_server.h"
 
 namespace lockstep::host {
 

@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "core/problem.h"
-#include "web/attach_socket.h"
-#include "web/registry.h"
-#include "web/server_socket.h"
+#include "base/core/problem.h"
+#include "show/web/attach_socket.h"
+#include "show/web/registry.h"
+#include "show/web/server_socket.h"
 
 namespace lockstep::host {
 

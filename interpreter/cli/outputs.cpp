@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
+#include "base/system/output_file.h"
 #include "cli/console.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {

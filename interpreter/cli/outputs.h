@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "loading/plugin_set.h"
+#include "run/loading/plugin_set.h"
 
 namespace lockstep::host {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "property/property.h"
+#include "language/property/property.h"
 
 namespace CLI {
 class App;

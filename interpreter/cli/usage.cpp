@@ -7,9 +7,9 @@
 #include <cctype>
 #include <filesystem>
 
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "cli/command_walk.h"
-#include "core/suggest.h"
-#include "core/wording.h"
 
 namespace lockstep::host {
 namespace {

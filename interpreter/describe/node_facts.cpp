@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "core/hook.h"
-#include "core/parameter_value.h"
-#include "core/wording.h"
+#include "base/core/hook.h"
+#include "base/core/parameter_value.h"
+#include "base/core/wording.h"
 #include "describe/node_reference.h"
 #include "leaves/declared.h"
 

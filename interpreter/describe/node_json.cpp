@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "core/parameter_value.h"
+#include "base/core/parameter_value.h"
+#include "base/json/json.h"
 #include "describe/node_reference.h"
-#include "json/json.h"
 #include "leaves/declared.h"
 
 namespace lockstep::host {

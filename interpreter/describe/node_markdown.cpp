@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "describe/node_reference.h"
 
 namespace lockstep::host {

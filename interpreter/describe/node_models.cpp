@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "core/diagnostics.h"
-#include "definition/check/models.h"
-#include "definition/check/node_check.h"
+#include "base/core/diagnostics.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
+#include "tree/check/models.h"
+#include "tree/check/node_check.h"
 
 namespace lockstep::host {
 namespace {

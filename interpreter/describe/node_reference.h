@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "core/node_type.h"
+#include "base/core/node_type.h"
 
 namespace lockstep::host {
 

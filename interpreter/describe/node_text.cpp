@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/diagnostics.h"
-#include "core/utf8.h"
+#include "base/core/diagnostics.h"
+#include "base/core/utf8.h"
 #include "describe/node_reference.h"
 
 namespace lockstep::host {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/diagnostics.h"
-#include "core/wording.h"
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
 
 namespace lockstep::host {
 namespace {

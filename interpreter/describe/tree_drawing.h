@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "definition/definition.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

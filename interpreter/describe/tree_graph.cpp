@@ -2,7 +2,7 @@
 // markup: all that are not letters, digits or harmless are written as what they are.
 #include <fmt/format.h>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "describe/tree_drawing.h"
 
 namespace lockstep::host {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "describe/tree_drawing.h"
 
 namespace lockstep::host {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "describe/node_reference.h"
 
 namespace lockstep::host {

@@ -1,9 +1,9 @@
 // The list of languages, and the rules of our own.
-#include "core/language.h"
-#include "definition/check/check_trees.h"
-#include "definition/language_reader.h"
+#include "base/core/language.h"
 #include "dialect/btcpp/rules.h"
 #include "engine/nodes/kinds.h"
+#include "tree/check/check_trees.h"
+#include "tree/language_reader.h"
 
 namespace lockstep::host {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "groot/publisher.h"
 #include "groot/tree.h"
-#include "web/server_socket.h"
+#include "show/web/server_socket.h"
 
 namespace lockstep::host::embedding {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 
 namespace lockstep::host {
 

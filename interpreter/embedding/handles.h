@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/own_process.h"
 #include "embedding/lockstep/runtime.h"
 #include "leaves/play/played_leaves.h"
-#include "loading/load.h"
-#include "system/own_process.h"
+#include "run/loading/load.h"
 
 namespace lockstep::host {
 

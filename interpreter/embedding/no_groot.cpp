@@ -1,7 +1,7 @@
 // In place of groot.cpp, where Groot2 is left out.
 #include "embedding/groot.h"
 #include "groot/tree.h"
-#include "runtime/observer.h"
+#include "trace/observer.h"
 
 namespace lockstep::host::embedding {
 

@@ -2,8 +2,8 @@
 // trees need.
 #include <fmt/format.h>
 
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "embedding/run_handle.h"
 #include "leaves/models.h"
 

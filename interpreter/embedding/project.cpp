@@ -5,12 +5,12 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/audience.h"
-#include "core/parameter_value.h"
-#include "core/plugin_exception.h"
-#include "core/suggest.h"
-#include "core/utf8.h"
-#include "core/wording.h"
+#include "base/core/audience.h"
+#include "base/core/parameter_value.h"
+#include "base/core/plugin_exception.h"
+#include "base/core/suggest.h"
+#include "base/core/utf8.h"
+#include "base/core/wording.h"
 #include "embedding/groot.h"
 #include "embedding/handles.h"
 

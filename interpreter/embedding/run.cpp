@@ -8,8 +8,8 @@
 
 #include "embedding/groot.h"
 #include "embedding/run_handle.h"
-#include "plugin/contract/boards.h"
-#include "runtime/loop.h"
+#include "leaves/plugin/contract/boards.h"
+#include "run/loop.h"
 
 namespace lockstep::host::embedding {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/parameter_value.h"
-#include "core/value_types.h"
+#include "base/core/parameter_value.h"
+#include "base/core/value_types.h"
 #include "embedding/run_handle.h"
 
 namespace lockstep::host::embedding {

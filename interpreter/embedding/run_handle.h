@@ -14,7 +14,7 @@
 #include "embedding/run_properties.h"
 #include "embedding/run_watchers.h"
 #include "embedding/warnings.h"
-#include "runtime/run.h"
+#include "run/run.h"
 
 struct lockstep_run {
   struct ObserverCall {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/tree.h"
-#include "runtime/progress_text.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host::embedding {
 

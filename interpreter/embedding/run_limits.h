@@ -7,8 +7,8 @@
 #include <string>
 
 #include "engine/leaf_watch.h"
-#include "plugin/contract/leaf_set.h"
-#include "runtime/watchdog.h"
+#include "leaves/plugin/contract/leaf_set.h"
+#include "run/watchdog.h"
 
 namespace lockstep::host::embedding {
 

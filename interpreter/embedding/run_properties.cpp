@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "engine/ticker.h"
 
 namespace lockstep::host::embedding {

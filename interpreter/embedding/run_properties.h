@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/problem.h"
-#include "measure/live_properties.h"
-#include "runtime/observer.h"
+#include "base/core/problem.h"
+#include "judge/measure/live_properties.h"
+#include "trace/observer.h"
 
 namespace lockstep::host::embedding {
 

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <utility>
 
-#include "web/server_socket.h"
+#include "show/web/server_socket.h"
 
 namespace lockstep::host::embedding {
 

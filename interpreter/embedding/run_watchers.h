@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
+#include "base/system/mutex.h"
 #include "engine/tree.h"
-#include "live/run_packets.h"
-#include "recording/write/recorder.h"
-#include "runtime/observer.h"
-#include "system/mutex.h"
-#include "web/monitor.h"
+#include "record/live/run_packets.h"
+#include "record/write/recorder.h"
+#include "show/web/monitor.h"
+#include "trace/observer.h"
 
 namespace lockstep::host::embedding {
 

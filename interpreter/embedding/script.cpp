@@ -3,10 +3,10 @@
 
 #include <list>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "embedding/handles.h"
-#include "expression/evaluator.h"
-#include "plugin/contract/entry_value.h"
+#include "language/expression/evaluator.h"
+#include "leaves/plugin/contract/entry_value.h"
 
 struct lockstep_script {
   lockstep::host::Expression code;

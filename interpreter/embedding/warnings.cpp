@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "runtime/progress_text.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 

@@ -9,7 +9,7 @@
 
 #include "engine/ticker.h"
 #include "engine/tree.h"
-#include "plugin/contract/leaf_set.h"
+#include "leaves/plugin/contract/leaf_set.h"
 
 namespace lockstep::host {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "blackboard/entry.h"
+#include "base/blackboard/entry.h"
 #include "engine/entries_lock.h"
 #include "engine/named_entries.h"
 #include "engine/tree.h"

@@ -2,7 +2,7 @@
 // value that the node does not accept is a fault of it.
 #pragma once
 
-#include "core/status.h"
+#include "base/core/status.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {

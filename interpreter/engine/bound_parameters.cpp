@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "blackboard/conversion.h"
-#include "core/parameter_value.h"
-#include "core/resource_set.h"
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/blackboard/conversion.h"
+#include "base/core/parameter_value.h"
+#include "base/core/resource_set.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "engine/blackboard.h"
 #include "engine/tree.h"
 

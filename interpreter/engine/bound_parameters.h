@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/value.h"
+#include "base/core/value.h"
 #include "engine/node.h"
 
 namespace lockstep::host {

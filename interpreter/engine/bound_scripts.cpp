@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "blackboard/conversion.h"
-#include "core/wording.h"
+#include "base/blackboard/conversion.h"
+#include "base/core/wording.h"
 
 namespace lockstep::host {
 

@@ -12,9 +12,9 @@
 #include "engine/blackboard.h"
 #include "engine/named_entries.h"
 #include "engine/tree.h"
-#include "expression/change.h"
-#include "expression/evaluator.h"
-#include "expression/relation.h"
+#include "language/expression/change.h"
+#include "language/expression/evaluator.h"
+#include "language/expression/relation.h"
 
 namespace lockstep::host {
 

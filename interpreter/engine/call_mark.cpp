@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 
 namespace lockstep::host {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/clock.h"
-#include "system/fork_guard.h"
+#include "base/core/clock.h"
+#include "base/system/fork_guard.h"
 
 namespace lockstep::host {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "core/pre_order.h"
+#include "base/core/pre_order.h"
 #include "engine/bound_node.h"
 #include "engine/node_context.h"
 #include "engine/node_scripts.h"

@@ -1,8 +1,8 @@
 // Definition -> Tree: the last step before a run. It cannot fail.
 #pragma once
 
-#include "definition/definition.h"
 #include "engine/tree.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/clock.h"
-#include "core/histograms.h"
+#include "base/core/clock.h"
+#include "base/core/histograms.h"
+#include "base/system/cycle_clock.h"
+#include "base/system/float_mode.h"
 #include "engine/call_mark.h"
 #include "engine/node_kind.h"
-#include "system/cycle_clock.h"
-#include "system/float_mode.h"
 
 namespace lockstep::host {
 

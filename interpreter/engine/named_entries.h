@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "blackboard/board.h"
-#include "blackboard/entry.h"
+#include "base/blackboard/board.h"
+#include "base/blackboard/entry.h"
 
 namespace lockstep::host {
 

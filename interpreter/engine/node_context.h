@@ -11,12 +11,12 @@
 #include <string>
 #include <unordered_map>
 
+#include "base/system/fork_guard.h"
 #include "engine/bound_parameters.h"
 #include "engine/leaf_slot.h"
 #include "engine/leaf_watch.h"
 #include "engine/moments.h"
 #include "engine/run_view.h"
-#include "system/fork_guard.h"
 
 namespace lockstep::host {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/language.h"
-#include "core/node_type.h"
-#include "core/status.h"
+#include "base/core/language.h"
+#include "base/core/node_type.h"
+#include "base/core/status.h"
 
 namespace lockstep::host {
 

@@ -1,6 +1,6 @@
 #include "engine/node_ports.h"
 
-#include "blackboard/conversion.h"
+#include "base/blackboard/conversion.h"
 
 namespace lockstep::host {
 

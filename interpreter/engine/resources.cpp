@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 
 namespace lockstep::host::resources {
 namespace {

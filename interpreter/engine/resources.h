@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/resource_set.h"
+#include "base/core/resource_set.h"
 #include "engine/synchronized.h"
 
 namespace lockstep::host {

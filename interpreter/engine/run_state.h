@@ -7,9 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/clock.h"
-#include "core/status.h"
-#include "core/value.h"
+#include "base/core/clock.h"
+#include "base/core/status.h"
+#include "base/core/value.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "blackboard/entry.h"
+#include "base/blackboard/entry.h"
 #include "engine/bound_parameters.h"
 #include "engine/held_leaves.h"
 #include "engine/named_entries.h"

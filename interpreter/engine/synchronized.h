@@ -1,6 +1,6 @@
 // The state of a synchronized node, a parallel or a barrier beside the tree, for measures, views
-// and recordings. Who waits for whom follows from it: measure/wait_chain.h of a run,
-// recording/use/recorded_probe.h of a recording.
+// and recordings. Who waits for whom follows from it: judge/measure/wait_chain.h of a run,
+// record/use/recorded_probe.h of a recording.
 #pragma once
 
 #include <algorithm>

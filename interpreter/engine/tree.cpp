@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/resource_set.h"
+#include "base/core/resource_set.h"
 
 namespace lockstep::host {
 

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <vector>
 
-#include "blackboard/board.h"
-#include "blackboard/entry.h"
-#include "core/hook.h"
-#include "core/language.h"
+#include "base/blackboard/board.h"
+#include "base/blackboard/entry.h"
+#include "base/core/hook.h"
+#include "base/core/language.h"
 #include "engine/node.h"
-#include "expression/script_enums.h"
+#include "language/expression/script_enums.h"
 
 namespace lockstep::host {
 

@@ -1,11 +1,11 @@
 #include "engine/writers.h"
 
-#include "expression/expression.h"  // IWYU pragma: keep
+#include "language/expression/expression.h"  // IWYU pragma: keep
 
 #include <algorithm>
 #include <utility>
 
-#include "expression/expression.h"  // IWYU pragma: keep
+#include "language/expression/expression.h"  // IWYU pragma: keep
 
 namespace lockstep::host {
 namespace {

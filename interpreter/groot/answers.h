@@ -9,8 +9,8 @@
 #include "groot/message.h"
 #include "groot/statuses.h"
 #include "groot/tree.h"
-#include "live/snapshot_feed.h"
-#include "live/status_feed.h"
+#include "record/live/snapshot_feed.h"
+#include "record/live/status_feed.h"
 
 namespace lockstep::host {
 

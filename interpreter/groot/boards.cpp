@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "engine/synchronized.h"
-#include "measure/synchronized_measure.h"
+#include "judge/measure/synchronized_measure.h"
 
 namespace lockstep::host {
 namespace {

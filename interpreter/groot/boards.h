@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/json/json.h"
 #include "engine/tree.h"
 #include "groot/board_keys.h"
-#include "json/json.h"
-#include "live/snapshot.h"
+#include "record/live/snapshot.h"
 
 namespace lockstep::host {
 

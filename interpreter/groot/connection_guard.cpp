@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "system/file_descriptor.h"
+#include "base/system/file_descriptor.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 
 namespace lockstep::host {
 

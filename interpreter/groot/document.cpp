@@ -6,14 +6,14 @@
 #include <map>
 #include <vector>
 
-#include "core/identifier.h"
-#include "definition/check/node_check.h"
+#include "base/core/identifier.h"
 #include "describe/node_reference.h"
 #include "describe/xsd.h"
 #include "dialect/btcpp/pairs.h"
 #include "dialect/btcpp/rules.h"
 #include "engine/node_kind.h"
 #include "groot/statuses.h"
+#include "tree/check/node_check.h"
 
 namespace lockstep::host {
 namespace {

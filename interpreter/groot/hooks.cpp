@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "json/json.h"
-#include "json/reader.h"
+#include "base/core/diagnostics.h"
+#include "base/json/json.h"
+#include "base/json/reader.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "engine/tree.h"
-#include "runtime/run_control.h"
+#include "run/run_control.h"
 
 namespace lockstep::host {
 

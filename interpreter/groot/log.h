@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "groot/tree.h"
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 
 namespace lockstep::host {
 

@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 #include "groot/answers.h"
 #include "groot/sockets.h"
-#include "live/snapshot_feed.h"
-#include "live/status_feed.h"
-#include "live/watcher_thread.h"
-#include "runtime/observer.h"
+#include "record/live/snapshot_feed.h"
+#include "record/live/status_feed.h"
+#include "record/live/watcher_thread.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/late_library.h"
 #include "groot/connection_guard.h"
 #include "groot/sockets.h"
-#include "system/late_library.h"
 
 namespace lockstep::host {
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/system/file_descriptor.h"
 #include "groot/message.h"
-#include "system/file_descriptor.h"
 
 namespace lockstep::host {
 

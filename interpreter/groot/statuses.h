@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/clock.h"
-#include "core/status.h"
+#include "base/core/clock.h"
+#include "base/core/status.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "definition/definition.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.h"
-#include "definition/definition.h"
+#include "base/core/problem.h"
 #include "groot/board_keys.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

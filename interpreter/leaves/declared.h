@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include "core/node_type.h"
+#include "base/core/node_type.h"
 
 namespace lockstep::host {
 
-// A word of a leaf file and its value; core/behavior.h reads it.
+// A word of a leaf file and its value; base/core/behavior.h reads it.
 struct Statement {
   std::string_view word, value;
 };

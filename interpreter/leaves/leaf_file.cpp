@@ -6,12 +6,12 @@
 #include <array>
 #include <utility>
 
-#include "core/suggest.h"
-#include "core/value.h"
-#include "core/wording.h"
-#include "document/document.h"
-#include "document/file.h"
-#include "document/reporter.h"
+#include "base/core/suggest.h"
+#include "base/core/value.h"
+#include "base/core/wording.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
+#include "language/document/reporter.h"
 #include "leaves/leaf_words.h"
 #include "leaves/word_check.h"
 

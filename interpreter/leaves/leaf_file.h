@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/behavior.h"
-#include "core/diagnostics.h"
-#include "core/place.h"
-#include "document/sources.h"
+#include "base/core/behavior.h"
+#include "base/core/diagnostics.h"
+#include "base/core/place.h"
+#include "language/document/sources.h"
 
 namespace lockstep::host {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/value.h"
-#include "core/wording.h"
+#include "base/core/value.h"
+#include "base/core/wording.h"
 
 namespace lockstep::host {
 namespace {

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/clock.h"
-#include "core/problem.h"
-#include "core/status.h"
+#include "base/core/clock.h"
+#include "base/core/problem.h"
+#include "base/core/status.h"
 
 namespace lockstep::host {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/behavior.h"
+#include "base/core/behavior.h"
 
 namespace lockstep::host::leaf_words {
 

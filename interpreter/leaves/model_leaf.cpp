@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "blackboard/entry.h"
+#include "base/blackboard/entry.h"
 #include "engine/call_mark.h"
 #include "lockstep/leaf.h"
 

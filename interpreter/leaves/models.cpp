@@ -8,11 +8,11 @@
 #include <set>
 #include <utility>
 
-#include "core/any_value.h"
-#include "core/suggest.h"
-#include "core/wording.h"
-#include "document/reporter.h"
+#include "base/core/any_value.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "engine/synchronized.h"
+#include "language/document/reporter.h"
 #include "leaves/cuts.h"
 #include "leaves/declared.h"
 

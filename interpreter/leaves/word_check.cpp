@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "document/document.h"
-#include "document/reporter.h"
+#include "language/document/document.h"
+#include "language/document/reporter.h"
 #include "leaves/leaf_words.h"
 
 namespace lockstep::host {

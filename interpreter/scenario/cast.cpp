@@ -6,8 +6,8 @@
 #include <map>
 #include <memory>
 
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "leaves/play/played_leaves.h"
 #include "scenario/cast_reader.h"
 #include "scenario/recorded_words.h"

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.h"
-#include "definition/definition.h"
-#include "document/reporter.h"
+#include "base/core/problem.h"
+#include "language/document/reporter.h"
 #include "leaves/models.h"
 #include "scenario/scenario.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "core/value.h"
-#include "core/wording.h"
+#include "base/core/value.h"
+#include "base/core/wording.h"
 #include "leaves/leaf_words.h"
 #include "leaves/word_check.h"
 

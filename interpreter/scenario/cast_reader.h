@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "document/document.h"
-#include "document/reporter.h"
+#include "language/document/document.h"
+#include "language/document/reporter.h"
 #include "scenario/scenario.h"
 
 namespace lockstep::host {

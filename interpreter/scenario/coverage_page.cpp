@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "describe/xsd.h"
 #include "scenario/coverage.h"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/diagnostics.h"
-#include "core/wording.h"
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
 #include "scenario/coverage.h"
 
 namespace lockstep::host {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <set>
 
-#include "document/document.h"
-#include "document/file.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 
 namespace lockstep::host {
 

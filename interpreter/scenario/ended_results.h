@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/tree.h"
-#include "recording/recording.h"
+#include "record/recording.h"
 
 namespace lockstep::host {
 

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "compression/decompressed.h"
-#include "document/file.h"
-#include "recording/lines.h"
-#include "recording/use/recording_diff.h"
-#include "system/output_file.h"
+#include "base/compression/decompressed.h"
+#include "base/system/output_file.h"
+#include "language/document/file.h"
+#include "record/lines.h"
+#include "record/use/recording_diff.h"
 
 namespace lockstep::host {
 namespace {

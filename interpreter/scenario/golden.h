@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "scenario/performance.h"
 
 namespace lockstep::host {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blackboard/conversion.h"
-#include "core/wording.h"
-#include "plugin/contract/host.h"
+#include "base/blackboard/conversion.h"
+#include "base/core/wording.h"
+#include "leaves/plugin/contract/host.h"
 
 namespace lockstep::host {
 namespace {

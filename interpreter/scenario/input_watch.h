@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "leaves/play/played_leaves.h"
-#include "runtime/observer.h"
 #include "scenario/performance.h"
 #include "scenario/rehearsal.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <span>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "engine/blackboard.h"
-#include "measure/decision.h"
-#include "measure/measure_spec.h"
-#include "property/nearly.h"
+#include "judge/measure/decision.h"
+#include "judge/measure/measure_spec.h"
+#include "language/property/nearly.h"
 #include "study/run_measures.h"
 
 namespace lockstep::host {

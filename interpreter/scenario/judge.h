@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/live_properties.h"
-#include "runtime/observer.h"
+#include "judge/measure/live_properties.h"
 #include "scenario/performance.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "scenario/recorded_calls.h"
 #include "scenario/script_results.h"
 

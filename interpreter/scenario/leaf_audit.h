@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "leaves/models.h"
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 
 namespace lockstep::host {
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "core/diagnostics.h"
-#include "core/wording.h"
-#include "document/document.h"
-#include "document/file.h"
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <span>
 
-#include "core/pre_order.h"
-#include "core/value.h"
-#include "core/wording.h"
-#include "document/document.h"
+#include "base/core/pre_order.h"
+#include "base/core/value.h"
+#include "base/core/wording.h"
+#include "language/document/document.h"
 
 namespace lockstep::host {
 namespace {

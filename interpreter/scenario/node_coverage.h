@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/ticker.h"
-#include "runtime/observer.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

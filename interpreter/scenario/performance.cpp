@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "core/wording.h"
-#include "recording/write/recorder.h"
-#include "runtime/deadlines.h"
-#include "runtime/loop.h"
+#include "base/core/wording.h"
+#include "record/write/recorder.h"
+#include "run/deadlines.h"
+#include "run/loop.h"
 #include "scenario/input_watch.h"
 #include "scenario/judge.h"
 #include "scenario/stage_hands.h"

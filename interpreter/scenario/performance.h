@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/observer.h"
 #include "scenario/rehearsal.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

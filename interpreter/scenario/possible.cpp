@@ -1,6 +1,6 @@
 #include "scenario/possible.h"
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 #include "engine/synchronized.h"
 #include "leaves/models.h"
 #include "verify/chance_runs.h"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "engine/writers.h"
-#include "recording/read/recording_parts.h"
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_parts.h"
+#include "record/read/recording_reader.h"
 #include "scenario/ended_results.h"
 #include "scenario/recorded_calls.h"
 #include "scenario/script_results.h"

@@ -8,7 +8,7 @@
 
 #include "engine/tree.h"
 #include "leaves/leaf_script.h"
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 
 namespace lockstep::host {
 

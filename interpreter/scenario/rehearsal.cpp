@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/any_value.h"
-#include "core/suggest.h"
-#include "core/wording.h"
-#include "document/reporter.h"
-#include "measure/live_ticks.h"
-#include "measure/measure_spec.h"
-#include "measure/measuring.h"
+#include "base/core/any_value.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
+#include "judge/measure/live_ticks.h"
+#include "judge/measure/measure_spec.h"
+#include "judge/measure/measuring.h"
+#include "language/document/reporter.h"
 
 namespace lockstep::host {
 namespace {

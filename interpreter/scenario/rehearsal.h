@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/measure.h"
+#include "judge/measure/measure.h"
 #include "scenario/cast.h"
 #include "scenario/stage.h"
 

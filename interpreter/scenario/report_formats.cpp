@@ -3,8 +3,8 @@
 
 #include <map>
 
+#include "base/json/json.h"
 #include "describe/xsd.h"
-#include "json/json.h"
 #include "scenario/report_text.h"
 
 namespace lockstep::host {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/diagnostics.h"
-#include "core/shell_word.h"
-#include "core/wording.h"
-#include "terminal/style.h"
+#include "base/core/diagnostics.h"
+#include "base/core/shell_word.h"
+#include "base/core/wording.h"
+#include "base/terminal/style.h"
 
 namespace lockstep::host {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/pre_order.h"
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/core/pre_order.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "scenario/scenario_words.h"
 
 namespace lockstep::host {

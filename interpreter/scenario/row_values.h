@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "document/document.h"
-#include "document/reporter.h"
+#include "language/document/document.h"
+#include "language/document/reporter.h"
 
 namespace lockstep::host {
 

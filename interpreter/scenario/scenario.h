@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/place.h"
-#include "document/sources.h"
+#include "base/core/place.h"
+#include "language/document/sources.h"
 #include "leaves/leaf_script.h"
 
 namespace lockstep::host {

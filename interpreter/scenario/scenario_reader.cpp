@@ -7,12 +7,12 @@
 #include <map>
 #include <span>
 
-#include "core/pre_order.h"
-#include "core/suggest.h"
-#include "core/wording.h"
-#include "document/document.h"
-#include "document/file.h"
-#include "document/reporter.h"
+#include "base/core/pre_order.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
+#include "language/document/reporter.h"
 #include "leaves/word_check.h"
 #include "scenario/cast_reader.h"
 #include "scenario/expectation_reader.h"

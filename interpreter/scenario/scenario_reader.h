@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "scenario/scenario.h"
 
 namespace lockstep::host {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "authoring/edit/value_text.h"
-#include "document/document.h"
-#include "document/file.h"
-#include "system/replace_text.h"
+#include "base/system/replace_text.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
+#include "language/document/value_text.h"
 
 namespace lockstep::host {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/compile.h"
-#include "measure/live_properties.h"
+#include "judge/measure/live_properties.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
+#include "language/property/property.h"
 #include "leaves/play/played_leaves.h"
-#include "loading/load.h"
-#include "property/property.h"
+#include "run/loading/load.h"
 #include "scenario/scenario.h"
 
 namespace lockstep::host {

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "core/clock.h"
-#include "runtime/observer.h"
-#include "runtime/run.h"
+#include "base/core/clock.h"
+#include "run/run.h"
 #include "scenario/rehearsal.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

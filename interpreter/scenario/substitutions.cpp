@@ -6,10 +6,10 @@
 #include <cctype>
 #include <map>
 
-#include "core/wording.h"
-#include "document/document.h"
-#include "document/file.h"
-#include "json/reader.h"
+#include "base/core/wording.h"
+#include "base/json/reader.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
 
 namespace lockstep::host {
 namespace {

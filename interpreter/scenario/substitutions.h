@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "scenario/scenario.h"
 
 namespace lockstep::host {

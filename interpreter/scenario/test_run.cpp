@@ -11,8 +11,8 @@
 #include <set>
 #include <thread>
 
-#include "remote/json_lines/orphans.h"
-#include "runtime/plugin_thread.h"
+#include "leaves/remote/json_lines/orphans.h"
+#include "run/plugin_thread.h"
 #include "scenario/golden.h"
 #include "scenario/worker.h"
 

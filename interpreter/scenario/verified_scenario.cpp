@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "verify/chance_runs.h"
 #include "verify/verdict.h"
 #include "verify/verifiable.h"

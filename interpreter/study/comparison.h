@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/plan.h"
 #include "study/rank_tests.h"
 #include "study/shift.h"

@@ -12,8 +12,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/system/output_file.h"
 #include "study/plan_json.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
+#include "base/system/file_descriptor.h"
 #include "study/plan.h"
 #include "study/result_file.h"
 #include "study/row_sequence.h"
 #include "study/table.h"
-#include "system/file_descriptor.h"
 
 namespace lockstep::host {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/plan.h"
 
 namespace lockstep::host {

@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "study/folder.h"
 #include "study/plan_json.h"
 #include "study/row_reader.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/plan.h"
 #include "study/table.h"
 

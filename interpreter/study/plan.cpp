@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "core/random.h"
+#include "base/core/random.h"
 
 namespace lockstep::host {
 namespace {

@@ -103,7 +103,7 @@ StudyRow row_at(const StudyPlan& plan, std::uint64_t row);
 
 // The seed of one run, which `lockstep run --seed` takes. It depends only on these, so neither
 // threads nor parts change a run: first(first(seed, cell), run), where first(a, b) is the first
-// number of stream b of seed a (core/random.h). Of a paired study, `cell` is 0 for all cells.
+// number of stream b of seed a (base/core/random.h). Of a paired study, `cell` is 0 for all cells.
 std::uint64_t run_seed(std::uint64_t seed, std::uint64_t cell, std::uint64_t run);
 inline std::uint64_t seeding_cell(const StudyPlan& plan, std::uint64_t cell) {
   return plan.paired ? 0 : cell;

@@ -7,8 +7,8 @@
 #include <functional>
 #include <set>
 
-#include "core/wording.h"
-#include "measure/measure_spec.h"
+#include "base/core/wording.h"
+#include "judge/measure/measure_spec.h"
 #include "study/column_names.h"
 
 namespace lockstep::host {

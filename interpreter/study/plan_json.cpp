@@ -6,8 +6,8 @@
 #include <array>
 #include <map>
 
-#include "json/json.h"
-#include "json/reader.h"
+#include "base/json/json.h"
+#include "base/json/reader.h"
 #include "study/plan_check.h"
 #include "study/precision.h"
 

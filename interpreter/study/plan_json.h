@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/plan.h"
 
 namespace lockstep::host {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/cell_totals.h"
 #include "study/plan.h"
 #include "study/row_sequence.h"

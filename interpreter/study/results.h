@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "runtime/observer.h"
 #include "study/intervals.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

@@ -5,10 +5,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "compression/whole_frame.h"
+#include "base/compression/whole_frame.h"
+#include "base/system/descriptors.h"
 #include "study/result_file.h"
 #include "study/row_reader.h"
-#include "system/descriptors.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "compression/decompressed.h"
+#include "base/compression/decompressed.h"
 #include "study/row_rules.h"
 #include "study/row_sequence.h"
 #include "study/row_text.h"

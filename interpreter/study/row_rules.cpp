@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "measure/measure_spec.h"
+#include "judge/measure/measure_spec.h"
 
 namespace lockstep::host {
 RowRules::RowRules(const StudyPlan& plan) : plan_(plan), there_(plan.columns.size()) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "measure/measure.h"
+#include "judge/measure/measure.h"
 #include "study/plan.h"
 #include "study/row_text.h"
 

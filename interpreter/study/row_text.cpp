@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/csv_field.h"
-#include "core/wording.h"
+#include "base/core/csv_field.h"
+#include "base/core/wording.h"
 #include "study/column_names.h"
 
 namespace lockstep::host {

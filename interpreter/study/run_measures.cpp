@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "measure/measure_spec.h"
+#include "judge/measure/measure_spec.h"
 
 namespace lockstep::host {
 RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate)

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/live_ticks.h"
-#include "runtime/observer.h"
+#include "judge/measure/live_ticks.h"
 #include "study/plan.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

@@ -1,6 +1,6 @@
 #include "study/study_run.h"
 
-#include "system/own_thread.h"
+#include "base/system/own_thread.h"
 
 namespace lockstep::host {
 

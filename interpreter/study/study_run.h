@@ -1,11 +1,11 @@
 // The runs of one cell on one thread, one after the other, as `lockstep run --clock virtual` would
-// make each of them: with the loop of runtime/loop.h, without what a study has no use for.
+// make each of them: with the loop of run/loop.h, without what a study has no use for.
 #pragma once
 
 #include <span>
 
-#include "runtime/deadlines.h"
-#include "runtime/run.h"
+#include "run/deadlines.h"
+#include "run/run.h"
 #include "study/run_measures.h"
 
 namespace lockstep::host {

@@ -4,8 +4,8 @@
 
 #include <iterator>
 
-#include "core/csv_field.h"
-#include "core/wording.h"
+#include "base/core/csv_field.h"
+#include "base/core/wording.h"
 #include "study/cell_values.h"
 #include "study/column_names.h"
 #include "study/row_reader.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/column_names.h"
 #include "study/plan.h"
 #include "study/results.h"

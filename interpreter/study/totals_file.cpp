@@ -8,12 +8,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
+#include "base/system/descriptors.h"
+#include "base/system/output_file.h"
 #include "study/result_file.h"
 #include "study/totals_reader.h"
 #include "study/totals_text.h"
-#include "system/descriptors.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {

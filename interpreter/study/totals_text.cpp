@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "json/json.h"
-#include "json/reader.h"
+#include "base/json/json.h"
+#include "base/json/reader.h"
 
 namespace lockstep::host {
 namespace {

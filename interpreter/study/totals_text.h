@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 #include "study/cell_totals.h"
 #include "study/plan.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/call_mark.h"
-#include "runtime/plugin_thread.h"
+#include "run/plugin_thread.h"
 #include "study/row_text.h"
 
 namespace lockstep::host {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "core/parameter_value.h"
+#include "base/core/parameter_value.h"
 #include "engine/synchronized.h"
 #include "engine/tree.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/node_type.h"
+#include "base/core/node_type.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {

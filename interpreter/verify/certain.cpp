@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "core/language.h"
-#include "core/wording.h"
+#include "base/core/language.h"
+#include "base/core/wording.h"
 #include "engine/writers.h"
-#include "expression/expression.h"
+#include "language/expression/expression.h"
 #include "verify/chance_runs.h"
 #include "verify/verifiable.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnostics.h"
-#include "core/place.h"
+#include "base/core/diagnostics.h"
+#include "base/core/place.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/random.h"
-#include "measure/live_properties.h"
-#include "runtime/run.h"
+#include "base/core/random.h"
+#include "judge/measure/live_properties.h"
+#include "run/run.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {

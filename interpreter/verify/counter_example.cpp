@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "measure/live_properties.h"
-#include "recording/write/recorder.h"
-#include "runtime/deadlines.h"
-#include "runtime/loop.h"
-#include "system/output_file.h"
+#include "base/system/output_file.h"
+#include "judge/measure/live_properties.h"
+#include "record/write/recorder.h"
+#include "run/deadlines.h"
+#include "run/loop.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {

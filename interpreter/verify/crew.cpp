@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "system/own_thread.h"
+#include "base/system/own_thread.h"
 
 namespace lockstep::host {
 

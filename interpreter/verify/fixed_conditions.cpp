@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "core/language.h"
-#include "core/wording.h"
+#include "base/core/language.h"
+#include "base/core/wording.h"
 #include "engine/blackboard.h"
 
 namespace lockstep::host {

@@ -4,8 +4,8 @@
 
 #include "engine/blackboard.h"
 #include "engine/synchronized.h"
-#include "measure/live_properties.h"
-#include "measure/synchronized_measure.h"
+#include "judge/measure/live_properties.h"
+#include "judge/measure/synchronized_measure.h"
 
 namespace lockstep::host {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "engine/ticker.h"
+#include "language/property/property.h"
 #include "leaves/model_leaf.h"
-#include "property/property.h"
 
 namespace lockstep::host {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 
 namespace lockstep::host {
 

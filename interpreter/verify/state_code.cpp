@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/value_types.h"
+#include "base/core/value_types.h"
 #include "engine/blackboard.h"
 #include "verify/packed_numbers.h"
 

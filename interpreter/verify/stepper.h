@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 #include "leaves/model_leaf.h"
 #include "verify/property_watch.h"
 #include "verify/read_parameters.h"

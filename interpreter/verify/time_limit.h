@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 
 namespace lockstep::host {
 

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "engine/synchronized.h"
-#include "measure/stall.h"
-#include "summary/standstill_text.h"
+#include "judge/measure/stall.h"
+#include "judge/summary/standstill_text.h"
 #include "verify/fair_cycle.h"
 #include "verify/fixed_conditions.h"
 #include "verify/holds.h"

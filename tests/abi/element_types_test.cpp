@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "abi/support/isolated_leaves.h"
-#include "loading/load.h"
+#include "run/loading/load.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "abi/support/plugins.h"
-#include "runtime/run.h"
+#include "run/run.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "authoring/edit/edits.h"
+#include "author/edit/edits.h"
 #include "authoring/element_model.h"
 #include "property/random_source.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/pre_order.h"
+#include "base/core/pre_order.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "document/document.h"
+#include "language/document/document.h"
 
 namespace lockstep::host::test {
 

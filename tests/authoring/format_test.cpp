@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "authoring/edit/unified_diff.h"
+#include "author/edit/unified_diff.h"
+#include "author/format/format.h"
 #include "authoring/element_model.h"
-#include "authoring/format/format.h"
-#include "document/scanner.h"
+#include "language/document/scanner.h"
 #include "property/random_source.h"
 
 namespace lockstep::host::test {

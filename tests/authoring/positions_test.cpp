@@ -3,7 +3,7 @@
 #include <random>
 #include <string>
 
-#include "authoring/server/positions.h"
+#include "author/server/positions.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <functional>
 
-#include "authoring/edit/entry_uses.h"
-#include "authoring/edit/renames.h"
-#include "authoring/edit/subtree_edits.h"
-#include "loading/load.h"
+#include "author/edit/entry_uses.h"
+#include "author/edit/renames.h"
+#include "author/edit/subtree_edits.h"
 #include "property/random_source.h"
+#include "run/loading/load.h"
 #include "support/program.h"
 
 namespace lockstep::host::test {

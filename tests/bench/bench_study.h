@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/random.h"
-#include "measure/measure_spec.h"
+#include "base/core/random.h"
+#include "judge/measure/measure_spec.h"
 #include "study/plan.h"
 #include "study/study_run.h"
 #include "support/compiled.h"

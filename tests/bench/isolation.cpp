@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/clock.h"
-#include "runtime/run.h"
+#include "base/core/clock.h"
+#include "run/run.h"
 #include "support/compiled.h"
 
 namespace {

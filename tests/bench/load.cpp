@@ -15,12 +15,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "definition/resolve.h"
-#include "document/file.h"
+#include "base/system/freed_memory.h"
 #include "engine/compile.h"
 #include "engine/run_state.h"
-#include "loading/plugins.h"
-#include "system/freed_memory.h"
+#include "language/document/file.h"
+#include "run/loading/plugins.h"
+#include "tree/resolve.h"
 
 namespace {
 

@@ -12,10 +12,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/histogram.h"
-#include "runtime/loop.h"
-#include "runtime/realtime.h"
-#include "runtime/run.h"
+#include "base/core/histogram.h"
+#include "run/loop.h"
+#include "run/realtime.h"
+#include "run/run.h"
 #include "support/compiled.h"
 
 namespace {

@@ -2,14 +2,14 @@
 // in every tick, of nodes that run but do not change, and of nodes that nothing happens to. Beside
 // it, of the same trees, the tick alone, and the questions for progress alone, which no recorder
 // can do without.
-#include "recording/write/recorder.h"
+#include "record/write/recorder.h"
 
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 
 #include "bench/bench_tree.h"
-#include "runtime/run.h"
+#include "run/run.h"
 
 namespace {
 

@@ -10,11 +10,11 @@
 
 #include "bench/bench_tree.h"
 #include "groot/publisher.h"
-#include "recording/write/recorder.h"
-#include "runtime/run.h"
-#include "summary/statistics.h"
-#include "view/console_live.h"
-#include "web/monitor.h"
+#include "judge/summary/statistics.h"
+#include "record/write/recorder.h"
+#include "run/run.h"
+#include "show/view/console_live.h"
+#include "show/web/monitor.h"
 
 namespace {
 

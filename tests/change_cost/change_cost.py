@@ -14,7 +14,7 @@ import sys
 # What `./dev generate` and `./dev page` write: whole files, and tables in files that are written by hand, by
 # the line before the table or its first line.
 WHOLE = {"schema/lockstep.xsd", "schema/leaves.xsd", "schema/scenarios.xsd", "docs/nodes.md", "schema/recording.schema.json",
-         "interpreter/web/page/src/model/recording.ts", "interpreter/web/page/page.html",
+         "interpreter/show/web/page/src/model/recording.ts", "interpreter/show/web/page/page.html",
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ids.h",
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ports.h",
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/nodes.h"}

@@ -41,19 +41,19 @@ with tempfile.TemporaryDirectory() as folder:
     page = "# Studies\n\n| Measure | Of | Meaning |\n|---|---|---|\n| `a` | run | {} |\n\n{}\n"
     git("init", "-q", "-b", "main")
     write("docs/studies.md", page.format("one", "text"))
-    write("interpreter/measure/measures.cpp", "a\n")
+    write("interpreter/judge/measure/measures.cpp", "a\n")
     git("add", ".")
     git("commit", "-q", "-m", "first")
     assert cost() == "0 by hand: 0 of the program, 0 of tests, 0 of documents; 0 generated\n"
 
     # A row of a generated table is generated, and files that git does not know yet count.
     write("docs/studies.md", page.format("two", "text"))
-    write("interpreter/measure/measures.cpp", "a\nb\n")
-    write("interpreter/measure/b.cpp", "b\nb\n")
+    write("interpreter/judge/measure/measures.cpp", "a\nb\n")
+    write("interpreter/judge/measure/b.cpp", "b\nb\n")
     write("tests/unit/b_test.cpp", "b\n")
     write("CHANGELOG.md", "b\n")
-    expected = """program    interpreter/measure/b.cpp  +2 -0
-program    interpreter/measure/measures.cpp  +1 -0
+    expected = """program    interpreter/judge/measure/b.cpp  +2 -0
+program    interpreter/judge/measure/measures.cpp  +1 -0
 tests      tests/unit/b_test.cpp  +1 -0
 generated  docs/studies.md  +1 -1
 3 by hand: 2 of the program, 1 of tests, 0 of documents; 1 generated

@@ -76,7 +76,7 @@ TEST_CASE("leaves in Python, bash, node, C and Rust give the recording of those 
   const std::string source = built.file("advance.rs", read_file(kProgramsFolder + "/advance.rs"));
   built.file("lockstep.rs",
              read_file(LOCKSTEP_SOURCE_DIR
-                       "/interpreter/authoring/scaffold/templates/plugin/lockstep.rs.in"));
+                       "/interpreter/author/scaffold/templates/plugin/lockstep.rs.in"));
   const Outcome compiled =
       run({.arguments = {"--edition", "2021", "-O", "-D", "warnings", "--crate-type", "cdylib",
                          "-o", built.path("advance.so"), source},

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "support/json.h"
 #include "support/program.h"
 

@@ -2,8 +2,8 @@
 // not as text, in the live view, in a replay, in JSON, nor in a message of what is wrong with them.
 #include <catch2/catch.hpp>
 
-#include "core/diagnostics.h"
-#include "core/wording.h"
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
 #include "support/json.h"
 #include "support/paths.h"
 #include "support/program.h"

@@ -5,8 +5,8 @@
 #include <regex>
 #include <set>
 
-#include "document/document.h"
-#include "document/language_of.h"
+#include "language/document/document.h"
+#include "language/document/language_of.h"
 #include "support/program.h"
 
 using namespace lockstep::host::test;

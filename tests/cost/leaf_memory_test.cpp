@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "plugin/contract/leaf_set.h"
+#include "leaves/plugin/contract/leaf_set.h"
 #include "support/compiled.h"
 
 // Sanitizers have a separate allocator.

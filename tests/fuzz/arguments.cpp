@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "document/project.h"
+#include "language/document/project.h"
 #include "require.h"
 
 namespace {

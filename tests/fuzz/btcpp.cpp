@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "definition/resolve.h"
 #include "dialect/btcpp/rules.h"
-#include "document/language_of.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
+#include "language/document/language_of.h"
 #include "require.h"
-#include "runtime/run.h"
+#include "run/loading/plugins.h"
+#include "run/run.h"
+#include "tree/resolve.h"
 
 namespace {
 

@@ -5,11 +5,11 @@
 #include <sstream>
 #include <string>
 
-#include "compression/decompressed.h"
-#include "compression/seek_table.h"
-#include "compression/zstd_frames.h"
+#include "base/compression/decompressed.h"
+#include "base/compression/seek_table.h"
+#include "base/compression/zstd_frames.h"
 #include "fuzz/require.h"
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 
 namespace {
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include "definition/resolve.h"
 #include "engine/compile.h"
 #include "groot/answers.h"
-#include "loading/plugins.h"
 #include "require.h"
-#include "runtime/run.h"
+#include "run/loading/plugins.h"
+#include "run/run.h"
+#include "tree/resolve.h"
 
 namespace {
 

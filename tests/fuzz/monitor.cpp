@@ -7,12 +7,12 @@
 #include <string>
 #include <string_view>
 
-#include "live/orders.h"
+#include "record/live/orders.h"
 #include "require.h"
-#include "runtime/run_control.h"
+#include "run/run_control.h"
+#include "show/web/gate.h"
+#include "show/web/http_server.h"
 #include "support/compiled.h"
-#include "web/gate.h"
-#include "web/http_server.h"
 
 namespace {
 

@@ -10,12 +10,12 @@
 #include <string>
 #include <string_view>
 
-#include "loading/plugin_set.h"
-#include "remote/json_lines/hello.h"
-#include "remote/json_lines/line_input.h"
-#include "remote/json_lines/reply.h"
+#include "base/system/file_descriptor.h"
+#include "leaves/remote/json_lines/hello.h"
+#include "leaves/remote/json_lines/line_input.h"
+#include "leaves/remote/json_lines/reply.h"
 #include "require.h"
-#include "system/file_descriptor.h"
+#include "run/loading/plugin_set.h"
 
 namespace {
 

@@ -5,12 +5,12 @@
 #include <sstream>
 #include <string>
 
-#include "measure/measure_spec.h"
-#include "recording/use/recording_csv.h"
-#include "recording/use/recording_diff.h"
-#include "recording/use/recording_info.h"
-#include "recording/use/recording_measures.h"
-#include "view/replay/replay_view.h"
+#include "judge/measure/measure_spec.h"
+#include "record/use/recording_csv.h"
+#include "record/use/recording_diff.h"
+#include "record/use/recording_info.h"
+#include "record/use/recording_measures.h"
+#include "show/view/replay/replay_view.h"
 
 namespace {
 

@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "definition/resolve.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
 #include "mock_leaf.h"
 #include "require.h"
-#include "runtime/run.h"
+#include "run/loading/plugins.h"
+#include "run/run.h"
+#include "tree/resolve.h"
 #include "tree_from_bytes.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "expression/expression.h"
+#include "language/expression/expression.h"
 #include "require.h"
 #include "support/script_reference.h"
 

@@ -7,13 +7,13 @@
 #include <cstdlib>
 #include <string>
 
-#include "definition/check/plugin_requests.h"
-#include "definition/resolve.h"
-#include "document/language_of.h"
-#include "document/scanner.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
-#include "runtime/run.h"
+#include "language/document/language_of.h"
+#include "language/document/scanner.h"
+#include "run/loading/plugins.h"
+#include "run/run.h"
+#include "tree/check/plugin_requests.h"
+#include "tree/resolve.h"
 
 namespace {
 

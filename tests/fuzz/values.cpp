@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "core/value.h"
-#include "definition/resolve.h"
+#include "base/core/value.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
 #include "require.h"
+#include "run/loading/plugins.h"
+#include "tree/resolve.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "bench/bench_study.h"
 #include "bench/bench_tree.h"
-#include "runtime/run.h"
+#include "run/run.h"
 #include "support/step_clock.h"
 
 namespace {

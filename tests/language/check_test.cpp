@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/definition.h"
 #include "language/pipeline.h"
+#include "tree/definition.h"
 #include "unit/document/temporary_directory.h"
 
 namespace lockstep::host::test {

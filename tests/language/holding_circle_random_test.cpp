@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "language/pipeline.h"
-#include "runtime/run.h"
+#include "run/run.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "language/pipeline.h"
 #include "language/robot_plugin.h"
-#include "runtime/run.h"
+#include "run/run.h"
 
 namespace lockstep::host::test {
 namespace {

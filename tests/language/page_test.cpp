@@ -10,21 +10,21 @@
 #include <set>
 #include <sstream>
 
-#include "core/wording.h"
-#include "definition/check/models.h"
-#include "definition/definition.h"
+#include "base/core/wording.h"
 #include "dialect/btcpp/hints.h"
 #include "dialect/btcpp/pairs.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/version_3.h"
 #include "dialect/btcpp/words.h"
-#include "document/arguments.h"
-#include "document/well_formed.h"
 #include "engine/synchronized.h"
+#include "language/document/arguments.h"
+#include "language/document/well_formed.h"
 #include "language/pipeline.h"
-#include "runtime/run.h"
+#include "run/run.h"
 #include "support/generated_file.h"
 #include "support/paths.h"
+#include "tree/check/models.h"
+#include "tree/definition.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/check/plugin_requests.h"
-#include "definition/resolve.h"
 #include "engine/compile.h"
 #include "language/robot_plugin.h"
-#include "loading/plugins.h"
-#include "runtime/run.h"
+#include "run/loading/plugins.h"
+#include "run/run.h"
+#include "tree/check/plugin_requests.h"
+#include "tree/resolve.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/diagnostics.h"
-#include "document/project.h"
+#include "base/core/diagnostics.h"
 #include "engine/tree.h"
-#include "loading/plugin_set.h"
+#include "language/document/project.h"
+#include "run/loading/plugin_set.h"
 
 namespace lockstep::host::test {
 

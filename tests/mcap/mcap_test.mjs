@@ -11,7 +11,7 @@ import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
 
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
-const require = createRequire(join(source, "interpreter/web/page/package.json"));
+const require = createRequire(join(source, "interpreter/show/web/page/package.json"));
 const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
 const { loadDecompressHandlers } = require("@mcap/support");
 

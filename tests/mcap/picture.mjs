@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
-const require = createRequire(new URL("../../interpreter/web/page/package.json", import.meta.url));
+const require = createRequire(new URL("../../interpreter/show/web/page/package.json", import.meta.url));
 const { McapIndexedReader } = require("@mcap/core");
 const { loadDecompressHandlers } = require("@mcap/support");
 

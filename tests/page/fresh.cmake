@@ -1,5 +1,5 @@
 # Is page.html built from the sources beside it? It names their hash, as web/page/build.mjs computes it, so that no
-# node is needed to know. cmake -DPAGE=interpreter/web/page -P fresh.cmake
+# node is needed to know. cmake -DPAGE=interpreter/show/web/page -P fresh.cmake
 file(GLOB_RECURSE names LIST_DIRECTORIES false RELATIVE ${PAGE} ${PAGE}/src/*)
 list(APPEND names build.mjs package-lock.json page.in.html)
 list(SORT names)

@@ -3,7 +3,7 @@
 # `./dev test-page` installs it.
 set -eu
 build=$1 file=$2
-modules=$(dirname "$0")/../../interpreter/web/page/node_modules
+modules=$(dirname "$0")/../../interpreter/show/web/page/node_modules
 for program in node chromium; do
   command -v $program >/dev/null || { echo "no $program: ./dev test-page installs it"; exit 77; }
 done

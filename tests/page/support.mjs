@@ -10,7 +10,7 @@ import { fileURLToPath } from "node:url";
 
 export const SOURCE = join(dirname(fileURLToPath(import.meta.url)), "../..");
 export const BUILD = process.env.LOCKSTEP_BUILD ?? join(SOURCE, "build/dev");
-const require = createRequire(join(SOURCE, "interpreter/web/page/package.json"));
+const require = createRequire(join(SOURCE, "interpreter/show/web/page/package.json"));
 const { chromium } = require("playwright-core");
 const AXE = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
@@ -35,7 +35,7 @@ export async function loadModel() {
     stdin: {
       contents: ["model/run", "model/moment", "model/waiting", "model/thin", "model/lanes", "store/span", "view/chart/data"]
         .map((name) => `export * from "./src/${name}";`).join("\n"),
-      resolveDir: join(SOURCE, "interpreter/web/page"),
+      resolveDir: join(SOURCE, "interpreter/show/web/page"),
     },
     bundle: true, write: false, format: "esm",
   });

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/status.h"
+#include "base/core/status.h"
 #include "property/kept_state.h"
 #include "property/leaf_behavior.h"
 #include "support/event_log.h"

@@ -3,10 +3,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/resolve.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
 #include "support/scripted_leaf.h"
+#include "tree/resolve.h"
 
 namespace lockstep::host::test::law {
 namespace {

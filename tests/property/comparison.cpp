@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/value.h"
+#include "base/core/value.h"
 #include "engine/synchronized.h"
 #include "property/plan_document.h"
 #include "property/plan_repair.h"

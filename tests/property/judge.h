@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/status.h"
+#include "base/core/status.h"
 #include "property/judged_leaves.h"
 #include "property/reference.h"
 

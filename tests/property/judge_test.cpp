@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "measure/live_properties.h"
+#include "judge/measure/live_properties.h"
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
 #include "property/judge.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <type_traits>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 
 namespace lockstep::host::test {
 

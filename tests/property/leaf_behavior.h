@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/status.h"
+#include "base/core/status.h"
 
 namespace lockstep::host::test {
 

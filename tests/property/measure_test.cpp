@@ -6,11 +6,11 @@
 #include <map>
 #include <sstream>
 
-#include "measure/measure_spec.h"
+#include "judge/measure/measure_spec.h"
 #include "property/random_tree.h"
 #include "property/reference.h"
-#include "recording/use/recording_measures.h"
-#include "recording/write/recorder.h"
+#include "record/use/recording_measures.h"
+#include "record/write/recorder.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 

@@ -5,12 +5,12 @@
 #include <map>
 #include <sstream>
 
+#include "judge/summary/property_observer.h"
 #include "property/btcpp_tree.h"
 #include "property/random_source.h"
 #include "property/random_tree.h"
-#include "recording/use/recorded_properties.h"
-#include "recording/write/recorder.h"
-#include "summary/property_observer.h"
+#include "record/use/recorded_properties.h"
+#include "record/write/recorder.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host::test {

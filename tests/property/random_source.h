@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/random.h"
+#include "base/core/random.h"
 
 namespace lockstep::host::test {
 

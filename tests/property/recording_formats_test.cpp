@@ -10,16 +10,16 @@
 #include <sstream>
 #include <tuple>
 
-#include "compression/decompressed.h"
+#include "base/compression/decompressed.h"
 #include "property/btcpp_tree.h"
 #include "property/random_tree.h"
-#include "recording/part_names.h"
-#include "recording/read/recording_parts.h"
-#include "recording/use/compared_children.h"
-#include "recording/use/mcap.h"
-#include "recording/use/mcap_stream.h"
-#include "recording/use/recording_csv.h"
-#include "recording/write/recorder.h"
+#include "record/part_names.h"
+#include "record/read/recording_parts.h"
+#include "record/use/compared_children.h"
+#include "record/use/mcap.h"
+#include "record/use/mcap_stream.h"
+#include "record/use/recording_csv.h"
+#include "record/write/recorder.h"
 #include "support/json.h"
 #include "unit/recording/watched_run.h"
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/clock.h"
-#include "core/status.h"
+#include "base/core/clock.h"
+#include "base/core/status.h"
 #include "property/kept_state.h"
 #include "property/leaf_behavior.h"
 #include "property/plan.h"

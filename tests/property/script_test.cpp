@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "support/script_reference.h"
 
 namespace lockstep::host::test {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "authoring/scaffold/plugin_source.h"
+#include "author/scaffold/plugin_source.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {

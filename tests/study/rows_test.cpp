@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "compression/decompressed.h"
+#include "base/compression/decompressed.h"
 #include "study/study_case.h"
 
 namespace lockstep::host::test {

@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/diagnostics.h"
-#include "definition/resolve.h"
-#include "document/project.h"
+#include "base/core/diagnostics.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
+#include "language/document/project.h"
+#include "run/loading/plugins.h"
+#include "tree/resolve.h"
 
 namespace lockstep::host::test {
 

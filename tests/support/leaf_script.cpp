@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/status.h"
+#include "base/core/status.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <deque>
 #include <stdexcept>
 
-#include "plugin/contract/descriptor.h"
+#include "leaves/plugin/contract/descriptor.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plugin/contract/host.h"
+#include "leaves/plugin/contract/host.h"
 
 namespace lockstep::host::test {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "blackboard/entry.h"
-#include "expression/evaluator.h"
+#include "base/blackboard/entry.h"
+#include "language/expression/evaluator.h"
 
 namespace lockstep::host::test {
 

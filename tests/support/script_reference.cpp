@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "expression/evaluator.h"
+#include "language/expression/evaluator.h"
 
 namespace lockstep::host::test {
 namespace {

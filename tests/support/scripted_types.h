@@ -1,7 +1,7 @@
 // What tree texts and documents of tests call scripted leaves.
 #pragma once
 
-#include "core/node_type.h"
+#include "base/core/node_type.h"
 
 namespace lockstep::host::test {
 

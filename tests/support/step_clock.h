@@ -2,7 +2,7 @@
 // machine to machine.
 #pragma once
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 
 namespace lockstep::host::test {
 

@@ -1,11 +1,11 @@
 #include "support/tree_document.h"
 
-#include "core/diagnostics.h"
-#include "definition/resolve.h"
-#include "document/project.h"
+#include "base/core/diagnostics.h"
 #include "engine/compile.h"
-#include "loading/plugins.h"
+#include "language/document/project.h"
+#include "run/loading/plugins.h"
 #include "support/scripted_types.h"
+#include "tree/resolve.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "definition/expand/resources.h"
-#include "definition/types/script_entries.h"
 #include "engine/compile.h"
 #include "support/plugin_nodes.h"
 #include "support/scripted_types.h"
+#include "tree/expand/resources.h"
+#include "tree/types/script_entries.h"
 
 namespace lockstep::host::test {
 namespace {

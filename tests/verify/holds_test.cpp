@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "measure/synchronized_measure.h"
-#include "measure/tick_view.h"
+#include "judge/measure/synchronized_measure.h"
+#include "judge/measure/tick_view.h"
 #include "verify/labels.h"
 #include "verify/verified.h"
 

@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/json/json.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/doctor/symptoms.h"
 #include "cli/exit_code.h"
-#include "json/json.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 #include <thread>
 
+#include "base/core/wording.h"
 #include "cli/doctor/symptoms.h"
-#include "core/wording.h"
 
 namespace lockstep::host {
 namespace {

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/system/late_library.h"
 #include "cli/doctor/symptoms.h"
-#include "loading/plugin_directories.h"
-#include "system/late_library.h"
+#include "run/loading/plugin_directories.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "cli/doctor/symptoms.h"
-#include "runtime/realtime.h"
+#include "run/realtime.h"
 
 namespace lockstep::host {
 

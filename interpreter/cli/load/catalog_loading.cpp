@@ -1,9 +1,9 @@
 #include "cli/load/catalog_loading.h"
 
+#include "base/core/clock.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "core/clock.h"
-#include "runtime/plugin_thread.h"
+#include "run/plugin_thread.h"
 
 namespace lockstep::host {
 

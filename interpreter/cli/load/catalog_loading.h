@@ -2,7 +2,7 @@
 // names. For `lockstep nodes` and `lockstep schema`.
 #pragma once
 
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 

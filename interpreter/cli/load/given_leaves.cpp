@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/console.h"
-#include "document/file.h"
+#include "language/document/file.h"
 
 namespace lockstep::host {
 

@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/core/clock.h"
+#include "base/core/value.h"
+#include "base/system/freed_memory.h"
 #include "cli/checks.h"
 #include "cli/exit_code.h"
-#include "core/clock.h"
-#include "core/value.h"
-#include "remote/json_lines/orphans.h"
-#include "runtime/plugin_thread.h"
-#include "system/freed_memory.h"
+#include "leaves/remote/json_lines/orphans.h"
+#include "run/plugin_thread.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "loading/load.h"
+#include "run/loading/load.h"
 
 namespace CLI {
 class App;

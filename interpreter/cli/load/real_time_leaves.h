@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {

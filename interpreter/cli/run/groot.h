@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/problem.h"
+#include "base/core/problem.h"
 
 namespace lockstep::host {
 

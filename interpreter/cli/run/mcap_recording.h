@@ -1,7 +1,7 @@
 // `run --record FILE.mcap`: what makes MCAP of a recording.
 #pragma once
 
-#include "recording/text_encoder.h"
+#include "record/text_encoder.h"
 
 namespace lockstep::host {
 

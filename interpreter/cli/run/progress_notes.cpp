@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "engine/synchronized.h"
-#include "measure/synchronized_measure.h"
+#include "judge/measure/synchronized_measure.h"
 
 namespace lockstep::host {
 namespace {

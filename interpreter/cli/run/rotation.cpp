@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/value.h"
+#include "base/core/value.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "recording/write/recorder.h"
+#include "record/write/recorder.h"
 
 namespace lockstep::host {
 

@@ -8,8 +8,8 @@
 #include "cli/checks.h"
 #include "cli/load/given_leaves.h"
 #include "cli/run/rotation.h"
-#include "runtime/deadlines.h"
-#include "runtime/stop_signals.h"
+#include "run/deadlines.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 namespace {

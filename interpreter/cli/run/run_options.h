@@ -8,9 +8,9 @@
 #include "cli/load/load_options.h"
 #include "cli/properties.h"
 #include "lockstep/leaf.h"
-#include "recording/write/recorder.h"
-#include "runtime/loop.h"
-#include "runtime/realtime.h"
+#include "record/write/recorder.h"
+#include "run/loop.h"
+#include "run/realtime.h"
 
 namespace lockstep::host {
 

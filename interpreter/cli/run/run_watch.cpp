@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "runtime/progress_text.h"
-#include "summary/statistics.h"
+#include "judge/summary/statistics.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "cli/run/run_options.h"
 #include "engine/leaf_watch.h"
-#include "runtime/observer.h"
-#include "runtime/watchdog.h"
-#include "summary/summary.h"
+#include "judge/summary/summary.h"
+#include "run/watchdog.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

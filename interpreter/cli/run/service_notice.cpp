@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/clock.h"
-#include "core/value.h"
-#include "system/own_thread.h"
+#include "base/core/clock.h"
+#include "base/core/value.h"
+#include "base/system/own_thread.h"
 
 namespace lockstep::host {
 namespace {

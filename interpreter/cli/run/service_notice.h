@@ -12,10 +12,10 @@
 #include <string_view>
 #include <thread>
 
-#include "core/problem.h"
-#include "runtime/observer.h"
-#include "system/file_descriptor.h"
-#include "system/mutex.h"
+#include "base/core/problem.h"
+#include "base/system/file_descriptor.h"
+#include "base/system/mutex.h"
+#include "trace/observer.h"
 
 namespace lockstep::host {
 

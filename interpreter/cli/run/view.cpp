@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "base/core/clock.h"
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "base/terminal/terminal.h"
 #include "cli/console.h"
-#include "core/clock.h"
-#include "core/diagnostics.h"
-#include "core/wording.h"
-#include "terminal/terminal.h"
 
 namespace lockstep::host {
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "plugin/contract/leaf_set.h"
-#include "system/mutex.h"
-#include "view/console_live.h"
-#include "view/console_plain.h"
-#include "view/line_budget.h"
+#include "base/system/mutex.h"
+#include "leaves/plugin/contract/leaf_set.h"
+#include "show/view/console_live.h"
+#include "show/view/console_plain.h"
+#include "show/view/line_budget.h"
 
 namespace lockstep::host {
 

@@ -4,9 +4,9 @@
 
 #include <utility>
 
+#include "base/terminal/outlet.h"
 #include "cli/console.h"
-#include "runtime/outlet.h"
-#include "runtime/stop_signals.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 namespace {

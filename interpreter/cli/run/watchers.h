@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/problem.h"
 #include "cli/monitor_link.h"
 #include "cli/run/groot.h"
 #include "cli/run/run_options.h"
-#include "core/problem.h"
-#include "definition/definition.h"
-#include "web/monitor.h"
+#include "show/web/monitor.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

@@ -1,13 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "authoring/convert/convert.h"
+#include "author/convert/convert.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "document/file.h"
-#include "loading/plugins.h"
+#include "language/document/file.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "authoring/edit/file_text.h"
-#include "authoring/edit/unified_diff.h"
-#include "authoring/format/format.h"
+#include "author/edit/file_text.h"
+#include "author/edit/unified_diff.h"
+#include "author/format/format.h"
+#include "base/core/wording.h"
+#include "base/system/replace_text.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "core/wording.h"
-#include "document/file.h"
-#include "system/replace_text.h"
+#include "language/document/file.h"
 
 namespace lockstep::host {
 namespace {

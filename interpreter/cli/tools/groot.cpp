@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/terminal/outlet.h"
 #include "groot/publisher.h"
-#include "runtime/outlet.h"
-#include "web/server_socket.h"
+#include "show/web/server_socket.h"
 
 namespace lockstep::host {
 namespace {

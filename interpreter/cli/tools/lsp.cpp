@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "authoring/server/server.h"
+#include "author/server/server.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"

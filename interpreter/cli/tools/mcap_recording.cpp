@@ -1,6 +1,6 @@
 #include "cli/run/mcap_recording.h"
 
-#include "recording/use/mcap_stream.h"
+#include "record/use/mcap_stream.h"
 
 namespace lockstep::host {
 

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/core/suggest.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/catalog_loading.h"
 #include "cli/load/load_options.h"
-#include "core/suggest.h"
 #include "describe/node_reference.h"
 
 namespace lockstep::host {

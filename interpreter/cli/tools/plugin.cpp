@@ -4,18 +4,18 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/core/diagnostics.h"
+#include "base/system/output_file.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/plugin_check/object_check.h"
-#include "core/diagnostics.h"
-#include "loading/load.h"
-#include "loading/plugin_directories.h"
-#include "plugin/open/plugin_path.h"
-#include "remote/json_lines/conformance.h"
-#include "remote/json_lines/leaves_file.h"
-#include "system/output_file.h"
+#include "leaves/plugin/open/plugin_path.h"
+#include "leaves/remote/json_lines/conformance.h"
+#include "leaves/remote/json_lines/leaves_file.h"
+#include "run/loading/load.h"
+#include "run/loading/plugin_directories.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/terminal/terminal.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
@@ -11,10 +12,9 @@
 #include "cli/monitor_link.h"
 #include "cli/tools/log/log.h"
 #include "cli/tools/replay_session.h"
-#include "runtime/stop_signals.h"
-#include "terminal/terminal.h"
-#include "view/replay/replay_view.h"
-#include "web/page_server.h"
+#include "run/stop_signals.h"
+#include "show/view/replay/replay_view.h"
+#include "show/web/page_server.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,17 +8,17 @@
 #include <thread>
 #include <utility>
 
+#include "base/core/clock.h"
+#include "base/terminal/raw_terminal.h"
+#include "base/terminal/screen.h"
+#include "base/terminal/terminal.h"
+#include "base/terminal/terminal_wait.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "core/clock.h"
-#include "runtime/crash_report.h"
-#include "runtime/stop_signals.h"
-#include "terminal/raw_terminal.h"
-#include "terminal/screen.h"
-#include "terminal/terminal.h"
-#include "terminal/terminal_wait.h"
-#include "view/replay/replay_view.h"
-#include "view/tree_browser.h"
+#include "run/crash_report.h"
+#include "run/stop_signals.h"
+#include "show/view/replay/replay_view.h"
+#include "show/view/tree_browser.h"
 
 namespace lockstep::host {
 namespace {

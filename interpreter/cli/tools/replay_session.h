@@ -1,7 +1,7 @@
 // A replay on a terminal: passes keys and time to a ReplayPlayer and draws the result.
 #pragma once
 
-#include "recording/read/recording_timeline.h"
+#include "record/read/recording_timeline.h"
 
 namespace lockstep::host {
 

@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
 
+#include "base/terminal/terminal.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/load/load_options.h"
 #include "describe/tree_drawing.h"
-#include "terminal/terminal.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <array>
 
-#include "blackboard/conversion.h"
-#include "core/element_types.h"
-#include "core/identifier.h"
-#include "core/parameter_value.h"
-#include "core/suggest.h"
-#include "core/wording.h"
-#include "definition/check/scripts.h"
+#include "base/blackboard/conversion.h"
+#include "base/core/element_types.h"
+#include "base/core/identifier.h"
+#include "base/core/parameter_value.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/words.h"
+#include "tree/check/scripts.h"
 
 namespace lockstep::host::btcpp {
 namespace {

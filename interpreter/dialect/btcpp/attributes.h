@@ -1,10 +1,10 @@
 // The attributes of a node in a document for BehaviorTree.CPP: ports, scripts and marks.
 #pragma once
 
-#include "definition/check/attributes.h"
-#include "definition/check/models.h"
-#include "definition/checked_tree.h"
-#include "document/reporter.h"
+#include "language/document/reporter.h"
+#include "tree/check/attributes.h"
+#include "tree/check/models.h"
+#include "tree/checked_tree.h"
 
 namespace lockstep::host::btcpp {
 

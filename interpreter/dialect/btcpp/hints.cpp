@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/audience.h"
-#include "core/language.h"
-#include "core/suggest.h"
-#include "core/value.h"
-#include "core/wording.h"
+#include "base/core/audience.h"
+#include "base/core/language.h"
+#include "base/core/suggest.h"
+#include "base/core/value.h"
+#include "base/core/wording.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/version_3.h"
 #include "dialect/btcpp/words.h"

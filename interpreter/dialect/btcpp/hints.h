@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "definition/check/foreign_hints.h"
 #include "dialect/btcpp/pairs.h"
+#include "tree/check/foreign_hints.h"
 
 namespace lockstep::host::btcpp {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/value.h"
+#include "base/core/value.h"
 
 namespace lockstep::host::btcpp {
 namespace {
@@ -126,7 +126,7 @@ constexpr NodePair kPairs[] = {
     {.theirs = "AlwaysFailure", .ours = "AlwaysFailure"},
 };
 
-// A Switch is converted too, by authoring/convert/switch_node.h.
+// A Switch is converted too, by author/convert/switch_node.h.
 constexpr NodePair kSimilar[] = {
     {.theirs = "AsyncSequence", .ours = "Sequence", .in_ours = kRemembers},
     {.theirs = "AsyncFallback", .ours = "Fallback", .in_ours = kRemembers},

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 
-#include "core/audience.h"
-#include "core/pre_order.h"
-#include "core/suggest.h"
-#include "core/wording.h"
-#include "definition/check/document_order.h"
-#include "definition/check/element_type.h"
-#include "definition/check/node_check.h"
-#include "definition/check/stand_ins.h"
+#include "base/core/audience.h"
+#include "base/core/pre_order.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "dialect/btcpp/attributes.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/version_3.h"
+#include "tree/check/document_order.h"
+#include "tree/check/element_type.h"
+#include "tree/check/node_check.h"
+#include "tree/check/stand_ins.h"
 
 namespace lockstep::host::btcpp {
 namespace {

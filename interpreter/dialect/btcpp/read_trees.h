@@ -1,11 +1,11 @@
 // The documents of a project for BehaviorTree.CPP as checked trees.
 #pragma once
 
-#include "core/diagnostics.h"
-#include "definition/catalog.h"
-#include "definition/check/models.h"
-#include "definition/checked_tree.h"
-#include "document/project.h"
+#include "base/core/diagnostics.h"
+#include "language/document/project.h"
+#include "tree/catalog.h"
+#include "tree/check/models.h"
+#include "tree/checked_tree.h"
 
 namespace lockstep::host::btcpp {
 

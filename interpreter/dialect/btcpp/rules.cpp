@@ -1,10 +1,10 @@
 #include "dialect/btcpp/rules.h"
 
-#include "definition/language_reader.h"
 #include "dialect/btcpp/hints.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/read_trees.h"
 #include "dialect/btcpp/version_3.h"
+#include "tree/language_reader.h"
 
 namespace lockstep::host::btcpp {
 namespace {

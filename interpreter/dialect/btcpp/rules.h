@@ -1,7 +1,7 @@
 // The language of BehaviorTree.CPP.
 #pragma once
 
-#include "core/language.h"
+#include "base/core/language.h"
 
 namespace lockstep::host::btcpp {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/identifier.h"
-#include "core/wording.h"
+#include "base/core/identifier.h"
+#include "base/core/wording.h"
 #include "dialect/btcpp/words.h"
 
 namespace lockstep::host::btcpp {

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/node_type.h"
-#include "document/element.h"
-#include "document/reporter.h"
+#include "base/core/node_type.h"
+#include "language/document/element.h"
+#include "language/document/reporter.h"
 
 namespace lockstep::host::btcpp {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "core/identifier.h"
+#include "base/core/identifier.h"
 
 namespace lockstep::host::btcpp {
 

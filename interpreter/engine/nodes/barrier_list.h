@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/node_type.h"
+#include "base/core/node_type.h"
 #include "engine/synchronized.h"
 
 namespace lockstep::host::absolute {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/plugin_exception.h"
+#include "base/core/plugin_exception.h"
 #include "engine/leaf_call.h"
 #include "engine/node_kind.h"
 #include "engine/tree.h"

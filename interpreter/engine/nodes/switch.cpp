@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "core/wording.h"
+#include "base/core/wording.h"
 #include "engine/node_context.h"
 #include "engine/node_scripts.h"
 #include "engine/nodes/fold.h"
 #include "engine/nodes/kinds.h"
-#include "expression/equal.h"
+#include "language/expression/equal.h"
 
 namespace lockstep::host {
 namespace {

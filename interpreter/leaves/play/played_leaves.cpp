@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
-#include "core/suggest.h"
-#include "core/wording.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "leaves/model_leaf.h"
-#include "plugin/contract/host.h"
+#include "leaves/plugin/contract/host.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,11 +5,11 @@
 #include <deque>
 #include <optional>
 
-#include "definition/definition.h"
 #include "leaves/leaf_script.h"
 #include "leaves/models.h"
-#include "plugin/contract/descriptor.h"
-#include "remote/remote_plugin.h"
+#include "leaves/plugin/contract/descriptor.h"
+#include "leaves/remote/remote_plugin.h"
+#include "tree/definition.h"
 
 namespace lockstep::host {
 

@@ -15,7 +15,7 @@
 
 #include "abi/plugins/echo_ports.h"  // which are its slots too
 #include "abi/support/plugins.h"
-#include "runtime/run.h"
+#include "run/run.h"
 
 namespace lockstep::host::test {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/tree.h"
-#include "loading/plugin_set.h"
+#include "run/loading/plugin_set.h"
 #include "support/leaf_node.h"
 #include "support/paths.h"
 

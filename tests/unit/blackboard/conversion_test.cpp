@@ -1,5 +1,5 @@
 // Values as values of another type: texts that are read, numbers that are cast.
-#include "blackboard/conversion.h"
+#include "base/blackboard/conversion.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What ports write into entries of their type, of another, and of none.
-#include "blackboard/entry.h"
+#include "base/blackboard/entry.h"
 
 #include <catch2/catch.hpp>
 

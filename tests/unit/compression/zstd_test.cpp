@@ -6,8 +6,8 @@
 #include <random>
 #include <sstream>
 
-#include "compression/decompressed.h"
-#include "compression/zstd_frames.h"
+#include "base/compression/decompressed.h"
+#include "base/compression/zstd_frames.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/clock.h"
+#include "base/core/clock.h"
 
 #include <catch2/catch.hpp>
 

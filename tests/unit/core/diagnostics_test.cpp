@@ -1,4 +1,4 @@
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "core/end_budget.h"
+#include "base/core/end_budget.h"
 
 #include <catch2/catch.hpp>
 

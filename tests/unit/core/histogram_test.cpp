@@ -1,11 +1,11 @@
-#include "core/histogram.h"
+#include "base/core/histogram.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
-#include "core/random.h"
+#include "base/core/random.h"
 
 namespace lockstep::host {
 namespace {

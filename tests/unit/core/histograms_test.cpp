@@ -1,5 +1,5 @@
 // Many histograms at once: each keeps to itself, and its quantiles are as exact as is said.
-#include "core/histograms.h"
+#include "base/core/histograms.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "core/random.h"
+#include "base/core/random.h"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -1,4 +1,4 @@
-#include "core/running_time.h"
+#include "base/core/running_time.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
-#include "core/shortened.h"
+#include "base/core/shortened.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "core/plugin_exception.h"
+#include "base/core/plugin_exception.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/suggest.h"
+#include "base/core/suggest.h"
 
 #include <array>
 #include <catch2/catch.hpp>

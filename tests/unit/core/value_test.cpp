@@ -1,4 +1,4 @@
-#include "core/value.h"
+#include "base/core/value.h"
 
 #include <fmt/format.h>
 

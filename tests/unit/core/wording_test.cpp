@@ -1,4 +1,4 @@
-#include "core/wording.h"
+#include "base/core/wording.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/check/check_trees.h"
-#include "definition/check/plugin_requests.h"
-#include "definition/check/references.h"
-#include "definition/definition.h"
 #include "engine/node_kind.h"
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
+#include "tree/check/check_trees.h"
+#include "tree/check/plugin_requests.h"
+#include "tree/check/references.h"
+#include "tree/definition.h"
 #include "unit/document/told.h"
 
 namespace lockstep::host::test {

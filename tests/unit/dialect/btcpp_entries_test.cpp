@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "definition/resolve.h"
 #include "dialect/btcpp/rules.h"
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
+#include "tree/resolve.h"
 #include "unit/document/told.h"
 
 using namespace lockstep::host;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "document/arguments.h"
-#include "document/project.h"
+#include "language/document/arguments.h"
+#include "language/document/project.h"
 #include "unit/document/told.h"
 
 using namespace lockstep::host;

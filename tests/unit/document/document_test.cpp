@@ -1,4 +1,4 @@
-#include "document/document.h"
+#include "language/document/document.h"
 
 #include <catch2/catch.hpp>
 

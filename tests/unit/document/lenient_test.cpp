@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include "dialect/btcpp/rules.h"
-#include "document/document.h"
-#include "document/language_of.h"
-#include "document/project.h"
-#include "document/ros_packages.h"
+#include "language/document/document.h"
+#include "language/document/language_of.h"
+#include "language/document/project.h"
+#include "language/document/ros_packages.h"
 #include "unit/document/temporary_directory.h"
 #include "unit/document/told.h"
 

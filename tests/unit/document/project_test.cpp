@@ -1,4 +1,4 @@
-#include "document/project.h"
+#include "language/document/project.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

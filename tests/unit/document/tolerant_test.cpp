@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "document/document.h"
-#include "document/file.h"
-#include "document/tolerant.h"
+#include "language/document/document.h"
+#include "language/document/file.h"
+#include "language/document/tolerant.h"
 #include "support/paths.h"
 
 namespace lockstep::host::test {

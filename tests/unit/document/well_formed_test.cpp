@@ -1,8 +1,8 @@
-#include "document/well_formed.h"
+#include "language/document/well_formed.h"
 
 #include <catch2/catch.hpp>
 
-#include "document/document.h"
+#include "language/document/document.h"
 #include "unit/document/told.h"
 
 using namespace lockstep::host;

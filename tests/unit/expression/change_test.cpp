@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "expression/change.h"
-#include "expression/expression.h"
+#include "language/expression/change.h"
+#include "language/expression/expression.h"
 #include "support/script_board.h"
 
 using namespace lockstep::host;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "expression/expression.h"
+#include "language/expression/expression.h"
 #include "support/script_board.h"
 
 using namespace lockstep::host;

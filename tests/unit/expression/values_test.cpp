@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "blackboard/conversion.h"
+#include "base/blackboard/conversion.h"
 #include "support/script_board.h"
 
 using namespace lockstep::host;

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "runtime/run.h"
+#include "run/run.h"
 #include "support/tree_text.h"
 
 namespace lockstep::host {

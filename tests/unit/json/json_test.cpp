@@ -1,11 +1,11 @@
 // JSON as it is written, compared with what nlohmann's library makes of the same values.
-#include "json/json.h"
+#include "base/json/json.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 
 using namespace lockstep::host;
 using Other = nlohmann::ordered_json;

@@ -1,4 +1,4 @@
-#include "json/reader.h"
+#include "base/json/reader.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -2,16 +2,16 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "live/line_feed.h"
-#include "live/snapshot_feed.h"
-#include "live/status_feed.h"
-#include "measure/live_properties.h"
-#include "measure/measure_spec.h"
-#include "recording/write/json_lines.h"
-#include "recording/write/recorder.h"
+#include "judge/measure/live_properties.h"
+#include "judge/measure/measure_spec.h"
+#include "judge/summary/property_observer.h"
+#include "judge/summary/statistics.h"
+#include "record/live/line_feed.h"
+#include "record/live/snapshot_feed.h"
+#include "record/live/status_feed.h"
+#include "record/write/json_lines.h"
+#include "record/write/recorder.h"
 #include "study/run_measures.h"
-#include "summary/property_observer.h"
-#include "summary/statistics.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {

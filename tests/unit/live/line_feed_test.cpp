@@ -1,6 +1,6 @@
 // The feed of the monitor: what a listener knows after its lines is what a recording has of those
 // ticks.
-#include "live/line_feed.h"
+#include "record/live/line_feed.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 #include <sstream>
 #include <thread>
 
-#include "recording/write/json_lines.h"
-#include "recording/write/recorder.h"
+#include "record/write/json_lines.h"
+#include "record/write/recorder.h"
 #include "support/json.h"
 #include "support/text.h"
 #include "unit/recording/watched_run.h"

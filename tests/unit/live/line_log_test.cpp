@@ -1,13 +1,13 @@
 // The last lines of a run: where listeners begin, how they catch up, what is dropped.
-#include "live/line_log.h"
+#include "record/live/line_log.h"
 
 #include <fmt/format.h>
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "recording/write/json_lines.h"
+#include "record/write/json_lines.h"
+#include "show/web/server_sent.h"
 #include "support/text.h"
-#include "web/server_sent.h"
 
 namespace lockstep::host {
 namespace {

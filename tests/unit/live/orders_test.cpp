@@ -1,5 +1,5 @@
 // What may be ordered of a run: which values an entry takes, and why it takes no other.
-#include "live/orders.h"
+#include "record/live/orders.h"
 
 #include <catch2/catch.hpp>
 #include <string>

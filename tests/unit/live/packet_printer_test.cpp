@@ -1,6 +1,6 @@
 // From the tick thread's packets to the text of a recording: the ring between the two, and the
 // printer. That the text is what docs/recording.md says: recording_test.cpp.
-#include "live/packet_printer.h"
+#include "record/live/packet_printer.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "recording/write/json_lines.h"
+#include "record/write/json_lines.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,6 +1,6 @@
 // The feed of snapshots: what it has of the blackboard and of logs, live and from a recording, and
 // what a view draws of it below the tree.
-#include "live/snapshot_feed.h"
+#include "record/live/snapshot_feed.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,10 +8,10 @@
 #include <map>
 #include <sstream>
 
-#include "recording/write/recorder.h"
+#include "record/write/recorder.h"
+#include "show/view/console_live.h"
+#include "show/view/replay/replay_view.h"
 #include "unit/recording/watched_run.h"
-#include "view/console_live.h"
-#include "view/replay/replay_view.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,5 +1,5 @@
 // The statuses that Groot2 gets are those after each tick, also when nobody took the ones before.
-#include "live/status_feed.h"
+#include "record/live/status_feed.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
 // What a program that carries lockstep calls: this one links nothing of the command line.
-#include "loading/load.h"
+#include "run/loading/load.h"
 
 #include <catch2/catch.hpp>
 
-#include "runtime/run.h"
+#include "run/run.h"
 #include "support/paths.h"
 #include "unit/document/temporary_directory.h"
 #include "unit/document/told.h"

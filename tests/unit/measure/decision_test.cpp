@@ -1,4 +1,4 @@
-#include "measure/decision.h"
+#include "judge/measure/decision.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Which entries a recording and a view show as changed.
-#include "measure/entry_changes.h"
+#include "judge/measure/entry_changes.h"
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,8 +1,8 @@
-#include "measure/fall.h"
+#include "judge/measure/fall.h"
 
 #include <catch2/catch.hpp>
 
-#include "measure/synchronized_measure.h"
+#include "judge/measure/synchronized_measure.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::host {

@@ -1,11 +1,11 @@
 // The rows of measures: what they say of themselves, and what they measure of a live run.
-#include "measure/measuring.h"
+#include "judge/measure/measuring.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "measure/live_ticks.h"
-#include "measure/measure_spec.h"
+#include "judge/measure/live_ticks.h"
+#include "judge/measure/measure_spec.h"
 #include "support/generated_file.h"
 #include "support/scripted_run.h"
 

@@ -1,4 +1,4 @@
-#include "measure/predictability.h"
+#include "judge/measure/predictability.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

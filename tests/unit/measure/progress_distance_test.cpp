@@ -1,4 +1,4 @@
-#include "measure/progress_distance.h"
+#include "judge/measure/progress_distance.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "core/random.h"
-#include "measure/spread.h"
-#include "measure/step_length.h"
+#include "base/core/random.h"
+#include "judge/measure/spread.h"
+#include "judge/measure/step_length.h"
 
 namespace lockstep::host {
 namespace {

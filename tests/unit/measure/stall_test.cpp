@@ -1,4 +1,4 @@
-#include "measure/stall.h"
+#include "judge/measure/stall.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "measure/synchronized_measure.h"
+#include "judge/measure/synchronized_measure.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "measure/wait_chain.h"
+#include "judge/measure/wait_chain.h"
 
 #include <catch2/catch.hpp>
 

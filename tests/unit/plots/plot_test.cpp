@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
-#include "plots/box_plot.h"
-#include "plots/gnuplot.h"
-#include "plots/plot_style.h"
-#include "plots/progress_plot.h"
+#include "study/plots/box_plot.h"
+#include "study/plots/gnuplot.h"
+#include "study/plots/plot_style.h"
+#include "study/plots/progress_plot.h"
 
 using namespace lockstep::host;
 namespace fs = std::filesystem;

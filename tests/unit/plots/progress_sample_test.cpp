@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "plots/progress_sample.h"
+#include "study/plots/progress_sample.h"
 
 namespace lockstep::host {
 namespace {

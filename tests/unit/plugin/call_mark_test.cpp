@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "plugin/contract/leaf_set.h"
+#include "leaves/plugin/contract/leaf_set.h"
 #include "unit/plugin/probe_plugin.h"
 
 namespace lockstep::host::test {

@@ -1,5 +1,5 @@
 // The memory of call sites goes from set to set, and each site can be read for ever.
-#include "plugin/contract/call_sites.h"
+#include "leaves/plugin/contract/call_sites.h"
 
 #include <catch2/catch.hpp>
 #include <optional>

@@ -1,5 +1,5 @@
 // Descriptors as node types, and structs that are shorter than this host's.
-#include "plugin/contract/descriptor.h"
+#include "leaves/plugin/contract/descriptor.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "leaves/plugin/contract/host.h"
 #include "lockstep/leaf.h"
-#include "plugin/contract/host.h"
 
 namespace lockstep::host {
 namespace {

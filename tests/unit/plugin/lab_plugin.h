@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/tree.h"
-#include "loading/plugin_set.h"
 #include "lockstep/leaf.h"
+#include "run/loading/plugin_set.h"
 
 namespace lockstep::host::test {
 

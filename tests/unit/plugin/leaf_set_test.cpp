@@ -1,11 +1,11 @@
 // The leaves of a run: their lives, and what the host does for them.
-#include "plugin/contract/leaf_set.h"
+#include "leaves/plugin/contract/leaf_set.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <thread>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "unit/plugin/lab_plugin.h"
 
 namespace lockstep::host::test {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/system/float_mode.h"
 #include "engine/leaf_call.h"
 #include "engine/ticker.h"
-#include "runtime/run.h"
-#include "system/float_mode.h"
+#include "run/run.h"
 #include "unit/plugin/probe_plugin.h"
 
 namespace lockstep::host::test {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <optional>
 
-#include "plugin/contract/leaf_set.h"
+#include "leaves/plugin/contract/leaf_set.h"
 #include "unit/plugin/lab_plugin.h"
 
 namespace lockstep::host::test {

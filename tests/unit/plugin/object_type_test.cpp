@@ -1,5 +1,5 @@
 // Types of objects whose functions do what they should not.
-#include "plugin/contract/object_type.h"
+#include "leaves/plugin/contract/object_type.h"
 
 #include <catch2/catch.hpp>
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/object.h"
+#include "base/core/object.h"
 #include "engine/call_mark.h"
 
 namespace lockstep::host::test {

@@ -1,5 +1,5 @@
 // The clock of a plugin as the clock of a run.
-#include "plugin/contract/plugin_clock.h"
+#include "leaves/plugin/contract/plugin_clock.h"
 
 #include <catch2/catch.hpp>
 #include <string_view>

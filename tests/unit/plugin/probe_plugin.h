@@ -8,8 +8,8 @@
 
 #include "engine/call_mark.h"
 #include "engine/tree.h"
-#include "loading/plugin_set.h"
 #include "lockstep/leaf.h"
+#include "run/loading/plugin_set.h"
 
 namespace lockstep::host::test {
 

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
-#include "definition/resolve.h"
 #include "engine/compile.h"
 #include "engine/node_kind.h"
 #include "support/paths.h"
+#include "tree/resolve.h"
 
 namespace lockstep::host::test {
 namespace {

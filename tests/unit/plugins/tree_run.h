@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "definition/catalog.h"
-#include "document/project.h"
-#include "loading/plugin_set.h"
-#include "runtime/run.h"
+#include "language/document/project.h"
+#include "run/loading/plugin_set.h"
+#include "run/run.h"
+#include "tree/catalog.h"
 
 namespace lockstep::host::test {
 

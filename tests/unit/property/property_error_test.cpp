@@ -1,7 +1,7 @@
 // What is said of a property with a mistake, and at which column.
 #include <catch2/catch.hpp>
 
-#include "property/property.h"
+#include "language/property/property.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "unit/property/trace.h"
 
 namespace lockstep::host::test {

@@ -1,5 +1,5 @@
 // What each property means: tables of traces with verdicts.
-#include "property/property.h"
+#include "language/property/property.h"
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "property/property_checks.h"
+#include "language/property/property_checks.h"
 
 namespace lockstep::host::test {
 

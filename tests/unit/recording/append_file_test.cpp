@@ -1,5 +1,5 @@
 // The file behind a recording: its queue, its errors, and what a crash handler saves of it.
-#include "recording/write/append_file.h"
+#include "record/write/append_file.h"
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -11,8 +11,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "compression/decompressed.h"
-#include "recording/part_names.h"
+#include "base/compression/decompressed.h"
+#include "record/part_names.h"
 #include "unit/recording/blocked_disk.h"
 
 namespace lockstep::host {

@@ -1,6 +1,6 @@
 // One table says what the lines of a recording have: what is made from it is not stale, and writer
 // and reader know each of its keys.
-#include "recording/lines.h"
+#include "record/lines.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 #include <set>
 #include <sstream>
 
-#include "core/status.h"
-#include "live/event_counts.h"
-#include "recording/read/recording_reader.h"
-#include "recording/write/json_lines.h"
+#include "base/core/status.h"
+#include "record/live/event_counts.h"
+#include "record/read/recording_reader.h"
+#include "record/write/json_lines.h"
 #include "support/generated_file.h"
 
 namespace lockstep::host {
@@ -57,7 +57,7 @@ std::string typescript(std::string_view type) {
 std::string page_types() {
   std::string text =
       "// The lines of a recording, as docs/recording.md describes them. Made by `./dev generate` "
-      "from\n// interpreter/recording/lines.h and core/status.h.\n\nexport const STATUSES = [";
+      "from\n// interpreter/record/lines.h and base/core/status.h.\n\nexport const STATUSES = [";
   std::string numbers;
   for (const StatusRow& row : kStatuses) {
     const char* separator = row.status == kStatuses.front().status ? "" : ", ";
@@ -314,14 +314,14 @@ void each_object(std::vector<ordered_json>& all, Visit visit) {
   visit(lines::kEnd, all[6]["end"]);
 }
 
-TEST_CASE("recording/lines.h: what is made from the table is not stale") {
-  test::check_generated("interpreter/web/page/src/model/recording.ts", page_types());
+TEST_CASE("record/lines.h: what is made from the table is not stale") {
+  test::check_generated("interpreter/show/web/page/src/model/recording.ts", page_types());
   test::check_generated("schema/recording.schema.json", whole_schema());
   const std::string docs = "docs/recording.md";
   test::check_generated(docs, with_tables(test::project_file(docs)));
 }
 
-TEST_CASE("recording/lines.h: the writer writes each key of the table") {
+TEST_CASE("record/lines.h: the writer writes each key of the table") {
   std::vector<ordered_json> all = sample();
   std::set<std::string> missing, written;
   for (const Object& object : lines::kObjects) {
@@ -343,7 +343,7 @@ TEST_CASE("recording/lines.h: the writer writes each key of the table") {
   CHECK(missing.empty());
 }
 
-TEST_CASE("recording/lines.h: the reader checks each key of the table") {
+TEST_CASE("record/lines.h: the reader checks each key of the table") {
   // What only the page reads.
   const std::set<std::string_view> passed_over{"full", "counts", "written", "writers"};
   std::vector<ordered_json> all = sample();

@@ -1,5 +1,5 @@
 // What fits into a file of MCAP; what tools read from one is tested from outside.
-#include "recording/use/mcap_file.h"
+#include "record/use/mcap_file.h"
 
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "compression/decompressed.h"
+#include "base/compression/decompressed.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "recording/write/json_lines.h"
+#include "record/write/json_lines.h"
 
 namespace lockstep::host::test {
 namespace {

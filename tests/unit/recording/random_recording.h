@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "recording/read/recording_timeline.h"
+#include "record/read/recording_timeline.h"
 
 namespace lockstep::host::test {
 

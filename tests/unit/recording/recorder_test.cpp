@@ -1,12 +1,12 @@
 // The recorder when the disk is slow or fails. What it writes when all is well: recording_test.cpp.
-#include "recording/write/recorder.h"
+#include "record/write/recorder.h"
 
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 #include "unit/recording/blocked_disk.h"
 
 namespace lockstep::host {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "recording/read/recording_timeline.h"
+#include "record/read/recording_timeline.h"
 
 namespace lockstep::host {
 namespace {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "recording/use/recording_diff.h"
+#include "record/use/recording_diff.h"
 #include "unit/recording/random_recording.h"
 
 namespace lockstep::host {

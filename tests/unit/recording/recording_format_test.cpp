@@ -1,14 +1,14 @@
 // A second format of recordings, in one file: what a developer has to write, and that ring, printer
 // and file work with it.
-#include "live/line_format.h"
+#include "record/live/line_format.h"
 
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
 #include <iterator>
 
-#include "live/packet_printer.h"
-#include "recording/write/recorder.h"
+#include "record/live/packet_printer.h"
+#include "record/write/recorder.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {

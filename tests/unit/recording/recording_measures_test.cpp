@@ -1,5 +1,5 @@
 // What is measured of a recording is what a study measures of the run.
-#include "recording/use/recording_measures.h"
+#include "record/use/recording_measures.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "measure/measure_spec.h"
-#include "recording/write/recorder.h"
+#include "judge/measure/measure_spec.h"
+#include "record/write/recorder.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 

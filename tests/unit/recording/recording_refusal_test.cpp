@@ -5,7 +5,7 @@
 #include <span>
 #include <sstream>
 
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 #include "support/text.h"
 
 namespace lockstep::host {

@@ -3,13 +3,13 @@
 #include <limits>
 #include <sstream>
 
-#include "core/csv_field.h"
-#include "core/version.h"
-#include "recording/read/recording_reader.h"
-#include "recording/use/recording_csv.h"
-#include "recording/use/recording_info.h"
-#include "recording/write/json_lines.h"
-#include "recording/write/recorder.h"
+#include "base/core/csv_field.h"
+#include "base/core/version.h"
+#include "record/read/recording_reader.h"
+#include "record/use/recording_csv.h"
+#include "record/use/recording_info.h"
+#include "record/write/json_lines.h"
+#include "record/write/recorder.h"
 #include "support/text.h"
 #include "unit/recording/watched_run.h"
 

@@ -3,9 +3,9 @@
 #include <random>
 #include <sstream>
 
-#include "compression/decompressed.h"
-#include "recording/read/recording_reader.h"
-#include "recording/write/recorder.h"
+#include "base/compression/decompressed.h"
+#include "record/read/recording_reader.h"
+#include "record/write/recorder.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {

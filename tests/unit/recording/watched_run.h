@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/observer.h"
-#include "runtime/outlet.h"
+#include "base/terminal/outlet.h"
 #include "support/scripted_run.h"
+#include "trace/observer.h"
 
 namespace lockstep::host::test {
 

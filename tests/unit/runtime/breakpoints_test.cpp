@@ -1,5 +1,5 @@
 // In which ticks breakpoints are reached.
-#include "runtime/breakpoints.h"
+#include "run/breakpoints.h"
 
 #include <catch2/catch.hpp>
 #include <string>

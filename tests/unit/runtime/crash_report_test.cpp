@@ -1,5 +1,5 @@
 // Processes that end with a report. Each is a child of the test.
-#include "runtime/crash_report.h"
+#include "run/crash_report.h"
 
 #include <signal.h>
 #include <sys/syscall.h>
@@ -15,8 +15,8 @@
 #include <string>
 #include <thread>
 
-#include "runtime/watchdog.h"
-#include "system/own_thread.h"
+#include "base/system/own_thread.h"
+#include "run/watchdog.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::host::test {

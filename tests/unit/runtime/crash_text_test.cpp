@@ -1,5 +1,5 @@
 // The words of a crash report.
-#include "runtime/crash_text.h"
+#include "run/crash_text.h"
 
 #include <signal.h>
 

@@ -1,5 +1,5 @@
 // The lines that leaves log, on their way to a recording or a view.
-#include "runtime/leaf_lines.h"
+#include "run/leaf_lines.h"
 
 #include <catch2/catch.hpp>
 

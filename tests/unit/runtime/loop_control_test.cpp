@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "runtime/loop.h"
-#include "runtime/run_control.h"
+#include "run/loop.h"
+#include "run/run_control.h"
 #include "support/tree_text.h"
 #include "unit/runtime/timed_leaf.h"
 

@@ -1,6 +1,6 @@
 // The rate of the loop on a clock that is real to it, while the test says how time passes: in the
 // ticks of leaves by a plan, and beyond deadlines by the latency of waking up.
-#include "runtime/loop.h"
+#include "run/loop.h"
 
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "system/own_thread.h"
+#include "base/system/own_thread.h"
 #include "unit/runtime/forked_child.h"
 #include "unit/runtime/timed_leaf.h"
 

@@ -1,5 +1,5 @@
 // Where lockstep speaks to a person: what a reader gets who reads, stops reading, or is not there.
-#include "runtime/outlet.h"
+#include "base/terminal/outlet.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "system/descriptors.h"
+#include "base/system/descriptors.h"
 
 namespace lockstep::host {
 namespace {

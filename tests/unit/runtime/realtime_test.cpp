@@ -1,5 +1,5 @@
 // What the operating system gives and refuses, each in a child process, which keeps it to itself.
-#include "runtime/realtime.h"
+#include "run/realtime.h"
 
 #include <linux/capability.h>
 #include <sched.h>

@@ -1,5 +1,5 @@
 // A run that begins anew.
-#include "runtime/run.h"
+#include "run/run.h"
 
 #include <catch2/catch.hpp>
 

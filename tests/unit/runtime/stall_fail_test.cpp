@@ -1,4 +1,4 @@
-#include "runtime/stall_fail.h"
+#include "run/stall_fail.h"
 
 #include <catch2/catch.hpp>
 

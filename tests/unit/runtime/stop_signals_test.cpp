@@ -1,4 +1,4 @@
-#include "runtime/stop_signals.h"
+#include "run/stop_signals.h"
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "system/fork_guard.h"
+#include "base/system/fork_guard.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::host::test {

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "engine/tree.h"
-#include "loading/plugin_set.h"
+#include "run/loading/plugin_set.h"
 
 namespace lockstep::host::test {
 

@@ -1,5 +1,5 @@
 // Calls that do not return. Each waits for the word of the watchdog, not for a time.
-#include "runtime/watchdog.h"
+#include "run/watchdog.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <future>
 #include <thread>
 
-#include "runtime/stop_signals.h"
+#include "run/stop_signals.h"
 #include "unit/runtime/forked_child.h"
 
 namespace lockstep::host::test {

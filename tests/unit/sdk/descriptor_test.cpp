@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/value.h"
+#include "base/core/value.h"
 #include "fake_host.h"
 #include "lockstep/leaf.hpp"
 

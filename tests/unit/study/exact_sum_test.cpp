@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/random.h"
+#include "base/core/random.h"
 
 namespace lockstep::host {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "study/distributions.h"
 
 namespace lockstep::host {

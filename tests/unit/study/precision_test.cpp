@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "study/row_sequence.h"
 
 namespace lockstep::host {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "study/sample_summary.h"
 
 namespace lockstep::host {

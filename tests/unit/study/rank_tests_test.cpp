@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/random.h"
+#include "base/core/random.h"
 #include "study/ranks.h"
 
 namespace lockstep::host {

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "measure/measure_spec.h"
-#include "runtime/loop.h"
+#include "judge/measure/measure_spec.h"
+#include "run/loop.h"
 #include "support/compiled.h"
 #include "unit/plugin/lab_plugin.h"
 

@@ -1,4 +1,4 @@
-#include "summary/repeated_halts.h"
+#include "judge/summary/repeated_halts.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "summary/statistics.h"
+#include "judge/summary/statistics.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "system/cycle_clock.h"
+#include "base/system/cycle_clock.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "system/fork_guard.h"
+#include "base/system/fork_guard.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

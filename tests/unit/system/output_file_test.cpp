@@ -1,5 +1,5 @@
 // Files that a user names to be written anew: when they get their name, and what they never touch.
-#include "system/output_file.h"
+#include "base/system/output_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "system/descriptors.h"
+#include "base/system/descriptors.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "system/processors.h"
+#include "base/system/processors.h"
 
 #include <catch2/catch.hpp>
 

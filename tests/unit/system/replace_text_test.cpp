@@ -1,5 +1,5 @@
 // Changing a file that people keep: what stays, and what is refused.
-#include "system/replace_text.h"
+#include "base/system/replace_text.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -1,8 +1,8 @@
-#include "terminal/fitted.h"
+#include "base/terminal/fitted.h"
 
 #include <catch2/catch.hpp>
 
-#include "terminal/text_table.h"
+#include "base/terminal/text_table.h"
 
 using namespace lockstep::host;
 

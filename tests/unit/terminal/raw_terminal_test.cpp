@@ -1,5 +1,5 @@
 // A terminal whose program is stopped while it takes it.
-#include "terminal/raw_terminal.h"
+#include "base/terminal/raw_terminal.h"
 
 #include <pty.h>
 #include <signal.h>
@@ -9,7 +9,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "system/own_thread.h"
+#include "base/system/own_thread.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,9 +1,9 @@
 // The plain lines, and the thread of the live view.
 #include <catch2/catch.hpp>
 
+#include "show/view/console_live.h"
+#include "show/view/console_plain.h"
 #include "unit/recording/watched_run.h"
-#include "view/console_live.h"
-#include "view/console_plain.h"
 
 namespace lockstep::host {
 namespace {

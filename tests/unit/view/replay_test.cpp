@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "recording/write/recorder.h"
+#include "record/write/recorder.h"
+#include "show/view/replay/replay_view.h"
 #include "unit/recording/random_recording.h"
 #include "unit/recording/watched_run.h"
-#include "view/replay/replay_view.h"
 
 namespace lockstep::host {
 

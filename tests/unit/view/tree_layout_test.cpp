@@ -1,11 +1,11 @@
-#include "view/tree_layout.h"
+#include "show/view/tree_layout.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "show/view/tree_browser.h"
+#include "show/view/tree_view.h"
 #include "support/tree_text.h"
-#include "view/tree_browser.h"
-#include "view/tree_view.h"
 
 namespace lockstep::host {
 namespace {

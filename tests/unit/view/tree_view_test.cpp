@@ -1,12 +1,12 @@
-#include "view/tree_view.h"
+#include "show/view/tree_view.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "core/utf8.h"
+#include "base/core/utf8.h"
+#include "base/terminal/text_line.h"
 #include "support/tree_text.h"
-#include "terminal/text_line.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "web/registry.h"
+#include "show/web/registry.h"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>

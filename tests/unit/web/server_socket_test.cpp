@@ -1,5 +1,5 @@
 // Addresses on which the monitor is reached.
-#include "web/server_socket.h"
+#include "show/web/server_socket.h"
 
 #include <catch2/catch.hpp>
 

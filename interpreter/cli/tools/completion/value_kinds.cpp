@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "cli/tools/completion/value_words.h"
-#include "definition/catalog.h"
-#include "loading/plugins.h"
-#include "measure/measure.h"
+#include "judge/measure/measure.h"
+#include "run/loading/plugins.h"
+#include "tree/catalog.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,12 +4,12 @@
 #include <array>
 #include <filesystem>
 
-#include "compression/decompressed.h"
-#include "definition/catalog.h"
-#include "document/project.h"
-#include "loading/plugin_directories.h"
-#include "loading/plugins.h"
-#include "recording/read/recording_reader.h"
+#include "base/compression/decompressed.h"
+#include "language/document/project.h"
+#include "record/read/recording_reader.h"
+#include "run/loading/plugin_directories.h"
+#include "run/loading/plugins.h"
+#include "tree/catalog.h"
 
 namespace lockstep::host {
 namespace {

@@ -3,16 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 
+#include "base/system/descriptors.h"
+#include "base/system/output_file.h"
+#include "base/terminal/fitted.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
-#include "recording/use/recording_csv.h"
-#include "recording/use/recording_info.h"
-#include "system/descriptors.h"
-#include "system/output_file.h"
-#include "terminal/fitted.h"
+#include "record/use/recording_csv.h"
+#include "record/use/recording_info.h"
 
 namespace lockstep::host {
 namespace {

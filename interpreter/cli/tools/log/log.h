@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/outputs.h"
-#include "recording/read/recording_reader.h"
-#include "recording/tick_range.h"
+#include "record/read/recording_reader.h"
+#include "record/tick_range.h"
 
 namespace CLI {
 class App;

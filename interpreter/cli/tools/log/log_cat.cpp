@@ -6,12 +6,12 @@
 #include <system_error>
 #include <thread>
 
+#include "base/compression/decompressed.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
-#include "compression/decompressed.h"
-#include "recording/read/recording_json.h"
-#include "runtime/stop_signals.h"
+#include "record/read/recording_json.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 namespace {

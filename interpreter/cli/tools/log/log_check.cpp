@@ -12,10 +12,10 @@
 #include "cli/properties.h"
 #include "cli/tools/log/log.h"
 #include "cli/tools/log/recorded_tree.h"
+#include "judge/measure/live_properties.h"
 #include "leaves/leaf_file.h"
 #include "leaves/models.h"
-#include "measure/live_properties.h"
-#include "recording/use/recorded_properties.h"
+#include "record/use/recorded_properties.h"
 #include "scenario/leaf_audit.h"
 
 namespace lockstep::host {

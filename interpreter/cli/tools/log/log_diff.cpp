@@ -8,7 +8,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
-#include "recording/use/recording_diff.h"
+#include "record/use/recording_diff.h"
 
 namespace lockstep::host {
 namespace {

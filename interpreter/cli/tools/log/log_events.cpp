@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/suggest.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
-#include "core/suggest.h"
 #include "leaves/models.h"
-#include "recording/use/recording_events.h"
+#include "record/use/recording_events.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "base/system/descriptors.h"
+#include "base/system/output_file.h"
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -15,10 +17,8 @@
 #include "cli/tools/log/log.h"
 #include "cli/tools/log/recorded_tree.h"
 #include "groot/log.h"
-#include "recording/use/mcap.h"
-#include "recording/use/trace.h"
-#include "system/descriptors.h"
-#include "system/output_file.h"
+#include "record/use/mcap.h"
+#include "record/use/trace.h"
 
 namespace lockstep::host {
 namespace {

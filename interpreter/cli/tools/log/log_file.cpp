@@ -7,13 +7,13 @@
 #include <iostream>
 #include <system_error>
 
+#include "base/compression/decompressed.h"
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
-#include "compression/decompressed.h"
-#include "recording/part_names.h"
-#include "recording/read/recording_parts.h"
+#include "record/part_names.h"
+#include "record/read/recording_parts.h"
 
 namespace lockstep::host {
 

@@ -6,8 +6,8 @@
 
 #include "cli/console.h"
 #include "cli/tools/log/log.h"
-#include "measure/measure_spec.h"
-#include "recording/use/recording_measures.h"
+#include "judge/measure/measure_spec.h"
+#include "record/use/recording_measures.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "base/system/descriptors.h"
+#include "base/system/output_file.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
 #include "cli/tools/log/reading_progress.h"
-#include "system/descriptors.h"
-#include "system/output_file.h"
-#include "web/page.h"
+#include "show/web/page.h"
 
 namespace lockstep::host {
 namespace {

@@ -12,11 +12,11 @@
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
-#include "measure/measure_spec.h"
-#include "plots/gnuplot.h"
-#include "plots/progress_plot.h"
-#include "recording/use/recorded_probe.h"
-#include "runtime/stop_signals.h"
+#include "judge/measure/measure_spec.h"
+#include "record/use/recorded_probe.h"
+#include "run/stop_signals.h"
+#include "study/plots/gnuplot.h"
+#include "study/plots/progress_plot.h"
 #include "trace/shape.h"
 
 namespace lockstep::host {

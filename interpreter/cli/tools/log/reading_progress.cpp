@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/terminal/outlet.h"
+#include "base/terminal/terminal.h"
 #include "cli/console.h"
-#include "runtime/outlet.h"
-#include "terminal/terminal.h"
-#include "view/progress_bar.h"
+#include "show/view/progress_bar.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,7 +5,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
-#include "recording/read/recording_reader.h"
+#include "record/read/recording_reader.h"
 
 namespace lockstep::host {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "leaves/play/played_leaves.h"
-#include "loading/load.h"
+#include "run/loading/load.h"
 
 namespace lockstep::host {
 

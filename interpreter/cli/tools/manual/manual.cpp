@@ -5,13 +5,13 @@
 #include <ctime>
 #include <filesystem>
 
+#include "base/core/diagnostics.h"
+#include "base/core/value.h"
+#include "base/system/output_file.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/manual/pages.h"
-#include "core/diagnostics.h"
-#include "core/value.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/core/diagnostics.h"
 #include "cli/help_text.h"
-#include "core/diagnostics.h"
 
 namespace lockstep::host {
 namespace {

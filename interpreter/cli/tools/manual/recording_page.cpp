@@ -2,7 +2,7 @@
 
 #include "cli/tools/manual/page.h"
 #include "cli/tools/manual/pages.h"
-#include "recording/lines.h"
+#include "record/lines.h"
 
 namespace lockstep::host {
 namespace {

@@ -3,7 +3,7 @@
 #include "cli/tools/manual/page.h"
 #include "cli/tools/manual/pages.h"
 #include "describe/node_reference.h"
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "authoring/scaffold/new_files.h"
+#include "author/scaffold/new_files.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 

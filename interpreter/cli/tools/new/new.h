@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "authoring/scaffold/plan.h"
-#include "core/problem.h"
+#include "author/scaffold/plan.h"
+#include "base/core/problem.h"
 
 namespace CLI {
 class App;

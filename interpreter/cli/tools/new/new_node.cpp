@@ -3,14 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "authoring/scaffold/names.h"
-#include "authoring/scaffold/new_files.h"
-#include "authoring/scaffold/plugin_source.h"
+#include "author/scaffold/names.h"
+#include "author/scaffold/new_files.h"
+#include "author/scaffold/plugin_source.h"
+#include "base/system/replace_text.h"
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/new/new.h"
-#include "system/replace_text.h"
 
 namespace lockstep::host {
 namespace {

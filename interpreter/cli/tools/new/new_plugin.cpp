@@ -3,11 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "authoring/scaffold/names.h"
+#include "author/scaffold/names.h"
 #include "cli/checks.h"
 #include "cli/tools/new/new.h"
-#include "loading/plugin_directories.h"
-#include "plugin/open/plugin_path.h"
+#include "leaves/plugin/open/plugin_path.h"
+#include "run/loading/plugin_directories.h"
 
 namespace lockstep::host {
 namespace {

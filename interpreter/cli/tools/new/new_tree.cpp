@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
-#include "authoring/scaffold/names.h"
+#include "author/scaffold/names.h"
 #include "cli/checks.h"
 #include "cli/tools/new/new.h"
 

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/terminal/outlet.h"
 #include "cli/tools/new/new.h"
-#include "loading/plugin_directories.h"
-#include "runtime/outlet.h"
+#include "run/loading/plugin_directories.h"
 
 namespace lockstep::host {
 namespace {

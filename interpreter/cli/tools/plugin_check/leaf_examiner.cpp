@@ -9,19 +9,19 @@
 #include <span>
 #include <vector>
 
-#include "core/behavior.h"
-#include "core/element_types.h"
-#include "core/parameter_value.h"
-#include "core/random.h"
-#include "core/wording.h"
+#include "base/core/behavior.h"
+#include "base/core/element_types.h"
+#include "base/core/parameter_value.h"
+#include "base/core/random.h"
+#include "base/core/wording.h"
 #include "engine/leaf_watch.h"
 #include "leaves/declared.h"
-#include "loading/load.h"
-#include "loading/plugins.h"
+#include "leaves/plugin/contract/described_types.h"
 #include "lockstep/leaf.h"
-#include "plugin/contract/described_types.h"
-#include "runtime/progress_text.h"
-#include "runtime/run.h"
+#include "run/loading/load.h"
+#include "run/loading/plugins.h"
+#include "run/run.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 namespace {

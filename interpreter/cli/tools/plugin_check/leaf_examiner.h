@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "core/node_type.h"
-#include "loading/plugin_set.h"
+#include "base/core/node_type.h"
+#include "run/loading/plugin_set.h"
 
 namespace lockstep::host {
 

@@ -8,14 +8,14 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/core/wording.h"
+#include "base/system/descriptors.h"
+#include "base/system/pipe.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/plugin_check/leaf_examiner.h"
-#include "core/wording.h"
-#include "remote/child_process.h"
-#include "runtime/plugin_thread.h"
-#include "system/descriptors.h"
-#include "system/pipe.h"
+#include "leaves/remote/child_process.h"
+#include "run/plugin_thread.h"
 
 namespace lockstep::host {
 namespace {

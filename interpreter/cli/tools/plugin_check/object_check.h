@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string>
 
-#include "loading/plugins.h"
-#include "remote/json_lines/conformance.h"
+#include "leaves/remote/json_lines/conformance.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/terminal/outlet.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
@@ -16,13 +17,12 @@
 #include "cli/tools/study/study_out_of_range.h"
 #include "cli/tools/study/study_progress.h"
 #include "cli/tools/study/study_summary.h"
-#include "measure/measure_spec.h"
-#include "plots/box_plot.h"
-#include "runtime/outlet.h"
-#include "runtime/stop_signals.h"
+#include "judge/measure/measure_spec.h"
+#include "run/stop_signals.h"
 #include "study/folder.h"
 #include "study/merge.h"
 #include "study/plan_check.h"
+#include "study/plots/box_plot.h"
 #include "study/workers.h"
 
 namespace lockstep::host {

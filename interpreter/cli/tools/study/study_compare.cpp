@@ -5,15 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "base/json/json.h"
+#include "base/terminal/text_table.h"
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "core/diagnostics.h"
-#include "core/wording.h"
-#include "json/json.h"
 #include "study/comparison.h"
 #include "study/folder.h"
-#include "terminal/text_table.h"
 
 namespace lockstep::host {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "summary/statistics.h"
+#include "judge/summary/statistics.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,19 +7,19 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/compression/whole_frame.h"
+#include "base/core/suggest.h"
+#include "base/core/version.h"
+#include "base/core/wording.h"
+#include "base/system/freed_memory.h"
 #include "cli/checks.h"
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
-#include "compression/whole_frame.h"
-#include "core/suggest.h"
-#include "core/version.h"
-#include "core/wording.h"
-#include "measure/measure_spec.h"
+#include "judge/measure/measure_spec.h"
 #include "study/column_names.h"
 #include "study/grid_text.h"
 #include "study/plan_check.h"
 #include "study/precision.h"
-#include "system/freed_memory.h"
 
 namespace lockstep::host {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/load/given_leaves.h"
-#include "runtime/loop.h"
+#include "run/loop.h"
 #include "study/study_run.h"
 
 namespace lockstep::host {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/wording.h"
-#include "runtime/progress_text.h"
+#include "base/core/wording.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
+#include "base/terminal/outlet.h"
+#include "base/terminal/terminal.h"
 #include "cli/console.h"
-#include "runtime/outlet.h"
-#include "terminal/terminal.h"
-#include "view/progress_bar.h"
+#include "show/view/progress_bar.h"
 
 namespace lockstep::host {
 namespace {

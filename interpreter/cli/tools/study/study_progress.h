@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/clock.h"
+#include "base/core/clock.h"
 #include "study/row_sequence.h"
 
 namespace lockstep::host {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <map>
 
-#include "core/diagnostics.h"
-#include "core/wording.h"
-#include "json/json.h"
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "base/json/json.h"
+#include "base/terminal/text_table.h"
 #include "study/column_names.h"
 #include "study/precision.h"
-#include "terminal/text_table.h"
 
 namespace lockstep::host {
 namespace {

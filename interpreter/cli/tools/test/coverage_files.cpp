@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/system/output_file.h"
 #include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "runtime/stop_signals.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 

@@ -3,23 +3,23 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
+#include "base/system/freed_memory.h"
+#include "base/system/output_file.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/outputs.h"
 #include "cli/tools/test/file_watch.h"
 #include "cli/tools/test/test_options.h"
-#include "core/suggest.h"
-#include "core/wording.h"
 #include "leaves/models.h"
-#include "runtime/stop_signals.h"
+#include "run/stop_signals.h"
 #include "scenario/discover.h"
 #include "scenario/mutation_run.h"
 #include "scenario/report_text.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/test_run.h"
-#include "system/freed_memory.h"
-#include "system/output_file.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/tools/test/coverage_files.h"
-#include "loading/plugins.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 

@@ -5,7 +5,7 @@
 
 #include "cli/tools/verify/verify_report.h"
 #include "engine/tree.h"
-#include "property/property.h"
+#include "language/property/property.h"
 
 namespace lockstep::host {
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/core/wording.h"
+#include "base/terminal/outlet.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
@@ -14,11 +16,9 @@
 #include "cli/properties.h"
 #include "cli/tools/verify/save_scenarios.h"
 #include "cli/tools/verify/verify_report.h"
-#include "core/wording.h"
-#include "document/file.h"
-#include "document/reporter.h"
-#include "runtime/outlet.h"
-#include "runtime/stop_signals.h"
+#include "language/document/file.h"
+#include "language/document/reporter.h"
+#include "run/stop_signals.h"
 #include "verify/chance_runs.h"
 #include "verify/property_watch.h"
 #include "verify/verifiable.h"

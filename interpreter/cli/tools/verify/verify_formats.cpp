@@ -1,9 +1,9 @@
 // Verdicts for other programs: what a workflow shows as tests, and as remarks at places.
 #include <fmt/format.h>
 
+#include "base/core/wording.h"
 #include "cli/check_formats.h"
 #include "cli/tools/verify/verify_report.h"
-#include "core/wording.h"
 #include "describe/xsd.h"
 
 namespace lockstep::host {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/shell_word.h"
-#include "core/wording.h"
-#include "json/json.h"
+#include "base/core/shell_word.h"
+#include "base/core/wording.h"
+#include "base/json/json.h"
 
 namespace lockstep::host {
 namespace {

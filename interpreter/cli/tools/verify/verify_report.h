@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/diagnostics.h"
+#include "base/core/diagnostics.h"
 #include "verify/counter_example.h"
 #include "verify/verdict.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "blackboard/conversion.h"
+#include "base/blackboard/conversion.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "dialect/btcpp/nodes/results.h"
 #include "engine/node_ports.h"

@@ -1,6 +1,6 @@
 // SetBlackboard and UnsetBlackboard: write an entry, or remove it.
-#include "blackboard/conversion.h"
-#include "core/wording.h"
+#include "base/blackboard/conversion.h"
+#include "base/core/wording.h"
 #include "dialect/btcpp/nodes/kinds.h"
 #include "engine/node_context.h"
 #include "engine/node_ports.h"

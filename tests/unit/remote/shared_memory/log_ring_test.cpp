@@ -1,13 +1,13 @@
 // Lines go through the ring whole, in order, however often it wraps; those that do not fit are
 // counted; and nothing that stands in it can harm its reader.
-#include "remote/shared_memory/log_ring.h"
+#include "leaves/remote/shared_memory/log_ring.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
 #include <thread>
 #include <vector>
 
-#include "core/random.h"
+#include "base/core/random.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -1,10 +1,10 @@
 // What is written is what is read; and bytes that nobody wrote are refused, never trusted.
-#include "remote/shared_memory/message.h"
+#include "leaves/remote/shared_memory/message.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "core/random.h"
+#include "base/core/random.h"
 
 namespace lockstep::host::test {
 namespace {

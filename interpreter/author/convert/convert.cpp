@@ -1,0 +1,588 @@
+#include "author/convert/convert.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "author/convert/circumstances.h"
+#include "author/convert/script_text.h"
+#include "author/convert/switch_node.h"
+#include "author/edit/text_edit.h"
+#include "base/core/identifier.h"
+#include "base/core/pre_order.h"
+#include "base/core/wording.h"
+#include "dialect/btcpp/pairs.h"
+#include "dialect/btcpp/version_3.h"
+#include "dialect/btcpp/words.h"
+#include "language/document/scanner.h"
+#include "language/document/value_text.h"
+#include "tree/check/node_check.h"
+
+namespace lockstep::host {
+namespace {
+
+using btcpp::AttributePair;
+using btcpp::Conversions;
+using btcpp::FixedAttribute;
+using btcpp::NodePair;
+using btcpp::Side;
+
+constexpr std::string_view kModels = "TreeNodesModel";
+// BehaviorTree.CPP 4.10 refuses elements that are deeper below BehaviorTree.
+constexpr std::size_t kMostLevels = 256;
+
+class Converter {
+ public:
+  Converter(const Document& document, const Conversion& conversion, const Reporter& report)
+      : document_(document),
+        conversion_(conversion),
+        report_(report),
+        circumstances_(document, conversion),
+        text_(document.source()->text()),
+        scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict) {}
+
+  std::optional<std::string> convert() {
+    bool before_end = true;
+    while (before_end) {
+      const XmlToken token = scanner_.next();
+      before_end = token.kind != TokenKind::End && token.kind != TokenKind::Fault;
+      convert(token);
+    }
+    if (report_.has_errors()) return std::nullopt;
+    return edits_.apply(text_);
+  }
+
+ private:
+  bool to_ours() const { return &conversion_.to == &kLockstepRules; }
+
+  // An element of the text that is not closed yet.
+  struct Open {
+    std::uint32_t element;
+    std::size_t begin;
+    std::string tag;
+    bool is_left_out = false;
+  };
+
+  void convert(const XmlToken& token) {
+    const bool is_prolog = std::exchange(is_prolog_, false);
+    switch (token.kind) {
+      case TokenKind::OpenTag:
+        return open(token);
+      case TokenKind::Attribute:
+        return attribute(token);
+      case TokenKind::EmptyTagEnd:
+        return close(token.begin + 2);
+      case TokenKind::CloseTag:
+        return close_tag(token);
+      case TokenKind::Text:
+        if (to_ours() && !is_left_out() && !is_in_models()) leave_out_text(token);
+        return;
+      case TokenKind::Comment:
+        return comment(token);
+      case TokenKind::Instruction:
+        is_prolog_ = is_prolog;
+        if (to_ours() ? !is_strict(token) : !is_prolog) leave_out_instruction(token);
+        return;
+      case TokenKind::Doctype:
+        if (to_ours() && (next_ > 0 || !is_strict(token) || std::exchange(has_doctype_, true))) {
+          leave_out_instruction(token);
+        }
+        return;
+      default:
+        return;
+    }
+  }
+
+  bool is_left_out() const {
+    return std::ranges::any_of(open_, [](const Open& it) { return it.is_left_out; });
+  }
+
+  // Models are for editors, so they stay as they are.
+  bool is_in_models() const { return open_.size() > 1 && open_[1].tag == kModels; }
+
+  void open(const XmlToken& token) {
+    const std::uint32_t element = next_++;
+    open_.push_back({element, token.begin, std::string(token.name)});
+    pair_ = nullptr;
+    is_switch_ = false;
+    if (element >= document_.elements().size()) {  // a second root
+      open_.back().is_left_out = true;
+    } else if (open_.size() > 2 && !is_left_out() && !is_in_models()) {
+      if (!to_ours() && open_.size() == 3 + kMostLevels) {
+        cannot(place_of(element), fmt::format("a node {} levels below its tree", kMostLevels + 1),
+               fmt::format("it takes {}: make a tree of a part, and a SubTree in its place",
+                           kMostLevels));
+      }
+      convert_node(element, token);
+    } else if (open_.size() == 2) {
+      convert_child_of_root(element);
+    } else if (open_.size() == 1) {
+      convert_root(element, token);
+    }
+    if (open_.back().tag != token.name) rename(token.begin + 1, token.name);
+  }
+
+  void rename(std::size_t at, std::string_view name) {
+    edits_.replace(at, at + name.size(), open_.back().tag);
+  }
+
+  void convert_root(std::uint32_t root, const XmlToken& token) {
+    const bool has_format = document_.find_attribute(root, "BTCPP_format") != nullptr;
+    if (to_ours() && !has_format) add_attribute(token, "lockstep", "1");
+  }
+
+  void add_attribute(const XmlToken& tag, std::string_view name, std::string_view value) {
+    edits_.insert(tag.begin + 1 + tag.name.size(), fmt::format(" {}={}", name, quoted(value)));
+  }
+
+  void convert_child_of_root(std::uint32_t element) {
+    const std::string_view tag = document_.elements()[element].tag;
+    const Place place = place_of(element);
+    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin", "arg", kModels};
+    if (std::ranges::find(kBoth, tag) != std::end(kBoth)) {
+      if (to_ours() && tag == "BehaviorTree") check_tree(element);
+      if (!to_ours() && tag == "BehaviorTree") warn_of_id(element);
+      if (!to_ours() && tag == "arg") warn_of_argument(element);
+      return;
+    }
+    if (to_ours() || tag == "property") {
+      open_.back().is_left_out = true;
+      report_.at(place, fmt::format("'{}' is left out", brief(tag)),
+                 fmt::format("{} does not have it; it has no effect on a run",
+                             to_ours() ? "lockstep's language" : "BehaviorTree.CPP"),
+                 Severity::Note);
+    } else {
+      cannot(place, fmt::format("'{}'", brief(tag)));
+    }
+  }
+
+  // lockstep reads it in both languages.
+  void warn_of_argument(std::uint32_t argument) const {
+    if (report_.counted_only(Severity::Warning)) return;
+    const Attribute* name = document_.find_attribute(argument, "name");
+    report_.at(place_of(argument), "BehaviorTree.CPP ignores 'arg'",
+               fmt::format("'${{{}}}' is a text there: write the value, or an entry in its place",
+                           name == nullptr ? "…" : brief(name->value)),
+               Severity::Warning);
+  }
+
+  // Calls use(offset, name) for each ${name}.
+  template <class Use>
+  static void for_each_argument(std::string_view text, Use use) {
+    for (auto at = text.find("${"); at != std::string_view::npos; at = text.find("${", at + 2)) {
+      const auto close = text.find('}', at);
+      if (close == std::string_view::npos) return;
+      const bool is_literal = at > 0 && text[at - 1] == '$';
+      if (!is_literal) use(at, text.substr(at + 2, close - at - 2));
+    }
+  }
+
+  // Warns once of each name that this file does not declare.
+  void warn_of_arguments(const Attribute& attribute) {
+    for_each_argument(attribute.value, [&](std::size_t at, std::string_view name) {
+      if (declaration_of(name) != 0 || !told_.insert(name).second) return;
+      report_.in_value(attribute.place, at,
+                       fmt::format("'${{{}}}' is a text for BehaviorTree.CPP", brief(name)),
+                       "it has no arguments: write the value, or an entry", Severity::Warning);
+    });
+  }
+
+  // With the defaults of the arguments that this file declares.
+  std::string with_defaults(std::string_view text) const {
+    std::string all;
+    std::size_t end = 0;
+    for_each_argument(text, [&](std::size_t at, std::string_view name) {
+      const std::uint32_t declaration = declaration_of(name);
+      const Attribute* value =
+          declaration == 0 ? nullptr : document_.find_attribute(declaration, "default");
+      if (value == nullptr) return;
+      all.append(text.substr(end, at - end)).append(value->value);
+      end = at + name.size() + 3;
+    });
+    return all.append(text.substr(end));
+  }
+
+  // The 'arg' element of that name; 0 if there is none.
+  std::uint32_t declaration_of(std::string_view argument) const {
+    const auto elements = document_.elements();
+    for (const std::uint32_t child : children_in(elements, 0)) {
+      const Attribute* name = document_.find_attribute(child, "name");
+      if (elements[child].tag == "arg" && name != nullptr && name->value == argument) return child;
+    }
+    return 0;
+  }
+
+  // Releases before 4.8.4 take it, and lockstep does.
+  void warn_of_id(std::uint32_t tree) const {
+    const Attribute* id = document_.find_attribute(tree, "ID");
+    constexpr std::string_view kForbidden = " \t\r\n<>&\"'/\\:*?|.";
+    if (id == nullptr) return;
+    const bool is_name = id->value.find_first_of(kForbidden) == std::string_view::npos;
+    if (is_name && id->value != "Root" && id->value != "root") return;
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at_value(
+        id->place,
+        fmt::format("BehaviorTree.CPP 4.8.4 and later refuse the ID '{}'", brief(id->value)),
+        "an ID there has no blanks and none of <>&\"'/\\:*?|., and is not Root", Severity::Warning);
+  }
+
+  void check_tree(std::uint32_t tree) const {
+    const Attribute* id = document_.find_attribute(tree, "ID");
+    const Place place = document_.elements()[tree].place;
+    if (id == nullptr || id->value.empty()) {
+      report_.at(place, "a BehaviorTree without 'ID'", "give it one");
+    } else if (id->value.find('/') != std::string_view::npos) {
+      report_.at_value(id->place, fmt::format("the ID '{}' contains '/'", brief(id->value)),
+                       "in lockstep's language '/' separates the names in a path");
+    }
+  }
+
+  void cannot(Place place, std::string_view what, std::string hint = {}) const {
+    if (report_.counted_only(Severity::Error)) return;
+    report_.at(place, fmt::format("{} cannot be said in {}", what, conversion_.to.title),
+               std::move(hint));
+  }
+
+  void convert_node(std::uint32_t element, const XmlToken& token) {
+    const bool is_explicit = is_explicit_tag(token.name);
+    const Attribute* id = is_explicit ? document_.find_attribute(element, "ID") : nullptr;
+    std::string_view type = id != nullptr ? id->value : token.name;
+    if (is_explicit && id == nullptr) return cannot(place_of(element), "a node without 'ID'");
+    if (to_ours() && conversion_.from_nodes.find(type) == nullptr) {
+      if (const auto since = btcpp::node_since_4(type); !since.empty()) type = since;
+    }
+    if (conversion_.from_nodes.find(type) == nullptr) {
+      if (conversion_.to_nodes.find(type) == nullptr) return;
+      return cannot(place_of(element), fmt::format("a leaf called '{}'", brief(type)),
+                    "there it is the name of a built-in node");
+    }
+    is_switch_ = to_ours() ? switch_cases_there(type) != 0 : type == "Switch";
+    if (is_switch_) return convert_switch(element, type, token);
+    pair_ = find_pair(element, type);
+    if (pair_ == nullptr) {
+      return cannot(place_of(element), fmt::format("this '{}'", brief(type)), hint_of(type));
+    }
+    open_.back().tag = to_ours() ? pair_->ours : pair_->theirs;
+    const FixedAttribute& fixed = to_ours() ? pair_->in_ours : pair_->in_theirs;
+    if (!fixed.name.empty() && !fixed.is_default) add_attribute(token, fixed.name, fixed.value);
+    for (const AttributePair& it : pair_->attributes) {
+      const bool is_absent = document_.find_attribute(element, it.ours) == nullptr;
+      if (!to_ours() && it.conversion == Conversions::Rounds && is_absent) {
+        add_attribute(token, it.theirs, "-1");
+      }
+    }
+    for (const btcpp::Difference& it : pair_->differences) {
+      if (!circumstances_.apply(it.when, element) || report_.counted_only(Severity::Warning))
+        continue;
+      report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
+                 std::string(it.what), Severity::Warning);
+    }
+  }
+
+  void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
+    const ConvertedSwitch converted =
+        to_ours() ? switch_to_ours(document_, element, switch_cases_there(type))
+                  : switch_to_theirs(document_, element, count_children(element));
+    if (!converted.problem.empty()) {
+      return cannot(converted.place, converted.problem, converted.hint);
+    }
+    open_.back().tag = "Switch";
+    if (!to_ours()) open_.back().tag += std::to_string(converted.attributes.size() - 1);
+    for (const auto& [name, value] : converted.attributes) add_attribute(token, name, value);
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
+               "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
+               "lockstep's language it is an error",
+               Severity::Warning);
+  }
+
+  std::uint32_t count_children(std::uint32_t element) const {
+    const auto elements = document_.elements();
+    std::uint32_t children = 0;
+    for ([[maybe_unused]] const auto child : children_in(elements, element)) ++children;
+    return children;
+  }
+
+  Place place_of(std::uint32_t element) const { return document_.elements()[element].place; }
+
+  const NodePair* find_pair(std::uint32_t element, std::string_view type) const {
+    const auto given = [&](std::string_view name) -> std::optional<std::string_view> {
+      const Attribute* it = document_.find_attribute(element, name);
+      return it == nullptr ? std::nullopt : std::optional(it->value);
+    };
+    return btcpp::find_pair(to_ours() ? Side::Theirs : Side::Ours, type, given);
+  }
+
+  // If one with another attribute can be said.
+  std::string hint_of(std::string_view type) const {
+    for (const NodePair& pair : btcpp::node_pairs()) {
+      if ((to_ours() ? pair.theirs : pair.ours) != type) continue;
+      const FixedAttribute& fixed = to_ours() ? pair.in_theirs : pair.in_ours;
+      return fmt::format("one with {}=\"{}\" can", fixed.name, fixed.value);
+    }
+    if (type == "Precondition") return "give its child failure_if, success_if or skip_if";
+    return {};
+  }
+
+  void attribute(const XmlToken& token) {
+    if (is_left_out()) return;
+    const std::uint32_t element = open_.back().element;
+    const Attribute* found = document_.find_attribute(element, token.name);
+    if (found == nullptr) return;
+    if (!to_ours()) warn_of_arguments(*found);
+    if (is_in_models()) return keep(token, *found);
+    if (open_.size() == 1) return root_attribute(token, *found);
+    if (open_.size() == 2) return tree_attribute(token, *found);
+    node_attribute(token, *found);
+  }
+
+  void root_attribute(const XmlToken& token, const Attribute& attribute) {
+    const std::string_view own = to_ours() ? "BTCPP_format" : "lockstep";
+    if (attribute.name == own) {
+      replace(token, to_ours() ? "lockstep" : "BTCPP_format", to_ours() ? "1" : "4");
+    } else if (to_ours() && attribute.name != "main_tree_to_execute" &&
+               attribute.name != "xmlns:xsi" && attribute.name != "xsi:noNamespaceSchemaLocation") {
+      leave_out(token, attribute);
+    } else {
+      keep(token, attribute);
+    }
+  }
+
+  // Handles an attribute of an element of root.
+  void tree_attribute(const XmlToken& token, const Attribute& attribute) {
+    const bool is_tree = open_.back().tag == "BehaviorTree";
+    if (to_ours() && open_.back().tag == "include" && attribute.name == "ros_pkg") {
+      return cannot(attribute.place, "'ros_pkg'", "give the path of the file");
+    }
+    const bool is_known = attribute.name == "ID" || attribute.name == "_description";
+    if (to_ours() && is_tree && !is_known) return leave_out(token, attribute);
+    keep(token, attribute);
+  }
+
+  void node_attribute(const XmlToken& token, const Attribute& attribute) {
+    const std::string_view name = attribute.name;
+    if (is_switch_ && is_switch_attribute(name)) return remove(token);
+    if (pair_ != nullptr && is_fixed(name)) return remove(token);
+    if (const AttributePair* pair = attribute_pair(name)) {
+      return convert_value(token, attribute, *pair);
+    }
+    if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
+    if (name == "ID" && is_switch_) return remove(token);
+    if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
+    to_ours() ? to_our_attribute(token, attribute) : to_their_attribute(token, attribute);
+  }
+
+  void to_their_attribute(const XmlToken& token, const Attribute& attribute) {
+    const auto hook = hook_named(attribute.name, conversion_.from);
+    if (hook) return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
+    if (is_script(attribute.name)) return convert_script(token, attribute, attribute.name);
+    keep(token, attribute);
+  }
+
+  // Of a built-in node.
+  bool is_script(std::string_view name) const { return pair_ != nullptr && name == "code"; }
+
+  void convert_script(const XmlToken& token, const Attribute& attribute, std::string_view name) {
+    const auto script = converted_script(attribute.value);
+    if (script) {
+      const auto whole = converted_script(with_defaults(attribute.value));
+      if (!whole || *whole != with_defaults(*script)) {
+        return cannot(attribute.place, "a script with this argument",
+                      "its default is in other words there: write it here in its place");
+      }
+      if (*script == attribute.value && name == attribute.name) return keep(token, attribute);
+      return replace(token, name, *script);
+    }
+    if (report_.counted_only(Severity::Error)) return;
+    report_.in_value(
+        attribute.place, script.error().offset,
+        fmt::format("{} cannot be said in {}", script.error().message, conversion_.to.title),
+        script.error().hint);
+  }
+
+  tl::expected<std::string, Expression::Error> converted_script(std::string_view script) const {
+    return to_ours() ? script_to_ours(script) : script_to_theirs(script);
+  }
+
+  bool is_fixed(std::string_view name) const {
+    const FixedAttribute& fixed = to_ours() ? pair_->in_theirs : pair_->in_ours;
+    return !fixed.name.empty() && fixed.name == name;
+  }
+
+  const AttributePair* attribute_pair(std::string_view name) const {
+    if (pair_ == nullptr) return nullptr;
+    const auto it = std::ranges::find(pair_->attributes, name,
+                                      to_ours() ? &AttributePair::theirs : &AttributePair::ours);
+    return it == pair_->attributes.end() ? nullptr : &*it;
+  }
+
+  void convert_value(const XmlToken& token, const Attribute& attribute, const AttributePair& pair) {
+    const std::uint32_t children = count_children(open_.back().element);
+    const auto value = to_ours() ? btcpp::value_here(pair.conversion, attribute.value, children)
+                                 : btcpp::value_there(pair.conversion, attribute.value);
+    if (!value) {
+      return cannot(attribute.place,
+                    fmt::format("{}=\"{}\"", attribute.name, brief(attribute.value)),
+                    std::string(btcpp::hint_of(pair.conversion)));
+    }
+    if (value->empty()) return remove(token);
+    replace(token, to_ours() ? pair.ours : pair.theirs, *value);
+  }
+
+  void to_our_attribute(const XmlToken& token, const Attribute& attribute) {
+    const std::string_view name = attribute.name, value = attribute.value;
+    const bool is_subtree = pair_ != nullptr && pair_->ours == "SubTree";
+    if (is_subtree && (name == "__shared_blackboard" || name == "__autoremap")) {
+      return replace(token, "_autoremap", value);
+    }
+    if (const auto hook = hook_named(name, conversion_.from)) {
+      return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
+    }
+    if (hook_named(name, conversion_.to)) {
+      return cannot(attribute.place, fmt::format("a port called '{}'", name),
+                    "there it is a script of the node");
+    }
+    if (name == "_autoremap" || name == "_description") return keep(token, attribute);
+    const bool is_dotted = name.find('.') != name.npos;  // of a leaf of ours: goal.order
+    if (!is_port_name(name) && !is_dotted) return leave_out(token, attribute);
+    if (name == "name") return convert_name(token, attribute);
+    const std::string_view key = btcpp::key_of(value, name);
+    if (key.empty() && is_script(name)) return convert_script(token, attribute, name);
+    if (key.empty()) return keep(token, attribute);
+    if (is_script(name)) {
+      return cannot(attribute.place, "a script in an entry", "write the script here");
+    }
+    if (!is_identifier(key)) {
+      return cannot(attribute.place, fmt::format("the key '{}'", brief(key)),
+                    fmt::format("a key is {}", kIdentifierRule));
+    }
+    if (value == fmt::format("{{{}}}", key)) return keep(token, attribute);
+    replace(token, name, fmt::format("{{{}}}", key));
+  }
+
+  void convert_name(const XmlToken& token, const Attribute& attribute) {
+    if (attribute.value.empty()) return remove(token);
+    if (attribute.value.find('/') == std::string_view::npos) return keep(token, attribute);
+    cannot(attribute.place, fmt::format("the name '{}'", brief(attribute.value)),
+           "'/' separates the names in a path");
+  }
+
+  std::size_t end_of(const XmlToken& token) const {
+    return scanner_.offset_of(token.value) + token.value.size() + 1;
+  }
+
+  void replace(const XmlToken& token, std::string_view name, std::string_view value) {
+    edits_.replace(token.begin, end_of(token), fmt::format("{}={}", name, quoted(value)));
+  }
+
+  // With the blanks before it.
+  void remove(const XmlToken& token) {
+    std::size_t begin = token.begin;
+    while (begin > 0 && is_xml_blank(text_[begin - 1])) --begin;
+    edits_.remove(begin, end_of(token));
+  }
+
+  void leave_out(const XmlToken& token, const Attribute& attribute) {
+    remove(token);
+    if (report_.counted_only(Severity::Note)) return;
+    report_.at(attribute.place, fmt::format("'{}' is left out", brief(attribute.name)),
+               "it is for editors", Severity::Note);
+  }
+
+  // A value that only the lenient grammar accepts is written as XML.
+  void keep(const XmlToken& token, const Attribute& attribute) {
+    const bool is_glued = !is_xml_blank(text_[token.begin - 1]);
+    if (to_ours() && is_glued) edits_.insert(token.begin, " ");
+    if (!to_ours() || token.value.find_first_of("<&") == std::string_view::npos) return;
+    const auto begin = scanner_.offset_of(token.value) - 1;
+    edits_.replace(begin, end_of(token), quoted(attribute.value));
+  }
+
+  void close_tag(const XmlToken& token) {
+    if (open_.empty()) return;
+    const bool is_renamed = open_.back().tag != token.name && !is_left_out();
+    if (is_renamed) rename(token.begin + 2, token.name);
+    close(text_.find('>', token.begin) + 1);
+  }
+
+  void close(std::size_t end) {
+    if (open_.empty()) return;
+    const bool inside = open_.size() > 1 && open_[open_.size() - 2].is_left_out;
+    if (open_.back().is_left_out && !inside) {
+      std::size_t begin = open_.back().begin;
+      while (begin > 0 && is_xml_blank(text_[begin - 1])) --begin;
+      edits_.remove(begin, end);
+    }
+    open_.pop_back();
+  }
+
+  void leave_out_text(const XmlToken& token) {
+    auto end = std::min(text_.find('<', token.begin + 1), text_.size());
+    while (end > token.begin && is_xml_blank(text_[end - 1])) --end;
+    const bool is_section = text_.substr(token.begin).starts_with("<![CDATA[");
+    const auto section = text_.find("]]>", token.begin);
+    edits_.remove(token.begin, is_section ? section + 3 : end);
+  }
+
+  // Whether an instruction or a DOCTYPE is one of XML, too.
+  bool is_strict(const XmlToken& token) const {
+    const bool is_declaration = token.value.starts_with("<?xml") && is_xml_blank(token.value[5]);
+    if (is_declaration && text_.find('<') != token.begin) return false;
+    if (is_declaration && token.begin > 0 && is_xml_blank(text_[token.begin - 1])) return false;
+    Scanner strict(token.value);
+    return strict.next().kind == token.kind && strict.next().kind == TokenKind::End;
+  }
+
+  // BehaviorTree.CPP takes them at the beginning of a file only, and then any.
+  void leave_out_instruction(const XmlToken& token) {
+    edits_.remove(token.begin, token.begin + token.value.size());
+    if (report_.counted_only(Severity::Note)) return;
+    const std::uint32_t element = next_ == 0 ? 0 : next_ - 1;
+    report_.at(place_of(element), fmt::format("'{}' is left out", brief(token.value)),
+               to_ours() ? "it has no effect, and XML does not have it there"
+                         : "BehaviorTree.CPP takes processing instructions only at the beginning "
+                           "of a file",
+               Severity::Note);
+  }
+
+  void comment(const XmlToken& token) {
+    const auto end = text_.find("-->", token.begin + 4);
+    const std::string_view inside = text_.substr(token.begin + 4, end - token.begin - 4);
+    if (!to_ours() || (inside.find("--") == std::string_view::npos && !inside.ends_with('-')))
+      return;
+    std::string text;
+    for (const char c : inside) {
+      if (c == '-' && text.ends_with('-')) text += ' ';
+      text += c;
+    }
+    if (text.ends_with('-')) text += ' ';
+    edits_.replace(token.begin + 4, end, text);
+  }
+
+  const Document& document_;
+  const Conversion& conversion_;
+  const Reporter& report_;
+  const Circumstances circumstances_;
+  std::string_view text_;
+  Scanner scanner_;
+  TextEdit edits_;
+  std::vector<Open> open_;
+  std::uint32_t next_ = 0;          // element
+  const NodePair* pair_ = nullptr;  // of the innermost element
+  bool is_switch_ = false;          // likewise
+  bool has_doctype_ = false;
+  bool is_prolog_ = true;            // nothing but processing instructions so far
+  std::set<std::string_view> told_;  // names of arguments
+};
+
+}  // namespace
+
+std::optional<std::string> convert(const Document& document, const Conversion& conversion,
+                                   const Reporter& report) {
+  return Converter(document, conversion, report).convert();
+}
+
+}  // namespace lockstep::host

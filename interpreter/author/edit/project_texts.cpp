@@ -1,0 +1,121 @@
+#include "author/edit/project_texts.h"
+
+#include "author/edit/element_text.h"
+#include "base/core/pre_order.h"
+#include "language/document/references.h"
+#include "language/document/value_text.h"
+#include "tree/check/node_check.h"
+
+namespace lockstep::host {
+
+ProjectTexts::ProjectTexts(const Project& project, const Catalog& catalog)
+    : project_(project), catalog_(catalog), rules_(project.rules) {
+  // Its documents have the values of arguments. These had no error that hides elements, so the
+  // texts can be read again.
+  for (const auto& document : project.documents) {
+    const Source& source = *document->source();
+    Diagnostics ignored;
+    documents_.push_back(Document::parse(source.path(), std::string(source.text()), ignored));
+  }
+}
+
+ProjectTexts ProjectTexts::with_arguments() const {
+  ProjectTexts same = *this;
+  for (std::size_t i = 0; i < documents_.size(); ++i)  // they belong to the project
+    same.documents_[i] = {std::shared_ptr<void>(), project_.documents[i].get()};
+  return same;
+}
+
+void ProjectTexts::for_each_element(const std::function<void(ElementAt)>& visit) const {
+  for (std::uint32_t i = 0; i < documents_.size(); ++i)
+    for (std::uint32_t element = 0; element < documents_[i]->elements().size(); ++element)
+      visit({i, element});
+}
+
+std::optional<ElementAt> ProjectTexts::find_tree(std::string_view id) const {
+  std::optional<ElementAt> found;
+  for_each_element([&](ElementAt at) {
+    const bool is_tree = document(at.document).elements()[at.element].tag == "BehaviorTree";
+    if (!found && is_tree && value(at, "ID") == id) found = at;
+  });
+  return found;
+}
+
+std::optional<ElementAt> ProjectTexts::tree_around(ElementAt at) const {
+  const auto elements = document(at.document).elements();
+  for (const std::uint32_t child : children_in(elements, 0)) {
+    const bool is_inside = child < at.element && at.element < elements[child].end;
+    if (is_inside && elements[child].tag == "BehaviorTree") return ElementAt{at.document, child};
+  }
+  return std::nullopt;
+}
+
+std::string_view ProjectTexts::value(ElementAt at, std::string_view name) const {
+  const Attribute* it = document(at.document).find_attribute(at.element, name);
+  return it == nullptr ? std::string_view() : it->value;
+}
+
+std::string_view ProjectTexts::main_tree() const {
+  if (const auto named = value({0, 0}, "main_tree_to_execute"); !named.empty()) return named;
+  std::string_view only;
+  int trees = 0;
+  const auto elements = document(0).elements();
+  for (const std::uint32_t child : children_in(elements, 0)) {
+    if (elements[child].tag != "BehaviorTree") continue;
+    only = value({0, child}, "ID");
+    ++trees;
+  }
+  return trees == 1 ? only : std::string_view();
+}
+
+bool ProjectTexts::is_sub_tree(ElementAt at) const {
+  const std::string_view tag = document(at.document).elements()[at.element].tag;
+  return tag == "SubTree" || tag == "SubTreePlus";
+}
+
+std::vector<ElementAt> ProjectTexts::modeled_ports(std::string_view tree) const {
+  std::vector<ElementAt> ports;
+  for (std::uint32_t i = 0; i < documents_.size(); ++i) {
+    const auto elements = document(i).elements();
+    for (const std::uint32_t models : children_in(elements, 0)) {
+      if (elements[models].tag != "TreeNodesModel") continue;
+      for (const std::uint32_t model : children_in(elements, models)) {
+        if (!is_sub_tree({i, model}) || value({i, model}, "ID") != tree) continue;
+        for (const std::uint32_t port : children_in(elements, model)) ports.push_back({i, port});
+      }
+    }
+  }
+  return ports;
+}
+
+const NodeType* ProjectTexts::type_of(ElementAt at) const {
+  const std::string_view tag = document(at.document).elements()[at.element].tag;
+  return catalog_.find(is_explicit_tag(tag) ? value(at, "ID") : tag);
+}
+
+bool ProjectTexts::is_in(ElementAt at, std::string_view tag) const {
+  const auto elements = document(at.document).elements();
+  for (std::uint32_t around = 0; around <= at.element; ++around)
+    if (elements[around].tag == tag && at.element < elements[around].end) return true;
+  return false;
+}
+
+void replace_in_value(TextEdit& edit, const Document& document, const Attribute& attribute,
+                      std::size_t begin, std::size_t end, std::string_view text) {
+  const std::string_view all = document.source()->text();
+  const auto at = attribute_text(document, attribute);
+  const std::size_t first = at ? at->value_begin : offset_of(document, attribute.place);
+  const std::string_view raw = at ? all.substr(first, at->value_end - first) : all.substr(first);
+  edit.replace(first + raw_offset(raw, begin), first + raw_offset(raw, end),
+               escaped(text, at ? at->quote_in(all) : '"'));
+}
+
+std::optional<std::string_view> key_in_braces(std::string_view value) {
+  const bool is_key = value.size() > 2 && value.front() == '{' && value.back() == '}';
+  if (!is_key) return std::nullopt;
+  const std::string_view key = value.substr(1, value.size() - 2);
+  if (key.find_first_of("{}$") != std::string_view::npos) return std::nullopt;
+  return key;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,274 @@
+#include "author/server/features/names.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "author/edit/entry_uses.h"
+#include "author/server/features/site.h"
+#include "base/core/element_types.h"
+#include "base/core/language.h"
+#include "language/document/references.h"
+#include "language/expression/token.h"
+
+namespace lockstep::host {
+namespace {
+
+class NameVisitor {
+ public:
+  NameVisitor(const ProjectText& text, const Catalog& catalog, const LanguageRules& rules,
+              std::vector<NamePlace>& places)
+      : text_(text), tree_(*text.tree), catalog_(catalog), rules_(rules), places_(places) {}
+
+  void run() {
+    for (const TolerantElement& element : tree_.elements) visit(element);
+  }
+
+ private:
+  void visit(const TolerantElement& element) {
+    const NodeType* const type = type_of(tree_, element, catalog_);
+    for (const TolerantAttribute& it : tree_.attributes_of(element)) {
+      if (!it.has_quote) continue;
+      add_arguments(element, it);
+      if (!add_declared(element, type, it) && tree_around(tree_, element) != nullptr)
+        add_used(element, type, it);
+    }
+  }
+
+  void add(NamePlace place) {
+    if (place.name.empty()) return;
+    place.text = &text_;
+    places_.push_back(place);
+  }
+
+  NamePlace place(NameKind kind, const TolerantElement& element, std::string_view name) const {
+    return {kind, name, &text_, range_of(tree_, name), &element};
+  }
+
+  // "${name}"; "$${" is a text.
+  void add_arguments(const TolerantElement& element, const TolerantAttribute& attribute) {
+    const std::string_view value = attribute.value;
+    for (auto at = value.find("${"); at != value.npos; at = value.find("${", at + 2)) {
+      const auto end = value.find('}', at);
+      const bool is_text = at > 0 && value[at - 1] == '$';
+      if (end == value.npos || is_text) continue;
+      add(place(NameKind::Argument, element, value.substr(at + 2, end - at - 2)));
+    }
+  }
+
+  bool add_declared(const TolerantElement& element, const NodeType* type,
+                    const TolerantAttribute& attribute) {
+    const auto add_as = [&](NameKind kind, bool is_declaration, std::string_view group = {}) {
+      NamePlace it = place(kind, element, attribute.value);
+      it.is_declaration = is_declaration;
+      it.group = group;
+      add(it);
+      return true;
+    };
+    const bool is_id = attribute.name == "ID";
+    if (element.tag == "BehaviorTree" && is_id) return add_as(NameKind::Tree, true);
+    if (is_sub_tree(element.tag) && is_id) return add_as(NameKind::Tree, false);
+    if (attribute.name == "main_tree_to_execute") return add_as(NameKind::Tree, false);
+    if (element.tag == "arg" && attribute.name == "name") return add_as(NameKind::Argument, true);
+    const bool is_group = type != nullptr && type->category == NodeCategory::Group;
+    return is_group && attribute.name == "name" && add_as(NameKind::Group, true, type->id);
+  }
+
+  void add_used(const TolerantElement& element, const NodeType* type,
+                const TolerantAttribute& attribute) {
+    const Parameter* const parameter = parameter_of(type, attribute.name);
+    const bool names_group = parameter != nullptr && !parameter->group.empty();
+    if (names_group && !key_in(attribute.value)) {
+      NamePlace it = place(NameKind::Group, element, attribute.value);
+      it.group = parameter->group;
+      return add(it);
+    }
+    NamePlace it = place(NameKind::Entry, element, {});
+    it.scope = tree_around(tree_, element);
+    it.parameter = parameter;
+    it.is_declaration = parameter != nullptr && parameter->direction != Direction::Input;
+    if (is_script(type, attribute.name, rules_)) return add_script(it, attribute);
+    const bool takes_names = parameter != nullptr && (parameter->names_entry || parameter->is_key);
+    if (const auto key = key_in(attribute.value)) {
+      it.name = *key;
+    } else if (takes_names && attribute.value.find_first_of("${ ") == std::string_view::npos) {
+      it.name = attribute.value;
+    }
+    it.range = range_of(tree_, it.name);
+    add(it);
+  }
+
+  void add_script(NamePlace it, const TolerantAttribute& attribute) {
+    const Decoded script = decoded(attribute.value);
+    it.parameter = nullptr;  // its type is that of the script
+    std::optional<Token> before;
+    for (std::size_t offset = 0;;) {
+      const auto token = next_token(script.text, offset);
+      const bool is_assigned =
+          token && token->symbol >= Symbol::Make && token->symbol <= Symbol::DivideBy;
+      if (before) {
+        const std::size_t begin = script.raw[before->offset];
+        it.name = attribute.value.substr(begin, before->text.size());
+        it.range = range_of(tree_, it.name);
+        it.is_declaration = is_assigned;
+        add(it);
+        before.reset();
+      }
+      if (!token || token->symbol == Symbol::End) return;
+      const bool is_name = token->symbol == Symbol::Name;
+      if (is_name && !is_word_of_scripts(token->text, rules_, catalog_)) before = *token;
+    }
+  }
+
+  const ProjectText& text_;
+  const TolerantTree& tree_;
+  const Catalog& catalog_;
+  const LanguageRules& rules_;
+  std::vector<NamePlace>& places_;
+};
+
+}  // namespace
+
+Names::Names(const Question& question) {
+  const Analysis& analysis = *question.file.analysis;
+  texts_.push_back({question.file.uri, &question.file.tree(), question.file.positions()});
+  for (std::size_t i = 0; i < analysis.included.size(); ++i) {
+    const TolerantTree& tree = analysis.included[i];
+    texts_.push_back(
+        {question.workspace.uri_of(analysis.texts[i + 1]->path()), &tree, Positions(tree.text)});
+  }
+  for (const ProjectText& it : texts_)
+    NameVisitor(it, analysis.catalog, rules_of(question), places_).run();
+  for (const ProjectText& it : texts_) add_remappings(it, rules_of(question));
+}
+
+// <SubTree ID="Inner" key="…">: `key` is an entry of Inner.
+void Names::add_remappings(const ProjectText& text, const LanguageRules& rules) {
+  for (const TolerantElement& element : text.tree->elements) {
+    if (!is_sub_tree(element.tag)) continue;
+    const TolerantElement* const tree = tree_named(text.tree->value_of(element, "ID"));
+    for (const TolerantAttribute& it : text.tree->attributes_of(element)) {
+      const bool is_own = it.name == "ID" || it.name == "name" || it.name.starts_with('_');
+      if (tree == nullptr || is_own || hook_named(it.name, rules)) continue;
+      const std::size_t begin = text.tree->offset_of(it.name);
+      NamePlace place{NameKind::Entry, it.name, &text, {begin, begin + it.name.size()}, &element};
+      place.scope = tree;
+      place.is_declaration = true;
+      places_.push_back(place);
+    }
+  }
+}
+
+const NamePlace* Names::at(std::size_t byte) const {
+  const auto it = std::ranges::find_if(places_, [&](const NamePlace& place) {
+    return place.text == &texts_.front() && place.range.has(byte);
+  });
+  return it == places_.end() ? nullptr : &*it;
+}
+
+std::vector<const NamePlace*> Names::same_as(const NamePlace& name) const {
+  std::vector<const NamePlace*> same;
+  for (const NamePlace& it : places_) {
+    const bool is_same = it.kind == name.kind && it.name == name.name &&
+                         (name.kind != NameKind::Entry || it.scope == name.scope);
+    if (is_same) same.push_back(&it);
+  }
+  std::stable_partition(same.begin(), same.end(),
+                        [](const NamePlace* it) { return it->is_declaration; });
+  return same;
+}
+
+std::vector<const NamePlace*> Names::declarations(NameKind kind) const {
+  std::vector<const NamePlace*> found;
+  for (const NamePlace& it : places_)
+    if (it.kind == kind && it.is_declaration) found.push_back(&it);
+  return found;
+}
+
+const TolerantElement* Names::tree_named(std::string_view id) const {
+  for (const NamePlace& it : places_)
+    if (it.kind == NameKind::Tree && it.is_declaration && it.name == id) return it.element;
+  return nullptr;
+}
+
+namespace {
+
+// The type of this element, where elements of `type` differ and this one says enough.
+const NodeType* described(const TolerantTree& tree, const TolerantElement& element,
+                          const NodeType& type) {
+  if (type.element_types == nullptr) return &type;
+  const auto given = [&](std::string_view name) -> std::optional<std::string_view> {
+    const std::string_view text = tree.value_of(element, name);
+    if (text.empty()) return std::nullopt;
+    return text;
+  };
+  const auto fixed = fixed_texts(type, given);
+  if (!fixed) return &type;
+  return type.element_types->type_of(*fixed).value_or(&type);
+}
+
+}  // namespace
+
+const NodeType* type_of(const TolerantTree& tree, const TolerantElement& element,
+                        const Catalog& catalog) {
+  if (const NodeType* type = catalog.find(element.tag)) return described(tree, element, *type);
+  constexpr std::string_view kExplicit[] = {"Action", "Condition", "Control", "Decorator"};
+  if (std::ranges::count(kExplicit, element.tag) == 0) return nullptr;
+  const NodeType* const type = catalog.find(tree.value_of(element, "ID"));
+  return type == nullptr ? nullptr : described(tree, element, *type);
+}
+
+const Parameter* parameter_of(const NodeType* type, std::string_view attribute) {
+  if (type == nullptr) return nullptr;
+  const auto it = std::ranges::find(type->parameters, attribute, &Parameter::name);
+  return it == type->parameters.end() ? nullptr : &*it;
+}
+
+const TolerantElement* tree_around(const TolerantTree& tree, const TolerantElement& element) {
+  const TolerantElement* it = tree.parent_of(element);
+  while (it != nullptr && it->tag != "BehaviorTree") it = tree.parent_of(*it);
+  return it;
+}
+
+const LanguageRules& rules_of(const Question& question) {
+  const auto& project = question.file.analysis->project;
+  return project ? *project->rules : kLockstepRules;
+}
+
+bool is_sub_tree(std::string_view tag) {
+  return tag == "SubTree" || tag == "SubTreePlus";
+}
+
+bool is_script(const NodeType* type, std::string_view attribute, const LanguageRules& rules) {
+  const Parameter* const parameter = parameter_of(type, attribute);
+  return parameter != nullptr ? parameter->is_script : hook_named(attribute, rules).has_value();
+}
+
+std::optional<std::string_view> key_in(std::string_view value) {
+  const auto first = value.find_first_not_of(" \t\r\n");
+  if (first == value.npos || value[first] != '{') return std::nullopt;
+  const auto end = std::min(value.find('}', first), value.size());
+  return value.substr(first + 1, end - first - 1);
+}
+
+Decoded decoded(std::string_view value) {
+  Decoded result;
+  for (std::size_t at = 0; at < value.size();) {
+    const std::string_view rest = value.substr(at);
+    const auto unit = rest.front() == '&' ? read_reference(rest) : std::nullopt;
+    char c = rest.front();
+    if (unit) {
+      constexpr std::pair<std::string_view, char> kNamed[] = {
+          {"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&apos;", '\''}};
+      c = '_';
+      for (const auto& [name, character] : kNamed)
+        if (rest.starts_with(name)) c = character;
+    }
+    result.text += c;
+    result.raw.push_back(at);
+    at += unit ? unit->raw : 1;
+  }
+  result.raw.push_back(value.size());
+  return result;
+}
+
+}  // namespace lockstep::host

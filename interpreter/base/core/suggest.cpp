@@ -1,0 +1,111 @@
+#include "base/core/suggest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/core/wording.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kLongestWord = 256;
+constexpr std::size_t kMostEdits = 8;
+constexpr std::size_t kMostCandidates = 10'000;
+// The largest table of distances for one word: less than a millisecond. All names of a large robot
+// take a fifth of it.
+constexpr std::size_t kMostCells = 100'000;
+
+constexpr char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+// Optimal string alignment: like Levenshtein's distance, and a swap of neighbors costs one. Only
+// the cells near the diagonal can be within a limit, and only these are computed.
+class EditDistance {
+ public:
+  explicit EditDistance(std::string_view word) : word_(word) {}
+
+  // Something above `limit` when the distance is.
+  std::size_t to(std::string_view other, std::size_t limit) {
+    const std::size_t far = limit + 1;
+    for (std::size_t j = 0; j <= other.size(); ++j) row(0)[j] = std::min(j, far);
+    for (std::size_t i = 1; i <= word_.size(); ++i) {
+      const std::size_t first = i > limit ? i - limit : 1;
+      const std::size_t last = std::min(other.size(), i + limit);
+      row(i)[first - 1] = first == 1 ? i : far;
+      std::size_t least = row(i)[first - 1];
+      for (std::size_t j = first; j <= last; ++j) {
+        row(i)[j] = std::min(cell(other, i, j, j == i + limit ? far : row(i - 1)[j]), far);
+        least = std::min(least, row(i)[j]);
+      }
+      cells_ += last - first + 1;
+      if (least > limit) return far;
+    }
+    return row(word_.size())[other.size()];
+  }
+
+  std::size_t cells() const { return cells_; }
+
+ private:
+  using Row = std::array<std::size_t, kLongestWord + kMostEdits + 1>;
+  Row& row(std::size_t i) { return rows_[i % rows_.size()]; }
+
+  // `above`: the cell of the last row, which at the end of the band is not there.
+  std::size_t cell(std::string_view other, std::size_t i, std::size_t j, std::size_t above) {
+    const char a = lower(word_[i - 1]);
+    const char b = lower(other[j - 1]);
+    std::size_t best =
+        std::min({above + 1, row(i)[j - 1] + 1, row(i - 1)[j - 1] + (a == b ? 0 : 1)});
+    const bool swapped = i > 1 && j > 1 && a == lower(other[j - 2]) && lower(word_[i - 2]) == b;
+    if (swapped) best = std::min(best, row(i - 2)[j - 2] + 1);
+    return best;
+  }
+
+  std::string_view word_;
+  std::array<Row, 3> rows_;  // the last three of the table
+  std::size_t cells_ = 0;
+};
+
+std::size_t difference(std::size_t a, std::size_t b) {
+  return a > b ? a - b : b - a;
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  if (word.size() > kLongestWord) return {};
+  if (word.size() < 2) return {};  // near to every other letter
+  std::size_t limit = std::min((word.size() + 2) / 3, kMostEdits);
+  std::string_view best;
+  EditDistance distance(word);
+  for (const auto candidate : candidates.first(std::min(candidates.size(), kMostCandidates))) {
+    if (distance.cells() > kMostCells) break;
+    if (candidate.empty() || difference(candidate.size(), word.size()) > limit) continue;
+    const auto edits = distance.to(candidate, limit);
+    if (edits > limit || (edits == limit && !best.empty())) continue;
+    best = candidate;
+    limit = edits;
+  }
+  return best;
+}
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
+  const auto candidate = nearest(word, candidates);
+  return candidate.empty() ? std::string() : fmt::format("did you mean '{}'?", brief(candidate));
+}
+
+std::string suggest(std::string_view word, std::span<const std::string_view> candidates,
+                    std::string_view what) {
+  std::string hint = did_you_mean(word, candidates);
+  if (hint.empty() && !candidates.empty()) hint = fmt::format("{}: {}", what, listed(candidates));
+  return hint;
+}
+
+std::string join_hints(std::string first, std::string_view second) {
+  if (!first.empty() && !second.empty()) first += "; ";
+  return first.append(second);
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,45 @@
+#include "base/system/fork_guard.h"
+
+#include <sys/mman.h>
+
+#include <array>
+#include <cstddef>
+#include <mutex>
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kSize = 4096;
+std::mutex g_bytes_lock;
+std::array<std::uint8_t*, kSize> g_free_bytes;  // of which there are so many:
+std::size_t g_free = 0;
+
+}  // namespace
+
+void ForkGuard::arm(void (*in_child)()) {
+  void* const memory =
+      mmap(nullptr, kSize, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED || madvise(memory, kSize, MADV_WIPEONFORK) != 0) return;
+  auto* const bytes = static_cast<std::uint8_t*>(memory);
+  const std::scoped_lock lock(g_bytes_lock);
+  for (g_free = 0; g_free < kSize - 1; ++g_free) g_free_bytes[g_free] = bytes + 1 + g_free;
+  *bytes = kAlive;
+  in_child_ = in_child;
+  alive_ = bytes;
+}
+
+ForkGuard::Byte::Byte() : byte_(&own_) {
+  if (alive_ == &kAlive) return;
+  const std::scoped_lock lock(g_bytes_lock);
+  if (g_free == 0) return;
+  byte_ = g_free_bytes[--g_free];
+  set();
+}
+
+ForkGuard::Byte::~Byte() {
+  if (byte_ == &own_) return;
+  const std::scoped_lock lock(g_bytes_lock);
+  g_free_bytes[g_free++] = byte_;
+}
+
+}  // namespace lockstep::host

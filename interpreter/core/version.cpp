@@ -1,7 +1,0 @@
-#include "core/version.h"
-
-namespace lockstep::host {
-
-const char kVersion[] = LOCKSTEP_VERSION;
-
-}  // namespace lockstep::host

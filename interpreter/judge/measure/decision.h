@@ -1,0 +1,28 @@
+// Why the root completed with its result: the path from the root to the node that decided. A leaf
+// decides itself, and so does a Timeout whose time is over. Any other node takes the result of a
+// child, or inverts it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/core/status.h"
+#include "engine/run_state.h"
+#include "trace/shape.h"
+
+namespace lockstep::host {
+
+class Ticker;
+
+struct DecidingNode {
+  NodeIndex node = 0;
+  Status status = Status::Idle;  // its result
+  std::size_t children = 0;
+  std::size_t agreeing = 0;  // how many of the children have the same result
+};
+
+// From the root down, after the last tick of a run.
+std::vector<DecidingNode> deciding_path(const Shape& shape, std::span<const NodeState> nodes);
+std::vector<DecidingNode> deciding_path(const Ticker& ticker);
+
+}  // namespace lockstep::host

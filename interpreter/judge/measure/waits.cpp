@@ -1,0 +1,52 @@
+// How long a node had to wait for its resources at most: no other node may own them again and again
+// in between, as the promise of fairness says.
+#include <algorithm>
+#include <cstdint>
+
+#include "engine/resources.h"
+#include "judge/measure/measure.h"
+
+namespace lockstep::host {
+namespace {
+
+class LongestWait final : public Accumulator {
+ public:
+  explicit LongestWait(const MeasureTarget& target) : place_(target.place) {}
+
+  void reset() override { *this = LongestWait({.place = place_}); }
+
+  void after_tick(const TickView& view) override {
+    const ResourceTick& user = view.users[place_];
+    if (view.tick != next_) now_ = 0;  // nobody knows what it did in the ticks that were lost
+    next_ = view.tick + 1;
+    reached_ |= user.ticked;
+    now_ = user.ticked && waits(user.limit) ? now_ + 1 : 0;
+    longest_ = std::max(longest_, now_);
+  }
+
+  double value(const EndView&) const override {
+    return reached_ ? static_cast<double>(longest_) : kNoValue;
+  }
+
+ private:
+  std::size_t place_;
+  bool reached_ = false;  // by any tick
+  std::uint64_t next_ = 0;
+  std::uint64_t now_ = 0, longest_ = 0;  // in a row
+};
+
+}  // namespace
+
+extern const Measure kWaits{
+    .name = "waits",
+    .argument = ":NODE",
+    .of = MeasureOf::User,
+    .axis = "longest wait",
+    .unit = "ticks",
+    .doc =
+        "the most ticks in a row in which NODE was reached and did not get its resources, because "
+        "others owned them",
+    .make = make_accumulator<LongestWait>,
+    .is_possible = is_count_of_ticks};
+
+}  // namespace lockstep::host

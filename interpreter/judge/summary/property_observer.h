@@ -1,0 +1,36 @@
+// Checks properties while a tree runs: tells each violation once, in the tick that shows it, and
+// keeps the verdicts for the summary.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/measure/live_properties.h"
+#include "judge/summary/summary.h"
+#include "trace/observer.h"
+
+namespace lockstep::host {
+
+class PropertyObserver final : public Observer {
+ public:
+  // On the tick thread, in the tick that shows it or at the end of the run: the property, and when
+  // it was violated.
+  using Tell = std::function<void(const Property& property, const std::string& when)>;
+  PropertyObserver(const Tree& tree, std::vector<Property> properties, Tell tell);
+
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  bool is_violated() const { return checks_.any(PropertyVerdict::Violated); }
+  void add_to(Summary& summary) const;
+
+ private:
+  PropertyChecks checks_;
+  LiveProperties live_;
+  Tell tell_;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,44 @@
+// Finds actions that cannot complete, since they are started and halted again and again: a
+// condition in front of such an action changes its result all the time. Reports each action once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "judge/summary/capped_notes.h"
+#include "trace/observer.h"
+
+namespace lockstep::host {
+
+class RepeatedHalts final : public Observer {
+ public:
+  static constexpr std::size_t kHalts = 10;
+  static constexpr Nanoseconds kWithin = std::chrono::seconds(1);
+
+  // On the tick thread, in the tick of the last of these halts: the action, and the warning.
+  using Tell = std::function<void(NodeIndex action, const std::string& warning)>;
+  RepeatedHalts(const Tree& tree, Tell tell);
+
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+
+  void add_to(Summary& summary) const;
+
+ private:
+  struct Action {
+    NodeIndex node;
+    bool runs = false;        // after the last tick
+    std::uint64_t halts = 0;  // in this run
+    bool is_told = false;
+    std::array<Nanoseconds, kHalts> times = {};  // of the last halts
+  };
+  void note_halt(const Ticker& ticker, Action& action, Nanoseconds time);
+
+  const Tree& tree_;
+  const Tell tell_;
+  std::vector<Action> actions_;
+};
+
+}  // namespace lockstep::host

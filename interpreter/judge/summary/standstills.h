@@ -1,0 +1,50 @@
+// Watches a run for standstills, reports each once, and keeps them for the summary.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/measure/stall.h"
+#include "judge/summary/summary.h"
+#include "trace/observer.h"
+
+namespace lockstep::host {
+
+class Standstills final : public Observer {
+ public:
+  static constexpr std::size_t kMost = 20;  // in the summary
+
+  // On the tick thread, in the tick that shows it: the node that stands still, and what to say.
+  using Tell = std::function<void(NodeIndex node, const std::vector<std::string>& lines)>;
+  // Without a limit it reports only what failed() adds.
+  Standstills(const Tree& tree, std::optional<Nanoseconds> limit, Tell tell);
+
+  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  // --stall-fail has ended it; run/stall_fail.h.
+  void failed(const Standstill& standstill, NodeIndex node);
+
+  void add_to(Summary& summary) const;
+
+ private:
+  struct Kept {
+    NodeIndex node;  // of the head
+    StandstillSummary summary;
+  };
+  void report(const Standstill& standstill);
+  StandstillSummary* add(const Standstill& standstill);
+  StandstillSummary* find(const Standstill& standstill);
+  StandstillSummary summarize(const Standstill& standstill) const;
+
+  const Tree& tree_;
+  std::optional<StallWatch> watch_;
+  Tell tell_;
+  std::vector<Kept> kept_;
+  std::uint64_t count_ = 0;
+  std::vector<NodeIndex> failed_;  // in the last tick
+};
+
+}  // namespace lockstep::host

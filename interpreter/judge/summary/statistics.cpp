@@ -1,0 +1,152 @@
+#include "judge/summary/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/synchronized.h"
+#include "trace/progress_text.h"
+
+namespace lockstep::host {
+
+Statistics::Statistics(const Tree& tree) : tree_(tree) {
+  for (const NodeIndex node : synchronized_nodes(tree)) {
+    const Node& it = tree.nodes[node];
+    SynchronizedProbe probe(tree, node);
+    SynchronizedMeasure measure(it.children, probe.guards(), synchronization(it),
+                                tree.is_group(node));
+    nodes_.push_back({std::move(probe), std::move(measure)});
+  }
+}
+
+void Statistics::run_started(Ticker&, const RunStart& start) {
+  real_time_ = start.real_time;
+}
+
+void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
+  if (report.tick > 0) periods_.record(report.time - last_start_);
+  last_start_ = report.time;
+  lateness_.record(report.late);
+  for (Measured& node : nodes_) {
+    node.measure.after_tick(node.probe.read(ticker, report.time));
+  }
+  for (const Fault& fault : report.faults) note(fault, report.tick);
+  if (report.status == Status::Failure) why_failed_ = deciding_path(ticker);
+}
+
+void Statistics::note(const Fault& fault, std::uint64_t tick) {
+  faults_.add([&] { return fault_text(tree_, fault, tick); });
+}
+
+void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
+  end_ = end;
+  for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
+  progress_notes_ = progress_notes(ticker);
+  went_on_ = ticker.went_on().size();
+  for (Measured& node : nodes_) node.measure.run_ended(end.time);
+}
+
+Summary Statistics::summary() const {
+  Summary summary{.result = end_.result(),
+                  .reason = end_.reason,
+                  .signal = end_.signal,
+                  .fault = end_.fault ? fault_text(tree_, *end_.fault) : "",
+                  .ticks = end_.ticks,
+                  .seconds = to_seconds(end_.time),
+                  .overruns = end_.overruns,
+                  .skipped = end_.skipped,
+                  .worst = worst_tick(),
+                  .faults = faults_.count(),
+                  .went_on = went_on_};
+  faults_.append_to(summary.notes);
+  summary.notes.insert(summary.notes.end(), progress_notes_.begin(), progress_notes_.end());
+  for (const Measured& node : nodes_) {
+    std::vector<std::string> paths;
+    for (const NodeIndex child : node.probe.children()) paths.push_back(tree_.path(child));
+    append_fall_notes(node.measure.falls(), paths, summary.notes);
+  }
+  if (real_time_ && periods_.count() > 0) {
+    summary.period = PeriodSummary{.p50 = to_seconds(periods_.quantile(0.5)),
+                                   .p99 = to_seconds(periods_.quantile(0.99)),
+                                   .max = to_seconds(periods_.max())};
+  }
+  if (real_time_ && lateness_.count() > 0) {
+    summary.lateness = LatenessSummary{.p50 = to_seconds(lateness_.quantile(0.5)),
+                                       .p99 = to_seconds(lateness_.quantile(0.99)),
+                                       .max = to_seconds(lateness_.max()),
+                                       .ticks = lateness_.by_digits()};
+  }
+  for (const DecidingNode& node : why_failed_) {
+    summary.why_failed.push_back(
+        summarize(node, tree_.path(node.node), std::string(tree_.labels[node.node].type->id)));
+  }
+  const Shape shape = shape_of(tree_);
+  for (const Measured& node : nodes_) {
+    if (node.measure.distance().samples() > 0) {
+      summary.synchronized_nodes.push_back(summary_of(node, shape));
+    }
+  }
+  summary.never_reached = nodes_.size() - summary.synchronized_nodes.size();
+  return summary;
+}
+
+std::optional<WorstTickSummary> Statistics::worst_tick() const {
+  const WorstTick& worst = end_.worst;
+  if (!real_time_ || worst.took == Nanoseconds(0)) return std::nullopt;
+  return WorstTickSummary{.tick = worst.tick,
+                          .took = to_seconds(worst.took),
+                          .leaf = worst.leaf ? tree_.path(*worst.leaf) : "",
+                          .leaf_took = to_seconds(worst.leaf_took)};
+}
+
+SynchronizedSummary Statistics::summary_of(const Measured& measured, const Shape& shape) {
+  const NodeIndex index = measured.probe.node();
+  const ShapeNode& node = shape.nodes[index];
+  return summarize(measured.measure, node.path, node.kind, child_names(shape, index));
+}
+
+std::string describe_node(const Tree& tree, NodeIndex node) {
+  const NodeType& type = *tree.labels[node].type;
+  if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
+  return fmt::format("the {} '{}' ({} of plugin '{}')", type.arity.max == 0 ? "leaf" : "node",
+                     tree.path(node), type.id, type.plugin);
+}
+
+std::string failure_text(const Fault& fault, std::uint64_t ticks) {
+  if (fault.in_last_halt) return "could not be halted at the end of the run";
+  if (ticks == 0) return "failed before the first tick";
+  return fmt::format("failed in tick {}", ticks - 1);
+}
+
+std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick) {
+  const std::string path = tree.path(fault.node);
+  if (fault.in_last_halt) {
+    return fmt::format("the leaf '{}' could not be halted: {}", path, fault.message);
+  }
+  return fmt::format("the leaf '{}' failed in tick {}: {}; counted as Failure", path, tick,
+                     fault.message);
+}
+
+std::string fault_text(const Tree& tree, const Fault& fault) {
+  return fmt::format("{}: {}{}", tree.path(fault.node),
+                     fault.in_last_halt ? "could not be halted: " : "", fault.message);
+}
+
+std::vector<std::string> progress_notes(const Ticker& ticker) {
+  constexpr std::size_t kMostLeaves = 5;
+  std::vector<std::string> notes;
+  const auto add = [&](const auto& all, const char* more, auto text_of) {
+    for (const auto& it : all.first(std::min(all.size(), kMostLeaves))) {
+      notes.push_back(fmt::format("the leaf '{}' {}", ticker.tree().path(it.node), text_of(it)));
+    }
+    if (all.size() <= kMostLeaves) return;
+    notes.push_back(fmt::format("{} leaves in all {}", all.size(), more));
+  };
+  add(ticker.out_of_range(), "reported such a progress",
+      [](const OutOfRange& it) { return out_of_range_text(it.reported); });
+  add(ticker.went_on(), "went on while they were held",
+      [](const WentOn& it) { return went_on_text(it.from, it.to); });
+  return notes;
+}
+
+}  // namespace lockstep::host

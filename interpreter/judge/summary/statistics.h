@@ -1,0 +1,63 @@
+// Measures a run for its summary: tick periods, and every synchronized node. Does not allocate
+// while the run ticks, except to note a leaf's fault and why the root failed. Prints nothing.
+#pragma once
+
+#include <vector>
+
+#include "base/core/histogram.h"
+#include "judge/measure/decision.h"
+#include "judge/measure/synchronized_measure.h"
+#include "judge/summary/capped_notes.h"
+#include "judge/summary/summary.h"
+#include "trace/observer.h"
+#include "trace/shape.h"
+
+namespace lockstep::host {
+
+class Statistics final : public Observer {
+ public:
+  explicit Statistics(const Tree& tree);
+
+  void run_started(Ticker& ticker, const RunStart& start) override;
+  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_ended(Ticker& ticker, const RunEnd& end) override;
+
+  // Complete once the run has ended.
+  Summary summary() const;
+
+ private:
+  struct Measured {
+    SynchronizedProbe probe;
+    SynchronizedMeasure measure;
+  };
+  void note(const Fault& fault, std::uint64_t tick);
+  std::optional<WorstTickSummary> worst_tick() const;
+  static SynchronizedSummary summary_of(const Measured& measured, const Shape& shape);
+
+  const Tree& tree_;
+  std::vector<Measured> nodes_;
+  Histogram periods_;
+  Histogram lateness_{Histogram::kCoarse};
+  bool real_time_ = false;
+  Nanoseconds last_start_{0};
+  std::vector<DecidingNode> why_failed_;
+  CappedNotes faults_{"fault"};  // after which the run went on
+  std::vector<std::string> progress_notes_;
+  std::uint64_t went_on_ = 0;
+  RunEnd end_;
+};
+
+// "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
+std::string describe_node(const Tree& tree, NodeIndex node);
+// "failed in tick 11", in a run of 12 ticks.
+std::string failure_text(const Fault& fault, std::uint64_t ticks);
+// "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
+std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
+// "Door/pull/arm: threw …"
+std::string fault_text(const Tree& tree, const Fault& fault);
+
+// "the leaf 'Door/pull/arm' reported …" of the first few leaves whose progress was no share, and
+// how many there are; "… went on while it was held …" in the same way.
+std::vector<std::string> progress_notes(const Ticker& ticker);
+
+}  // namespace lockstep::host

@@ -1,0 +1,268 @@
+#include "judge/summary/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <iterator>
+#include <numeric>
+
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "base/terminal/style.h"
+#include "base/terminal/text_table.h"
+#include "judge/measure/measure_spec.h"
+#include "judge/summary/capped_notes.h"
+#include "trace/shape.h"
+
+namespace lockstep::host {
+namespace {
+
+std::string why(const Summary& summary) {
+  switch (summary.reason) {
+    case StopReason::Completed:
+      return {};
+    case StopReason::Fault:
+      return printable(summary.fault);
+    case StopReason::Timeout:
+      return "the time limit (--timeout) was reached";
+    case StopReason::MaxTicks:
+      return fmt::format("the tick limit ({}) was reached", printable(summary.tick_limit));
+    case StopReason::Signal:
+      return fmt::format("signal: {}", strsignal(summary.signal));
+    case StopReason::Overrun:
+      return "a tick missed the next deadline";
+    case StopReason::Recording:
+      return "the recording cannot be written";
+    case StopReason::Property:
+      return "a property is violated";
+  }
+  return {};
+}
+
+// "91.2 % within 0.0164 ms, 99.9 % within 0.131 ms, all within 1.05 ms": a step is eight times the
+// one before.
+std::string shares(const LatenessSummary& lateness) {
+  constexpr std::size_t kFirst = 14, kStep = 3;  // binary digits of ns
+  const auto all = std::accumulate(lateness.ticks.begin(), lateness.ticks.end(), std::uint64_t{0});
+  std::string text;
+  for (std::size_t digits = kFirst;; digits += kStep) {
+    const auto end = lateness.ticks.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(digits + 1, lateness.ticks.size()));
+    const auto within = std::accumulate(lateness.ticks.begin(), end, std::uint64_t{0});
+    const double limit = std::ldexp(1e-6, static_cast<int>(digits));
+    if (within == all) return text + fmt::format("all within {:.3g} ms", limit);
+    text += fmt::format("{:.3g} % within {:.3g} ms, ",
+                        100 * static_cast<double>(within) / static_cast<double>(all), limit);
+  }
+}
+
+std::string lateness_text(const LatenessSummary& lateness) {
+  return fmt::format("  late       p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n             {}\n",
+                     lateness.p50 * 1e3, lateness.p99 * 1e3, lateness.max * 1e3, shares(lateness));
+}
+
+std::string timing(const Summary& summary) {
+  if (!summary.period) return {};
+  return fmt::format("  period     p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                     summary.period->p50 * 1e3, summary.period->p99 * 1e3,
+                     summary.period->max * 1e3) +
+         (summary.lateness ? lateness_text(*summary.lateness) : "") +
+         fmt::format("  overruns   {} (deadlines skipped: {})\n", summary.overruns,
+                     summary.skipped);
+}
+
+std::string worst_tick(const Summary& summary) {
+  if (!summary.worst) return {};
+  const WorstTickSummary& worst = *summary.worst;
+  std::string text = fmt::format("  worst tick {}: {:.3f} ms", worst.tick, worst.took * 1e3);
+  if (!worst.leaf.empty()) {
+    text += fmt::format(", of which {:.3f} ms in {}", worst.leaf_took * 1e3, printable(worst.leaf));
+  }
+  return text + "\n";
+}
+
+void write_over_budget(const Summary& summary, std::string& out, bool color) {
+  for (const LeafTimingSummary& leaf : summary.over_budget) {
+    out += fmt::format(
+        "  {} of {:.6g} ms: {} in {}, max {:.3f} ms; {}: p50 {:.3f} ms, p99 {:.3f} ms\n",
+        styled("over the tick budget", Style::Warning, color),
+        summary.tick_budget.value_or(0) * 1e3, printable(leaf.path),
+        counted(leaf.over_budget, "call"), leaf.max * 1e3, counted(leaf.calls, "tick"),
+        leaf.p50 * 1e3, leaf.p99 * 1e3);
+  }
+}
+
+std::string waited(const ChildSummary& child) {
+  if (child.waits == 0) return "did not wait";
+  return fmt::format("waited {}, {:.3f} s in {}", counted(child.waits, "time"), child.held_seconds,
+                     counted(child.held_ticks, "tick"));
+}
+
+void write_distance(const SynchronizedSummary& node, std::string& out) {
+  out += fmt::format("    progress distance {}, mean {} a tick\n", rounded(node.distance_sum),
+                     rounded(node.distance_mean));
+  out += fmt::format("    largest spread {}", rounded(node.largest_spread));
+  if (node.spread_bound) out += fmt::format(" (bound {})", rounded(*node.spread_bound));
+  out += fmt::format(", longest step {}\n", rounded(node.step_length));
+}
+
+void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
+  const auto name = styled(printable(node.path), Style::Strong, color);
+  out += fmt::format("  {} ({}, {})\n", name, printable(node.kind), counted(node.samples, "tick"));
+  if (!node.is_pool) write_distance(node, out);
+  std::vector<TableRow> rows;
+  for (const ChildSummary& child : node.children) {
+    rows.push_back({"    " + printable(child.name), waited(child)});
+  }
+  out += text_table(rows, 2);
+}
+
+void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {
+  const std::string name = last_segment(node.path);
+  const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
+  out += fmt::format("{:{}}{}", "", indent, printable(name));
+  if (name != node.kind) out += fmt::format(" ({})", printable(node.kind));
+  out += fmt::format(": {}", styled(to_string(node.status), style, color));
+  if (node.agreeing > 1) out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
+  if (node.stood_still) out += ", it stood still (--stall-fail)";
+  out += '\n';
+}
+
+void write_property(const PropertySummary& property, std::string& out, bool color) {
+  const bool is_violated = property.verdict == "violated";
+  out += fmt::format("  property   {}: {}", printable(property.name),
+                     styled(property.verdict, is_violated ? Style::Bad : Style::Good, color));
+  if (property.tick) out += fmt::format(" in tick {}", *property.tick);
+  out += '\n';
+}
+
+void write_note(std::span<const std::string> lines, std::string& out, bool color) {
+  out += styled("note:", Style::Warning, color);
+  std::string_view indent = " ";
+  for (const std::string& line : lines) {
+    out += fmt::format("{}{}\n", indent, printable(line));
+    indent = "  ";
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(RunResult result) {
+  constexpr std::string_view kNames[] = {"success", "failure", "stopped", "fault", "skipped"};
+  return kNames[static_cast<unsigned>(result)];
+}
+
+std::string ending(std::string_view result, std::string_view reason) {
+  if (result == reason) return std::string(result);
+  return fmt::format("{} ({})", result, reason);
+}
+
+Style style_of(RunResult result) {
+  if (result == RunResult::Success) return Style::Good;
+  const bool is_bad = result == RunResult::Failure || result == RunResult::Fault;
+  return is_bad ? Style::Bad : Style::Warning;
+}
+
+std::string_view to_string(StopReason reason) {
+  constexpr std::string_view kNames[] = {"completed", "fault",   "timeout",   "max_ticks",
+                                         "signal",    "overrun", "recording", "property"};
+  return kNames[static_cast<unsigned>(reason)];
+}
+
+DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind) {
+  return {.path = std::move(path),
+          .kind = std::move(kind),
+          .status = node.status,
+          .children = node.children,
+          .agreeing = node.agreeing,
+          .stood_still = false};
+}
+
+SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
+                              std::string kind, const std::vector<std::string>& children) {
+  const ProgressDistance& distance = measure.distance();
+  SynchronizedSummary summary{.path = std::move(path),
+                              .kind = std::move(kind),
+                              .samples = distance.samples(),
+                              .distance_sum = distance.sum(),
+                              .distance_mean = distance.mean(),
+                              .largest_spread = measure.largest_spread(),
+                              .spread_bound = measure.bound(),
+                              .step_length = measure.step_length(),
+                              .children = {},
+                              .is_pool = measure.is_pool()};
+  for (std::size_t child = 0; child < children.size(); ++child) {
+    const auto& held = measure.held()[child];
+    summary.children.push_back(
+        {children[child], to_seconds(held.time()), held.ticks(), held.pauses()});
+  }
+  return summary;
+}
+
+void append_fall_notes(const FallWatch& falls, std::span<const std::string> paths,
+                       std::vector<std::string>& notes) {
+  const auto add = [&](const std::optional<FallWatch::Fall>& fall, std::string_view what,
+                       std::string_view consequence) {
+    if (!fall) return;
+    notes.push_back(fmt::format("the progress of '{}' {}, first at {:.3f} s: {}",
+                                paths[fall->child], what, to_seconds(fall->time), consequence));
+  };
+  add(falls.while_ticked(), "fell", "the spread has no bound then");
+  add(falls.while_held(), "fell while it was held", "the others may wait for ever then");
+  add(falls.rise_before(), "rose in a period with several ticks", "the spread has no bound then");
+  add(falls.rise_while_held(), "rose while it was held", "the spread has no bound then");
+}
+
+void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
+                std::string& out, bool color) {
+  for (const SynchronizedSummary& node : nodes) write_node(node, out, color);
+  if (never_reached == 0) return;
+  out += fmt::format("  {} {} never reached\n", counted(never_reached, "synchronized node"),
+                     never_reached == 1 ? "was" : "were");
+}
+
+// A deep tree shows its first and its last nodes: in between a result is mostly passed on.
+void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color) {
+  constexpr std::size_t kFirst = 5, kLast = 15;
+  if (why_failed.empty()) return;
+  out += fmt::format("  decided by {}:\n", printable(why_failed.back().path));
+  const std::size_t left_out = why_failed.size() - std::min(why_failed.size(), kFirst + kLast);
+  std::size_t indent = 4;
+  for (std::size_t i = 0; i < why_failed.size(); ++i, indent += 2) {
+    if (left_out > 0 && i == kFirst) {
+      out += fmt::format("{:{}}... {} more\n", "", indent, counted(left_out, "node"));
+      i += left_out;
+      indent += 2;
+    }
+    write_deciding(why_failed[i], indent, out, color);
+  }
+}
+
+void write_text(const Summary& summary, std::string& out, bool color) {
+  const auto result = styled(to_string(summary.result), style_of(summary.result), color);
+  const std::string reason = why(summary);
+  out += fmt::format("{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
+                     counted(summary.ticks, "tick"), summary.seconds);
+  write_text(summary.why_failed, out, color);
+  out += timing(summary) + worst_tick(summary);
+  write_over_budget(summary, out, color);
+  write_text(summary.synchronized_nodes, summary.never_reached, out, color);
+  for (const PropertySummary& it : summary.properties) write_property(it, out, color);
+  for (const std::string& note : summary.notes) write_note({&note, 1}, out, color);
+  for (const auto& note : standstill_notes(summary)) write_note(note, out, color);
+}
+
+std::vector<std::vector<std::string>> standstill_notes(const Summary& summary) {
+  std::vector<std::vector<std::string>> notes;
+  for (const StandstillSummary& it : summary.standstills) {
+    if (notes.size() < CappedNotes::kMost) notes.push_back(it.lines);
+  }
+  const std::uint64_t more = summary.standstills.size() + summary.more_standstills - notes.size();
+  if (more > 0) notes.push_back({fmt::format("and {} more", counted(more, "standstill"))});
+  return notes;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,41 @@
+#include "language/expression/operand.h"
+
+#include <fmt/format.h>
+
+#include "base/core/wording.h"
+
+namespace lockstep::host {
+
+Value Operand::value() const {
+  switch (kind) {
+    case Kind::Whole:
+      return whole;
+    case Kind::Real:
+      return real;
+    case Kind::Text:
+      return *text;
+    case Kind::Other:
+      return *other;
+    case Kind::Empty:
+      break;
+  }
+  return {};
+}
+
+std::string Operand::shown() const {
+  switch (kind) {
+    case Kind::Whole:
+      return fmt::format("{}", whole);
+    case Kind::Real:
+      return fmt::format("{}", real);
+    case Kind::Text:
+      return fmt::format("the text '{}'", brief(*text));
+    case Kind::Other:
+      return fmt::format("the {} of an entry", to_string(static_cast<ValueType>(other->index())));
+    case Kind::Empty:
+      break;
+  }
+  return "an entry without value";
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,62 @@
+// The words of a script.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "language/expression/expression.h"
+
+namespace lockstep::host {
+
+enum class Symbol : std::uint8_t {
+  End,
+  Whole,
+  Real,
+  Text,
+  Name,
+  Plus,
+  Minus,
+  Times,
+  Divided,
+  Join,
+  BitAnd,
+  BitOr,
+  BitXor,
+  Complement,
+  And,
+  Or,
+  Not,
+  Equal,
+  NotEqual,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  Make,
+  Assign,
+  AddTo,
+  SubtractFrom,
+  MultiplyBy,
+  DivideBy,
+  Question,
+  Colon,
+  Open,
+  Close,
+  Semicolon
+};
+
+struct Token {
+  Symbol symbol;
+  std::string_view text;   // of a Text, without the quotes
+  std::size_t offset = 0;  // in the script
+  std::int64_t whole = 0;
+  double real = 0;
+};
+
+// The token at the beginning of script.substr(offset), after blanks; `offset` moves behind it.
+tl::expected<Token, Expression::Error> next_token(std::string_view script, std::size_t& offset);
+
+}  // namespace lockstep::host

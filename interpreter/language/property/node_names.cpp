@@ -1,0 +1,72 @@
+#include "language/property/node_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
+
+namespace lockstep::host {
+namespace {
+
+// Whether `end` is all of the path, or its last segments.
+bool ends_with(std::string_view path, std::string_view end) {
+  if (!path.ends_with(end)) return false;
+  return path.size() == end.size() || path[path.size() - end.size() - 1] == '/';
+}
+
+std::string_view last_segments(std::string_view path, std::size_t count) {
+  std::size_t begin = path.size();
+  for (; count > 0; --count) {
+    if (begin == 0) return path;
+    begin = path.rfind('/', begin - 1);
+    if (begin == std::string_view::npos) return path;
+  }
+  return path.substr(begin + 1);
+}
+
+std::size_t segments_of(std::string_view name) {
+  return 1 + static_cast<std::size_t>(std::ranges::count(name, '/'));
+}
+
+// The shortest end of a path that no other has, or all of it.
+std::string_view shortest_end(std::string_view path, std::span<const std::string> paths) {
+  for (std::size_t count = 1; count < segments_of(path); ++count) {
+    const std::string_view end = last_segments(path, count);
+    const auto has_end = [end](const std::string& it) { return ends_with(it, end); };
+    if (std::ranges::count_if(paths, has_end) == 1) return end;
+  }
+  return path;
+}
+
+}  // namespace
+
+Result<std::uint32_t> find_node(std::string_view name, std::span<const std::string> paths) {
+  constexpr std::size_t kMostListed = 11;  // one more than a message lists
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t node = 0; node < paths.size(); ++node) {
+    if (paths[node] == name) return node;
+    if (ends_with(paths[node], name)) found.push_back(node);
+  }
+  if (found.size() == 1) return found.front();
+  if (!found.empty()) {
+    std::vector<std::string_view> ends;
+    for (const std::uint32_t node : found) {
+      ends.push_back(ends.size() < kMostListed ? shortest_end(paths[node], paths) : paths[node]);
+    }
+    return problem(fmt::format("'{}' is the end of {} paths", brief(name), found.size()),
+                   "write more of the one that is meant: " + listed(ends));
+  }
+  std::vector<std::string_view> ends;
+  for (const std::string& path : paths) ends.push_back(last_segments(path, segments_of(name)));
+  std::string hint = did_you_mean(name, ends);
+  if (hint.empty()) {
+    hint = fmt::format("a node is named by its path or the end of it, as '{}'",
+                       paths.empty() ? "" : brief(shortest_end(paths.back(), paths)));
+  }
+  return problem(fmt::format("no node '{}'", brief(name)), std::move(hint));
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,17 @@
+// Which node a property means: a path, or an end of one that no other path has.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "base/core/problem.h"
+
+namespace lockstep::host {
+
+// The index of the node. The error lists the candidates, or the nearest name.
+Result<std::uint32_t> find_node(std::string_view name, std::span<const std::string> paths);
+
+}  // namespace lockstep::host

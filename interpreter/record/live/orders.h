@@ -1,0 +1,19 @@
+// The orders of a client, as JSON: {"do":"step","ticks":1}.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/core/problem.h"
+#include "engine/tree.h"
+#include "run/run_control.h"
+
+namespace lockstep::host {
+
+// The order that the text has, checked: it can be carried out in a run of this tree.
+Result<RunControl::Order> read_order(const Tree& tree, bool is_real_time, std::string text);
+
+// When the run is to pause, as clients say it: "begins", "completes" or "barrier".
+std::string_view word_of(Breakpoint::When when);
+
+}  // namespace lockstep::host

@@ -1,0 +1,73 @@
+// The content of a recording, as packets: the header, the changes of a tick, the end. The caller
+// decides where they go, and which ticks get one. A tick allocates only for lines that leaves log,
+// for faults, and for entries whose text grows. Used by recorder and by the web monitor.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/measure/entry_changes.h"
+#include "record/live/header_and_end.h"
+#include "record/live/line_format.h"
+#include "record/live/run_delta.h"
+#include "run/leaf_lines.h"
+#include "trace/observer.h"
+
+namespace lockstep::host {
+
+struct RunDescription {
+  std::string tree_file;  // as the user named it
+  double rate_hz = 0;
+  std::uint64_t seed = 0;
+  std::map<std::string, std::string, std::less<>> arguments = {};
+  std::map<std::string, std::string, std::less<>> values = {};  // that entries start with
+  std::optional<std::vector<std::string>> entries = {};         // of these keys; none: all
+  std::string verify = {};                                      // what it shows, of a run of verify
+};
+
+class RunPackets {
+ public:
+  RunPackets(const Tree& tree, RunDescription run, const LineFormat& format);
+
+  std::string header(const RunStart& start) const;
+
+  // Before a tick that is to become a packet: asks every running node for its progress.
+  void before_tick(Ticker& ticker) { delta_.before_tick(ticker); }
+  // The changes since the last packet that was kept. Valid until the next call.
+  Packet tick(Ticker& ticker, const TickReport& report);
+  // The last packet has more than other progress: a node begins, completes, is held, goes on or is
+  // ticked again, or there is a limit, a round, a fault, an entry or a line of a leaf.
+  bool has_events() const { return has_events_; }
+  // A node has begun in it.
+  bool has_begun() const { return delta_.has_begun(); }
+  // The next packet also has the whole state, until one is kept: a reader may begin there.
+  void add_whole();
+  // The last packet was accepted.
+  void keep();
+  // The next packet has the whole state, as if nothing had been kept, and says so.
+  void start_over();
+
+  std::string end(const Ticker& ticker, const RunEnd& end, std::uint64_t lost);
+
+  // Takes a line that a leaf has logged. May be called from any thread.
+  void log(std::string_view who, std::string_view level, std::string_view text);
+
+ private:
+  std::vector<ShapeEntry> entries_shown(std::vector<ShapeEntry> all) const;
+  std::map<std::string, std::string, std::less<>> start_values() const;
+
+  const Tree& tree_;
+  const RunDescription run_;
+  const LineFormat& format_;
+  RunDelta delta_;
+  std::vector<std::uint32_t> slots_;  // of the entries that are shown
+  EntryChanges entries_;
+  LeafLines lines_;
+  std::string line_end_;  // of the tick, for its room
+  bool is_full_ = false, is_whole_ = false;
+  bool has_events_ = false;
+};
+
+}  // namespace lockstep::host

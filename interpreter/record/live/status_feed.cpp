@@ -1,0 +1,50 @@
+#include "record/live/status_feed.h"
+
+#include <algorithm>
+
+#include "engine/tree.h"
+
+namespace lockstep::host {
+namespace {
+
+// For three ticks that change everything, and for many that change little.
+std::size_t room_for_statuses(const Tree& tree) {
+  constexpr std::size_t kLeast = 256u << 10;
+  return std::max<std::size_t>(kLeast, 3 * packet_size(tree.nodes.size(), 0));
+}
+
+}  // namespace
+
+StatusFeed::StatusFeed(const Tree& tree)
+    : passed_on_(tree.nodes.size()),
+      moment_(tree.nodes.size()),
+      changes_(tree.nodes.size()),
+      ring_(room_for_statuses(tree)) {}
+
+void StatusFeed::run_started(Ticker& ticker, const RunStart&) {
+  ticker.keep_moments();
+}
+
+void StatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
+  ticker.moments().each(moment_, [&](std::span<const NodeState> states, const TickMoment&, bool) {
+    pass_on([&](NodeIndex node) { return states[node].activity(); }, report);
+  });
+  pass_on([&](NodeIndex node) { return ticker.activity(node); }, report);
+}
+
+template <class ActivityOf>
+void StatusFeed::pass_on(ActivityOf activity_of, const TickReport& report) {
+  std::size_t count = 0;
+  for (NodeIndex node = 0; node < passed_on_.size(); ++node) {
+    const Activity now = activity_of(node);
+    if (now == passed_on_[node]) continue;
+    changes_[count++] = {.node = node, .state = static_cast<std::uint8_t>(now)};
+  }
+  if (count == 0) return;
+  const std::span<const NodeChange> changes(changes_.data(), count);
+  const PacketHead head{.tick = report.tick, .time = report.time.count()};
+  if (!ring_.push({.head = head, .nodes = changes})) return;
+  for (const NodeChange& it : changes) passed_on_[it.node] = it.activity();
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,250 @@
+// The first line of a recording.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <unordered_set>
+
+#include "base/core/language.h"
+#include "base/core/resource_set.h"
+#include "base/core/wording.h"
+#include "record/lines.h"
+#include "record/read/recording_json.h"
+
+namespace lockstep::host {
+namespace {
+
+// 0 is that of no clock. The rest is more than any can do, and its period fits into nanoseconds.
+double rate_from(JsonValue value) {
+  constexpr double kLeast = 1e-6, kMost = 1e9;
+  const double rate = value.number();
+  if (rate == 0 || (rate >= kLeast && rate <= kMost)) return rate;
+  throw JsonError("'rate_hz' is not a number of ticks per second");
+}
+
+bool is_progress(double value) {
+  return value >= 0 && value <= 1;
+}
+
+NodeIndex parent_from(JsonValue value, std::size_t index) {
+  const std::uint64_t parent = value.whole();
+  if (parent < index) return static_cast<NodeIndex>(parent);
+  throw JsonError(fmt::format("parent of node {} comes after it", index));
+}
+
+std::vector<double> barriers_from(JsonValue value, std::size_t index) {
+  std::vector<double> barriers;
+  barriers.reserve(value.count_items());
+  value.each_item([&](JsonValue item) { barriers.push_back(item.number()); });
+  if (std::ranges::all_of(barriers, is_progress)) return barriers;
+  throw JsonError(fmt::format("a barrier of node {} is not in [0, 1]", index));
+}
+
+double delta_from(JsonValue value, std::size_t index) {
+  const double delta = value.number();
+  if (is_progress(delta)) return delta;
+  throw JsonError(fmt::format("the delta of node {} is not in [0, 1]", index));
+}
+
+std::vector<NodeIndex> members_from(JsonValue value, std::size_t index) {
+  std::vector<NodeIndex> members;
+  members.reserve(value.count_items());
+  value.each_item([&](JsonValue item) {
+    const std::uint64_t member = item.whole();
+    if (member >= index || (!members.empty() && member <= members.back())) {
+      throw JsonError(fmt::format("the members of node {} are not nodes before it, rising", index));
+    }
+    members.push_back(static_cast<NodeIndex>(member));
+  });
+  return members;
+}
+
+std::vector<std::string> resources_from(JsonValue value, std::size_t index) {
+  std::vector<std::string> resources;
+  value.each_item([&](JsonValue item) {
+    std::string_view name;
+    if (!item.get(name) || name.empty() || resources.size() == kMaxResources) {
+      throw JsonError(
+          fmt::format("the resources of node {} are not up to {} names", index, kMaxResources));
+    }
+    resources.emplace_back(name);
+  });
+  return resources;
+}
+
+bool is_ignore(JsonValue value, std::size_t index) {
+  std::string_view text;
+  if (value.get(text) && (text == "ignore" || text == "wait")) return text == "ignore";
+  throw JsonError(fmt::format("'idle' of node {} is neither 'wait' nor 'ignore'", index));
+}
+
+bool is_yes(JsonValue value, std::size_t index) {
+  bool yes = false;
+  if (value.get(yes) && yes) return true;
+  throw JsonError(fmt::format("'guard' of node {} is not true", index));
+}
+
+// A recording names kinds, and does not say in which language.
+bool latches(std::string_view kind) {
+  return std::ranges::any_of(languages(), [&](const LanguageRules* rules) {
+    return std::ranges::any_of(
+        rules->kinds, [&](const NodeKind* it) { return it->type.latches && it->type.id == kind; });
+  });
+}
+
+ShapeNode node_from(JsonObject object, std::size_t index) {
+  ShapeNode node;
+  std::uint64_t place = 0;
+  bool is_absolute = false, is_relative = false;
+  object.read({{lines::kHeaderNode["index"], into(place)},
+               {lines::kHeaderNode["path"], into(node.path)},
+               {lines::kHeaderNode["kind"], into(node.kind)},
+               {lines::kHeaderNode["name"], into(node.name)},
+               {lines::kHeaderNode["parent"],
+                [&](JsonValue value) {
+                  if (!value.is_null()) node.parent = parent_from(value, index);
+                }},
+               {lines::kHeaderNode["barriers"],
+                [&](JsonValue value) {
+                  is_absolute = true;
+                  if (!value.is_null()) node.barriers = barriers_from(value, index);
+                },
+                kMayLack},
+               {lines::kHeaderNode["delta"],
+                [&](JsonValue value) {
+                  is_relative = true;
+                  if (!value.is_null()) node.delta = delta_from(value, index);
+                },
+                kMayLack},
+               {lines::kHeaderNode["idle"],
+                [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
+               {lines::kHeaderNode["resources"],
+                [&](JsonValue value) { node.resources = resources_from(value, index); }, kMayLack},
+               {lines::kHeaderNode["members"],
+                [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack},
+               {lines::kHeaderNode["guard"],
+                [&](JsonValue value) { node.is_guard = is_yes(value, index); }, kMayLack}});
+  if (place != index) throw JsonError(fmt::format("node {} is missing", index));
+  if (is_absolute && is_relative)
+    throw JsonError(fmt::format("node {} has both barriers and delta", index));
+  if (is_absolute) node.synchronization = Synchronization::Absolute;
+  if (is_relative) node.synchronization = Synchronization::Relative;
+  if (!node.resources.empty()) node.synchronization = Synchronization::Resources;
+  node.latches = latches(node.kind);
+  return node;
+}
+
+std::vector<ShapeNode> nodes_from(JsonValue value) {
+  std::vector<ShapeNode> nodes;
+  nodes.reserve(value.count_items());
+  value.each_item([&](JsonValue item) { nodes.push_back(node_from(item.object(), nodes.size())); });
+  return nodes;
+}
+
+std::vector<ShapeEntry> keys_from(JsonValue value) {
+  std::vector<ShapeEntry> keys;
+  keys.reserve(value.count_items());
+  value.each_item([&](JsonValue item) {
+    ShapeEntry& it = keys.emplace_back();
+    item.object().read(
+        {{lines::kHeaderEntry["key"], into(it.key)}, {lines::kHeaderEntry["type"], into(it.type)}});
+  });
+  return keys;
+}
+
+using Arguments = decltype(RecordingHeader::arguments);
+
+Arguments arguments_from(JsonValue value) {
+  Arguments arguments;
+  value.object().each_field([&](std::string_view name, JsonValue argument) {
+    std::string_view text;
+    if (!argument.get(text))
+      throw JsonError(fmt::format("argument '{}' is not a string", brief(name)));
+    if (!arguments.emplace(name, text).second)
+      throw JsonError(fmt::format("argument '{}' is given twice", brief(name)));
+  });
+  return arguments;
+}
+
+template <class Value>
+auto into_header(Value& value) {
+  return into(value);
+}
+auto into_header(double& rate) {
+  return [&rate](JsonValue value) { rate = rate_from(value); };
+}
+auto into_header(Arguments& arguments) {
+  return [&arguments](JsonValue value) { arguments = arguments_from(value); };
+}
+auto into_header(std::vector<ShapeNode>& nodes) {
+  return [&nodes](JsonValue value) { nodes = nodes_from(value); };
+}
+auto into_header(std::vector<ShapeEntry>& keys) {
+  return [&keys](JsonValue value) { keys = keys_from(value); };
+}
+
+// The nodes are in pre-order: the parent of a node is the node before it, or one of its ancestors.
+// Groups, without parents, are behind them.
+void check_order(std::span<const ShapeNode> nodes) {
+  std::vector<NodeIndex> open;
+  const auto is_group = [](const ShapeNode& node) { return !node.members.empty(); };
+  while (nodes.size() > 1 && is_group(nodes.back()) && !nodes.back().parent) {
+    nodes = nodes.first(nodes.size() - 1);
+  }
+  for (NodeIndex node = 0; node < nodes.size(); ++node) {
+    if (is_group(nodes[node])) throw JsonError(fmt::format("node {} has members", node));
+    const auto parent = nodes[node].parent;
+    while (!open.empty() && parent && open.back() != *parent) open.pop_back();
+    if (node > 0 && (!parent || open.empty()))
+      throw JsonError(fmt::format("node {} is not in pre-order", node));
+    open.push_back(node);
+  }
+}
+
+// A path is what a node is known by.
+void check_paths(std::span<const ShapeNode> nodes) {
+  std::unordered_set<std::string_view> paths;
+  paths.reserve(nodes.size());
+  for (const ShapeNode& node : nodes) {
+    if (!paths.insert(node.path).second)
+      throw JsonError(fmt::format("two nodes have the path '{}'", brief(node.path)));
+  }
+}
+
+// Before all else: of another version, anything else may be different.
+void check_version(JsonReader& json, std::string& line) {
+  std::optional<std::uint64_t> version;
+  json.read(line, [&](JsonObject object) {
+    object.read({{lines::kHeader["lockstep_recording"],
+                  [&](JsonValue value) { version = value.whole(); }, kMayLack}});
+  });
+  if (!version) throw JsonError("not a recording: the first line has no 'lockstep_recording'");
+  if (*version != kRecordingVersion) {
+    throw JsonError(
+        fmt::format("recording of version {}, expected {}", *version, kRecordingVersion));
+  }
+}
+
+}  // namespace
+
+RecordingHeader RecordingJson::header(std::string& line) {
+  check_version(json_, line);
+  RecordingHeader header;
+  std::vector<JsonField> fields;
+  lines::each_member(lines::kHeader, header, [&](const lines::Field& field, auto& value) {
+    fields.push_back({field.key, into_header(value), field.has == lines::kMaybe});
+  });
+  json_.read(line, [&](JsonObject object) {
+    object.read(fields);
+    keys_ = header.entries.size();
+    users_ = resource_users(header);
+  });
+  if (header.nodes.empty()) throw JsonError("'nodes' is empty");
+  check_order(header.nodes);
+  check_paths(header.nodes);
+  complete(header);
+  return header;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,485 @@
+#include "record/read/recording_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/core/resource_set.h"
+#include "base/core/wording.h"
+#include "record/lines.h"
+
+namespace lockstep::host {
+namespace {
+
+auto into_seconds(double& time) {
+  return [&time](JsonValue value) {
+    constexpr double kMost = 9e9;  // fits into nanoseconds
+    time = value.number();
+    if (!(time >= 0 && time <= kMost)) throw JsonError("'time_s' is not a time in seconds");
+  };
+}
+
+NodeIndex node_from(JsonValue value, std::size_t nodes, const char* otherwise) {
+  std::uint64_t node = 0;
+  if (!value.get(node)) throw JsonError(otherwise);
+  if (node < nodes) return static_cast<NodeIndex>(node);
+  throw JsonError(fmt::format("no node {}, expected 0 to {}", node, nodes - 1));
+}
+
+// "idle, running, …"
+std::string status_names() {
+  std::string text;
+  for (const StatusRow& row : kStatuses) {
+    if (!text.empty()) text += row.status == kLastStatus ? " or " : ", ";
+    text += row.name;
+  }
+  return text;
+}
+
+Status status_from(JsonValue value) {
+  std::string_view text;
+  if (!value.get(text)) throw JsonError("a node's change has a status that is not a string");
+  for (const StatusRow& row : kStatuses) {
+    if (text == row.name) return row.status;
+  }
+  throw JsonError(fmt::format("no status '{}', expected {}", brief(text), status_names()));
+}
+
+double progress_from(JsonValue value) {
+  double progress = 0;
+  if (value.get(progress) && progress >= 0 && progress <= 1) return progress;
+  throw JsonError("a node's change has a progress that is not in [0, 1]");
+}
+
+bool flag_from(JsonValue value) {
+  std::uint64_t flag = 0;
+  if (value.get(flag) && flag <= 1) return flag == 1;
+  throw JsonError("a node's change has a flag that is neither 0 nor 1");
+}
+
+void apply(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's change is not [index, status, progress, ticked, held]";
+  constexpr unsigned kFields = 5;
+  if (!change.is_list()) throw JsonError(kNone);
+  NodeIndex node = 0;
+  RecordedState state;
+  unsigned field = 0;
+  change.each_item([&](JsonValue item) {
+    switch (field++) {
+      case 0:
+        node = node_from(item, states.size(), kNone);
+        break;
+      case 1:
+        state.status = status_from(item);
+        break;
+      case 2:
+        state.progress = progress_from(item);
+        break;
+      case 3:
+        state.ticked = flag_from(item);
+        break;
+      case 4:
+        state.held = flag_from(item);
+        break;
+      default:
+        throw JsonError(kNone);
+    }
+  });
+  if (field != kFields) throw JsonError(kNone);
+  state.limit = states[node].limit;
+  state.round = states[node].round;
+  states[node] = state;
+}
+
+void apply_round(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's round is not [index, number, of]";
+  if (!change.is_list()) throw JsonError(kNone);
+  std::uint64_t fields[3] = {};
+  unsigned field = 0;
+  NodeIndex node = 0;
+  change.each_item([&](JsonValue item) {
+    if (field == 0) {
+      node = node_from(item, states.size(), kNone);
+    } else if (field > 2 || !item.get(fields[field]) || fields[field] > INT64_MAX) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 3) throw JsonError(kNone);
+  states[node].round = {static_cast<std::int64_t>(fields[1]), static_cast<std::int64_t>(fields[2])};
+}
+
+// The limit of a UseResources is a set of resources, negative when it waits for them.
+bool is_limit(double limit, bool is_set) {
+  if (!is_set) return limit >= 0 && limit <= 1;
+  constexpr auto kEnd = static_cast<double>(ResourceSet{1} << kMaxResources);
+  return std::fabs(limit) < kEnd && std::trunc(limit) == limit;
+}
+
+// Null: no barrier is left.
+void apply_limit(JsonValue change, const std::vector<bool>& users,
+                 std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's limit is not [index, number in [0, 1] or null]";
+  constexpr char kNoSet[] = "the limit of a UseResources is not [index, set of resources]";
+  if (!change.is_list()) throw JsonError(kNone);
+  NodeIndex node = 0;
+  double limit = std::numeric_limits<double>::infinity();
+  unsigned field = 0;
+  change.each_item([&](JsonValue item) {
+    if (field == 0) {
+      node = node_from(item, states.size(), kNone);
+    } else if (field == 1 && users[node]) {
+      if (!item.get(limit) || !is_limit(limit, true)) throw JsonError(kNoSet);
+    } else if (field > 1 || (!item.is_null() && !(item.get(limit) && is_limit(limit, false)))) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  states[node].limit = limit;
+}
+
+MomentChange moment_node_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "a node of a moment is not [index, status, ticked, held]";
+  if (!value.is_list()) throw JsonError(kNone);
+  MomentChange change;
+  Status status = Status::Idle;
+  bool flags[2] = {};
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    if (field == 0) {
+      change.node = node_from(item, nodes, kNone);
+    } else if (field == 1) {
+      status = status_from(item);
+    } else if (field < 4) {
+      flags[field - 2] = flag_from(item);
+    } else {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 4) throw JsonError(kNone);
+  const bool is_held = flags[1] && status == Status::Running;
+  change.before =
+      NodeState::of(is_held ? Activity::Paused : static_cast<Activity>(status), flags[0]);
+  return change;
+}
+
+TickMoment moment_from(JsonValue value, std::size_t nodes, std::vector<MomentChange>& changes) {
+  constexpr char kNone[] = "a moment is not [times, nodes]";
+  if (!value.is_list()) throw JsonError(kNone);
+  TickMoment moment;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    if (field == 0) {
+      if (!item.get(moment.times) || moment.times == 0) throw JsonError(kNone);
+    } else if (field == 1 && item.is_list()) {
+      item.each_item([&](JsonValue it) { changes.push_back(moment_node_from(it, nodes)); });
+    } else {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  moment.changes = static_cast<std::uint32_t>(changes.size());
+  return moment;
+}
+
+NodeTotals totals_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] =
+      "counts are not [index, succeeded, failed, skipped, halted, held, faults]";
+  if (!value.is_list()) throw JsonError(kNone);
+  NodeTotals totals;
+  std::size_t field = 0;
+  value.each_item([&](JsonValue item) {
+    std::uint64_t count = 0;
+    if (field == 0) {
+      totals.node = node_from(item, nodes, kNone);
+    } else if (field > NodeTotals::kKinds + 1 || !item.get(count)) {
+      throw JsonError(kNone);
+    } else if (field <= NodeTotals::kKinds) {
+      totals.counts[field - 1] = count;
+    }
+    ++field;
+  });
+  if (field != NodeTotals::kKinds + 2) throw JsonError(kNone);
+  return totals;
+}
+
+RecordedFault fault_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "a fault is not [index, message]";
+  if (!value.is_list()) throw JsonError(kNone);
+  RecordedFault fault;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    std::string_view message;
+    if (field == 0) {
+      fault.node = node_from(item, nodes, kNone);
+    } else if (field == 1 && item.get(message)) {
+      fault.message = message;
+    } else {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  return fault;
+}
+
+RecordedEntry entry_from(JsonValue value, std::size_t keys) {
+  constexpr char kNone[] = "an entry is not [index, text or null]";
+  if (!value.is_list()) throw JsonError(kNone);
+  RecordedEntry entry;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    std::uint64_t number = 0;
+    std::string_view text;
+    if (field == 0 && item.get(number)) {
+      if (number >= keys)
+        throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
+      entry.entry = static_cast<std::uint32_t>(number);
+    } else if (field == 1 && item.get(text)) {
+      entry.value = text;
+    } else if (field != 1 || !item.is_null()) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 2) throw JsonError(kNone);
+  return entry;
+}
+
+LeafLine log_from(JsonValue value) {
+  constexpr char kNone[] = "a log line is not [who, level, text]";
+  if (!value.is_list()) throw JsonError(kNone);
+  LeafLine log;
+  std::string* const fields[] = {&log.who, &log.level, &log.text};
+  std::size_t field = 0;
+  value.each_item([&](JsonValue item) {
+    std::string_view text;
+    if (field == std::size(fields) || !item.get(text)) throw JsonError(kNone);
+    *fields[field++] = text;
+  });
+  if (field != std::size(fields)) throw JsonError(kNone);
+  return log;
+}
+
+auto into_logs(std::vector<LeafLine>& logs) {
+  return [&logs](JsonValue value) {
+    constexpr std::size_t kMost = 1000;  // a recorder leaves out more
+    value.each_item([&](JsonValue it) {
+      if (logs.size() == kMost) throw JsonError(fmt::format("more than {} log lines", kMost));
+      logs.push_back(log_from(it));
+    });
+  };
+}
+
+RecordedGap gap_from(JsonObject object) {
+  RecordedGap gap;
+  object.read({{lines::kLost["ticks"], into(gap.ticks)}, {lines::kLost["from"], into(gap.from)}});
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 63u;  // ticks of a run
+  if (gap.ticks > 0 && gap.ticks <= kMost && gap.from <= kMost - gap.ticks) return gap;
+  throw JsonError(fmt::format("{} ticks cannot be lost from tick {} on", gap.ticks, gap.from));
+}
+
+// More than a summary shows: of many short ones each would take far more than its length.
+auto into_notes(std::vector<std::string>& notes) {
+  return [&notes](JsonValue value) {
+    constexpr std::size_t kMost = 1000;
+    std::size_t more = 0;
+    value.each_item([&](JsonValue item) {
+      const std::string_view note = item.text();
+      if (notes.size() < kMost) {
+        notes.emplace_back(note);
+      } else {
+        ++more;
+      }
+    });
+    if (more > 0) notes.push_back(fmt::format("and {} more", counted(more, "note")));
+  };
+}
+
+template <class Value>
+auto into_end(Value& value) {
+  return into(value);
+}
+auto into_end(std::optional<std::uint64_t>& number) {
+  return [&number](JsonValue value) { number = value.whole(); };
+}
+auto into_end(double& time) {
+  return into_seconds(time);
+}
+auto into_end(std::vector<std::string>& notes) {
+  return into_notes(notes);
+}
+auto into_end(std::vector<LeafLine>& logs) {
+  return into_logs(logs);
+}
+
+RecordedEnd end_from(JsonObject object) {
+  RecordedEnd end;
+  std::vector<JsonField> fields;
+  lines::each_member(lines::kEnd, end, [&](const lines::Field& field, auto& value) {
+    fields.push_back({field.key, into_end(value), field.has == lines::kMaybe});
+  });
+  object.read(fields);
+  return end;
+}
+
+}  // namespace
+
+// Each moment says what differs from the one after it, so they are made from the last one back to
+// the first; the changes then lead forward.
+MomentsView RecordingJson::moments(const std::vector<RecordedState>& states) {
+  if (moments_.empty()) return {};
+  first_moment_.clear();
+  for (const RecordedState& it : states) first_moment_.push_back(it.state());
+  for (NodeTotals& it : totals_) it.after = first_moment_[it.node];
+  for (std::size_t i = moment_changes_.size(); i-- > 0;) {
+    MomentChange& it = moment_changes_[i];
+    it.after = std::exchange(first_moment_[it.node], it.before);
+  }
+  return {first_moment_, moments_, moment_changes_, totals_};
+}
+
+RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedState>& states) {
+  std::optional<RecordedEnd> end;
+  std::optional<RecordedGap> gap;
+  std::optional<RecordedPartEnd> part_end;
+  std::optional<std::uint64_t> tick;
+  std::optional<double> time;
+  bool has_nodes = false, is_whole = false;
+  faults_.clear();
+  whole_.clear();
+  succeeded_.clear();
+  moments_.clear();
+  moment_changes_.clear();
+  totals_.clear();
+  entries_.clear();
+  logs_.clear();
+  const auto read_nodes = [&](JsonValue value) {
+    has_nodes = true;
+    value.each_item([&](JsonValue change) { apply(change, states); });
+  };
+  const auto read_limits = [&](JsonValue value) {
+    value.each_item([&](JsonValue change) { apply_limit(change, users_, states); });
+  };
+  const auto read_rounds = [&](JsonValue value) {
+    value.each_item([&](JsonValue change) { apply_round(change, states); });
+  };
+  const auto read_faults = [&](JsonValue value) {
+    faults_.reserve(value.count_items());
+    value.each_item([&](JsonValue it) { faults_.push_back(fault_from(it, states.size())); });
+  };
+  const auto read_succeeded = [&](JsonValue value) {
+    constexpr char kNone[] = "'succeeded' is not a list of indices";
+    succeeded_.reserve(value.count_items());
+    value.each_item(
+        [&](JsonValue it) { succeeded_.push_back(node_from(it, states.size(), kNone)); });
+  };
+  const auto read_moments = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) {
+      if (moments_.size() == Moments::kMost) {
+        throw JsonError(fmt::format("more than {} moments", Moments::kMost));
+      }
+      moments_.push_back(moment_from(it, states.size(), moment_changes_));
+    });
+  };
+  const auto read_more = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) { totals_.push_back(totals_from(it, states.size())); });
+  };
+  const auto read_entries = [&](std::vector<RecordedEntry>& entries) {
+    return [&](JsonValue value) {
+      value.each_item([&](JsonValue it) {
+        if (entries.size() == keys_) throw JsonError("an entry is given twice");
+        entries.push_back(entry_from(it, keys_));
+      });
+    };
+  };
+  const auto read_whole = [&](JsonValue value) {
+    is_whole = true;
+    read_entries(whole_)(value);
+  };
+  json_.read(line, [&](JsonObject object) {
+    object.read(
+        {{lines::kTick["tick"], [&](JsonValue value) { tick = value.whole(); }, kMayLack},
+         {lines::kTick["time_s"], [&](JsonValue value) { into_seconds(time.emplace())(value); },
+          kMayLack},
+         {lines::kTick["nodes"], read_nodes, kMayLack},
+         {lines::kTick["limits"], read_limits, kMayLack},
+         {lines::kTick["rounds"], read_rounds, kMayLack},
+         {lines::kTick["succeeded"], read_succeeded, kMayLack},
+         {lines::kTick["moments"], read_moments, kMayLack},
+         {lines::kTick["more"], read_more, kMayLack},
+         {lines::kTick["faults"], read_faults, kMayLack},
+         {lines::kTick["entries"], read_entries(entries_), kMayLack},
+         {lines::kTick["whole"], read_whole, kMayLack},
+         {lines::kTick["logs"], into_logs(logs_), kMayLack},
+         {lines::kLostLine["lost"], [&](JsonValue value) { gap = gap_from(value.object()); },
+          kMayLack},
+         {lines::kContinuedLine["continued"],
+          [&](JsonValue value) {
+            value.object().read({{lines::kContinued["ticks"], into(part_end.emplace().ticks)}});
+          },
+          kMayLack},
+         {lines::kEndLine["end"], [&](JsonValue value) { end = end_from(value.object()); },
+          kMayLack}});
+  });
+  const bool is_tick = tick || time || has_nodes;
+  if (is_tick + gap.has_value() + part_end.has_value() + end.has_value() > 1) {
+    throw JsonError("a line of two kinds");
+  }
+  if (end) return *std::move(end);
+  if (gap) return *gap;
+  if (part_end) return *part_end;
+  if (!tick) throw JsonError("'tick' is missing");
+  if (!time) throw JsonError("'time_s' is missing");
+  if (!has_nodes) throw JsonError("'nodes' is missing");
+  RecordedTick result{.tick = *tick,
+                      .time = *time,
+                      .nodes = states,
+                      .succeeded = succeeded_,
+                      .moments = moments(states),
+                      .faults = faults_,
+                      .entries = entries_,
+                      .logs = logs_};
+  if (is_whole) result.whole = whole_;
+  return result;
+}
+
+std::optional<std::uint64_t> RecordingJson::tick_of(std::string_view line) {
+  constexpr std::string_view kBegin = "{\"tick\":";
+  static_assert(kBegin.substr(2, 4) == lines::kTick["tick"]);
+  if (!line.starts_with(kBegin)) return std::nullopt;
+  std::uint64_t tick = 0;
+  const char* const digits = line.data() + kBegin.size();
+  const auto end = std::from_chars(digits, line.data() + line.size(), tick);
+  return end.ec == std::errc() && end.ptr != digits ? std::optional(tick) : std::nullopt;
+}
+
+bool RecordingJson::is_end(std::string_view line) {
+  constexpr std::string_view kBegin = "{\"end\":";
+  static_assert(kBegin.substr(2, 3) == lines::kEndLine["end"]);
+  return line.starts_with(kBegin);
+}
+
+bool RecordingJson::is_part_end(std::string_view line) {
+  constexpr std::string_view kBegin = "{\"continued\":";
+  static_assert(kBegin.substr(2, 9) == lines::kContinuedLine["continued"]);
+  return line.starts_with(kBegin);
+}
+
+// Within a text, a quote would have a backslash before it.
+bool RecordingJson::may_be_whole(std::string_view line) {
+  constexpr std::string_view kKey = ",\"whole\":[";
+  static_assert(kKey.substr(2, 5) == lines::kTick["whole"]);
+  return line.find(kKey) != std::string_view::npos;
+}
+
+}  // namespace lockstep::host

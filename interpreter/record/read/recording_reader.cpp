@@ -1,0 +1,175 @@
+#include "record/read/recording_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "record/read/recording_json.h"
+
+namespace lockstep::host {
+
+RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limits)
+    : lines_(in, limits.line), format_(std::make_unique<RecordingJson>()), name_(std::move(name)) {
+  if (!next_line()) {
+    if (error_.empty()) error_ = name_ + ":1: the file is empty, expected a recording";
+    return;
+  }
+  if (lines_.text().starts_with("\x89MCAP")) {
+    fail(
+        "it is an MCAP file, which lockstep writes and does not read; `run --record FILE.jsonl` "
+        "records for log and replay, and `log export` makes MCAP of that");
+    return;
+  }
+  read_line([this] { header_ = format_->header(lines_.text()); });
+  states_.resize(header_.nodes.size());
+  next_tick_ = header_.first_tick;
+  begins_here_ = has_skipped_ = header_.first_tick > 0;
+  if (is_cut_) fail("the header is cut");
+}
+
+RecordingReader::~RecordingReader() = default;
+
+std::optional<RecordedTick> RecordingReader::next() {
+  // Also after the closing line: nothing must come there, and only reading on finds that.
+  while (error_.empty() && next_line()) {
+    std::optional<RecordedTick> tick;
+    read_line([&] { tick = read_further(); });
+    if (tick || is_cut_) return tick;
+  }
+  return std::nullopt;
+}
+
+bool RecordingReader::go_to(const Position& position, std::span<const RecordedState> states) {
+  if (!lines_.go_to(position.lines)) return false;
+  states_.assign(states.begin(), states.end());
+  next_tick_ = position.next_tick;
+  last_time_ = position.time;
+  // A tick is neither behind the closing line nor behind an error.
+  end_.reset();
+  is_part_over_ = false;
+  error_.clear();
+  is_cut_ = false;
+  return true;
+}
+
+// Any line but the header: its tick, if it is of one.
+std::optional<RecordedTick> RecordingReader::read_further() {
+  if (end_) throw JsonError("a line after the closing line");
+  if (std::exchange(is_part_over_, false)) {
+    begin_part();
+    return std::nullopt;
+  }
+  auto line = format_->line(lines_.text(), states_);
+  std::visit([this](auto& it) { take(std::move(it)); }, line);
+  auto* tick = std::get_if<RecordedTick>(&line);
+  // Ticks before it may be lost.
+  const bool is_gap = std::holds_alternative<RecordedGap>(line);
+  if (begins_here_ && !is_gap) {
+    begins_here_ = false;
+    if (tick == nullptr || !tick->whole) throw JsonError("'whole' is missing");
+    tick->entries = *tick->whole;
+  }
+  return tick == nullptr ? std::nullopt : std::optional(*tick);
+}
+
+void RecordingReader::take(const RecordedTick& tick) {
+  pass_ticks(tick.tick, 1);
+  if (tick.time < last_time_)
+    throw JsonError(fmt::format("time_s {} comes after {}", tick.time, last_time_));
+  last_time_ = tick.time;
+}
+
+void RecordingReader::take(const RecordedGap& gap) {
+  pass_ticks(gap.from, gap.ticks);
+  if (!first_lost_) first_lost_ = gap.from;
+  lost_ += gap.ticks;
+}
+
+void RecordingReader::take(const RecordedPartEnd& end) {
+  if (end.ticks != next_tick_)
+    throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
+  is_part_over_ = true;
+}
+
+// Files of one run, one behind the other.
+void RecordingReader::begin_part() {
+  const RecordingHeader header = format_->header(lines_.text());
+  const auto run_of = [](const RecordingHeader& it) {
+    return std::tie(it.id, it.file, it.version, it.rate_hz, it.clock, it.seed, it.arguments);
+  };
+  if (header.nodes.size() != header_.nodes.size() ||
+      header.entries.size() != header_.entries.size() || run_of(header) != run_of(header_)) {
+    throw JsonError("the next part is of another run");
+  }
+  if (header.first_tick != next_tick_) {
+    throw JsonError(fmt::format("the next part begins with tick {}, expected {}", header.first_tick,
+                                next_tick_));
+  }
+}
+
+void RecordingReader::take(RecordedEnd end) {
+  if (end.ticks != next_tick_)
+    throw JsonError(fmt::format("'ticks' is {}, but the run had {}", end.ticks, next_tick_));
+  if (end.lost != lost_ && !has_skipped_)
+    throw JsonError(fmt::format("'lost' is {}, but {} ticks have no line", end.lost, lost_));
+  end_ = std::move(end);
+}
+
+// A line has only what has changed: without the one before it, it says nothing.
+void RecordingReader::pass_ticks(std::uint64_t first, std::uint64_t count) {
+  if (first != next_tick_) {
+    throw JsonError(next_tick_ == header_.first_tick
+                        ? fmt::format("the first tick is {}, expected {}", first, next_tick_)
+                        : fmt::format("tick {} comes after tick {}", first, next_tick_ - 1));
+  }
+  next_tick_ += count;
+}
+
+std::string RecordingReader::gaps() const {
+  if (!first_lost_) return {};
+  return fmt::format("{} tick{} missing, the first is {}: the disk was too slow", lost_,
+                     lost_ == 1 ? " is" : "s are", *first_lost_);
+}
+
+std::string RecordingReader::cut() const {
+  if (end_ || is_part_over_ || !error_.empty()) return {};
+  const std::uint64_t line = lines_.position().lines;
+  if (!lines_.position().knows_lines) {
+    return is_cut_ ? "its last line is cut, the run did not end there"
+                   : "it ends without a closing line";
+  }
+  if (is_cut_) return fmt::format("line {} is cut, the run did not end there", line);
+  return fmt::format("it ends after line {} without a closing line", line);
+}
+
+bool RecordingReader::next_line() {
+  if (lines_.next()) return true;
+  if (!lines_.damage().empty())
+    fail(fmt::format("{}; tick {} and later ones cannot be read", lines_.damage(), next_tick_));
+  if (lines_.is_too_long()) fail(fmt::format("the line is longer than {} bytes", lines_.longest()));
+  return false;
+}
+
+// Only the last line can lack its end, and only there is broken JSON a sign of a kill.
+template <class Read>
+void RecordingReader::read_line(Read read) {
+  try {
+    read();
+  } catch (const NotJson& bad) {
+    is_cut_ = !lines_.has_end();
+    if (!is_cut_) fail(bad.what());
+  } catch (const JsonError& bad) {
+    fail(bad.what());
+  }
+}
+
+void RecordingReader::fail(const std::string& message) {
+  const LineReader::Position& at = lines_.position();
+  error_ = at.knows_lines
+               ? fmt::format("{}:{}: {}", name_, std::max<std::uint64_t>(at.lines, 1), message)
+               : fmt::format("{}: before byte {}: {}", name_, at.bytes, message);
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,156 @@
+#include "record/use/recording_events.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/core/csv_field.h"
+#include "base/json/json.h"
+
+namespace lockstep::host {
+namespace {
+
+// "": its status has not changed so that anything began or ended.
+std::string_view change_of(Status before, Status now) {
+  if (now == before) return {};
+  if (now == Status::Running) return "start";
+  if (now == Status::Idle) return before == Status::Running ? "halt" : "";
+  return to_string(now);
+}
+
+class Events {
+ public:
+  Events(const RecordingHeader& header, TickRange range, const EventSink& take)
+      : header_(header), range_(range), take_(take), before_(header.nodes.size()) {}
+
+  // False: no more is wanted.
+  bool take(const RecordedTick& tick) {
+    at_ = {tick.tick, tick.time, {}, {}, {}};
+    const bool is_first = next_ == 0 && tick.tick > 0 && tick.whole;
+    if (!is_first && tick.tick > next_) {
+      add("lost", "", fmt::format("{} from {} on", tick.tick - next_, next_));
+    }
+    next_ = tick.tick + 1;
+    now_.clear();
+    for (const RecordedState& it : tick.nodes) now_.push_back(it.state());
+    if (is_first) {  // what changed with it is not known
+      before_ = now_;
+      return true;
+    }
+    if (tick.moments.empty()) {
+      for (NodeIndex node = 0; node < before_.size(); ++node) add_node(node, now_);
+    } else {
+      add_moments(tick.moments);
+    }
+    for (const RecordedFault& it : tick.faults)
+      add("fault", header_.nodes[it.node].path, it.message);
+    for (const RecordedEntry& it : tick.entries) {
+      add("entry", header_.entries[it.entry].key, shown_value(it));
+    }
+    for (const LeafLine& it : tick.logs) add("log", it.who, it.level + ": " + it.text);
+    before_ = now_;
+    return is_wanted_;
+  }
+
+  void take(const RecordedEnd& end) {
+    at_ = {end.ticks, end.time, {}, {}, {}};
+    for (const LeafLine& it : end.logs) add("log", it.who, it.level + ": " + it.text);
+    add("end", "", fmt::format("{} ({})", end.result, end.reason));
+  }
+
+ private:
+  bool is_group(const ShapeNode& it) const {  // it runs as long as it has members
+    return !it.members.empty() || !it.resources.empty();
+  }
+
+  void add_node(NodeIndex node, std::span<const NodeState> now, std::uint64_t times = 0) {
+    const ShapeNode& it = header_.nodes[node];
+    if (is_group(it)) return;
+    const NodeState before = before_[node], state = now[node];
+    // A node below a held one is held with it.
+    const bool is_below = it.parent && now[*it.parent].held();
+    const bool was_below = it.parent && before_[*it.parent].held();
+    const bool goes_on = before.held() && !state.held() && state.status() != Status::Idle;
+    if (goes_on && !was_below) add("release", it.path, "");
+    if (times > 0 && state.ticked() && has_ended(state.status())) {
+      add_result(it, state.status(), times);
+    } else if (const auto change = change_of(before.status(), state.status()); !change.empty()) {
+      add(change, it.path, "");
+    }
+    if (state.held() && !before.held() && !is_below) add("hold", it.path, "");
+  }
+
+  // In such a tick each result is an event, also one that is as the one before.
+  void add_moments(const MomentsView& moments) {
+    moments.each(moment_, [&](std::span<const NodeState> now, const TickMoment& it, bool) {
+      for (NodeIndex node = 0; node < now.size(); ++node) add_node(node, now, it.times);
+      before_.assign(now.begin(), now.end());
+    });
+    for (const NodeTotals& it : moments.rest) {
+      const ShapeNode& node = header_.nodes[it.node];
+      if (is_group(node)) continue;
+      for (const Status result : {Status::Success, Status::Failure, Status::Skipped}) {
+        if (it.of(result) > 0) add_result(node, result, it.of(result));
+      }
+    }
+  }
+
+  void add_result(const ShapeNode& node, Status result, std::uint64_t times) {
+    add(to_string(result), node.path, times == 1 ? "" : fmt::format("{} times", times));
+  }
+
+  void add(std::string_view kind, std::string_view what, std::string value) {
+    if (at_.tick < range_.from || !is_wanted_) return;
+    at_.kind = kind;
+    at_.what = what;
+    at_.value = std::move(value);
+    is_wanted_ = take_(at_);
+  }
+
+  const RecordingHeader& header_;
+  const TickRange range_;
+  const EventSink& take_;
+  std::vector<NodeState> before_, now_, moment_;
+  RecordingEvent at_;
+  std::uint64_t next_ = 0;  // tick
+  bool is_wanted_ = true;
+};
+
+}  // namespace
+
+void each_event(RecordingReader& reader, TickRange range, const EventSink& take) {
+  Events events(reader.header(), range, take);
+  // The tick before it tells what changed with a tick.
+  if (range.from > 1) reader.skip_to(range.from - 1);
+  bool is_wanted = true;
+  while (is_wanted) {
+    const auto tick = reader.next();
+    if (!tick) break;
+    is_wanted = tick->tick <= range.to && events.take(*tick);
+  }
+  if (is_wanted && reader.end()) events.take(*reader.end());
+}
+
+std::string event_line(const RecordingEvent& event) {
+  std::string line =
+      fmt::format("{:>10.3f} s  tick {:<8} {:<8}", event.time, event.tick, event.kind);
+  if (!event.what.empty()) (line += ' ') += event.what;
+  if (!event.value.empty()) ((line += event.what.empty() ? " " : ": ")) += event.value;
+  return line;
+}
+
+std::string event_csv(const RecordingEvent& event) {
+  return fmt::format("{},{},{},{},{}", event.tick, event.time, event.kind,
+                     csv_field(std::string(event.what)), csv_field(event.value));
+}
+
+std::string event_json(const RecordingEvent& event) {
+  return Json{{"tick", event.tick},
+              {"time_s", event.time},
+              {"event", event.kind},
+              {"what", event.what},
+              {"value", event.value}}
+      .text();
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,34 @@
+// The events of a recording, one after the other: which node began, completed, was halted, held
+// or let go on, which entries changed, what leaves logged, which ticks are lost.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "record/read/recording_reader.h"
+#include "record/tick_range.h"
+
+namespace lockstep::host {
+
+struct RecordingEvent {
+  std::uint64_t tick = 0;
+  double time = 0;  // seconds
+  std::string_view
+      kind;  // start, success, failure, skipped, halt, hold, release, fault, entry, log, lost, end
+  std::string_view what;  // the path of the node, the key of the entry, who has logged; "": the run
+  std::string value;      // of the entry; the message; "": there is none
+};
+
+// Returns false to stop.
+using EventSink = std::function<bool(const RecordingEvent& event)>;
+
+// The events of all readable ticks of the range; then check reader.error().
+void each_event(RecordingReader& reader, TickRange range, const EventSink& take);
+
+std::string event_line(const RecordingEvent& event);
+std::string event_csv(const RecordingEvent& event);
+std::string event_json(const RecordingEvent& event);
+
+}  // namespace lockstep::host

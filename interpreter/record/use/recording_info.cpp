@@ -1,0 +1,140 @@
+#include "record/use/recording_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/core/diagnostics.h"
+#include "base/core/wording.h"
+#include "base/terminal/style.h"
+#include "judge/measure/decision.h"
+#include "judge/summary/summary.h"
+#include "record/use/recorded_probe.h"
+
+namespace lockstep::host {
+namespace {
+
+void write_header(const RecordingHeader& header, std::string& out, bool color) {
+  out += fmt::format("{} from {}, recorded by lockstep {}\n",
+                     styled(printable(header.id), Style::Strong, color), printable(header.file),
+                     printable(header.version));
+  out +=
+      fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n", counted(header.nodes.size(), "node"),
+                  header.rate_hz, printable(header.clock), header.seed, header.law);
+  if (!header.verify.empty()) {
+    out += fmt::format("  found by verify: {}\n", printable(header.verify));
+  }
+  for (const auto& [name, value] : header.arguments) {
+    out += fmt::format("  argument {} = {}\n", printable(name), printable(value));
+  }
+}
+
+// The nodes, and how the last tick has left them, in the words of the path that decided.
+void write_tree(const RecordingHeader& header, const RecordedTick* last, std::string& out) {
+  constexpr std::size_t kDeepest = 20;  // what is deeper stands below that
+  out += last == nullptr ? "  the tree:\n" : fmt::format("  the tree after tick {}:\n", last->tick);
+  for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
+    const ShapeNode& node = header.nodes[index];
+    const std::string kind = kind_text(node);
+    out +=
+        fmt::format("{:{}}{}", "", 4 + 2 * std::min(node.depth, kDeepest), printable(node.segment));
+    if (node.segment != kind) out += fmt::format(" ({})", printable(kind));
+    if (last != nullptr) out += fmt::format(": {}", to_string(last->nodes[index].status));
+    out += '\n';
+  }
+}
+
+void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, std::string& out,
+               bool color) {
+  if (const std::uint64_t first = reader.header().first_tick; first > 0) {
+    out += fmt::format("  a part that begins with tick {}\n", first);
+  }
+  if (const auto& end = reader.end()) {
+    out += fmt::format("  {} after {}, {:.3f} s", printable(ending(end->result, end->reason)),
+                       counted(end->ticks, "tick"), end->time);
+    out += fmt::format("; {}, {} skipped\n", counted(end->overruns, "overrun"),
+                       counted(end->skipped, "deadline"));
+    if (!end->fault.empty()) out += fmt::format("  fault: {}\n", printable(end->fault));
+    for (const std::string& note : end->notes) out += fmt::format("  note: {}\n", printable(note));
+    return;
+  }
+  if (reader.goes_on()) {
+    out += fmt::format("  {}, until {:.3f} s; the run goes on in the next part\n",
+                       counted(ticks, "tick"), time);
+    return;
+  }
+  out += fmt::format("  {}, {:.3f} s; {} {}\n", counted(ticks, "tick"), time,
+                     styled("the recording is cut:", Style::Warning, color), reader.cut());
+}
+
+// Nothing when the last tick is lost: what comes before it does not say.
+std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const RecordedTick& last) {
+  const RecordingHeader& header = reader.header();
+  const auto& end = reader.end();
+  const bool failed = end && end->result == to_string(RunResult::Failure);
+  if (!failed || last.tick + 1 != end->ticks) return {};
+  std::vector<NodeState> nodes;
+  for (const RecordedState& it : last.nodes) nodes.push_back(it.state());
+  std::vector<DecidingSummary> path;
+  for (const DecidingNode& node : deciding_path(header, nodes)) {
+    const ShapeNode& it = header.nodes[node.node];
+    path.push_back(summarize(node, it.path, it.kind));
+  }
+  return path;
+}
+
+void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::string& out,
+                    bool color) {
+  if (const std::string gaps = reader.gaps(); !gaps.empty()) {
+    out += fmt::format("  {}\n", styled(gaps, Style::Warning, color));
+  }
+  if (faults > 0) {
+    out += fmt::format("  {}\n",
+                       styled(counted(faults, "fault") + " of leaves after which the run went on",
+                              Style::Warning, color));
+  }
+}
+
+}  // namespace
+
+std::string info_text(RecordingReader& reader, bool color) {
+  const RecordingHeader& header = reader.header();
+  std::vector<RecordedMeasure> nodes = measures_of(header);
+  std::uint64_t ticks = 0, faults = 0;
+  RecordedTick last;
+  while (const auto tick = reader.next()) {
+    if (ticks++ == 0 && tick->tick > 0) {
+      for (RecordedMeasure& node : nodes) node.measure.join();
+    }
+    faults += tick->faults.size();
+    last = *tick;
+    for (RecordedMeasure& node : nodes) node.after_tick(last);
+  }
+  if (!reader.error().empty()) return {};
+  std::string out;
+  const double period = ticks > 0 ? to_seconds(period_of(header)) : 0;
+  const double time = reader.end() ? reader.end()->time : last.time + period;
+  write_header(header, out, color);
+  write_tree(header, ticks > 0 ? &last : nullptr, out);
+  write_end(reader, ticks, time, out, color);
+  if (ticks > 0) write_text(why_failed(reader, last), out, color);
+  write_warnings(reader, faults, out, color);
+  std::vector<SynchronizedSummary> reached;
+  std::vector<std::string> notes;
+  for (auto& [probe, measure] : nodes) {
+    if (measure.distance().samples() == 0) continue;
+    std::vector<std::string> paths;
+    for (const NodeIndex child : probe.children()) paths.push_back(header.nodes[child].path);
+    append_fall_notes(measure.falls(), paths, notes);
+    measure.run_ended(from_seconds(time));
+    const ShapeNode& node = header.nodes[probe.node()];
+    reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
+  }
+  for (const std::string& note : notes) {
+    out += fmt::format("  note: {}\n", printable(note));
+  }
+  write_text(reached, nodes.size() - reached.size(), out, color);
+  return out;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,374 @@
+#include "record/write/json_lines.h"
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "base/json/json.h"
+#include "record/lines.h"
+#include "record/write/live_json.h"
+
+namespace lockstep::host {
+namespace {
+
+// --- header and closing line
+// -----------------------------------------------------------------------
+
+Json json_of(const ShapeNode& node, std::size_t index) {
+  Json json = {{lines::kHeaderNode["index"], index},
+               {lines::kHeaderNode["path"], node.path},
+               {lines::kHeaderNode["kind"], node.kind},
+               {lines::kHeaderNode["name"], node.name}};
+  json[lines::kHeaderNode["parent"]] = node.parent;
+  if (node.synchronization == Synchronization::Absolute) {
+    json[lines::kHeaderNode["barriers"]] = node.barriers;
+  } else if (node.synchronization == Synchronization::Relative) {
+    json[lines::kHeaderNode["delta"]] = node.delta;
+  }
+  if (!node.resources.empty()) json[lines::kHeaderNode["resources"]] = node.resources;
+  if (!node.members.empty()) json[lines::kHeaderNode["members"]] = node.members;
+  if (node.ignores_idle) json[lines::kHeaderNode["idle"]] = "ignore";
+  if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
+  return json;
+}
+
+Json json_of(const ShapeEntry& entry) {
+  Json json = {{lines::kHeaderEntry["key"], entry.key}, {lines::kHeaderEntry["type"], entry.type}};
+  if (!entry.writers.empty()) json[lines::kHeaderEntry["writers"]] = entry.writers;
+  return json;
+}
+
+Json json_of(const LeafLine& log) {
+  return Json::array({log.who, log.level, log.text});
+}
+
+template <class Value>
+Json json_of(const Value& value) {
+  return value;
+}
+
+template <class Item>
+Json json_of(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+Json json_of(const std::vector<ShapeNode>& nodes) {
+  Json list = Json::array();
+  for (std::size_t index = 0; index < nodes.size(); ++index) {
+    list.push_back(json_of(nodes[index], index));
+  }
+  return list;
+}
+
+Json json_of(const std::map<std::string, std::string, std::less<>>& texts) {
+  Json json = Json::object();
+  for (const auto& [name, text] : texts) json[name] = text;
+  return json;
+}
+
+// It may be left out.
+template <class Value>
+bool is_nothing(const Value& value) {
+  if constexpr (requires { value.empty(); }) {
+    return value.empty();
+  } else {
+    return value == Value();
+  }
+}
+
+template <class Record>
+void add_members(Json& json, const lines::Object& object, const Record& record) {
+  lines::each_member(object, record, [&](const lines::Field& field, const auto& value) {
+    const bool is_absent = field.has == lines::kMaybe && is_nothing(value);
+    if (!is_absent) json[field.key] = json_of(value);
+  });
+}
+
+// --- pieces of a tick
+// ------------------------------------------------------------------------------
+
+char* put(char* to, std::string_view text) {
+  return std::copy(text.begin(), text.end(), to);
+}
+
+// {"key": or ,"key":
+char* put_key(char* to, char before, std::string_view key) {
+  *to++ = before;
+  *to++ = '"';
+  return put(put(to, key), "\":");
+}
+
+template <class Integer>
+char* put_integer(char* to, Integer number) {
+  return std::to_chars(to, to + std::numeric_limits<Integer>::digits10 + 1, number).ptr;
+}
+
+char* put_seconds(char* to, Nanoseconds time) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  const auto total = static_cast<std::uint64_t>(time.count());
+  to = put_integer(to, total / kSecond);
+  // A digit more, so that none of the fraction's zeros is left out.
+  char digits[24];
+  const char* end = put_integer(digits, kSecond + total % kSecond);
+  while (end[-1] == '0' && end > digits + 2) --end;
+  digits[0] = '.';
+  return std::copy<const char*>(digits, end, to);
+}
+
+// Most nodes that change have not begun, have ended, or stand where their parent does: writing a
+// number takes longer than all the rest.
+char* put_progress(char* to, double progress) {
+  if (progress == 1.0) return put(to, "1");
+  if (progress == 0.0 && !std::signbit(progress)) return put(to, "0");
+  return fmt::format_to(to, FMT_COMPILE("{}"), progress);
+}
+
+template <class Number>
+void add_number(std::string& text, Number number) {
+  fmt::format_to(std::back_inserter(text), FMT_COMPILE("{}"), number);
+}
+
+// ,"name":[…] with what `add_item` adds for each, or nothing when there is none.
+template <class Item, class AddItem>
+void add_list(std::string& text, std::string_view name, std::span<const Item> items,
+              AddItem add_item) {
+  if (items.empty()) return;
+  ((text += ",\"") += name) += "\":";
+  char separator = '[';
+  for (const Item& item : items) {
+    text += separator;
+    separator = ',';
+    add_item(text, item);
+  }
+  text += ']';
+}
+
+void add_limit(std::string& text, const LimitChange& it) {
+  add_number(text += '[', it.node);
+  text += ',';
+  if (std::isinf(it.limit)) {
+    text += "null";
+  } else {
+    add_number(text, it.limit);
+  }
+  text += ']';
+}
+
+void add_round(std::string& text, const RoundChange& it) {
+  add_number(text += '[', it.node);
+  add_number(text += ',', it.round.number);
+  add_number(text += ',', it.round.of);
+  text += ']';
+}
+
+void add_fault(std::string& text, const Fault& fault) {
+  constexpr std::size_t kMostOfMessage = 4096;
+  add_number(text += '[', fault.node);
+  text += ',';
+  append_json(text, std::string_view(fault.message).substr(0, kMostOfMessage));
+  text += ']';
+}
+
+void add_entry(std::string& text, const EntryChange& it) {
+  add_number(text += '[', it.entry);
+  text += ',';
+  if (it.text != nullptr) {
+    append_json(text, *it.text);
+  } else {
+    text += "null";
+  }
+  text += ']';
+}
+
+void add_log(std::string& text, const LeafLine& log) {
+  text += '[';
+  append_json(text, log.who);
+  text += ',';
+  append_json(text, log.level);
+  text += ',';
+  append_json(text, log.text);
+  text += ']';
+}
+
+// Longer than [4294967295,"success",1,0] and a comma; than [,[]] and a count; than most counts.
+constexpr std::size_t kMostOfMomentNode = 32, kMostOfMoment = 28, kUsualTotals = 32;
+
+void add_moment_node(std::string& text, const MomentChange& it) {
+  add_number(text += '[', it.node);
+  ((text += ",\"") += to_string(it.before.status())) += "\",";
+  text += it.before.ticked() ? '1' : '0';
+  text += it.before.held() ? ",1]" : ",0]";
+}
+
+// Each node that differs from the moment after it.
+void add_moments(std::string& text, const MomentsView& view) {
+  if (view.empty()) return;
+  ((text += ",\"") += lines::kTick["moments"]) += "\":";
+  for (std::size_t i = 0; i < view.moments.size(); ++i) {
+    add_number(text += i == 0 ? "[[" : ",[", view.moments[i].times);
+    text += ",[";
+    bool is_first = true;
+    for (const MomentChange& it : view.changes_of(i)) {
+      if (!std::exchange(is_first, false)) text += ',';
+      add_moment_node(text, it);
+    }
+    text += "]]";
+  }
+  text += ']';
+}
+
+void add_totals(std::string& text, const NodeTotals& it) {
+  add_number(text += '[', it.node);
+  for (const std::uint64_t count : it.counts) add_number(text += ',', count);
+  text += ",0]";  // faults have their own list
+}
+
+// Also when no entry has a value.
+void add_whole(std::string& text, std::span<const EntryChange> entries) {
+  if (!entries.empty()) return add_list(text, lines::kTick["whole"], entries, add_entry);
+  ((text += ",\"") += lines::kTick["whole"]) += "\":[]";
+}
+
+// Longer than [4294967295,"success",0.00012345678901234567,1,0] and a comma.
+constexpr std::size_t kMostOfNode = 64;
+static_assert(kMostOfNode <= LineFormat::kMostAtOnce);
+static_assert(std::ranges::all_of(kStatuses, [](const StatusRow& row) {
+  return row.name.size() <= std::string_view("success").size();
+}));
+
+// The last progress that was written, as its text: a node often has the progress of the one above.
+class ProgressText {
+ public:
+  char* put(char* to, double progress) {
+    if (begin_ == nullptr || progress != number_ ||
+        std::signbit(progress) != std::signbit(number_)) {
+      char* const end = put_progress(to, progress);
+      begin_ = to, end_ = end, number_ = progress;
+      return end;
+    }
+    return std::copy(begin_, end_, to);
+  }
+
+ private:
+  const char *begin_ = nullptr, *end_ = nullptr;  // in what is written
+  double number_ = 0;
+};
+
+char* put_node(char* to, const NodeChange& change, ProgressText& text) {
+  constexpr std::string_view kFlags[] = {",0,0]", ",0,1]", ",1,0]", ",1,1]"};
+  const Activity activity = change.activity();
+  to = put_integer(put(to, "["), change.node);
+  to = put(put(put(to, ",\""), to_string(status_of(activity))), "\",");
+  to = text.put(to, change.progress);
+  return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
+}
+
+class JsonLines final : public LiveFormat {
+ public:
+  std::string header(const RecordingHeader& header) const override {
+    Json json = {{lines::kHeader["lockstep_recording"], kRecordingVersion}};
+    add_members(json, lines::kHeader, header);
+    return json.text() + '\n';
+  }
+
+  std::string end(const RecordedEnd& end) const override {
+    Json json = {{lines::kEndLine["end"], Json::object()}};
+    add_members(json[lines::kEndLine["end"]], lines::kEnd, end);
+    return json.text() + '\n';
+  }
+
+  // ]} or ],"limits":[[1,0.5]],"rounds":[[2,3,8]],"succeeded":[1],"faults":[[3,"threw …"],…],… }
+  // and a newline; of a long message only the beginning.
+  void set_tick_end(std::string& text, const TickEnd& end) const override {
+    text = ']';
+    add_list(text, lines::kTick["limits"], end.limits, add_limit);
+    add_list(text, lines::kTick["rounds"], end.rounds, add_round);
+    add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
+    add_moments(text, end.moments);
+    add_list(text, lines::kTick["more"], end.moments.rest, add_totals);
+    add_list(text, lines::kTick["faults"], end.faults, add_fault);
+    add_list(text, lines::kTick["entries"], end.entries, add_entry);
+    add_list(text, lines::kTick["logs"], end.logs, add_log);
+    if (end.whole) add_whole(text, *end.whole);
+    text += end.is_full ? kFullEnd : "}\n";
+  }
+
+  std::size_t most_of_tick_end(std::size_t nodes, std::size_t limits,
+                               std::size_t entries) const override {
+    const std::size_t moments = kMostOfMoment * Moments::kMost +
+                                kMostOfMomentNode * Moments::most_changes(nodes) +
+                                kUsualTotals * nodes;
+    return 64 + 64 * (limits + entries) + moments;
+  }
+
+  // {"lost":{"ticks":2,"from":7}} and the end of the line.
+  char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const override {
+    to = put_key(put_key(to, '{', lines::kLostLine["lost"]), '{', lines::kLost["ticks"]);
+    to = put_key(put_integer(to, ticks), ',', lines::kLost["from"]);
+    return put(put_integer(to, from), "}}\n");
+  }
+
+  // {"tick":3,"time_s":0.03,"nodes":[ with the exact time, where a double would say
+  // 0.030000000000000002.
+  char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) const override {
+    to = put_integer(put_key(to, '{', lines::kTick["tick"]), tick);
+    to = put_seconds(put_key(to, ',', lines::kTick["time_s"]), time);
+    return put(put_key(to, ',', lines::kTick["nodes"]), "[");
+  }
+
+  // [3,"running",0.25,1,0],[4,…
+  Put put_nodes(std::span<char> room, std::span<const NodeChange> nodes,
+                bool first) const override {
+    const std::size_t count = std::min(nodes.size(), room.size() / kMostOfNode);
+    char* to = room.data();
+    ProgressText text;
+    for (const NodeChange& change : nodes.first(count)) {
+      if (!first) *to++ = ',';
+      first = false;
+      to = put_node(to, change, text);
+    }
+    return {to, count};
+  }
+
+  // Behind the first key.
+  std::string part_header(std::string_view header, std::uint64_t first_tick) const override {
+    static_assert(lines::kHeaderFields[0].key == lines::kHeader["lockstep_recording"]);
+    const auto place = header.find(',') + 1;
+    return fmt::format("{}\"{}\":{},{}", header.substr(0, place), lines::kHeader["first_tick"],
+                       first_tick, header.substr(place));
+  }
+
+  std::string part_end(std::uint64_t ticks) const override {
+    const Json json = {{lines::kContinuedLine["continued"], {{lines::kContinued["ticks"], ticks}}}};
+    return json.text() + '\n';
+  }
+
+  std::optional<std::uint64_t> tick_of(std::string_view line) const override {
+    return tick_of_json(line);
+  }
+  bool is_end(std::string_view line) const override { return is_end_json(line); }
+  std::string_view full_end() const override { return kFullEnd; }
+  std::string counts_text(const EventCounts& counts, std::uint64_t tick) const override {
+    return counts_json(counts, tick);
+  }
+  std::unique_ptr<TickEndReader> tick_end_reader() const override { return json_tick_end_reader(); }
+};
+
+constexpr JsonLines kJsonLines{};  // needs no code at the start: a crash handler uses it
+
+}  // namespace
+
+const LiveFormat& json_lines() {
+  return kJsonLines;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,29 @@
+#include "run/deadlines.h"
+
+#include <cmath>
+
+namespace lockstep::host {
+
+Deadlines::Deadlines(double rate) : rate_(rate) {
+  const double period = 1e9 / rate;
+  const bool is_whole = period == std::floor(period) && std::fma(period, rate, -1e9) == 0;
+  if (is_whole) period_ = static_cast<std::uint64_t>(period);
+}
+
+Nanoseconds Deadlines::divided(std::uint64_t k) const {
+  return deadline_of(k, rate_);
+}
+
+std::uint64_t Deadlines::first_from(Nanoseconds time) const {
+  // The product is rounded, so it may be off by one.
+  auto k = static_cast<std::uint64_t>(to_seconds(time) * rate_);
+  while (k > 0 && at(k - 1) >= time) --k;
+  while (at(k) < time) ++k;
+  return k;
+}
+
+Nanoseconds deadline_of(std::uint64_t k, double rate) {
+  return Nanoseconds(std::llround(static_cast<long double>(k) * 1e9L / rate));
+}
+
+}  // namespace lockstep::host

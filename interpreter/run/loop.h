@@ -1,0 +1,48 @@
+// The fixed-rate loop: ticks a run at absolute deadlines until it ends, with its observers around
+// each tick. Deadlines are multiples of the period from the start, so there is no drift. An
+// OverrunPolicy decides what happens to missed deadlines.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "base/core/clock.h"
+#include "run/run.h"
+#include "trace/observer.h"
+
+namespace lockstep::host {
+
+class RunControl;
+class StallFail;
+
+// Decides what happens to missed deadlines.
+enum class OverrunPolicy : std::uint8_t {
+  Skip,     // skipped: the next tick is at the next future deadline
+  CatchUp,  // each gets its tick, one right after the other, until the run has caught up
+  Fail,     // the run ends
+};
+
+// The default limit of ticks on the virtual clock.
+constexpr std::uint64_t kMostVirtualTicks = 1'000'000;
+
+struct LoopOptions {
+  double rate = 100;                       // Hz, in [0.001, 100000]
+  std::optional<std::uint64_t> max_ticks;  // stop after this many
+  std::optional<Nanoseconds> timeout;      // stop before the first tick at or after this time; on a
+                                           // real clock, time in which the run is paused counts too
+  std::function<int()> stop_signal = {};   // called before each tick: nonzero = stop
+  OverrunPolicy overrun = OverrunPolicy::Skip;
+  Nanoseconds spin{0};  // on a real clock, the end of a wait that looks at the clock without sleep
+  std::function<bool()> recording_failed = {};   // called before each tick: true = stop
+  std::function<bool()> property_violated = {};  // likewise
+  RunControl* control = nullptr;                 // who may pause the run, and more; or nobody
+  StallFail* stall_fail = nullptr;               // who ends standstills, or nobody
+};
+
+// Runs to the end: halts every running leaf and notifies every observer.
+RunEnd run_loop(Run& run, Clock& clock, const LoopOptions& options,
+                std::span<Observer* const> observers);
+
+}  // namespace lockstep::host

@@ -1,0 +1,176 @@
+#include "show/view/console_plain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/core/diagnostics.h"
+#include "engine/resources.h"
+#include "engine/synchronized.h"
+#include "judge/summary/statistics.h"
+#include "judge/summary/summary.h"
+#include "show/view/waiting.h"
+
+namespace lockstep::host {
+
+ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
+    : tree_(tree), shape_(shape_of(tree)), out_(out), real_time_(real_time) {
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (tree.nodes[node].children == 0) leaves_.push_back({.node = node});
+  }
+  for (const NodeIndex node : synchronized_nodes(tree)) {
+    const std::size_t children = tree.nodes[node].children;
+    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Wait>(children),
+                      std::vector<double>(is_pool(tree, node) ? children : 0)});
+  }
+}
+
+void ConsolePlain::run_started(Ticker&, const RunStart& start) {
+  print(fmt::format("run of {} starts, {:.6g} Hz{}", tree_.id, 1.0 / to_seconds(start.period),
+                    start.real_time ? "" : ", virtual clock"));
+}
+
+void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
+  tick_ = tick;
+  time_ = time;
+}
+
+void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
+  for (const Fault& fault : report.faults) tell_fault(fault);
+  for (Watched& node : nodes_) tell_waits(ticker, node);
+  for (Leaf& leaf : leaves_) {
+    tell_leaf(leaf, ticker.status(leaf.node), ticker.ticked(leaf.node));
+  }
+}
+
+void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
+  TickReport halts;
+  halts.faults = ticker.tolerated();
+  after_tick(ticker, halts);
+  tell_left_out();
+  if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
+  // The message of the command says which fault it is.
+  print(fmt::format("run ends: {} after {}", ending(to_string(end.result()), to_string(end.reason)),
+                    counted(end.ticks, "tick")));
+}
+
+void ConsolePlain::print(std::string_view text) {
+  out_.say(fmt::format("{:10.3f} s  tick {:<6}  {}\n", to_seconds(time_), tick_.load(),
+                       printable(text)));
+}
+
+bool ConsolePlain::may_print() {
+  if (!budget_.take(real_time_())) return false;
+  tell_left_out();
+  return true;
+}
+
+void ConsolePlain::tell_left_out() {
+  const std::uint64_t left_out = budget_.take_left_out() + fault_budget_.take_left_out();
+  if (left_out > 0) print(fmt::format("... {} lines left out", left_out));
+}
+
+void ConsolePlain::tell_fault(const Fault& fault) {
+  if (!fault_budget_.take(real_time_())) return;
+  print(fault.in_last_halt ? fault_text(tree_, fault)
+                           : fmt::format("{}: failed: {}; counted as Failure",
+                                         tree_.path(fault.node), fault.message));
+}
+
+void ConsolePlain::tell_leaf(Leaf& leaf, Status now, bool ticked) {
+  const Status before = std::exchange(leaf.last, now);
+  if (now != before) {
+    tell_again(leaf, before);
+    if (now == Status::Running) {
+      tell(leaf.node, "started");
+    } else if (now != Status::Idle) {
+      tell(leaf.node, to_string(now));
+    } else if (before == Status::Running) {
+      tell(leaf.node, "halted");
+    }
+  } else if (ticked && is_complete(now)) {
+    if (leaf.again++ == 0) leaf.first = tick_;
+    leaf.latest = tick_;
+    leaf.latest_time = time_;
+  } else if (leaf.again > 0 && time_.load() - leaf.latest_time >= kShortWait) {
+    tell_again(leaf, now);
+  }
+}
+
+void ConsolePlain::tell_again(Leaf& leaf, Status status) {
+  const std::uint64_t again = std::exchange(leaf.again, 0);
+  if (again == 0) return;
+  tell(leaf.node, again == 1 ? fmt::format("{} again in tick {}", to_string(status), leaf.first)
+                             : fmt::format("{} {} more times, in ticks {} to {}", to_string(status),
+                                           again, leaf.first, leaf.latest));
+}
+
+void ConsolePlain::tell_waits(Ticker& ticker, Watched& node) {
+  const SynchronizedTick tick = node.probe.read(ticker, time_);
+  for (std::size_t i = 0; i < node.limits.size(); ++i) {
+    node.limits[i] = limit(ticker, node.probe.children()[i] - 1);
+  }
+  if (!tick.ticked) {  // it is held itself, or it was halted
+    if (tick.status != Status::Running) std::ranges::fill(node.waits, Wait{});
+    return;
+  }
+  for (std::size_t child = 0; child < node.waits.size(); ++child) {
+    if (tick.held[child] && tick.status == Status::Running) {
+      tell_wait(node, child, tick);
+    } else if (node.waits[child].held) {
+      tell_end_of_wait(ticker, node, child);
+    }
+  }
+}
+
+void ConsolePlain::tell_wait(Watched& node, std::size_t child, const SynchronizedTick& tick) {
+  Wait& wait = node.waits[child];
+  if (!wait.held) {
+    wait.held = true;
+    wait.since = tick.time;
+  }
+  const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
+  if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
+  wait.told = true;
+  std::string text = waiting(node, child, tick);
+  if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
+  tell(node.probe.children()[child], text);
+}
+
+std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
+                                  const SynchronizedTick& tick) const {
+  const NodeIndex self = node.probe.node();
+  const std::vector<std::string> names = child_names(shape_, self);
+  const auto name_of = [&](std::size_t number) { return names[number]; };
+  if (is_pool(tree_, self)) {
+    return ownership_text({.resources = tree_.group(self).resources,
+                           .members = node.limits.size(),
+                           .limit = [&](std::size_t number) { return node.limits[number]; },
+                           .name_of = name_of},
+                          child);
+  }
+  return waiting_text({.synchronization = synchronization(tree_.nodes[self]),
+                       .limit = tick.limit,
+                       .progress = tick.used,
+                       .name_of = name_of,
+                       .group = tree_.is_group(self) ? tree_.segment(self) : ""},
+                      child);
+}
+
+void ConsolePlain::tell_end_of_wait(Ticker& ticker, Watched& node, std::size_t child) {
+  const NodeIndex it = node.probe.children()[child];
+  const Nanoseconds now = time_;
+  const Wait wait = std::exchange(node.waits[child], Wait{.last_end = now});
+  if (!wait.told) {
+    ++short_waits_;
+  } else if (ticker.ticked(it)) {
+    tell(it, fmt::format("goes on after {:.3f} s", to_seconds(now - wait.since)));
+  }
+}
+
+void ConsolePlain::tell(NodeIndex node, std::string_view what) {
+  if (may_print()) print(fmt::format("{}: {}", tree_.path(node), what));
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,58 @@
+#include "show/view/waiting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/resources.h"
+#include "engine/synchronized.h"
+
+namespace lockstep::host {
+namespace {
+
+// The names of the children with the least progress: "a", "a and b", "a, b and 4 more".
+std::string slowest(const WaitedAt& node, double least) {
+  constexpr std::size_t kNamed = 2;
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (std::size_t child = 0; child < node.progress.size(); ++child) {
+    if (!(node.progress[child] <= least + kProgressEpsilon)) continue;  // or it is left out
+    if (++count <= kNamed) names.push_back(node.name_of(child));
+  }
+  if (count == 1) return names[0];
+  if (count == kNamed) return fmt::format("{} and {}", names[0], names[1]);
+  return fmt::format("{}, {} and {} more", names[0], names[1], count - kNamed);
+}
+
+}  // namespace
+
+std::string waiting_text(const WaitedAt& node, std::size_t child) {
+  const double least = least_progress(node.progress);
+  const std::string whom = slowest(node, least);
+  const std::string of = node.group.empty() ? "" : fmt::format(" of '{}'", node.group);
+  if (node.synchronization == Synchronization::Relative) {
+    return fmt::format("waits for {}, {:.2f} ahead (delta {}{})", whom,
+                       node.progress[child] - least, node.limit, of);
+  }
+  if (std::isinf(node.limit)) return fmt::format("waits for {}", whom);
+  return fmt::format("waits for {} at barrier {:.6g}{}", whom, node.limit, of);
+}
+
+std::string ownership_text(const OwnedFrom& pool, std::size_t child) {
+  const double limit = pool.limit(child);
+  const ResourceSet set = resource_set(limit);
+  if (!waits(limit)) return limit == 0 ? "" : "owns " + to_text(set, pool.resources);
+  std::string text;
+  for (std::size_t other = 0; other < pool.members; ++other) {
+    const double its = pool.limit(other);
+    const ResourceSet shared = waits(its) ? 0 : set & resource_set(its);
+    if (shared == 0) continue;
+    text += fmt::format("{}{} ({})", text.empty() ? "waits for " : ", ",
+                        to_text(shared, pool.resources), pool.name_of(other));
+  }
+  return text;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <utility>
+
+#include "engine/synchronized.h"
+#include "record/use/recorded_probe.h"
+#include "study/plots/plot_style.h"
+#include "study/plots/progress_plot.h"
+
+namespace lockstep::host {
+namespace {
+
+// All plots together keep no more numbers than this, however many nodes and children there are.
+constexpr std::size_t kMostNumbers = std::size_t{8} << 20u;
+constexpr std::size_t kFewestColumns = 16;
+// Samples for a column. Those that are read are thinned when they are twice as many as stay.
+constexpr std::size_t kKeptPerColumn = 2 * kMostPerColumn;
+
+std::vector<std::string> drawn_children(const RecordedProbe& probe) {
+  std::vector<std::string> names = probe.names();
+  names.resize(std::min(names.size(), kPlotStyles));
+  return names;
+}
+
+// Twice as many as pixels: a PNG has so many.
+std::size_t columns_for(PlotSize size, std::size_t plots, std::size_t children) {
+  constexpr std::size_t kOfSample = 10;  // numbers, beside those of its children
+  const std::size_t of_column = kKeptPerColumn * (2 * children + kOfSample);
+  return std::clamp(kMostNumbers / plots / of_column, kFewestColumns,
+                    2 * static_cast<std::size_t>(size.width));
+}
+
+// Collects the samples of one node.
+class Collector {
+ public:
+  Collector(const RecordingHeader& header, NodeIndex node, std::size_t plots, PlotSize size)
+      : probe_(header, node), period_(period_of(header)) {
+    plot_.index = node;
+    plot_.node = header.nodes[node];
+    plot_.children = drawn_children(probe_);
+    plot_.all_children = probe_.children().size();
+    columns_ = columns_for(size, plots, plot_.children.size());
+  }
+
+  void after_tick(const RecordedTick& recorded) {
+    const SynchronizedTick tick = probe_.read(recorded);
+    if (tick.ticked) add(recorded.time, tick);
+    running_ = tick.status == Status::Running;
+    // The last tick of an activation has no later sample that shows its result.
+    if (tick.ticked && !running_) add_end(recorded, tick);
+  }
+
+  ProgressPlot plot() && {
+    if (plot_.samples.size() > kMostPerColumn * columns_) thin(plot_.samples, columns_);
+    return std::move(plot_);
+  }
+
+ private:
+  std::size_t drawn() const { return plot_.children.size(); }
+
+  void add(double time, const SynchronizedTick& tick) {
+    if (running_) hold_until(time);
+    const auto all = tick.used;
+    push({.time = time,
+          .begins = !running_,
+          .least = least_progress(all),
+          .limit = tick.limit,
+          .progress = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(drawn())},
+          .held_until = std::vector<double>(drawn(), time)});
+    held_.assign(tick.held.begin(), tick.held.begin() + static_cast<std::ptrdiff_t>(drawn()));
+  }
+
+  // Those that the last sample found held were so until now. When the node was halted in between,
+  // nobody knows until when.
+  void hold_until(double time) {
+    ProgressSample& last = plot_.samples.back();
+    for (std::size_t child = 0; child < held_.size(); ++child) {
+      if (held_[child]) last.held_until[child] = time;
+    }
+  }
+
+  void add_end(const RecordedTick& recorded, const SynchronizedTick& tick) {
+    const double time = to_seconds(from_seconds(recorded.time) + period_);
+    hold_until(time);
+    ProgressSample end = plot_.samples.back();
+    end.time = time;
+    end.begins = false;
+    std::ranges::fill(end.held_until, time);
+    end.least = 1;
+    for (std::size_t child = 0; child < probe_.children().size(); ++child) {
+      const bool succeeded = recorded.nodes[probe_.children()[child]].status == Status::Success;
+      const double progress = succeeded ? 1.0 : tick.used[child];
+      end.least = std::min(end.least, progress);
+      if (child < drawn()) end.progress[child] = progress;
+    }
+    push(std::move(end));
+    held_.clear();
+  }
+
+  void push(ProgressSample sample) {
+    plot_.samples.push_back(std::move(sample));
+    if (plot_.samples.size() >= kKeptPerColumn * columns_) thin(plot_.samples, columns_);
+  }
+
+  RecordedProbe probe_;
+  Nanoseconds period_;
+  ProgressPlot plot_;
+  std::size_t columns_ = 0;
+  std::vector<bool> held_;  // in the last sample, of each child that is drawn
+  bool running_ = false;
+};
+
+}  // namespace
+
+std::vector<ProgressPlot> progress_plots(RecordingReader& reader, std::span<const NodeIndex> nodes,
+                                         PlotSize size) {
+  std::vector<Collector> collectors;
+  for (const NodeIndex node : nodes) {
+    collectors.emplace_back(reader.header(), node, nodes.size(), size);
+  }
+  while (const auto tick = reader.next()) {
+    for (Collector& collector : collectors) collector.after_tick(*tick);
+  }
+  std::vector<ProgressPlot> plots;
+  for (Collector& collector : collectors) plots.push_back(std::move(collector).plot());
+  return plots;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,78 @@
+#include "tree/check/scripts.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace lockstep::host {
+namespace {
+
+// Null after an error, which is reported. A text that was there before is not compiled again.
+std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const Reporter& report,
+                                               CheckedTrees& trees) {
+  const auto same = trees.compiled.find(attribute.value);
+  if (same != trees.compiled.end()) return same->second;
+  const bool is_strict = trees.rules->strict_scripts;
+  auto code =
+      Expression::parse(attribute.value, trees.words,
+                        is_strict ? Expression::Words::AreSigns : Expression::Words::AreNames);
+  if (!code) {
+    // A wrong or missing argument was reported already.
+    const bool is_known = attribute.value.find("${") == std::string_view::npos;
+    if (!is_known && report.has_errors()) return nullptr;
+    auto& error = code.error();
+    report.in_value(attribute.place, error.offset, std::move(error.message), std::move(error.hint));
+    return nullptr;
+  }
+  for (const auto& remark : code->remarks()) {
+    report.in_value(attribute.place, remark.offset, remark.message, remark.hint,
+                    is_strict ? Severity::Error : Severity::Warning);
+  }
+  if (is_strict && !code->remarks().empty()) return nullptr;
+  const bool is_clean = code->remarks().empty();  // else each place has its messages
+  auto script = std::make_shared<const Expression>(*std::move(code));
+  if (is_clean) trees.compiled.emplace(attribute.value, script);
+  return script;
+}
+
+// The moment at which the script in an attribute runs. A parameter of that name comes first.
+std::optional<Hook> hook_of(const NodeType& type, std::string_view attribute,
+                            const LanguageRules& rules) {
+  const auto hook = hook_named(attribute, rules);
+  if (!hook ||
+      std::ranges::find(type.parameters, attribute, &Parameter::name) != type.parameters.end()) {
+    return std::nullopt;
+  }
+  return hook;
+}
+
+}  // namespace
+
+bool read_script(const Attribute& attribute, const Reporter& report, EmptyScript empty,
+                 CheckedPort& port, CheckedTrees& trees) {
+  if (attribute.value.empty() && empty == EmptyScript::DoesNothing) return true;
+  auto code = parse_script(attribute, report, trees);
+  if (code == nullptr) return false;
+  port.value = static_cast<std::uint32_t>(trees.scripts.size());
+  trees.scripts.push_back({{}, attribute.place, true, std::move(code)});
+  return true;
+}
+
+void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                 CheckedTrees& trees) {
+  const auto first = static_cast<std::uint32_t>(trees.scripts.size());
+  for (const Attribute& attribute : element.attributes) {
+    const auto hook = hook_of(*node.type, attribute.name, *trees.rules);
+    if (!hook) continue;
+    auto code = parse_script(attribute, report, trees);
+    if (code != nullptr) {
+      trees.scripts.push_back({*hook, attribute.place, false, std::move(code)});
+    }
+  }
+  if (trees.scripts.size() == first) return;
+  trees.scripts.back().is_last = true;
+  node.scripts = first;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,62 @@
+#include "tree/expand/scope.h"
+
+namespace lockstep::host {
+
+bool Scope::passes_on(std::string_view key) const {
+  return autoremap_ && (!rules_.marked_keys || !key.starts_with('_'));
+}
+
+Scope::Found Scope::find(std::string_view key) {
+  if (rules_.marked_keys && key.size() > 1 && key[0] == '@') {
+    Scope& top = main();
+    if (!top.has_outside_) return top.find(key.substr(1));
+    if (&top != this) return top.find(key);
+  }
+  if (const auto it = known_.find(key); it != known_.end()) return {it->second, false, {}, false};
+  const auto remapped = remapped_.find(key);
+  const auto text = texts_.find(key);
+  const bool is_outside = remapped != remapped_.end() || (text == texts_.end() && passes_on(key));
+  if (outer_ != nullptr && is_outside) {
+    const Found found = outer_->find(remapped != remapped_.end() ? remapped->second : key);
+    known_[key] = found.entry;
+    return found;
+  }
+  const auto entry = static_cast<std::uint32_t>(entries_.size());
+  entries_.push_back({.name = prefix_ + std::string(key),
+                      .initial = {},
+                      .typing = Typing::Any,
+                      .is_present = false});
+  known_[key] = entry;
+  const bool has_text = text != texts_.end();
+  return {entry, true, has_text ? text->second : std::string_view(), has_text};
+}
+
+Board Scope::board() const {
+  Board board{.autoremap = autoremap_, .has_outside = has_outside_};
+  for (const auto& [inner, outer] : remapped_) board.remapped.emplace(inner, outer);
+  for (const auto& [key, text] : texts_) board.own.emplace(key);
+  for (const auto& [key, entry] : known_) {
+    if (is_own(key) || (has_outside_ && key.starts_with('@'))) board.entries.emplace(key, entry);
+  }
+  return board;
+}
+
+std::string_view Scope::group(std::string_view name) {
+  if (outer_ == nullptr) return name;
+  groups_.insert(name);
+  const auto other = texts_.find(name);
+  return outer_->group(other == texts_.end() ? name : other->second);
+}
+
+std::vector<std::string_view> Scope::open_keys() const {
+  std::vector<std::string_view> keys;
+  for (const auto& [key, entry] : known_) {
+    if (!remapped_.contains(key) && !texts_.contains(key)) keys.push_back(key);
+  }
+  for (const std::string_view name : groups_) {
+    if (!texts_.contains(name)) keys.push_back(name);
+  }
+  return keys;
+}
+
+}  // namespace lockstep::host

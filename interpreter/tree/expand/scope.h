@@ -1,0 +1,75 @@
+// The blackboard while subtrees are expanded: which entry a {key} means in which SubTree.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/blackboard/board.h"
+#include "base/core/language.h"
+#include "tree/definition.h"
+
+namespace lockstep::host {
+
+class Scope {
+ public:
+  static constexpr std::uint32_t kNone = Port::kNone;
+
+  // The scope of the main tree. With a board outside, "@key" is not its "key".
+  Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules, bool has_outside)
+      : entries_(entries), rules_(rules), has_outside_(has_outside) {}
+  // The scope of a SubTree inside `outer`; `prefix` names it in messages ("grasp/").
+  Scope(Scope& outer, const std::string& prefix, bool autoremap)
+      : entries_(outer.entries_),
+        rules_(outer.rules_),
+        outer_(&outer),
+        prefix_(outer.prefix_ + prefix),
+        autoremap_(autoremap) {}
+
+  // The SubTree attribute inner="{outer_key}".
+  void remap(std::string_view inner, std::string_view outer_key) { remapped_[inner] = outer_key; }
+  // The SubTree attribute inner="text": a start value.
+  void set_text(std::string_view inner, std::string_view text) { texts_[inner] = text; }
+
+  struct Found {
+    std::uint32_t entry;
+    bool is_new;            // not used before, so it has no type yet
+    std::string_view text;  // its start value as written, or ""
+    bool has_text;
+  };
+  // The entry that `key` means here; created if it does not exist.
+  Found find(std::string_view key);
+  // Whether that entry belongs to this tree, not to an outer one.
+  bool is_own(std::string_view key) const {
+    return !key.starts_with('@') && (outer_ == nullptr || texts_.contains(key) ||
+                                     (!remapped_.contains(key) && !passes_on(key)));
+  }
+  // For names that are known only at run time: what names mean here. Not its place among boards.
+  Board board() const;
+  // The name in the project of the group that `name` means here.
+  std::string_view group(std::string_view name);
+  bool used(std::string_view key) const { return known_.contains(key) || groups_.contains(key); }
+  // The keys and names that are used but that no attribute of the SubTree sets.
+  std::vector<std::string_view> open_keys() const;
+
+ private:
+  // Whether a key that is neither remapped nor has a start value is one outside.
+  bool passes_on(std::string_view key) const;
+  Scope& main() { return outer_ == nullptr ? *this : outer_->main(); }
+
+  std::vector<BlackboardEntry>& entries_;
+  const LanguageRules& rules_;
+  Scope* outer_ = nullptr;
+  std::string prefix_;
+  bool autoremap_ = false;
+  bool has_outside_ = false;
+  std::map<std::string_view, std::string_view> remapped_;
+  std::map<std::string_view, std::string_view> texts_;
+  std::map<std::string_view, std::uint32_t> known_;
+  std::set<std::string_view> groups_;  // names of groups that were looked up
+};
+
+}  // namespace lockstep::host
