@@ -63,8 +63,7 @@ const std::vector<Layer> kThirdParty{
 };
 
 // What is in each tick formats nothing.
-const Names kFormatNothing{"interpreter/engine/", "interpreter/judge/measure/",
-                           "interpreter/trace/"};
+const Names kFormatNothing{"interpreter/engine/", "interpreter/judge/measure/"};
 
 // The rooms of the monitor's page, the lowest first, and what each may import beside its own files.
 const std::vector<Layer> kPageRooms{
