@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/system/call_mark.h"
 #include "base/system/descriptors.h"
 #include "base/system/own_thread.h"
 #include "base/terminal/outlet.h"
@@ -21,7 +22,6 @@
 #include "cli/exit_code.h"
 #include "cli/run/groot.h"
 #include "cli/usage.h"
-#include "engine/call_mark.h"
 #include "run/fuse.h"
 #include "show/web/server_socket.h"
 

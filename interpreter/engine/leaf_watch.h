@@ -12,9 +12,9 @@
 
 #include "base/core/clock.h"
 #include "base/core/histograms.h"
+#include "base/system/call_mark.h"
 #include "base/system/cycle_clock.h"
 #include "base/system/float_mode.h"
-#include "engine/call_mark.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {

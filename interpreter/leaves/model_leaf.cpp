@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/blackboard/entry.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep::host {

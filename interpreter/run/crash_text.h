@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "run/signal_text.h"
 
 namespace lockstep::host {

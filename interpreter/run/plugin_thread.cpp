@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <new>
 
+#include "base/system/call_mark.h"
 #include "base/system/own_thread.h"
-#include "engine/call_mark.h"
 #include "leaves/plugin/open/shared_object.h"
 #include "run/crash_report.h"
 #include "run/watchdog.h"

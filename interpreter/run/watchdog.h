@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/core/clock.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host {
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "run/plugin_thread.h"
 #include "study/row_text.h"
 

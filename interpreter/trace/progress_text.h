@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "support/tree_text.h"
 
 namespace lockstep::host::test {

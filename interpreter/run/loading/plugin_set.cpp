@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/core/wording.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "leaves/plugin/contract/descriptor.h"
 #include "leaves/plugin/contract/initialize.h"
 #include "leaves/plugin/open/plugin_path.h"

@@ -1,5 +1,5 @@
 // Marks of calls, as the thread itself and as another one sees them.
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/core/object.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "engine/tree.h"
 #include "lockstep/leaf.h"
 #include "run/loading/plugin_set.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "base/core/plugin_exception.h"
+#include "base/system/call_mark.h"
 #include "base/system/mutex.h"
-#include "engine/call_mark.h"
 #include "leaves/plugin/contract/descriptor_leaf.h"
 
 namespace lockstep::host {

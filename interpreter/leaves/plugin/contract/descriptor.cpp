@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/core/plugin_exception.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "leaves/plugin/contract/described_types.h"
 #include "leaves/plugin/contract/descriptor_leaf.h"
 #include "leaves/plugin/contract/descriptor_port.h"

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/core/plugin_exception.h"
+#include "base/system/call_mark.h"
 #include "base/system/mutex.h"
-#include "engine/call_mark.h"
 #include "leaves/plugin/contract/host.h"
 
 namespace lockstep::host {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/core/plugin_exception.h"
+#include "base/system/call_mark.h"
 #include "base/system/float_mode.h"
-#include "engine/call_mark.h"
 #include "leaves/plugin/contract/call_sites.h"
 #include "leaves/plugin/contract/descriptor.h"
 #include "leaves/plugin/contract/host.h"

@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "base/core/plugin_exception.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "leaves/plugin/contract/descriptor.h"
 
 namespace lockstep::host {

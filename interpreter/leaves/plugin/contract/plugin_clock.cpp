@@ -4,7 +4,7 @@
 #include <ctime>
 
 #include "base/core/plugin_exception.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host {
 namespace {

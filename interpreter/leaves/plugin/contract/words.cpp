@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/core/plugin_exception.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/core/clock.h"
+#include "base/system/call_mark.h"
 #include "base/system/mutex.h"
-#include "engine/call_mark.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep::host {

@@ -11,8 +11,8 @@
 
 #include "base/core/plugin_exception.h"
 #include "base/core/wording.h"
+#include "base/system/call_mark.h"
 #include "base/system/float_mode.h"
-#include "engine/call_mark.h"
 #include "leaves/plugin/open/elf_file.h"
 
 namespace lockstep::host {

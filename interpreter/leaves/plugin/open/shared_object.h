@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/core/problem.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 namespace lockstep::host {
 

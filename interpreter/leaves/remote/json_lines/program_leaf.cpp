@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "leaves/plugin/contract/host.h"
 #include "leaves/plugin/contract/leaf_set.h"
 #include "leaves/remote/json_lines/port_json.h"

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "base/core/plugin_exception.h"
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 #include "leaves/plugin/contract/host.h"
 #include "leaves/remote/shared_memory/answer.h"
 #include "leaves/remote/shared_memory/remote_entries.h"

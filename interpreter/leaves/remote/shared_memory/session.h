@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/system/call_mark.h"
 #include "base/system/file_descriptor.h"
 #include "base/system/mutex.h"
-#include "engine/call_mark.h"
 #include "leaves/remote/child_process.h"
 #include "leaves/remote/isolation_options.h"
 #include "leaves/remote/shared_memory/channel.h"

@@ -1,4 +1,4 @@
-#include "engine/call_mark.h"
+#include "base/system/call_mark.h"
 
 #include <array>
 #include <map>
