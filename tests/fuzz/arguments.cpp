@@ -9,6 +9,7 @@
 #include "language/document/project.h"
 #include "require.h"
 
+namespace fuzz_arguments_target {
 namespace {
 
 using namespace lockstep::host;
@@ -82,3 +83,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(project->arguments.at(1).value == *expected_b);
   return 0;
 }
+
+}  // namespace fuzz_arguments_target

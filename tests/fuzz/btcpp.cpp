@@ -13,6 +13,7 @@
 #include "run/run.h"
 #include "tree/resolve.h"
 
+namespace fuzz_btcpp_target {
 namespace {
 
 using namespace lockstep::host;
@@ -95,3 +96,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace fuzz_btcpp_target

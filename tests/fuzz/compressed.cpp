@@ -11,6 +11,7 @@
 #include "fuzz/require.h"
 #include "record/read/recording_reader.h"
 
+namespace fuzz_compressed_target {
 namespace {
 
 using namespace lockstep::host;
@@ -105,3 +106,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write(bytes);
   return 0;
 }
+
+}  // namespace fuzz_compressed_target

@@ -14,6 +14,7 @@
 #include "show/web/http_server.h"
 #include "support/compiled.h"
 
+namespace fuzz_monitor_target {
 namespace {
 
 using namespace lockstep::host;
@@ -82,3 +83,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(length == 0 || answer.starts_with("HTTP/1.1 ") || answer.starts_with("HTTP/1.0 "));
   return 0;
 }
+
+}  // namespace fuzz_monitor_target

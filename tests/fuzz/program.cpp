@@ -17,6 +17,7 @@
 #include "require.h"
 #include "run/loading/plugin_set.h"
 
+namespace fuzz_program_target {
 namespace {
 
 using namespace lockstep::host;
@@ -88,3 +89,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(input.has_rest() == (all.size() < bytes.size()), "what has no end is the rest");
   return 0;
 }
+
+}  // namespace fuzz_program_target

@@ -12,6 +12,7 @@
 #include "record/use/recording_measures.h"
 #include "show/view/replay/replay_view.h"
 
+namespace fuzz_recording_target {
 namespace {
 
 using namespace lockstep::host;
@@ -85,3 +86,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   replay(text);
   return 0;
 }
+
+}  // namespace fuzz_recording_target

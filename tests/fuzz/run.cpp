@@ -12,6 +12,7 @@
 #include "tree/resolve.h"
 #include "tree_from_bytes.h"
 
+namespace fuzz_run_target {
 namespace {
 
 using namespace lockstep::host;
@@ -103,3 +104,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   run_twice(*tree, FaultPolicy::Fail);
   return 0;
 }
+
+}  // namespace fuzz_run_target

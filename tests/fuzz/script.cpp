@@ -10,6 +10,7 @@
 #include "require.h"
 #include "support/script_reference.h"
 
+namespace fuzz_script_target {
 namespace {
 
 using namespace lockstep::host;
@@ -42,3 +43,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::fprintf(stderr, "%s\n", difference.c_str());
   std::abort();
 }
+
+}  // namespace fuzz_script_target

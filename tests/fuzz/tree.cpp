@@ -15,6 +15,7 @@
 #include "tree/check/plugin_requests.h"
 #include "tree/resolve.h"
 
+namespace fuzz_tree_target {
 namespace {
 
 using namespace lockstep::host;
@@ -103,3 +104,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (definition && definition->nodes.size() < 10'000) tick(compile(*definition));
   return 0;
 }
+
+}  // namespace fuzz_tree_target

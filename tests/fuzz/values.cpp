@@ -13,6 +13,7 @@
 #include "run/loading/plugins.h"
 #include "tree/resolve.h"
 
+namespace fuzz_values_target {
 namespace {
 
 using namespace lockstep::host;
@@ -84,3 +85,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_barriers(text);
   return 0;
 }
+
+}  // namespace fuzz_values_target
