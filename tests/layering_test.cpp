@@ -509,7 +509,7 @@ TEST_CASE("layers: only the recorder formats without fmt::format") {
         if (text.find(other) == std::string::npos) continue;
         ++seen;
         INFO(file << ": " << other);
-        CHECK(file == "interpreter/record/write/json_lines.cpp");
+        CHECK(file == "interpreter/record/json_lines.cpp");
       }
     }
   }

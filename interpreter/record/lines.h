@@ -9,7 +9,7 @@
 #include <string_view>
 #include <variant>
 
-#include "record/live/header_and_end.h"
+#include "record/header_and_end.h"
 
 namespace lockstep::host {
 

@@ -12,7 +12,7 @@
 #include "base/core/status.h"
 #include "engine/moments.h"
 #include "engine/node_kind.h"
-#include "record/live/header_and_end.h"
+#include "record/header_and_end.h"
 
 namespace lockstep::host {
 

@@ -21,10 +21,10 @@
 #include "judge/measure/measure_spec.h"
 #include "judge/summary/statistics.h"
 #include "language/expression/evaluator.h"
+#include "record/json_lines.h"
 #include "record/live/line_feed.h"
 #include "record/live/snapshot_feed.h"
 #include "record/live/status_feed.h"
-#include "record/write/json_lines.h"
 #include "record/write/recorder.h"
 #include "run/loop.h"
 #include "run/run.h"
@@ -198,11 +198,11 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
   Blackboard board(tree.tree());
   EntryChanges changes({0});
   std::string line;
-  line.reserve(json_lines().most_of_tick_end(0, 0, 1));
+  line.reserve(json_lines::most_of_tick_end(0, 0, 1));
   const auto tick = [&](double value) {
     board.entries[0].value = value;
     ++board.entries[0].writes;
-    json_lines().set_tick_end(line, {.entries = changes.changes(board)});
+    json_lines::set_tick_end(line, {.entries = changes.changes(board)});
     changes.keep();
   };
   tick(-1);
@@ -222,7 +222,7 @@ TEST_CASE(
     "the monitor's feed passes lines on without allocating or locking, also when nobody takes "
     "them") {
   const TickingTree tree;
-  LineFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, json_lines(), hurried);
+  LineFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, hurried);
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
   check_costs_nothing([&] {

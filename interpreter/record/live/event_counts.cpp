@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "record/json_lines.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -39,16 +41,15 @@ EventCounts::Counts EventCounts::Node::until(std::uint64_t tick) const {
 
 static_assert(EventCounts::kFault == std::size_t{NodeTotals::kKinds});
 
-EventCounts::EventCounts(const LiveFormat& format)
-    : format_(format), reader_(format.tick_end_reader()) {
-  format_.set_tick_end(empty_end_, {});
+EventCounts::EventCounts() {
+  json_lines::set_tick_end(empty_end_, {});
 }
 
 void EventCounts::take(const PacketRing& ring, std::uint64_t from, std::uint64_t to,
                        std::vector<std::string>& counted) {
   ring.each_packet(from, to, [&](std::uint64_t position, const PacketHead& head) {
     if (head.is_tick != 0 && take_tick(ring, position, head)) {
-      counted.push_back(format_.counts_text(*this, head.tick));
+      counted.push_back(counts_json(*this, head.tick));
     }
   });
 }
@@ -63,8 +64,8 @@ bool EventCounts::take_tick(const PacketRing& ring, std::uint64_t position,
     moment_changes_.clear();
     more_.clear();
     std::string end = text_at(ring, position + head.nodes * sizeof(NodeChange), head.text);
-    is_full = end.ends_with(format_.full_end());
-    reader_->read(std::move(end), *this);
+    is_full = end.ends_with(json_lines::kFullEnd);
+    reader_.read(std::move(end), *this);
   }
   const bool has_moments = !moments_.empty();
   if (has_moments) settle(head.tick);

@@ -4,14 +4,14 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "record/live/live_format.h"
+#include "engine/moments.h"
 #include "record/live/packet_ring.h"
+#include "record/live/tick_end_json.h"
 
 namespace lockstep::host {
 
@@ -21,14 +21,15 @@ class EventCounts {
   enum Count : std::size_t { kSuccess, kFailure, kSkipped, kHalted, kHeld, kFault, kCounts };
   using Counts = std::array<std::uint64_t, kCounts>;
 
-  explicit EventCounts(const LiveFormat& format);
+  EventCounts();
 
   // Counts the ticks of a ring from one position to another. Of each line that has the whole state,
   // `counted` gets what was counted up to it, as a part of this line.
   void take(const PacketRing& ring, std::uint64_t from, std::uint64_t to,
             std::vector<std::string>& counted);
 
-  // --- for the format ----------------------------------------------------------------------------
+  // --- for the reader of an end
+  // ----------------------------------------------------------------------------
 
   // The end of a tick's line. No value: it is too long.
   void take_fault(NodeIndex node);
@@ -71,8 +72,7 @@ class EventCounts {
   void settle(std::uint64_t tick);
   void take_moments(std::uint64_t tick);
 
-  const LiveFormat& format_;
-  const std::unique_ptr<TickEndReader> reader_;
+  TickEndJson reader_;
   std::string empty_end_;  // of a tick of which there is nothing but nodes to tell
   std::vector<Node> nodes_;
   std::vector<Entry> entries_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/system/file_descriptor.h"
+#include "record/json_lines.h"
 
 namespace lockstep::host {
 namespace {
@@ -23,10 +24,8 @@ std::FILE* open_regular(const std::string& path) {
 
 }  // namespace
 
-History::History(const LineLog& log, const LiveFormat& format, const std::string& recording,
-                 bool is_coming)
+History::History(const LineLog& log, const std::string& recording, bool is_coming)
     : log_(log),
-      format_(format),
       file_(open_regular(recording)),
       full_(log.last_full()),
       asked_(monotonic_now()),
@@ -86,9 +85,9 @@ std::optional<std::string_view> History::next_recorded() {
     line_ += static_cast<char>(letter);
   }
   is_at_header_ = false;
-  const auto tick = format_.tick_of(line_);
+  const auto tick = json_lines::tick_of(line_);
   if (tick) next_tick_ = *tick + 1;
-  return format_.is_end(line_) || (tick && *tick >= until_) ? std::string_view() : line_;
+  return json_lines::is_last(line_) || (tick && *tick >= until_) ? std::string_view() : line_;
 }
 
 std::string_view History::next_logged() {

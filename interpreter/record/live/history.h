@@ -10,7 +10,6 @@
 
 #include "base/core/clock.h"
 #include "record/live/line_log.h"
-#include "record/live/live_format.h"
 #include "record/live/stream.h"
 
 namespace lockstep::host {
@@ -21,8 +20,7 @@ class History final : public Stream {
 
   // `recording` is the file that the run writes; "": none. If there is one, and a line with the
   // whole state `is_coming`, it goes on with that one.
-  History(const LineLog& log, const LiveFormat& format, const std::string& recording,
-          bool is_coming);
+  History(const LineLog& log, const std::string& recording, bool is_coming);
 
   bool is_endless() const override { return false; }
   Piece read(std::span<char> to) override;
@@ -38,7 +36,6 @@ class History final : public Stream {
   };
 
   const LineLog& log_;
-  const LiveFormat& format_;
   std::unique_ptr<std::FILE, Close> file_;
   std::optional<std::uint64_t> full_;  // the last line with the whole state, when it was asked for
   const Nanoseconds asked_;

@@ -17,15 +17,12 @@ std::size_t room_for(const Tree& tree) {
 
 }  // namespace
 
-LineFeed::LineFeed(const Tree& tree, RunDescription run, const LiveFormat& format,
-                   RealTime real_time)
-    : format_(format),
-      real_time_(real_time),
+LineFeed::LineFeed(const Tree& tree, RunDescription run, RealTime real_time)
+    : real_time_(real_time),
       deadlines_(run.rate_hz),
-      packets_(tree, std::move(run), format),
+      packets_(tree, std::move(run)),
       ring_(room_for(tree)),
-      room_(64u << 10),
-      counts_(format) {}
+      room_(64u << 10) {}
 
 void LineFeed::log(std::string_view who, std::string_view level, std::string_view text) {
   packets_.log(who, level, text);
@@ -52,7 +49,7 @@ void LineFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
 void LineFeed::publish_before_late(Nanoseconds time) {
   if (!has_ticked_ || 2 * (time - last_.time) < 3 * deadlines_.at(1)) return;
   std::string text;
-  format_.set_tick_end(text, {});
+  json_lines::set_tick_end(text, {});
   Packet packet{.text = text};
   packet.head.is_tick = 1;
   packet.head.tick = last_.tick;
@@ -149,18 +146,17 @@ void LineFeed::end_taking() {
 
 void LineFeed::take(std::string& lines) {
   const std::size_t begin = lines.size();
-  PacketPrinter printer(ring_, format_);
+  PacketPrinter printer(ring_);
   for (auto text = printer.print(room_); !text.empty(); text = printer.print(room_)) lines += text;
   std::vector<std::string> counted;
   counts_.take(ring_, ring_.taken(), printer.finished(), counted);
   ring_.take_until(printer.finished());
   if (is_full_.exchange(false)) room_made_.ring();
-  const std::string_view full_end = format_.full_end();
   std::size_t at = begin;
   for (const std::string& counts : counted) {
-    at = lines.find(full_end, at);
+    at = lines.find(json_lines::kFullEnd, at);
     lines.insert(at, counts);
-    at += counts.size() + full_end.size();
+    at += counts.size() + json_lines::kFullEnd.size();
   }
 }
 

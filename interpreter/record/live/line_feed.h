@@ -14,7 +14,6 @@
 
 #include "base/system/bell.h"
 #include "record/live/event_counts.h"
-#include "record/live/live_format.h"
 #include "record/live/packet_ring.h"
 #include "record/live/run_packets.h"
 #include "run/deadlines.h"
@@ -29,8 +28,7 @@ class LineFeed final : public Observer {
   using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
-  LineFeed(const Tree& tree, RunDescription run, const LiveFormat& format,
-           RealTime real_time = monotonic_now);
+  LineFeed(const Tree& tree, RunDescription run, RealTime real_time = monotonic_now);
 
   // The next tick gets a line, however soon it comes.
   void hurry() { published_ = Nanoseconds(0); }
@@ -48,7 +46,6 @@ class LineFeed final : public Observer {
   // Once run_started, or run_ended, has returned.
   const std::string& header() const { return header_; }
   const std::string& end() const { return end_; }
-  const LiveFormat& format() const { return format_; }
   // Adds whole lines: those since the last call. One with the whole state also has what the run has
   // had of everything that is counted (record/live/event_counts.h).
   void take(std::string& lines);
@@ -71,7 +68,6 @@ class LineFeed final : public Observer {
   bool wait_to_push(const Packet& packet);
   void note_times(Nanoseconds time);
 
-  const LiveFormat& format_;
   const RealTime real_time_;
   const Deadlines deadlines_;
   RunPackets packets_;

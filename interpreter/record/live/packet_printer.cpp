@@ -49,15 +49,15 @@ char* PacketPrinter::put_piece(char* to, const char* end) {
 
 char* PacketPrinter::put_opening(char* to) {
   opening_left_ = false;
-  if (head_.lost > 0) to = format_.put_lost(to, head_.lost, head_.lost_from);
-  if (head_.is_tick != 0) to = format_.put_tick(to, head_.tick, Nanoseconds(head_.time));
+  if (head_.lost > 0) to = json_lines::put_lost(to, head_.lost, head_.lost_from);
+  if (head_.is_tick != 0) to = json_lines::put_tick(to, head_.tick, Nanoseconds(head_.time));
   return to;
 }
 
 char* PacketPrinter::put_nodes(char* to, const char* end) {
   const auto room = static_cast<std::size_t>(end - to);
   const bool first = nodes_left_ == head_.nodes;
-  const auto put = format_.put_nodes({to, room}, ring_.nodes(at_, nodes_left_), first);
+  const auto put = json_lines::put_nodes({to, room}, ring_.nodes(at_, nodes_left_), first);
   nodes_left_ -= put.count;
   at_ += put.count * sizeof(NodeChange);
   return put.end;

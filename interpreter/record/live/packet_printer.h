@@ -1,4 +1,4 @@
-// Turns the packets in a ring into the text of a recording, a piece at a time; the format says how.
+// Turns the packets in a ring into the text of a recording, a piece at a time.
 // Async-signal-safe: does not allocate, and writes only to itself and the text, so that another
 // printer may start again at the beginning of the ring. Used by append_file.
 #pragma once
@@ -7,18 +7,17 @@
 #include <span>
 #include <string_view>
 
-#include "record/live/line_format.h"
+#include "record/json_lines.h"
 #include "record/live/packet_ring.h"
 
 namespace lockstep::host {
 
 class PacketPrinter {
  public:
-  static constexpr std::size_t kLeastRoom = LineFormat::kMostAtOnce;  // bytes, for print()
+  static constexpr std::size_t kLeastRoom = json_lines::kMostAtOnce;  // bytes, for print()
 
   // Starts before the first packet in the ring.
-  PacketPrinter(const PacketRing& ring, const LineFormat& format)
-      : ring_(ring), format_(format), at_(ring.taken()), finished_(at_) {}
+  explicit PacketPrinter(const PacketRing& ring) : ring_(ring), at_(ring.taken()), finished_(at_) {}
 
   // The next part of the text that fits into `room`; "" when everything is printed, and before a
   // packet that begins another file.
@@ -44,7 +43,6 @@ class PacketPrinter {
   char* put_text(char* to, const char* end);
 
   const PacketRing& ring_;
-  const LineFormat& format_;
   std::uint64_t at_;
   std::uint64_t finished_;
   std::uint64_t unfinished_text_ = 0;

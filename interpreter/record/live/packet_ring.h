@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "record/live/packet.h"
+#include "record/packet.h"
 
 namespace lockstep::host {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "record/live/packet.h"
+#include "record/packet.h"
 
 namespace lockstep::host {
 

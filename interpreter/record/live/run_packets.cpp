@@ -11,6 +11,7 @@
 #include "engine/writers.h"
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/statistics.h"
+#include "record/json_lines.h"
 #include "record/live/watched_nodes.h"
 
 namespace lockstep::host {
@@ -28,15 +29,14 @@ std::vector<std::uint32_t> slots_of(const Tree& tree,
 
 }  // namespace
 
-RunPackets::RunPackets(const Tree& tree, RunDescription run, const LineFormat& format)
+RunPackets::RunPackets(const Tree& tree, RunDescription run)
     : tree_(tree),
       run_(std::move(run)),
-      format_(format),
       delta_(tree),
       slots_(slots_of(tree, run_.entries)),
       entries_(slots_) {
   const std::size_t repeating = repeating_nodes(tree).size();
-  line_end_.reserve(format_.most_of_tick_end(
+  line_end_.reserve(json_lines::most_of_tick_end(
       tree.nodes.size(), delta_.most_succeeded() + tree.members.size() + repeating,
       2 * slots_.size()));
 }
@@ -54,7 +54,7 @@ std::string RunPackets::header(const RunStart& start) const {
   header.arguments = run_.arguments;
   header.values = start_values();
   header.verify = run_.verify;
-  return format_.header(header);
+  return json_lines::header(header);
 }
 
 // A start value may be as secret as the entry that it is of.
@@ -91,7 +91,7 @@ Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
               .logs = lines_.lines(),
               .is_full = is_full_};
   if (is_whole_) end.whole = entries_.values();
-  format_.set_tick_end(line_end_, end);
+  json_lines::set_tick_end(line_end_, end);
   Packet packet{.nodes = delta_.changes(ticker), .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
                 !end.succeeded.empty() || !end.moments.empty() || !end.faults.empty() ||
@@ -140,7 +140,7 @@ std::string RunPackets::end(const Ticker& ticker, const RunEnd& end, std::uint64
     closing.notes.push_back(
         fmt::format("{} that leaves logged are not recorded", counted(lines_.left_out(), "line")));
   }
-  return format_.end(closing);
+  return json_lines::end(closing);
 }
 
 }  // namespace lockstep::host

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "judge/measure/entry_changes.h"
-#include "record/live/header_and_end.h"
-#include "record/live/line_format.h"
+#include "record/header_and_end.h"
 #include "record/live/run_delta.h"
+#include "record/packet.h"
 #include "run/leaf_lines.h"
 #include "trace/observer.h"
 
@@ -29,7 +29,7 @@ struct RunDescription {
 
 class RunPackets {
  public:
-  RunPackets(const Tree& tree, RunDescription run, const LineFormat& format);
+  RunPackets(const Tree& tree, RunDescription run);
 
   std::string header(const RunStart& start) const;
 
@@ -60,7 +60,6 @@ class RunPackets {
 
   const Tree& tree_;
   const RunDescription run_;
-  const LineFormat& format_;
   RunDelta delta_;
   std::vector<std::uint32_t> slots_;  // of the entries that are shown
   EntryChanges entries_;

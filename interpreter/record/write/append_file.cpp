@@ -12,6 +12,7 @@
 
 #include "base/core/clock.h"
 #include "base/system/own_thread.h"
+#include "record/json_lines.h"
 #include "record/live/packet_printer.h"
 #include "record/part_names.h"
 
@@ -46,10 +47,8 @@ void leave(AppendFile* file) {
 
 }  // namespace
 
-AppendFile::AppendFile(const std::string& path, std::size_t queue, const LineFormat& format,
-                       FileForm form, FileParts parts)
+AppendFile::AppendFile(const std::string& path, std::size_t queue, FileForm form, FileParts parts)
     : ring_(queue),
-      format_(format),
       path_(path),
       form_(std::move(form)),
       parts_(parts),
@@ -139,7 +138,7 @@ void AppendFile::write_until_stopped() {
 // crash in the middle of this costs nothing: the handler begins it again, and leaves out what is
 // written.
 void AppendFile::write_out(Failure failure) {
-  PacketPrinter printer(ring_, format_);
+  PacketPrinter printer(ring_);
   std::uint64_t known = written_;
   while (!failed() && !ring_.empty()) {
     std::string_view text = printer.print(text_);
@@ -168,12 +167,12 @@ void AppendFile::begin_part(const PacketHead& head) {
   auto next = std::make_unique<GrowingFile>(part_name(path_, number), form_, patience_);
   if (next->failed()) return fail(next->error());
   is_between_parts_ = true;
-  add_text(format_.part_end(first_tick));
+  add_text(json_lines::part_end(first_tick));
   file_->end();
   take_failure();
   if (failed()) return;
   file_ = std::move(next);
-  add_text(format_.part_header(header_, first_tick));
+  add_text(json_lines::part_header(header_, first_tick));
   take_failure();
   is_between_parts_ = false;
   part_size_.store(file_->size(), std::memory_order_relaxed);

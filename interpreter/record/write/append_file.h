@@ -20,7 +20,6 @@
 #include "base/system/lock_file.h"
 #include "record/live/packet_ring.h"
 #include "record/write/growing_file.h"
-#include "record/write/json_lines.h"
 
 namespace lockstep::host {
 
@@ -40,8 +39,7 @@ class AppendFile {
   static constexpr std::chrono::milliseconds kLongestEmergency{500};
 
   // Creates the file; on failure error() has the reason.
-  explicit AppendFile(const std::string& path, std::size_t queue = kQueue,
-                      const LineFormat& format = json_lines(), FileForm form = {},
+  explicit AppendFile(const std::string& path, std::size_t queue = kQueue, FileForm form = {},
                       FileParts parts = {});
   // The header for all parts. Before the first push().
   void set_header(std::string header) { header_ = std::move(header); }
@@ -94,7 +92,6 @@ class AppendFile {
   void release();
 
   PacketRing ring_;
-  const LineFormat& format_;
   Patience patience_;
   const std::string path_;
   const FileForm form_;

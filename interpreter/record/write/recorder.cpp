@@ -40,9 +40,9 @@ FileForm form_of(const RecorderOptions& options) {
 
 Recorder::Recorder(const Tree& tree, RecorderOptions options)
     : options_(std::move(options)),
-      file_(options_.path, queue_of(tree, options_.queue), options_.format, form_of(options_),
+      file_(options_.path, queue_of(tree, options_.queue), form_of(options_),
             {.are_wanted = options_.rotation.is_wanted(), .keep = options_.rotation.keep}),
-      packets_(tree, options_.run, options_.format),
+      packets_(tree, options_.run),
       next_whole_(options_.whole_each),
       bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}
 

@@ -30,8 +30,7 @@ struct RecorderOptions {
   std::function<void(const std::string& error)> on_error = {};
   std::uint64_t whole_each = 4096;         // ticks: so often a line has the whole state
   std::size_t queue = AppendFile::kQueue;  // bytes that may wait for the disk, at least
-  const LineFormat& format = json_lines();
-  bool compresses = false;  // with zstd; a path that ends in .zst says so, too
+  bool compresses = false;                 // with zstd; a path that ends in .zst says so, too
   Rotation rotation = {};
   MakeEncoder encoder = {};  // makes another format of it
 };

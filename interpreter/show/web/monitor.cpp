@@ -9,7 +9,6 @@
 #include "base/json/json.h"
 #include "record/live/history.h"
 #include "record/live/orders.h"
-#include "record/write/json_lines.h"
 #include "show/web/page.h"
 #include "show/web/server_sent.h"
 #include "show/web/token.h"
@@ -45,7 +44,7 @@ Monitor::Monitor(const Tree& tree, MonitorOptions options)
     : tree_(tree),
       recording_(std::move(options.recording)),
       control_(options.control),
-      feed_(tree, std::move(options.run), json_lines()),
+      feed_(tree, std::move(options.run)),
       on_attached_(std::move(options.on_attached)),
       linger_(options.linger),
       stop_(std::move(options.stop)),
@@ -82,7 +81,7 @@ void Monitor::log(std::string_view who, std::string_view level, std::string_view
 void Monitor::run_started(Ticker& ticker, const RunStart& start) {
   is_real_time_ = start.real_time;
   feed_.run_started(ticker, start);
-  log_.set_header(sent_line(feed_.format(), feed_.header()));
+  log_.set_header(sent_line(feed_.header()));
   feed_.begin_taking([this] { thread_.wake(); });
   thread_.start([this] {
     // Also when memory runs out: a tick may wait for it.
@@ -131,7 +130,7 @@ void Monitor::serve() {
 // The end is what everybody waits for.
 void Monitor::serve_to_the_end() {
   take_lines();
-  if (!feed_.end().empty()) log_.add(sent_line(feed_.format(), feed_.end()));
+  if (!feed_.end().empty()) log_.add(sent_line(feed_.end()));
   log_.add(sent_event("end", "{}"));
   if (entrance_) serve_those_who_linger();
   log_.close();
@@ -186,7 +185,7 @@ void Monitor::take_lines() {
   feed_.take(lines_);
   for (std::string_view rest = lines_; !rest.empty();) {
     const std::size_t length = rest.find('\n') + 1;
-    log_.add(sent_line(feed_.format(), rest.substr(0, length)));
+    log_.add(sent_line(rest.substr(0, length)));
     rest.remove_prefix(length);
   }
   if (log_.wants_full()) feed_.want_full();
@@ -231,7 +230,7 @@ std::unique_ptr<Stream> Monitor::history() {
   const bool is_paused = control_ != nullptr && control_->state().is_paused;
   const bool goes_on = !is_paused && !thread_.is_stopping();
   if (goes_on) feed_.want_full();
-  return std::make_unique<History>(log_, feed_.format(), recording_, goes_on);
+  return std::make_unique<History>(log_, recording_, goes_on);
 }
 
 WebAnswer Monitor::page() const {

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "record/json_lines.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -15,8 +17,8 @@ constexpr std::string_view kData = "data: ";
 
 }  // namespace
 
-LoggedEvent sent_line(const LiveFormat& format, std::string_view line) {
-  const auto tick = format.tick_of(line);
+LoggedEvent sent_line(std::string_view line) {
+  const auto tick = json_lines::tick_of(line);
   std::string text = tick ? fmt::format("id: {}\n", *tick) : std::string();
   text += kData;
   const std::size_t begin = text.size();
@@ -25,7 +27,7 @@ LoggedEvent sent_line(const LiveFormat& format, std::string_view line) {
           .line = begin,
           .length = line.size(),
           .tick = tick,
-          .is_full = line.ends_with(format.full_end())};
+          .is_full = line.ends_with(json_lines::kFullEnd)};
 }
 
 LoggedEvent sent_event(std::string_view name, std::string_view json) {

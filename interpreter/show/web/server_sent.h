@@ -7,13 +7,12 @@
 
 #include "base/core/clock.h"
 #include "record/live/line_log.h"
-#include "record/live/live_format.h"
 #include "record/live/stream.h"
 
 namespace lockstep::host {
 
 // A line, which ends in '\n'.
-LoggedEvent sent_line(const LiveFormat& format, std::string_view line);
+LoggedEvent sent_line(std::string_view line);
 // Something beside the lines.
 LoggedEvent sent_event(std::string_view name, std::string_view json);
 

@@ -6,10 +6,10 @@
 #include "judge/measure/measure_spec.h"
 #include "judge/summary/property_observer.h"
 #include "judge/summary/statistics.h"
+#include "record/json_lines.h"
 #include "record/live/line_feed.h"
 #include "record/live/snapshot_feed.h"
 #include "record/live/status_feed.h"
-#include "record/write/json_lines.h"
 #include "record/write/recorder.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
@@ -37,7 +37,7 @@ Counted count(const std::string& tree, const std::string& leaves, std::uint64_t 
   WatchedRun run(tree, leaves);
   const Tree& compiled = run.run.tree();
   Recorder recorder(compiled, {.path = "/dev/null", .run = {.tree_file = "test.xml"}});
-  LineFeed lines(compiled, {.tree_file = "test.xml"}, json_lines());
+  LineFeed lines(compiled, {.tree_file = "test.xml"});
   StatusFeed statuses(compiled);
   SnapshotFeed snapshots(compiled);
   auto property = Property::parse("never a.progress > 0.9", property_names(shape_of(compiled)));

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <thread>
 
-#include "record/write/json_lines.h"
+#include "record/json_lines.h"
 #include "record/write/recorder.h"
 #include "support/json.h"
 #include "support/text.h"
@@ -104,7 +104,7 @@ Watched watch(WatchedRun& run) {
   Recorder recorder(run.run.tree(),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   g_now = std::chrono::seconds(1);
-  LineFeed feed(run.run.tree(), {.tree_file = "a.xml", .rate_hz = 10}, json_lines(), now_of_test);
+  LineFeed feed(run.run.tree(), {.tree_file = "a.xml", .rate_hz = 10}, now_of_test);
   Reader reader(feed);
   run.watch({&recorder, &feed, &reader}, 300);
   feed.take(reader.lines);
@@ -188,7 +188,7 @@ TEST_CASE("a node that fails in each tick has failed as often as there were tick
 TEST_CASE("lines that find no room are counted, and the next one has what they had") {
   WatchedRun run("Sequence(a)", "a=R");
   g_now = std::chrono::seconds(1);
-  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, json_lines(), now_of_test);
+  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, now_of_test);
   const std::string long_text(LeafLines::kRoom / 2, 'x');
   struct Chatter final : Observer {
     void before_tick(Ticker&, std::uint64_t tick, Nanoseconds) override {
@@ -223,7 +223,7 @@ TEST_CASE("lines that find no room are counted, and the next one has what they h
 TEST_CASE("on a virtual clock a tick waits for the one who takes lines, and none is lost") {
   WatchedRun run("Sequence(a)", "a=R");
   g_now = std::chrono::seconds(1);
-  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, json_lines(), now_of_test);
+  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, now_of_test);
   struct Chatter final : Observer {
     void before_tick(Ticker&, std::uint64_t, Nanoseconds) override { feed.log("a", "info", text); }
     explicit Chatter(LineFeed& it) : feed(it), text(LeafLines::kRoom / 2, 'x') {}

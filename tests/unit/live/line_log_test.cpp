@@ -5,7 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "record/write/json_lines.h"
+#include "record/json_lines.h"
 #include "show/web/server_sent.h"
 #include "support/text.h"
 
@@ -35,19 +35,19 @@ std::string read_all(LineLog& log, LineLog::Cursor& place, std::size_t piece = 7
 TEST_CASE("a new listener begins at the last line that has the whole state") {
   LineLog log;
   CHECK(log.wants_full());
-  log.set_header(sent_line(json_lines(), "{\"lockstep_recording\":1}\n"));
+  log.set_header(sent_line("{\"lockstep_recording\":1}\n"));
   CHECK(log.header() == "data: {\"lockstep_recording\":1}\n\n");
   CHECK(log.header_line() == "{\"lockstep_recording\":1}\n");
-  log.add(sent_line(json_lines(), line(0, true)));
-  log.add(sent_line(json_lines(), line(1)));
+  log.add(sent_line(line(0, true)));
+  log.add(sent_line(line(1)));
   CHECK_FALSE(log.wants_full());
   log.add_state(sent_event("state", "{\"state\":\"running\"}"));
-  log.add(sent_line(json_lines(), line(2, true)));
-  log.add(sent_line(json_lines(), line(3)));
+  log.add(sent_line(line(2, true)));
+  log.add(sent_line(line(3)));
   auto place = log.begin(std::nullopt);
   CHECK(read_all(log, place) ==
         event(2, true) + "event: state\ndata: {\"state\":\"running\"}\n\n" + event(3));
-  log.add(sent_line(json_lines(), line(4)));
+  log.add(sent_line(line(4)));
   CHECK(read_all(log, place) == event(4));
   auto after = log.begin(1);
   CHECK(contains(read_all(log, after), event(3)));
@@ -57,12 +57,12 @@ TEST_CASE("a new listener begins at the last line that has the whole state") {
 
 TEST_CASE("a listener that falls behind goes on at a line that has the whole state") {
   LineLog log;
-  log.add(sent_line(json_lines(), line(0, true, 10'000)));
+  log.add(sent_line(line(0, true, 10'000)));
   auto place = log.begin(std::nullopt);
   std::array<char, 10> some{};
   REQUIRE(log.read(place, some) == 10u);
   constexpr std::size_t kLong = LineLog::kMostBehind / 8;
-  for (int tick = 1; tick < 11; ++tick) log.add(sent_line(json_lines(), line(tick, false, kLong)));
+  for (int tick = 1; tick < 11; ++tick) log.add(sent_line(line(tick, false, kLong)));
   // It has the rest of what it has begun, and asks for one.
   std::string rest(event(0, true, 10'000).size() - 10, '\0');
   REQUIRE(log.read(place, rest) == rest.size());
@@ -71,21 +71,21 @@ TEST_CASE("a listener that falls behind goes on at a line that has the whole sta
   std::array<char, 1> byte{};
   REQUIRE(log.read(place, byte) == 1u);
   CHECK(log.wants_full());
-  log.add(sent_line(json_lines(), line(11, true)));
+  log.add(sent_line(line(11, true)));
   CHECK_FALSE(log.wants_full());
-  log.add(sent_line(json_lines(), line(12)));
+  log.add(sent_line(line(12)));
   CHECK(read_all(log, place) == event(1, false, kLong).substr(1) + event(11, true) + event(12));
 }
 
 TEST_CASE("a listener that is a little behind at the end goes on at the last whole state") {
   constexpr std::size_t kLong = LineLog::kMostAtEnd / 8;
   LineLog log;
-  log.add(sent_line(json_lines(), line(0, true)));
+  log.add(sent_line(line(0, true)));
   auto slow = log.begin(std::nullopt);
-  for (int tick = 1; tick < 20; ++tick) log.add(sent_line(json_lines(), line(tick, false, kLong)));
+  for (int tick = 1; tick < 20; ++tick) log.add(sent_line(line(tick, false, kLong)));
   auto quick = log.begin(18);
-  log.add(sent_line(json_lines(), line(19, true)));
-  log.add(sent_line(json_lines(), "{\"end\":{}}\n"));
+  log.add(sent_line(line(19, true)));
+  log.add(sent_line("{\"end\":{}}\n"));
   log.close();
   CHECK(read_all(log, slow) == event(19, true) + "data: {\"end\":{}}\n\n");
   CHECK(read_all(log, quick).starts_with(event(19, false, kLong)));
@@ -93,11 +93,11 @@ TEST_CASE("a listener that is a little behind at the end goes on at the last who
 
 TEST_CASE("a listener that is a thousand lines behind misses none of them") {
   LineLog log;
-  log.add(sent_line(json_lines(), line(0, true)));
+  log.add(sent_line(line(0, true)));
   auto place = log.begin(std::nullopt);
   std::string wanted = event(0, true);
   for (int tick = 1; tick < 1000; ++tick) {
-    log.add(sent_line(json_lines(), line(tick, tick % 100 == 0)));
+    log.add(sent_line(line(tick, tick % 100 == 0)));
     wanted += event(tick, tick % 100 == 0);
   }
   CHECK(read_all(log, place, 4096) == wanted);
@@ -106,13 +106,13 @@ TEST_CASE("a listener that is a thousand lines behind misses none of them") {
 TEST_CASE("the log has bounded size and begins with a line that has the whole state") {
   constexpr std::size_t kLong = 100'000;
   LineLog log;
-  log.add(sent_line(json_lines(), line(0, true)));
+  log.add(sent_line(line(0, true)));
   auto place = log.begin(std::nullopt);
   auto half = place;
   std::array<char, 10> some{};
   REQUIRE(log.read(half, some) == 10u);
   for (int tick = 1; tick < 1000; ++tick) {
-    log.add(sent_line(json_lines(), line(tick, log.wants_full(), kLong)));
+    log.add(sent_line(line(tick, log.wants_full(), kLong)));
   }
   std::size_t bytes = 0;
   for (auto at = log.first(); at < log.end(); ++at) bytes += log.line(at).size();

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "record/write/json_lines.h"
+#include "record/json_lines.h"
 
 namespace lockstep::host {
 namespace {
@@ -106,7 +106,7 @@ TEST_CASE("packets are printed as they were pushed, whatever the room and wherev
     const Filled filled(random, 1 + 40 * (seed % 5));
     for (const std::size_t room :
          {PacketPrinter::kLeastRoom, std::size_t{1000}, std::size_t{1} << 20}) {
-      PacketPrinter printer(filled.ring, json_lines());
+      PacketPrinter printer(filled.ring);
       REQUIRE(rest_of(printer, room) == filled.expected);
       CHECK(printer.finished() == filled.ring.pushed());
       CHECK(printer.unfinished_text() == 0);
@@ -117,13 +117,13 @@ TEST_CASE("packets are printed as they were pushed, whatever the room and wherev
 TEST_CASE("a printer goes on where another was, if what that had printed is left out") {
   std::mt19937 random(1);
   Filled filled(random, 100);
-  PacketPrinter printer(filled.ring, json_lines());
+  PacketPrinter printer(filled.ring);
   char room[PacketPrinter::kLeastRoom];
   std::size_t printed = 0, restarted = 0;
   for (auto text = printer.print(room); !text.empty(); text = printer.print(room)) {
     printed += text.size();
     filled.ring.take_until(printer.finished());
-    PacketPrinter other(filled.ring, json_lines());
+    PacketPrinter other(filled.ring);
     const std::string rest = rest_of(other, 1000);
     REQUIRE(rest.substr(printer.unfinished_text()) == filled.expected.substr(printed));
     ++restarted;
@@ -148,7 +148,7 @@ TEST_CASE("a packet is in the ring as a whole or not at all, whenever another th
       while (!ring.push(it.packet())) std::this_thread::yield();
     }
   });
-  PacketPrinter printer(ring, json_lines());
+  PacketPrinter printer(ring);
   std::vector<char> room(10000);
   while (printed.size() < expected.size()) {
     printed += printer.print(room);
@@ -167,7 +167,7 @@ TEST_CASE("what was written over by others ends the printing") {
     ring.push({.text = "two\n"});
     const PacketHead head{.text = text};
     std::memcpy(const_cast<char*>(ring.bytes(second, sizeof head).data()), &head, sizeof head);
-    PacketPrinter printer(ring, json_lines());
+    PacketPrinter printer(ring);
     CHECK(rest_of(printer, 1000) == "one\n");
     CHECK(printer.finished() == ring.pushed());
   }

@@ -149,7 +149,7 @@ std::string decompressed(const std::string& bytes) {
 TEST_CASE("a compressed file has each line when it is flushed, in far fewer bytes") {
   const TemporaryPath path;
   {
-    AppendFile file(path.path(), kQueue, json_lines(), {.compression = Compression::Zstd});
+    AppendFile file(path.path(), kQueue, {.compression = Compression::Zstd});
     file.write(packet(lines(0, 10)));
     CHECK(decompressed(path.text()) == lines(0, 10));
     file.write(packet(lines(10, 100'000)));  // longer than the queue, and more than a frame
@@ -163,7 +163,7 @@ TEST_CASE("a compressed file that cannot grow can be read up to a whole line") {
   const TemporaryPath path;
   std::string error;
   {
-    AppendFile file(path.path(), kQueue, json_lines(), {.compression = Compression::Zstd});
+    AppendFile file(path.path(), kQueue, {.compression = Compression::Zstd});
     file.write(packet(lines(0, 100)));
     const FileSizeLimit limit(path.text().size() + 20);
     file.write(packet(lines(100, 1000)));
@@ -216,8 +216,7 @@ TEST_CASE("what was pushed before a crash is in the file") {
 TEST_CASE("what was pushed before a crash is in a compressed file, and goes on in its frame") {
   const TemporaryPath path;
   const int code = in_child([&]() -> int {
-    AppendFile file(path.path(), AppendFile::kQueue, json_lines(),
-                    {.compression = Compression::Zstd});
+    AppendFile file(path.path(), AppendFile::kQueue, {.compression = Compression::Zstd});
     file.write(packet(lines(0, 1000)));
     file.push(packet(lines(1000, 2000)));
     crash();
@@ -228,8 +227,7 @@ TEST_CASE("what was pushed before a crash is in a compressed file, and goes on i
 
 TEST_CASE("a crash handler compresses by itself when the thread does not answer") {
   const TemporaryPath path;
-  AppendFile file(path.path(), AppendFile::kQueue, json_lines(),
-                  {.compression = Compression::Zstd});
+  AppendFile file(path.path(), AppendFile::kQueue, {.compression = Compression::Zstd});
   file.write(packet(lines(0, 10)));
   const int code = in_child([&]() -> int {
     file.push(packet(lines(10, 1000)));
@@ -279,7 +277,7 @@ TEST_CASE("a part of which the first ticks are lost begins with these") {
   const std::string header = "{\"lockstep_recording\":1,\"x\":0}\n";
   const std::string first = part_name(path.path(), 1), second = part_name(path.path(), 2);
   {
-    AppendFile file(path.path(), kQueue, json_lines(), {}, {.are_wanted = true});
+    AppendFile file(path.path(), kQueue, {}, {.are_wanted = true});
     file.set_header(header);
     file.write(packet(header));
     Packet tick = packet("]}\n");

@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "base/core/status.h"
+#include "record/json_lines.h"
 #include "record/live/event_counts.h"
 #include "record/read/recording_reader.h"
-#include "record/write/json_lines.h"
 #include "support/generated_file.h"
 
 namespace lockstep::host {
@@ -234,7 +234,7 @@ std::string sample_header(std::uint64_t first_tick) {
   pool.synchronization = Synchronization::Resources;
   pool.resources = {"arm"};
   pool.members = {2};
-  return json_lines().header(header);
+  return json_lines::header(header);
 }
 
 std::string sample_tick(std::uint64_t tick, bool is_full) {
@@ -250,38 +250,38 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const MomentChange of_moment{
       .node = 2, .before = NodeState::of(Activity::Success, true), .after = {}};
   const NodeTotals more{.node = 1, .after = {}, .counts = {1, 2, 3, 4, 5}};
-  char room[LineFormat::kMostAtOnce];
-  std::string text(room, json_lines().put_tick(room, tick, Nanoseconds(0)));
-  text.append(room, json_lines().put_nodes(room, {&node, 1}, true).end);
+  char room[json_lines::kMostAtOnce];
+  std::string text(room, json_lines::put_tick(room, tick, Nanoseconds(0)));
+  text.append(room, json_lines::put_nodes(room, {&node, 1}, true).end);
   std::string end;
-  json_lines().set_tick_end(end, {.limits = {&limit, 1},
-                                  .rounds = {&round, 1},
-                                  .succeeded = {&succeeded, 1},
-                                  .moments = {.first = {},
-                                              .moments = {&moment, 1},
-                                              .changes = {&of_moment, 1},
-                                              .rest = {&more, 1}},
-                                  .faults = {&fault, 1},
-                                  .entries = {&entry, 1},
-                                  .logs = {&log, 1},
-                                  .is_full = is_full,
-                                  .whole = std::span(&entry, 1)});
+  json_lines::set_tick_end(end, {.limits = {&limit, 1},
+                                 .rounds = {&round, 1},
+                                 .succeeded = {&succeeded, 1},
+                                 .moments = {.first = {},
+                                             .moments = {&moment, 1},
+                                             .changes = {&of_moment, 1},
+                                             .rest = {&more, 1}},
+                                 .faults = {&fault, 1},
+                                 .entries = {&entry, 1},
+                                 .logs = {&log, 1},
+                                 .is_full = is_full,
+                                 .whole = std::span(&entry, 1)});
   if (!is_full) return text + end;
-  EventCounts counts(json_lines());
+  EventCounts counts;
   counts.take_fault(2);
   counts.take_entry(0, "1");
-  const std::string_view full_end = json_lines().full_end();
-  return text + end.insert(end.size() - full_end.size(), json_lines().counts_text(counts, tick));
+  const std::string_view full_end = json_lines::kFullEnd;
+  return text + end.insert(end.size() - full_end.size(), counts_json(counts, tick));
 }
 
 std::vector<ordered_json> sample() {
-  char room[LineFormat::kMostAtOnce];
+  char room[json_lines::kMostAtOnce];
   auto end = filled<RecordedEnd>(lines::kEnd);
   end.ticks = 8;
   const std::string text = sample_header(5) + sample_tick(5, false) +
-                           std::string(room, json_lines().put_lost(room, 1, 6)) +
-                           sample_tick(7, true) + json_lines().part_end(8) +
-                           json_lines().part_header(sample_header(0), 8) + json_lines().end(end);
+                           std::string(room, json_lines::put_lost(room, 1, 6)) +
+                           sample_tick(7, true) + json_lines::part_end(8) +
+                           json_lines::part_header(sample_header(0), 8) + json_lines::end(end);
   std::vector<ordered_json> all;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) all.push_back(ordered_json::parse(line));

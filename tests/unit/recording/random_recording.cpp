@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "record/write/json_lines.h"
+#include "record/json_lines.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -50,14 +50,14 @@ void append_line(const Moment& moment, const std::vector<RecordedState>& before,
   std::vector<Fault> faults;
   for (const RecordedFault& fault : moment.faults) faults.push_back({fault.node, fault.message});
   std::string end;
-  json_lines().set_tick_end(end, {.limits = limits, .faults = faults});
+  json_lines::set_tick_end(end, {.limits = limits, .faults = faults});
   out += end;
 }
 
 }  // namespace
 
 std::string RandomRecording::text() const {
-  std::string out = json_lines().header(header);
+  std::string out = json_lines::header(header);
   std::vector<RecordedState> before(header.nodes.size());
   RecordedEnd closing = end;
   for (const Moment& moment : ticks) {
@@ -66,7 +66,7 @@ std::string RandomRecording::text() const {
     closing.ticks = moment.tick + 1;
     closing.lost += moment.lost;
   }
-  return out + json_lines().end(closing);
+  return out + json_lines::end(closing);
 }
 
 RandomRecording random_recording(std::mt19937& random, const RandomRecordingOptions& options) {

@@ -5,10 +5,10 @@
 
 #include "base/core/csv_field.h"
 #include "base/core/version.h"
+#include "record/json_lines.h"
 #include "record/read/recording_reader.h"
 #include "record/use/recording_csv.h"
 #include "record/use/recording_info.h"
-#include "record/write/json_lines.h"
 #include "record/write/recorder.h"
 #include "support/text.h"
 #include "unit/recording/watched_run.h"
@@ -79,7 +79,7 @@ TEST_CASE("numbers are written with as many digits as are needed, and no more") 
                           .node = 4294967295,
                           .state = static_cast<std::uint8_t>(Activity::Success)};
     const NodeChange nodes[] = {node, node, node};
-    const auto put = json_lines().put_nodes(room, nodes, true);
+    const auto put = json_lines::put_nodes(room, nodes, true);
     CHECK(put.count == 2);
     const std::string text(room, put.end);
     CHECK(text.size() < sizeof room);
@@ -102,7 +102,7 @@ TEST_CASE("numbers are written with as many digits as are needed, and no more") 
 
 std::string tick_end(std::span<const LimitChange> limits, std::span<const Fault> faults) {
   std::string text = "of the tick before";
-  json_lines().set_tick_end(text, {.limits = limits, .faults = faults});
+  json_lines::set_tick_end(text, {.limits = limits, .faults = faults});
   return text;
 }
 

@@ -1,4 +1,4 @@
-#include "record/write/json_lines.h"
+#include "record/json_lines.h"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -13,7 +13,6 @@
 
 #include "base/json/json.h"
 #include "record/lines.h"
-#include "record/write/live_json.h"
 
 namespace lockstep::host {
 namespace {
@@ -240,7 +239,8 @@ void add_whole(std::string& text, std::span<const EntryChange> entries) {
 
 // Longer than [4294967295,"success",0.00012345678901234567,1,0] and a comma.
 constexpr std::size_t kMostOfNode = 64;
-static_assert(kMostOfNode <= LineFormat::kMostAtOnce);
+static_assert(json_lines::kFullEnd.substr(2, 4) == lines::kTick["full"]);
+static_assert(kMostOfNode <= json_lines::kMostAtOnce);
 static_assert(std::ranges::all_of(kStatuses, [](const StatusRow& row) {
   return row.name.size() <= std::string_view("success").size();
 }));
@@ -272,103 +272,100 @@ char* put_node(char* to, const NodeChange& change, ProgressText& text) {
   return put(to, kFlags[2 * change.ticked() + (activity == Activity::Paused)]);
 }
 
-class JsonLines final : public LiveFormat {
- public:
-  std::string header(const RecordingHeader& header) const override {
-    Json json = {{lines::kHeader["lockstep_recording"], kRecordingVersion}};
-    add_members(json, lines::kHeader, header);
-    return json.text() + '\n';
-  }
-
-  std::string end(const RecordedEnd& end) const override {
-    Json json = {{lines::kEndLine["end"], Json::object()}};
-    add_members(json[lines::kEndLine["end"]], lines::kEnd, end);
-    return json.text() + '\n';
-  }
-
-  // ]} or ],"limits":[[1,0.5]],"rounds":[[2,3,8]],"succeeded":[1],"faults":[[3,"threw …"],…],… }
-  // and a newline; of a long message only the beginning.
-  void set_tick_end(std::string& text, const TickEnd& end) const override {
-    text = ']';
-    add_list(text, lines::kTick["limits"], end.limits, add_limit);
-    add_list(text, lines::kTick["rounds"], end.rounds, add_round);
-    add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
-    add_moments(text, end.moments);
-    add_list(text, lines::kTick["more"], end.moments.rest, add_totals);
-    add_list(text, lines::kTick["faults"], end.faults, add_fault);
-    add_list(text, lines::kTick["entries"], end.entries, add_entry);
-    add_list(text, lines::kTick["logs"], end.logs, add_log);
-    if (end.whole) add_whole(text, *end.whole);
-    text += end.is_full ? kFullEnd : "}\n";
-  }
-
-  std::size_t most_of_tick_end(std::size_t nodes, std::size_t limits,
-                               std::size_t entries) const override {
-    const std::size_t moments = kMostOfMoment * Moments::kMost +
-                                kMostOfMomentNode * Moments::most_changes(nodes) +
-                                kUsualTotals * nodes;
-    return 64 + 64 * (limits + entries) + moments;
-  }
-
-  // {"lost":{"ticks":2,"from":7}} and the end of the line.
-  char* put_lost(char* to, std::uint64_t ticks, std::uint64_t from) const override {
-    to = put_key(put_key(to, '{', lines::kLostLine["lost"]), '{', lines::kLost["ticks"]);
-    to = put_key(put_integer(to, ticks), ',', lines::kLost["from"]);
-    return put(put_integer(to, from), "}}\n");
-  }
-
-  // {"tick":3,"time_s":0.03,"nodes":[ with the exact time, where a double would say
-  // 0.030000000000000002.
-  char* put_tick(char* to, std::uint64_t tick, Nanoseconds time) const override {
-    to = put_integer(put_key(to, '{', lines::kTick["tick"]), tick);
-    to = put_seconds(put_key(to, ',', lines::kTick["time_s"]), time);
-    return put(put_key(to, ',', lines::kTick["nodes"]), "[");
-  }
-
-  // [3,"running",0.25,1,0],[4,…
-  Put put_nodes(std::span<char> room, std::span<const NodeChange> nodes,
-                bool first) const override {
-    const std::size_t count = std::min(nodes.size(), room.size() / kMostOfNode);
-    char* to = room.data();
-    ProgressText text;
-    for (const NodeChange& change : nodes.first(count)) {
-      if (!first) *to++ = ',';
-      first = false;
-      to = put_node(to, change, text);
-    }
-    return {to, count};
-  }
-
-  // Behind the first key.
-  std::string part_header(std::string_view header, std::uint64_t first_tick) const override {
-    static_assert(lines::kHeaderFields[0].key == lines::kHeader["lockstep_recording"]);
-    const auto place = header.find(',') + 1;
-    return fmt::format("{}\"{}\":{},{}", header.substr(0, place), lines::kHeader["first_tick"],
-                       first_tick, header.substr(place));
-  }
-
-  std::string part_end(std::uint64_t ticks) const override {
-    const Json json = {{lines::kContinuedLine["continued"], {{lines::kContinued["ticks"], ticks}}}};
-    return json.text() + '\n';
-  }
-
-  std::optional<std::uint64_t> tick_of(std::string_view line) const override {
-    return tick_of_json(line);
-  }
-  bool is_end(std::string_view line) const override { return is_end_json(line); }
-  std::string_view full_end() const override { return kFullEnd; }
-  std::string counts_text(const EventCounts& counts, std::uint64_t tick) const override {
-    return counts_json(counts, tick);
-  }
-  std::unique_ptr<TickEndReader> tick_end_reader() const override { return json_tick_end_reader(); }
-};
-
-constexpr JsonLines kJsonLines{};  // needs no code at the start: a crash handler uses it
-
 }  // namespace
 
-const LiveFormat& json_lines() {
-  return kJsonLines;
+std::string json_lines::header(const RecordingHeader& header) {
+  Json json = {{lines::kHeader["lockstep_recording"], kRecordingVersion}};
+  add_members(json, lines::kHeader, header);
+  return json.text() + '\n';
+}
+
+std::string json_lines::end(const RecordedEnd& end) {
+  Json json = {{lines::kEndLine["end"], Json::object()}};
+  add_members(json[lines::kEndLine["end"]], lines::kEnd, end);
+  return json.text() + '\n';
+}
+
+// ]} or ],"limits":[[1,0.5]],"rounds":[[2,3,8]],"succeeded":[1],"faults":[[3,"threw …"],…],… }
+// and a newline; of a long message only the beginning.
+void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
+  text = ']';
+  add_list(text, lines::kTick["limits"], end.limits, add_limit);
+  add_list(text, lines::kTick["rounds"], end.rounds, add_round);
+  add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
+  add_moments(text, end.moments);
+  add_list(text, lines::kTick["more"], end.moments.rest, add_totals);
+  add_list(text, lines::kTick["faults"], end.faults, add_fault);
+  add_list(text, lines::kTick["entries"], end.entries, add_entry);
+  add_list(text, lines::kTick["logs"], end.logs, add_log);
+  if (end.whole) add_whole(text, *end.whole);
+  text += end.is_full ? kFullEnd : "}\n";
+}
+
+std::size_t json_lines::most_of_tick_end(std::size_t nodes, std::size_t limits,
+                                         std::size_t entries) {
+  const std::size_t moments = kMostOfMoment * Moments::kMost +
+                              kMostOfMomentNode * Moments::most_changes(nodes) +
+                              kUsualTotals * nodes;
+  return 64 + 64 * (limits + entries) + moments;
+}
+
+// {"lost":{"ticks":2,"from":7}} and the end of the line.
+char* json_lines::put_lost(char* to, std::uint64_t ticks, std::uint64_t from) {
+  to = put_key(put_key(to, '{', lines::kLostLine["lost"]), '{', lines::kLost["ticks"]);
+  to = put_key(put_integer(to, ticks), ',', lines::kLost["from"]);
+  return put(put_integer(to, from), "}}\n");
+}
+
+// {"tick":3,"time_s":0.03,"nodes":[ with the exact time, where a double would say
+// 0.030000000000000002.
+char* json_lines::put_tick(char* to, std::uint64_t tick, Nanoseconds time) {
+  to = put_integer(put_key(to, '{', lines::kTick["tick"]), tick);
+  to = put_seconds(put_key(to, ',', lines::kTick["time_s"]), time);
+  return put(put_key(to, ',', lines::kTick["nodes"]), "[");
+}
+
+// [3,"running",0.25,1,0],[4,…
+json_lines::Put json_lines::put_nodes(std::span<char> room, std::span<const NodeChange> nodes,
+                                      bool first) {
+  const std::size_t count = std::min(nodes.size(), room.size() / kMostOfNode);
+  char* to = room.data();
+  ProgressText text;
+  for (const NodeChange& change : nodes.first(count)) {
+    if (!first) *to++ = ',';
+    first = false;
+    to = put_node(to, change, text);
+  }
+  return {to, count};
+}
+
+// Behind the first key.
+std::string json_lines::part_header(std::string_view header, std::uint64_t first_tick) {
+  static_assert(lines::kHeaderFields[0].key == lines::kHeader["lockstep_recording"]);
+  const auto place = header.find(',') + 1;
+  return fmt::format("{}\"{}\":{},{}", header.substr(0, place), lines::kHeader["first_tick"],
+                     first_tick, header.substr(place));
+}
+
+std::string json_lines::part_end(std::uint64_t ticks) {
+  const Json json = {{lines::kContinuedLine["continued"], {{lines::kContinued["ticks"], ticks}}}};
+  return json.text() + '\n';
+}
+
+// The line begins as {"tick":7,…
+std::optional<std::uint64_t> json_lines::tick_of(std::string_view line) {
+  constexpr std::string_view kTick = "{\"tick\":";
+  static_assert(kTick.substr(2, kTick.size() - 4) == lines::kTick["tick"]);
+  if (!line.starts_with(kTick)) return std::nullopt;
+  std::uint64_t tick = 0;
+  const auto read = std::from_chars(line.data() + kTick.size(), line.data() + line.size(), tick);
+  return read.ec == std::errc() ? std::optional(tick) : std::nullopt;
+}
+
+bool json_lines::is_last(std::string_view line) {
+  constexpr std::string_view kEnd = "{\"end\"";
+  static_assert(kEnd.substr(2, kEnd.size() - 3) == lines::kEndLine["end"]);
+  return line.starts_with(kEnd);
 }
 
 }  // namespace lockstep::host

@@ -47,7 +47,7 @@ struct PacketHead {
 };
 
 // After the head come the changes of nodes, then text as it is in the file: for a tick what
-// LineFormat::set_tick_end made, otherwise whole lines.
+// json_lines::set_tick_end made, otherwise whole lines.
 struct Packet {
   PacketHead head = {};
   std::span<const NodeChange> nodes = {};
