@@ -1,6 +1,6 @@
 #include "ros_action.hpp"
 
-#include <lockstep/changes.h>
+#include <lockstep/ext/changes.h>
 
 #include <algorithm>
 #include <cmath>

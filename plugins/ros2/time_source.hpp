@@ -1,7 +1,7 @@
 // Simulated time: the topic /clock, for `--clock ros` and for stamps.
 #pragma once
 
-#include <lockstep/clock.h>
+#include <lockstep/ext/clock.h>
 
 #include <cstdint>
 

@@ -2,9 +2,9 @@
 // plugin that is out there. New members go to the end; then a line and a size change here.
 #include <cstddef>
 
-#include "lockstep/changes.h"
+#include "lockstep/ext/changes.h"
+#include "lockstep/ext/ticks.h"
 #include "lockstep/leaf.h"
-#include "lockstep/ticks.h"
 
 #if defined(__LP64__)
 

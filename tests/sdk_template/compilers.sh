@@ -25,7 +25,7 @@ try_with() {
 for compiler in /usr/bin/{g++,clang++} /usr/bin/{g++,clang++}-[0-9]*; do
   is_new "$compiler" || continue
   for standard in c++17 c++20 c++2b; do
-    try_with "$compiler" c++ "$standard" lockstep/leaf.hpp lockstep/clock.h
+    try_with "$compiler" c++ "$standard" lockstep/leaf.hpp lockstep/ext/clock.h
     try_with "$compiler" c++ "$standard" lockstep/runtime.hpp lockstep/testing.hpp
   done
   # With a sanitizer, g++ takes less for a constant.
@@ -35,6 +35,8 @@ seen=()
 for compiler in /usr/bin/{gcc,clang} /usr/bin/{gcc,clang}-[0-9]*; do
   is_new "$compiler" || continue
   for standard in c99 c17; do try_with "$compiler" c "$standard" lockstep/leaf.h lockstep/clock.h lockstep/runtime.h; done
+  # An extension may come first, and old names stay.
+  for header in children object place; do try_with "$compiler" c c99 "lockstep/ext/$header.h" lockstep/ticks.h; done
 done
 echo "$tried combinations compile"
 [ $tried -gt 0 ]

@@ -39,9 +39,8 @@ extern "C" {
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
 LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
-/* Why the last call of this thread failed; "" when it did not (since 1.2; before, the reason of an
- * earlier call stayed). Questions that cannot fail, as lockstep_run_fault and the counts, leave it
- * as it is. Valid until the next call. */
+/* Why the last call of this thread failed; "" when it did not. Questions that cannot fail, as
+ * lockstep_run_fault and the counts, leave it as it is. Valid until the next call. */
 LOCKSTEP_EXPORT const char* lockstep_last_error(void);
 
 /* ---- Projects: a tree file, its includes and plugins -------------------------------------------
@@ -75,20 +74,20 @@ LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, c
 /* Runs every plugin in a separate process, not only those for which the tree asks it. Leaves that
  * are in the program stay there. */
 LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
-/* Since 1.4: the program uses entries by their names, at any time and in any thread, also those
+/* The program uses entries by their names, at any time and in any thread, also those
  * that no node of the tree names: lockstep_run_board. Each tick locks the entries then. With
  * has_outside, {@key} in a tree for BehaviorTree.CPP is the entry "@key" of the main board, which
  * the program exchanges with a board outside; else it is the entry "key". */
 LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bool has_outside);
 
-/* Since 1.4: keeps what lockstep_run_groot2 shows of the tree. */
+/* Keeps what lockstep_run_groot2 shows of the tree. */
 LOCKSTEP_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);
 
-/* Since 1.4, for tests of trees: all leaves of plugins, also of such as are not there, play
+/* For tests of trees: all leaves of plugins, also of such as are not there, play
  * scripts. No plugin is called. A leaf without a script runs for ever; a condition without one
  * fails. */
 LOCKSTEP_EXPORT bool lockstep_project_play_leaves(lockstep_project* project);
-/* Since 1.4, after loading: what a leaf does in runs that are made or restarted from then on, tick
+/* After loading: what a leaf does in runs that are made or restarted from then on, tick
  * by tick: "R0.25 R0.5 S" (docs/verify.md has the words; the last one stays). `path` is its path,
  * in which * stands for any part, so several leaves may have it; a later call wins.
  * `in_each_activation`: it begins with the first word whenever it starts. Not while a run of the
@@ -139,7 +138,7 @@ LOCKSTEP_EXPORT bool lockstep_project_node(const lockstep_project* project, uint
 LOCKSTEP_EXPORT bool lockstep_project_find_node(const lockstep_project* project, const char* path,
                                                 uint32_t* index);
 
-/* Since 1.1: the blackboard entries that nodes of the tree use. Strings are valid as long as the
+/* The blackboard entries that nodes of the tree use. Strings are valid as long as the
  * project. */
 typedef struct lockstep_entry {
   uint32_t struct_size;  /* set by the program */
@@ -152,7 +151,7 @@ typedef struct lockstep_entry {
 LOCKSTEP_EXPORT uint32_t lockstep_project_entry_count(const lockstep_project* project);
 LOCKSTEP_EXPORT bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
                                             lockstep_entry* entry);
-/* Since 1.3: the index of the entry with this key, a search among all of them. It is the handle of
+/* The index of the entry with this key, a search among all of them. It is the handle of
  * the entry in all runs of this project, as long as one of them lives, and in any thread. */
 LOCKSTEP_EXPORT bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
                                                  uint32_t* index);
@@ -176,20 +175,20 @@ typedef struct lockstep_run_options {
   /* The times of ticks are not real: a tick waits for the threads of leaves, which sleep in the
    * run's time. The loop on the virtual clock needs it. */
   bool virtual_time;
-  /* A line that a leaf logs; from any thread. Since 1.2 also what the run has to say of a leaf:
+  /* A line that a leaf logs; from any thread. Also what the run has to say of a leaf:
    * that it reported a progress outside [0, 1], or that it failed and the run goes on. */
   void (*log)(void* user, const char* who, lockstep_log_level level, const char* message);
   void* user; /* also of what follows */
-  /* Since 1.4: called before leaves are created, also by a restart: may give entries their first
+  /* Called before leaves are created, also by a restart: may give entries their first
    * values. `main` is the board of the main tree, for the time of the call. May be NULL. */
   void (*prepare)(void* user, lockstep_board* main);
-  /* Since 1.4: a leaf wants a tick before the next period; from any thread. A program that waits in
+  /* A leaf wants a tick before the next period; from any thread. A program that waits in
    * its own loop ends that wait. It must not call the run, but for lockstep_run_wake. */
   void (*wake)(void* user);
-  /* Since 1.4, in seconds, 0: none. A call of a leaf that takes longer is reported with the lines
+  /* In seconds, 0: none. A call of a leaf that takes longer is reported with the lines
    * that leaves log, at most once a second. */
   double tick_budget;
-  /* Since 1.4, in seconds, 0: none. `hang` is reported once for a call of a leaf that lasts longer
+  /* In seconds, 0: none. `hang` is reported once for a call of a leaf that lasts longer
    * and has not returned: which leaf ("'Main/arm' (Reach of plugin 'arm')"), in which function, for
    * how long. It is called in another thread, and must not call the run; the call goes on. A thread
    * that has ticked does not end before another one ticks, or the run is freed. */
@@ -213,7 +212,7 @@ LOCKSTEP_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
  * next tick begins the tree again.
  */
 LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
-/* Since 1.4: the same, but the root is ticked exactly once, also when a node asks for another tick
+/* The same, but the root is ticked exactly once, also when a node asks for another tick
  * at once. */
 LOCKSTEP_EXPORT lockstep_status lockstep_run_tick_once(lockstep_run* run, double seconds);
 /* Halts every leaf that runs, in the order of the tree. Refused, with lockstep_last_error, in what
@@ -224,7 +223,7 @@ LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
  * `node` may be NULL. Valid until the next call for this run. */
 LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
 
-/* Since 1.4: after a fault, halts what runs. The run goes on: the next tick begins the tree, with
+/* After a fault, halts what runs. The run goes on: the next tick begins the tree, with
  * the entries and the leaves as they are. The fault is reported with what leaves log, and so is in
  * a recording. False: a leaf could not be created; only lockstep_run_restart is of use then. */
 LOCKSTEP_EXPORT bool lockstep_run_recover(lockstep_run* run);
@@ -243,10 +242,9 @@ LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
 
 /* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
  * while nothing has written the entry. Numbers, flags and lists need an entry of their type; but
- * get_double also reads an int, and set_int sets a double where the entry is one (since 1.4;
- * before, only where it is "int or double"). Text is written as in XML and works for all, also for
- * objects whose type has texts. A text or list that get gives is valid until the next call for this
- * run; set copies. */
+ * get_double also reads an int, and set_int sets a double where the entry is one. Text is written
+ * as in XML and works for all, also for objects whose type has texts. A text or list that get gives
+ * is valid until the next call for this run; set copies. */
 LOCKSTEP_EXPORT const char* lockstep_run_get_text(lockstep_run* run, const char* key);
 LOCKSTEP_EXPORT bool lockstep_run_get_bool(lockstep_run* run, const char* key, bool* value);
 LOCKSTEP_EXPORT bool lockstep_run_get_int(lockstep_run* run, const char* key, int64_t* value);
@@ -271,11 +269,11 @@ LOCKSTEP_EXPORT bool lockstep_run_set_double_list(lockstep_run* run, const char*
                                                   const double* values, size_t count);
 LOCKSTEP_EXPORT bool lockstep_run_set_text_list(lockstep_run* run, const char* key,
                                                 const lockstep_text* values, size_t count);
-/* Since 1.1: the type of the value that an entry has now, of which the get of that type returns it.
+/* The type of the value that an entry has now, of which the get of that type returns it.
  * 0 while nothing has written the entry; and when no node uses it, with lockstep_last_error. */
 LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type(lockstep_run* run, const char* key);
 
-/* Since 1.3: the same by the index of the entry, without a search for its key: for programs that
+/* The same by the index of the entry, without a search for its key: for programs that
  * read and write entries around each tick. Values, threads and errors are as above; an index that
  * no entry has is an error. Numbers and flags are read and written without an allocation. */
 LOCKSTEP_EXPORT const char* lockstep_run_get_text_at(lockstep_run* run, uint32_t entry);
@@ -304,7 +302,7 @@ LOCKSTEP_EXPORT bool lockstep_run_set_text_list_at(lockstep_run* run, uint32_t e
                                                    const lockstep_text* values, size_t count);
 LOCKSTEP_EXPORT lockstep_type lockstep_run_value_type_at(lockstep_run* run, uint32_t entry);
 
-/* Since 1.4: objects by reference, of a type that the program knows as the plugins do; an error for
+/* Objects by reference, of a type that the program knows as the plugins do; an error for
  * an entry of another type, or of objects in another process. What get returns is borrowed, until
  * the next tick or write; set retains it. */
 LOCKSTEP_EXPORT void* lockstep_run_get_object(lockstep_run* run, const char* key,
@@ -316,13 +314,13 @@ LOCKSTEP_EXPORT void* lockstep_run_get_object_at(lockstep_run* run, uint32_t ent
 LOCKSTEP_EXPORT bool lockstep_run_set_object_at(lockstep_run* run, uint32_t entry,
                                                 const lockstep_object_type* type, void* object);
 
-/* Since 1.4: the entries by their names, of a project with lockstep_project_open_entries: the board
+/* The entries by their names, of a project with lockstep_project_open_entries: the board
  * of a tree, 0 for the main tree, for whoever releases it; NULL: there is none. The functions of a
  * board are those of lockstep/leaf.h. */
 LOCKSTEP_EXPORT lockstep_board* lockstep_run_board(lockstep_run* run, uint32_t index);
 LOCKSTEP_EXPORT const lockstep_boards* lockstep_boards_table(void);
 
-/* Since 1.4: the loop of the run ticks at once, if it waits for its next period; from any thread.
+/* The loop of the run ticks at once, if it waits for its next period; from any thread.
  * As when a leaf wants it: that is for types with LOCKSTEP_WAKES. */
 LOCKSTEP_EXPORT void lockstep_run_wake(lockstep_run* run);
 
@@ -333,7 +331,7 @@ typedef void (*lockstep_observe)(void* user, lockstep_run* run, uint64_t tick, d
                                  lockstep_status status);
 LOCKSTEP_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
 
-/* Since 1.4: who else watches the run, as a run of the command `lockstep run`. Each before the
+/* Who else watches the run, as a run of the command `lockstep run`. Each before the
  * first tick, until lockstep_run_restart, lockstep_run_free or the end of a loop. All long work is
  * done in other threads; the time of the ticks is that of the program.
  *
@@ -352,17 +350,17 @@ LOCKSTEP_EXPORT const char* lockstep_run_monitor(lockstep_run* run, const char* 
  * lockstep_project_show_groot2. */
 LOCKSTEP_EXPORT bool lockstep_run_groot2(lockstep_run* run, const char* address);
 
-/* Since 1.4: a property of the run, from its first tick to the first result of the root, a fault,
+/* A property of the run, from its first tick to the first result of the root, a fault,
  * the end of a loop or a restart, after which it is checked again: "arm.running leads to arm.done
  * within 9 ticks" (docs/properties.md). NULL: those of the tree file, which are not checked else.
  * Before the first tick. */
 LOCKSTEP_EXPORT bool lockstep_run_check(lockstep_run* run, const char* property);
-/* Since 1.4: of the properties that are violated so far, in the order in which that was found: what
+/* Of the properties that are violated so far, in the order in which that was found: what
  * and when ("never arm.failure: violated in tick 3, at 0.300 s"); NULL: no more. Valid until the
  * next tick or restart. */
 LOCKSTEP_EXPORT const char* lockstep_run_violation(lockstep_run* run, uint32_t index);
 
-/* Since 1.4: an event of a node that is watched, while the tree is ticked. */
+/* An event of a node that is watched, while the tree is ticked. */
 enum {
   /* It is ticked now. `status` is what it had; a result that is returned is its result in place of
    * the tick. Not when a script around it has decided (a pre-condition). */
@@ -387,7 +385,7 @@ LOCKSTEP_EXPORT bool lockstep_run_watch_nodes(lockstep_run* run, const uint32_t*
 /* ---- Scripts -----------------------------------------------------------------------------------
  */
 
-/* Since 1.4: a script in the language of Script and _skipIf, over values that the program gives. It
+/* A script in the language of Script and _skipIf, over values that the program gives. It
  * is used by one thread at a time. */
 typedef struct lockstep_script lockstep_script;
 /* `words` are known to it as numbers; may be NULL. NULL: the text is no script. */

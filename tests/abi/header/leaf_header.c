@@ -1,7 +1,7 @@
 /* The headers compile alone, before anything else is included. */
-#include "lockstep/changes.h"
+#include "lockstep/ext/changes.h"
 #include "lockstep/leaf.h"
-#include "lockstep/ticks.h"
+#include "lockstep/ext/ticks.h"
 
 int lockstep_header_in_c(const lockstep_plugin* plugin);
 int lockstep_header_in_c(const lockstep_plugin* plugin) {

@@ -16,9 +16,9 @@
 #include "engine/leaf_slot.h"
 #include "leaves/plugin/contract/bound_port.h"
 #include "leaves/plugin/contract/leaf_set.h"
-#include "lockstep/changes.h"
+#include "lockstep/ext/changes.h"
+#include "lockstep/ext/ticks.h"
 #include "lockstep/leaf.h"
-#include "lockstep/ticks.h"
 
 namespace lockstep::host {
 

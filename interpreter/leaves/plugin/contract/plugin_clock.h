@@ -1,11 +1,11 @@
-// A clock of a plugin as the clock of a run: lockstep/clock.h.
+// A clock of a plugin as the clock of a run: lockstep/ext/clock.h.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "base/core/clock.h"
-#include "lockstep/clock.h"
+#include "lockstep/ext/clock.h"
 #include "lockstep/leaf.h"
 
 namespace lockstep::host {

@@ -2,7 +2,7 @@
 // Included by lockstep/leaf.hpp.
 #pragma once
 
-#include "../changes.h"
+#include "../ext/changes.h"
 #include "port.hpp"
 
 namespace lockstep {

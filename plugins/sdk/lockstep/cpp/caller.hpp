@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "../ext/ticks.h"
 #include "../leaf.h"
-#include "../ticks.h"
 
 namespace lockstep {
 inline namespace sdk1 {

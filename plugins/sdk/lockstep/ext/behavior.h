@@ -1,0 +1,24 @@
+/* lockstep/ext/behavior.h: what a leaf type says about what it does. */
+#ifndef LOCKSTEP_EXT_BEHAVIOR_H
+#define LOCKSTEP_EXT_BEHAVIOR_H
+
+#include "../leaf.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One statement about what an action or a condition does, in the words of a leaf file:
+ * {"ticks", "2..40"}. The words are result, ticks, ends, progress, step, finish, held, writes and
+ * out.PORT, each at most once; docs/verify.md says what they mean. `lockstep verify` relies on them
+ * where no leaf file says otherwise. */
+struct lockstep_behavior {
+  const char* word;
+  const char* value;
+};
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
