@@ -1,0 +1,101 @@
+"""The pages in DONE have the terms of docs/glossary.md and short sentences: words_test.py SOURCES [PAGE...].
+
+Refuses the words in REFUSED and sentences that are too long. Code, output and links are not read. A page that was revised is added
+to DONE. With PAGE it reads that page instead, to see what is left to do."""
+import os
+import re
+import sys
+
+SOURCES = sys.argv[1]
+
+DONE = [
+    "README.md",
+    "docs/from-behaviortree-cpp.md",
+    "docs/glossary.md",
+    "docs/guards.md",
+    "docs/index.md",
+    "docs/monitor.md",
+    "docs/new.md",
+    "docs/plugins.md",
+    "docs/recipes.md",
+    "docs/tutorial.md",
+]
+
+REFUSED = {  # what is refused: what to write
+    r"(goes|go|going|went|comes|come) on\b": "continues, resumes, makes progress",
+    r"(?:(?<=[.;:,(] )|(?<=^))else\b": "otherwise",
+    r"\b(nobody|somebody|everybody)\b": "no node, another process, you",
+    r"\bbeside\b": "next to, alongside, compared with",
+    r"\bfor ?ever\b": "indefinitely; a deadlock",
+    r"\b(says?|said|tells?|told|asks?|asked|denies|denied)\b": "reports, documents, evaluates, contradicts",
+    r"\b(is|are) to\b": "must, should",
+    r"\b(half of (its|the)|their|its) way\b": "distance, halfway",
+    r"\b(it|that|this|which) is no\b(?! longer)": "is not a",
+    r"\b(taken?|takes|took) \w+ for an?\b": "treats as",
+    r"\blikewise\b|, too\b": "leave it out",
+    r"\bstandstills?\b|\bstands? still\b": "stall",
+    r"\bcircles?\b": "deadlock, circular wait",
+    r"\blaws?\b": "semantics, semantics version",
+    r"\bleaf files?\b": "leaf model",
+    r"\btraps?\b": "dead end",
+    r"\bshare of\b": "fraction of",
+    r"\bblanks?\b": "whitespace",
+    r"\btroubles?\b": "problem",
+    r"\bequal child(ren)?\b": "symmetric children",
+    r"\bplugins? that (is|are) (a )?programs?\b": "process plugin",
+    r"\b(behaviour|colour|neighbour|grey|honour|favour|centre|cancelled|modelling)": "the American spelling",
+}
+LONGEST = 27  # words in a sentence
+
+# Where a refused word is right: the page, the words around it, and why.
+EXCEPTIONS = [("docs/glossary.md", f"| {old} |", "the column of the terms that messages still use")
+              for old in ("trap", "circle", "leaf file", "law", "standstill")]
+
+
+def prose(page):
+    """(line number, text) of each paragraph, row and item, without code, links and comments."""
+    with open(os.path.join(SOURCES, page), encoding="utf-8") as text:
+        lines = text.read().splitlines()
+    paragraph, begins, code = [], 0, False
+    for number, line in [*enumerate(lines, 1), (len(lines) + 1, "")]:
+        if line.lstrip().startswith("```"):
+            code = not code
+            line = ""
+        elif code:
+            continue
+        starts = not line.strip() or re.match(r"\s*([-*|#]|\d+\.|<!--|!\[)", line)
+        if starts and paragraph:
+            yield begins, " ".join(paragraph)
+            paragraph = []
+        if line.strip() and not re.match(r"\s*(<!--|!\[)", line):
+            paragraph.append(line.strip())
+            begins = begins if len(paragraph) > 1 else number
+
+
+def plain(text):
+    text = re.sub(r"`[^`]*`", "CODE", text)
+    text = re.sub(r"\*[^*\s][^*]*\*(?!\*)", lambda it: "QUOTE" if it[0].count(" ") > 3 else it[0], text)
+    text = re.sub(r"<a id=[^>]*></a>", "", text)
+    return re.sub(r"\]\([^)]*\)", "]", text)
+
+
+wrong = []
+used = set()
+for page in sys.argv[2:] or DONE:
+    for number, raw in prose(page):
+        text = plain(raw)
+        for pattern, instead in REFUSED.items():
+            for match in re.finditer(pattern, text, re.I):
+                reason = [at for at, (where, words, _) in enumerate(EXCEPTIONS) if where == page and words in text]
+                used.update(reason)
+                if not reason:
+                    wrong.append(f"{page}:{number}: '{match[0].strip()}': write {instead}\n    …{text[max(0, match.start() - 40):match.end() + 40]}…")
+        cells = text.strip("|").split(" | ") if text.startswith("|") else [text]
+        for sentence in (it for cell in cells for it in re.split(r"(?<=[.;:?!])\*{0,2} ", cell)):
+            words = len(sentence.split())
+            if words > LONGEST:
+                wrong.append(f"{page}:{number}: a sentence of {words} words, at most {LONGEST}\n    {sentence[:100]}…")
+if not sys.argv[2:]:
+    wrong += [f"an exception that nothing needs: {EXCEPTIONS[at]}" for at in range(len(EXCEPTIONS)) if at not in used]
+if wrong:
+    sys.exit("\n".join(wrong) + f"\n{len(wrong)} to write again")
