@@ -19,6 +19,7 @@ DONE = [
     "docs/plugins.md",
     "docs/recipes.md",
     "docs/tutorial.md",
+    "trees/README.md",
 ]
 
 REFUSED = {  # what is refused: what to write
@@ -45,6 +46,7 @@ REFUSED = {  # what is refused: what to write
     r"\bplugins? that (is|are) (a )?programs?\b": "process plugin",
     r"\b(behaviour|colour|neighbour|grey|honour|favour|centre|cancelled|modelling)": "the American spelling",
 }
+WITHOUT_CONTENTS = ["README.md", "docs/index.md"]
 LONGEST = 27  # words in a sentence
 
 # Where a refused word is right: the page, the words around it, and why.
@@ -79,9 +81,20 @@ def plain(text):
     return re.sub(r"\]\([^)]*\)", "]", text)
 
 
+def missing_contents(page):
+    """The headings that the contents list of a page lacks; a page without a list lacks none if it is short."""
+    with open(os.path.join(SOURCES, page), encoding="utf-8") as text:
+        source = re.sub(r"```.*?```", "", text.read(), flags=re.S)
+    headings = re.findall(r"^## (.*)$", source, re.M)
+    listed = re.findall(r"\]\(#([^)]*)\)", source.split("\n## ")[0])
+    anchors = [re.sub(r"[^a-z0-9 _-]", "", it.lower()).replace(" ", "-") for it in headings]
+    return [] if page in WITHOUT_CONTENTS else [it for it in anchors if it not in listed]
+
+
 wrong = []
 used = set()
 for page in sys.argv[2:] or DONE:
+    wrong += [f"{page}: the list of contents lacks #{it}" for it in missing_contents(page)]
     for number, raw in prose(page):
         text = plain(raw)
         for pattern, instead in REFUSED.items():
