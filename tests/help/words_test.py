@@ -18,6 +18,7 @@ DONE = [
     "docs/new.md",
     "docs/plugins.md",
     "docs/recipes.md",
+    "docs/testing.md",
     "docs/tutorial.md",
     "trees/README.md",
 ]
