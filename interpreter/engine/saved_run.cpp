@@ -37,6 +37,7 @@ void take_state(RunState& to, const RunState& from) {
   if (to.faulted || from.faulted || to.fault != from.fault) to.fault = from.fault;
   to.faulted = from.faulted;
   take(to.failing, from.failing);
+  take(to.ended, from.ended);
   take(to.failed_leaves, from.failed_leaves);
   take(to.tolerated, from.tolerated);
   take(to.out_of_range, from.out_of_range);

@@ -85,6 +85,17 @@ class ModelLeaves {
   std::span<const LeafMark> marks() const { return marks_; }
   // The leaves that have marks, each once.
   std::span<const std::uint32_t> touched() const { return touched_; }
+  // Visits what a fold forgets that counts within the tick.
+  template <class Visit>
+  void for_each_of_tick(Visit visit) const {
+    for (const FactState it : facts_) visit(it);
+    for (const bool it : asked_) visit(it);
+    for (const std::uint32_t leaf : touched_) {
+      visit(leaf);
+      visit(marks_[leaf].ticked);
+      visit(marks_[leaf].ended);
+    }
+  }
   // The call of the engine that the contract forbids; "" for none.
   const std::string& broken() const { return broken_; }
 

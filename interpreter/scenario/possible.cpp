@@ -28,7 +28,8 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   if (find_contradiction(tree, models, {}, period, found, usual_chance(found))) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
-  Stepper stepper(tree, models, {}, period, found.symmetry, found.rising_answers);
+  Stepper stepper(tree, models, {}, period, found.symmetry, found.rising_answers,
+                  found.few_root_ticks);
   for (StateId state = 0; state < found.store.size(); ++state) {
     stepper.load(found.store[state], state == 0);
     const std::vector<Activity> before = stepper.before().run.activity;

@@ -107,7 +107,7 @@ class Judge {
         properties_(properties),
         period_(period),
         found_(found),
-        stepper_(tree, models, properties, period, found.symmetry, false),
+        stepper_(tree, models, properties, period, found.symmetry, false, found.few_root_ticks),
         ticks_(std::min<std::uint64_t>(found.complete_depth(), most_ticks(found))) {}
 
   // Gives what contradicts the search; "" if nothing does. `goes_on` is asked before each tick.

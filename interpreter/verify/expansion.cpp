@@ -46,7 +46,8 @@ bool SearchRoom::is_round_full() const {
 Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                    Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits)
     : limits_(limits),
-      stepper_(tree, models, properties, period, symmetry, limits.rising_answers),
+      stepper_(tree, models, properties, period, symmetry, limits.rising_answers,
+               limits.few_root_ticks),
       labeller_(tree, models, properties.size(), symmetry),
       coverage_(tree) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
@@ -132,7 +133,11 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   do {
     const std::optional<Status> status = tick(at, into);
     if (!status) break;
-    take(step, *status);
+    if (stepper_.is_known()) {
+      coverage_.after_tick(stepper_.ticker());
+    } else {
+      take(step, *status);
+    }
     ++step.combination;
     if (!at.cut && is_over(stepper_.root_ticks())) at.cut = over_;
     if (at.cut || at.root_ticks < next_cut) continue;

@@ -77,7 +77,7 @@ void PropertyWatch::compare(Part& part, std::byte* compared, Ticker& ticker,
 }
 
 void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts,
-                               bool has_ended) {
+                               End end) {
   violated_.clear();
   for (const Used& it : used_) {
     if (!asked_children(ticker, it.keeper)) continue;
@@ -91,8 +91,8 @@ void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const
     const std::size_t count = part.property->comparisons().size();
     std::byte* const own = decided + 1 + count;
     compare(part, decided + 1, ticker, facts);
-    PropertyVerdict verdict = step(part, own, ticker);
-    if (verdict == PropertyVerdict::Open && has_ended) verdict = part.property->at_end(own);
+    PropertyVerdict verdict = step(part, own, ticker, end);
+    if (verdict == PropertyVerdict::Open && end == End::OfRun) verdict = part.property->at_end(own);
     if (verdict == PropertyVerdict::Open) continue;
     if (verdict == PropertyVerdict::Violated) violated_.push_back(i);
     std::fill(decided, own + part.property->state_size(), std::byte{0});
@@ -100,7 +100,7 @@ void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const
   }
 }
 
-PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, Ticker& ticker) {
+PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, Ticker& ticker, End end) {
   const Property& property = *part.property;
   const std::span<const bool> compared(part.compared.get(), property.comparisons().size());
   auto verdict = PropertyVerdict::Open;
@@ -113,11 +113,21 @@ PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, Ticker& ticker) 
     verdict = property.step(own, {.nodes = part.seen, .comparisons = compared}, of_tick);
   };
   const MomentsView moments = ticker.moments();
+  const bool ends = end != End::OfRound;
   moments.each_part(moment_, [&](std::span<const NodeState> states, bool is_first, bool is_last) {
-    see([&](NodeIndex node) { return states[node]; }, {.is_first = is_first, .is_last = is_last});
+    see([&](NodeIndex node) { return states[node]; },
+        {.is_first = is_first, .is_last = is_last && ends});
   });
-  if (moments.empty()) see([&](NodeIndex node) { return ticker.node_state(node); }, {});
+  if (moments.empty()) {
+    see([&](NodeIndex node) { return ticker.node_state(node); }, {.is_last = ends});
+  }
   return verdict;
+}
+
+bool PropertyWatch::knows_rounds() const {
+  return used_.empty() && std::ranges::all_of(parts_, [](const Part& part) {
+           return part.property->comparisons().empty();
+         });
 }
 
 bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {

@@ -17,6 +17,13 @@ namespace lockstep::host {
 
 class PropertyWatch {
  public:
+  // What ends with what is looked at.
+  enum class End : std::uint8_t {
+    OfRound,  // the tick goes on
+    OfTick,
+    OfRun,  // no tick comes any more
+  };
+
   // Both must outlive this.
   PropertyWatch(const Tree& tree, std::span<const Property> properties);
 
@@ -24,9 +31,13 @@ class PropertyWatch {
   std::size_t state_size() const { return state_size_; }
   void begin(std::byte* state) const;
   void before_tick(Ticker& ticker);
-  // After a tick, before its state is folded. `has_ended`: no tick comes any more.
-  void after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts,
-                  bool has_ended);
+  // After a tick, before its state is folded.
+  void after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts, End end);
+  // In place of it: the tick violates nothing that was not violated before.
+  void skip_tick() { violated_.clear(); }
+  // Whether all that counts of a round is in the state: not if they compare what is known only at
+  // the end of the tick.
+  bool knows_rounds() const;
 
   // The properties that the last tick has violated, by their place.
   std::span<const std::size_t> violated() const { return violated_; }
@@ -50,7 +61,7 @@ class PropertyWatch {
   };
 
   void compare(Part& part, std::byte* compared, Ticker& ticker, std::span<const FactState> facts);
-  PropertyVerdict step(Part& part, std::byte* own, Ticker& ticker);
+  PropertyVerdict step(Part& part, std::byte* own, Ticker& ticker, End end);
 
   const std::size_t first_fact_;  // of what is compared, behind the entries
   std::vector<Part> parts_;

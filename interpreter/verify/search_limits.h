@@ -14,6 +14,10 @@ namespace lockstep::host {
 // What the questions of a verdict take for each state, most of it to find components of the graph.
 inline constexpr std::size_t kLaterBytesOfState = 64;
 
+// Rounds of a tick are looked at from so many ticks of the root on that begin in one state
+// (verify/rounds.h). Most states have fewer: to look at them costs more than it saves.
+inline constexpr std::uint64_t kFewRootTicks = 256;
+
 struct SearchProgress {
   std::uint64_t states = 0, waiting = 0, transitions = 0;
   std::uint32_t depth = 0;
@@ -35,6 +39,7 @@ struct SearchLimits {
   bool symmetry = true;                                  // states of equal children count once
   bool rising_answers = true;  // of equal leaves in equal states: one of all orders
   bool cycles = true;          // their edges have labels
+  std::uint64_t few_root_ticks = kFewRootTicks;
 };
 
 enum class SearchEnd : std::uint8_t {

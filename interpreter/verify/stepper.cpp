@@ -1,5 +1,8 @@
 #include "verify/stepper.h"
 
+#include <stdexcept>
+#include <utility>
+
 namespace lockstep::host {
 namespace {
 
@@ -15,7 +18,8 @@ SavedRun saved(const Ticker& ticker) {
 }  // namespace
 
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-                 Nanoseconds period, const Symmetry& symmetry, bool rising_answers)
+                 Nanoseconds period, const Symmetry& symmetry, bool rising_answers,
+                 std::uint64_t few_root_ticks)
     : period_(period),
       board_(tree),
       answers_(tree, rising_answers ? symmetry : kNoSymmetry,
@@ -30,7 +34,9 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_leaves_(leaves_.states()),
       from_facts_(leaves_.facts()),
       property_bytes_(watch_.state_size()),
-      from_properties_(property_bytes_) {
+      from_properties_(property_bytes_),
+      rounds_(few_root_ticks),
+      has_gone_round_(tree.nodes.size() + properties.size()) {
   ticker_.keep_moments();
 }
 
@@ -51,35 +57,152 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   leaves_.restore(from_leaves_, from_facts_);
   time_ = is_first ? Nanoseconds(0) : period_;
   answers_.begin_state(from_.run, from_leaves_);
+  rounds_.begin_state();
 }
 
 Status Stepper::tick(std::uint64_t most) {
   ticker_.restore(from_);
   leaves_.restore_again(from_leaves_, from_facts_);
   answers_.begin();
+  rounds_.begin_tick(answers_.same_as_before());
   leaves_.begin_tick();
+  is_known_ = is_going_round_ = is_short_ = is_cut_ = false;
   if (!watch_.empty()) {
     property_bytes_ = from_properties_;
     ticker_.set_now(time_);
     watch_.before_tick(ticker_);
   }
-  Status status = ticker_.tick_root(time_);
+  const Status status = tick_again(ticker_.tick_root(time_), most);
+  rounds_.count(root_ticks_);
+  if (is_short_) {
+    watch_.skip_tick();
+  } else if (!watch_.empty()) {
+    const bool is_over = status != Status::Running || ticker_.faulted();
+    watch_.after_tick(property_bytes_.data(), ticker_, leaves_.facts(),
+                      is_over ? PropertyWatch::End::OfRun : PropertyWatch::End::OfTick);
+  }
+  return status;
+}
+
+Status Stepper::tick_again(Status status, std::uint64_t most) {
   for (root_ticks_ = 1; ticker_.is_asked() && root_ticks_ < most; ++root_ticks_) {
     if (gives_up_ && root_ticks_ % kTicksBetweenQuestions == 0 && gives_up_()) break;
     const auto node = ticker_.take_request();
     if (!node || status != Status::Running || ticker_.faulted()) break;
     if (root_ticks_ == kMostTicksAtOnce) {
-      ticker_.set_fault(*node, "asked for another tick 10,000 times in one period");
+      fault(*node);
       break;
+    }
+    if (rounds_.are_looked_at() && !answers_.are_given() && look_at_round(*node)) {
+      if (!is_going_round_) break;
+      return go_round(status);
     }
     if (before_tick_again_) before_tick_again_(leaves_);
     status = ticker_.tick_root_again();
   }
-  if (!watch_.empty()) {
-    const bool is_over = status != Status::Running || ticker_.faulted();
-    watch_.after_tick(property_bytes_.data(), ticker_, leaves_.facts(), is_over);
-  }
   return status;
+}
+
+// Whether what follows is known.
+bool Stepper::look_at_round(NodeIndex asks) {
+  if (rounds_.is_on_way()) {
+    rounds_.pass();
+    return false;
+  }
+  Rounds::Round round{.answers = answers_.count(), .asks = asks};
+  round_properties_ = from_properties_;
+  if (!watch_.empty()) {
+    if (!watch_.knows_rounds() || !ticker_.moments().rest.empty()) return false;
+    watch_.after_tick(round_properties_.data(), ticker_, leaves_.facts(),
+                      PropertyWatch::End::OfRun);
+    round.owing.assign(watch_.violated().begin(), watch_.violated().end());
+    round_properties_ = from_properties_;
+    watch_.after_tick(round_properties_.data(), ticker_, leaves_.facts(),
+                      PropertyWatch::End::OfRound);
+  }
+  make_round_state(asks);
+  switch (rounds_.add(round_state_, std::move(round))) {
+    case Rounds::Found::New:
+      return false;
+    case Rounds::Found::Known:
+      is_known_ = true;
+      return true;
+    case Rounds::Found::Loop:
+      is_going_round_ = true;
+      return true;
+  }
+  return false;
+}
+
+// All that what follows depends on: a state as between two ticks, and what a fold forgets that
+// counts within one.
+void Stepper::make_round_state(NodeIndex asks) {
+  StateBytes& into = round_state_;
+  const auto add = [&](const auto& it) {
+    const auto bytes = std::as_bytes(std::span(&it, 1));
+    into.insert(into.end(), bytes.begin(), bytes.end());
+  };
+  const auto add_all = [&](std::span<const std::byte> bytes) {
+    into.insert(into.end(), bytes.begin(), bytes.end());
+  };
+  ticker_.save(round_);
+  round_leaves_ = leaves_.states();
+  round_facts_ = leaves_.facts();
+  code_.before_fold(ticker_);
+  ticker_.fold();
+  leaves_.fold();
+  code_.encode(ticker_, leaves_, round_properties_, StateCode::Children::AsTheyAre, into);
+  ticker_.restore(round_);
+  leaves_.restore_again(round_leaves_, round_facts_);
+  add(asks);
+  add_all(std::as_bytes(std::span(round_.run.activity)));
+  for (const std::uint32_t it : round_.run.last_tick) add(it != 0);
+  const Tree& tree = ticker_.tree();
+  for (const Group& it : tree.groups) add_all(ticker_.kept_bytes(it.node));
+  for (const Member& it : tree.members) add_all(ticker_.kept_bytes(it.node));
+  leaves_.for_each_of_tick(add);
+  for (const std::size_t it : watch_.violated()) add(it);
+  answers_.for_each_tie(add);
+}
+
+// The run comes back to where it has been, until there are too many rounds. Somebody may ask to
+// see all of these; for the others it is enough to know how it ends.
+Status Stepper::go_round(Status status) {
+  const Rounds::Round& last = rounds_.last_of(kMostTicksAtOnce);
+  const std::size_t nodes = ticker_.tree().nodes.size();
+  const std::uint64_t root_ticks = root_ticks_;
+  bool is_new = !has_gone_round_[last.asks];
+  has_gone_round_[last.asks] = true;
+  for (const std::size_t it : last.owing) {
+    is_new = is_new || !has_gone_round_[nodes + it];
+    has_gone_round_[nodes + it] = true;
+  }
+  if (!is_new) {
+    is_short_ = true;
+    fault(last.asks);
+    return status;
+  }
+  answers_.repeat_from(rounds_.loop().answers);
+  for (NodeIndex asks = last.asks; root_ticks_ < kMostTicksAtOnce; ++root_ticks_) {
+    if (gives_up_ && root_ticks_ % kTicksBetweenQuestions == 0 && gives_up_()) {
+      is_cut_ = true;
+      return status;
+    }
+    if (before_tick_again_) before_tick_again_(leaves_);
+    status = ticker_.tick_root_again();
+    asks = ticker_.take_request().value_or(NodeIndex{0});
+    const bool is_last = root_ticks_ + 1 == kMostTicksAtOnce;
+    if (status != Status::Running || ticker_.faulted() || (is_last && asks != last.asks)) {
+      throw std::logic_error("a round of a tick does not do what it did before");
+    }
+  }
+  root_ticks_ = root_ticks;  // it counts the same whoever sees it first
+  fault(last.asks);
+  return status;
+}
+
+void Stepper::fault(NodeIndex asks) {
+  ticker_.set_fault(asks, "asked for another tick 10,000 times in one period");
 }
 
 const StateBytes& Stepper::fold() {

@@ -11,6 +11,8 @@
 #include "leaves/model_leaf.h"
 #include "verify/property_watch.h"
 #include "verify/read_parameters.h"
+#include "verify/rounds.h"
+#include "verify/search_limits.h"
 #include "verify/state_code.h"
 #include "verify/tick_answers.h"
 
@@ -20,7 +22,8 @@ class Stepper {
  public:
   // All must outlive this.
   Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-          Nanoseconds period, const Symmetry& symmetry, bool rising_answers);
+          Nanoseconds period, const Symmetry& symmetry, bool rising_answers,
+          std::uint64_t few_root_ticks = kFewRootTicks);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -34,7 +37,9 @@ class Stepper {
   // The root's status; Running also after a fault. What the tick did can be looked at until `fold`.
   // It ticks the root so often at most; if a node then asks for more, it is not done.
   Status tick(std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
-  bool is_done() const { return !ticker_.is_asked(); }
+  bool is_done() const { return !ticker_.is_asked() && !is_cut_; }
+  // What follows is the same as in another tick from this state: it stopped before that.
+  bool is_known() const { return is_known_; }
   // `tick` asks it now and then while nodes ask for more: true, and it is not done.
   void set_gives_up(std::function<bool()> gives_up) { gives_up_ = std::move(gives_up); }
   // `tick` calls it when it has ticked the root and is about to tick it again.
@@ -71,6 +76,12 @@ class Stepper {
   bool owes(std::size_t property) const { return watch_.owes(property_bytes_.data(), property); }
 
  private:
+  Status tick_again(Status status, std::uint64_t most);
+  bool look_at_round(NodeIndex asks);
+  void make_round_state(NodeIndex asks);
+  Status go_round(Status status);
+  void fault(NodeIndex asks);
+
   const Nanoseconds period_;
   Blackboard board_;
   TickAnswers answers_;
@@ -86,6 +97,13 @@ class Stepper {
   StateBytes property_bytes_, from_properties_;
   Nanoseconds time_{0};
   std::uint64_t root_ticks_ = 0;
+  Rounds rounds_;
+  bool is_known_ = false, is_going_round_ = false, is_short_ = false, is_cut_ = false;
+  std::vector<bool> has_gone_round_;  // of each node: there was a fault of it; then of properties
+  SavedRun round_;
+  std::vector<LeafState> round_leaves_;
+  std::vector<FactState> round_facts_;
+  StateBytes round_properties_, round_state_;
   BeforeTickAgain before_tick_again_;
   std::function<bool()> gives_up_;
   StateBytes folded_, moved_;

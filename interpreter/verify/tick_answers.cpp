@@ -76,6 +76,8 @@ void TickAnswers::give(std::span<const LeafAnswer> answers) {
 
 void TickAnswers::begin() {
   at_ = 0;
+  repeats_ = false;
+  repeated_.clear();
   if (!is_given_) return;
   digits_.clear();
   next_given_.assign(children_of_.size(), 0);
@@ -96,13 +98,26 @@ bool TickAnswers::next() {
   return true;
 }
 
+void TickAnswers::repeat_from(std::size_t first) {
+  repeats_ = true;
+  repeats_from_ = first;
+}
+
 std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
   if (count <= 1) return 0;
+  if (repeats_) return repeat(asker);
   if (at_ == digits_.size()) {
     digits_.push_back({is_given_ ? given(asker, count) : least(asker), count, asker});
     note(digits_.back());
   }
   return digits_[at_++].value;
+}
+
+std::uint32_t TickAnswers::repeat(std::uint32_t asker) {
+  const Digit& digit = digits_[repeats_from_ + repeated_.size() % (at_ - repeats_from_)];
+  if (digit.asker != asker) throw std::logic_error("a round asks for something else");
+  repeated_.push_back({asker, digit.value});
+  return digit.value;
 }
 
 // As long as a child has answered as the one before it, it is asked the same.
@@ -162,6 +177,7 @@ std::uint32_t TickAnswers::given(std::uint32_t asker, std::uint32_t count) {
 std::vector<LeafAnswer> TickAnswers::asked() const {
   std::vector<LeafAnswer> asked;
   for (std::size_t i = 0; i < at_; ++i) asked.push_back({digits_[i].asker, digits_[i].value});
+  asked.insert(asked.end(), repeated_.begin(), repeated_.end());
   return asked;
 }
 

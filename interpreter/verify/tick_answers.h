@@ -6,6 +6,7 @@
 // inside, and it leads to the same state but for who is who.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -34,9 +35,28 @@ class TickAnswers final : public Answers {
 
   // Before each tick.
   void begin();
+  // How many of the first answers of the tick before it come again.
+  std::size_t same_as_before() const { return digits_.empty() ? 0 : digits_.size() - 1; }
   // After it. False: it was the last combination.
   bool next();
+  // Within it: from here on those since the first of these are given again and again.
+  void repeat_from(std::size_t first);
   std::uint32_t choose(std::uint32_t count, std::uint32_t asker) override;
+
+  bool are_given() const { return is_given_; }
+  std::size_t count() const { return at_; }
+  // Visits what says which answers a child may still give, in this tick: those of the equal one.
+  template <class Visit>
+  void for_each_tie(Visit visit) const {
+    for (const std::uint32_t it : with_equals_) {
+      const Child& child = children_[it];
+      visit(child.is_tied);
+      if (!child.follows || !child.is_tied) continue;
+      const std::vector<std::uint32_t>& before = children_[it - 1].answers;
+      visit(before.size() - std::min(before.size(), child.answers.size()));
+      for (std::size_t i = child.answers.size(); i < before.size(); ++i) visit(before[i]);
+    }
+  }
 
   // What the tick has asked that had more than one answer.
   std::vector<LeafAnswer> asked() const;
@@ -61,6 +81,7 @@ class TickAnswers final : public Answers {
   bool are_equal(const EqualChildren& it, std::size_t place, const RunState& run,
                  const std::vector<LeafState>& leaves) const;
   std::uint32_t least(std::uint32_t asker) const;
+  std::uint32_t repeat(std::uint32_t asker);
   void note(Digit& digit);
   void undo(const Digit& digit);
   std::uint32_t given(std::uint32_t asker, std::uint32_t count);
@@ -74,7 +95,9 @@ class TickAnswers final : public Answers {
   std::vector<std::uint64_t> words_;
   std::vector<Digit> digits_;
   std::size_t at_ = 0;
-  bool is_given_ = false;
+  std::size_t repeats_from_ = 0;
+  bool is_given_ = false, repeats_ = false;
+  std::vector<LeafAnswer> repeated_;
   std::vector<LeafAnswer> given_;
   std::vector<std::size_t> next_given_;  // of each asker: where its next one may be
 };

@@ -25,7 +25,8 @@ Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Prope
     : tree_(tree),
       models_(models),
       found_(found),
-      stepper_(tree, models, properties, period, found.symmetry, found.rising_answers),
+      stepper_(tree, models, properties, period, found.symmetry, found.rising_answers,
+               found.few_root_ticks),
       labeller_(tree, models, properties.size(), found.symmetry) {}
 
 // One that the store has forgotten is made again.
@@ -54,7 +55,8 @@ Step Tracer::find_step(std::span<const std::byte> state, StateId from, const IsW
   Step step{from, 0};
   do {
     const Status status = stepper_.tick();
-    if (status == Status::Running && !stepper_.ticker().faulted() && is_wanted()) return step;
+    const bool goes_on = status == Status::Running && !stepper_.ticker().faulted();
+    if (goes_on && !stepper_.is_known() && is_wanted()) return step;
     ++step.combination;
   } while (stepper_.next());
   fail("an edge of a search is not there any more");

@@ -346,4 +346,61 @@ TEST_CASE(
   CHECK(lost >= 3);
 }
 
+TEST_CASE("a loop within a tick is gone through once, whatever others do meanwhile") {
+  struct Row {
+    const char *law, *tree, *rows;
+    std::uint64_t few;
+  };
+  for (const Row& it : {
+           Row{"a Retry without an end beside an action",
+               "Parallel[success_count=2](RetryUntilSuccessful[num_attempts=-1](AlwaysFailure) a)",
+               R"(<leaf path="*" progress="grid:4"/>)", 10'000},
+           Row{"the same of a Repeat, whose child is one as well",
+               "Parallel[success_count=2](Repeat[num_cycles=-1](b) a)", "", 10'000},
+           Row{"of a Retry around a Sequence",
+               "ParallelRelative[delta=.5](RetryUntilSuccessful[num_attempts=-1](Sequence(c? b)) "
+               "a)",
+               "", 20'000},
+       }) {
+    INFO(it.law);
+    const Verified verified(it.tree, it.rows, {.transitions = 2'000'000}, 10,
+                            {"never a.failure", "sometimes a.failure"}, btcpp::kRules);
+    CHECK(verified.found.is_complete());
+    CHECK(verified.found.root_ticks < it.few);
+    // It plays all 10,000 rounds.
+    const auto& findings = verified.verdict.findings;
+    const bool has_fault = std::ranges::any_of(
+        findings, [](const Finding& one) { return one.name.starts_with("fault/"); });
+    CHECK(has_fault);
+    CHECK(verified.finding("property/never a.failure") != nullptr);
+    CHECK(verified.finding("property/sometimes a.failure") != nullptr);
+  }
+}
+
+TEST_CASE("rounds that are told apart by their states change nothing in what is found") {
+  for (const char* tree : {"Parallel[success_count=2](Repeat[num_cycles=4](b) "
+                           "RetryUntilSuccessful[num_attempts=3](a))",
+                           "ParallelAbsolute[barriers=.5](RetryUntilSuccessful[num_attempts=4](a) "
+                           "KeepRunningUntilFailure(b))",
+                           "AsyncSequence(a Repeat[num_cycles=3](AsyncFallback(b c?)) d)"}) {
+    INFO(tree);
+    const auto verified = [&](std::uint64_t few) {
+      return Verified(tree, R"(<leaf path="*" progress="grid:2"/>)",
+                      {.transitions = 200'000, .few_root_ticks = few}, 10,
+                      {"never a.failure and b.running", "a.success leads to b.success",
+                       "b.held at most 1 ticks"},
+                      btcpp::kRules);
+    };
+    const Verified plain = verified(1'000'000'000), told_apart = verified(0);
+    REQUIRE(plain.found.is_complete());
+    CHECK(told_apart.found.is_complete());
+    CHECK(told_apart.found.transitions < plain.found.transitions);
+    CHECK(told_apart.found.store.size() == plain.found.store.size());
+    CHECK(told_apart.findings() == plain.findings());
+    CHECK(told_apart.said("results") == plain.said("results"));
+    CHECK(told_apart.said("never succeeds") == plain.said("never succeeds"));
+    CHECK(told_apart.said("never fails") == plain.said("never fails"));
+  }
+}
+
 }  // namespace lockstep::host::test
