@@ -17,6 +17,7 @@ DONE = [
     "docs/monitor.md",
     "docs/new.md",
     "docs/plugins.md",
+    "docs/programs.md",
     "docs/recipes.md",
     "docs/testing.md",
     "docs/tutorial.md",
