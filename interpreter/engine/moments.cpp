@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/node_context.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -15,16 +16,23 @@ std::uint32_t earlier(const RunState& state) {
 
 }  // namespace
 
-Moments::Moments(const Tree& tree)
-    : tree_(tree),
-      first_(tree.nodes.size()),
-      last_(tree.nodes.size()),
-      now_(tree.nodes.size()),
-      counted_(tree.nodes.size()),
-      totals_(tree.nodes.size()),
-      rest_(tree.nodes.size()) {
+Moments::Moments(NodeContext& context)
+    : context_(context),
+      tree_(context.tree()),
+      first_(tree_.nodes.size()),
+      last_(tree_.nodes.size()),
+      now_(tree_.nodes.size()),
+      counted_(tree_.nodes.size()),
+      totals_(tree_.nodes.size()),
+      rest_(tree_.nodes.size()) {
   moments_.reserve(kMost);
-  changes_.reserve(most_changes(tree.nodes.size()));
+  changes_.reserve(most_changes(tree_.nodes.size()));
+}
+
+void Moments::keep_progress() {
+  leaves_.resize(tree_.leaves.size());
+  kept_leaves_.resize(tree_.leaves.size());
+  progress_.reserve(most_progress(tree_.leaves.size()));
 }
 
 void Moments::begin_tick(const RunState& state) {
@@ -32,6 +40,7 @@ void Moments::begin_tick(const RunState& state) {
   std::memcpy(static_cast<void*>(now_.data()), state.activity.data(), now_.size());
   moments_.clear();
   changes_.clear();
+  progress_.clear();
   rests_ = 0;
   is_full_ = false;
   in_tick_ = true;
@@ -39,9 +48,11 @@ void Moments::begin_tick(const RunState& state) {
 }
 
 void Moments::next(RunState& state, std::optional<NodeIndex> under) {
+  if (moments_.empty()) ask_progress(true);
   look(state, under);
   keep();
   mark(state);
+  ask_progress(false);
 }
 
 void Moments::reopen(RunState& state) {
@@ -51,6 +62,7 @@ void Moments::reopen(RunState& state) {
   changes_.resize(moments_.size() == 1 ? 0 : moments_[moments_.size() - 2].changes);
   rests_ = 0;
   mark(state);
+  ask_progress(false);
 }
 
 void Moments::end_tick(RunState& state) {
@@ -95,16 +107,18 @@ void Moments::look(const RunState& state, std::optional<NodeIndex> under) {
 void Moments::keep() {
   if (moments_.empty()) {
     first_ = last_ = now_;
+    std::ranges::fill(kept_leaves_, 0.0);
+    add_progress();
     moments_.push_back({});
     return;
   }
   if (is_full_) return count();
-  if (now_ == last_) {
+  if (now_ == last_ && leaves_ == kept_leaves_) {
     ++moments_.back().times;
     return;
   }
   const std::size_t before = changes_.size();
-  if (moments_.size() < kMost && add_changes(kMostChanges + now_.size())) {
+  if (moments_.size() < kMost && add_changes(kMostChanges + now_.size()) && add_progress()) {
     moments_.back().changes = static_cast<std::uint32_t>(changes_.size());
     moments_.push_back({});
     last_ = now_;
@@ -122,6 +136,36 @@ void Moments::count() {
     totals_[node].add(counted_[node], now_[node]);
   }
   counted_ = now_;
+}
+
+// Those that run at the start of this moment. Before the tick, those who watch have asked them.
+void Moments::ask_progress(bool is_first) {
+  if (leaves_.empty() || is_full_) return;
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const NodeIndex node = tree_.leaves[i].node;
+    if (is_first) {
+      leaves_[i] = was_running(node) ? context_.progress_before_tick(node) : 0;
+    } else {
+      const bool runs = context_.status(node) == Status::Running && !context_.faulted();
+      leaves_[i] = runs ? context_.progress(node) : 0;
+    }
+  }
+}
+
+// That of the moment that has just ended. False: it is too much.
+bool Moments::add_progress() {
+  const std::uint64_t moment = moments_.size();
+  const std::size_t before = progress_.size();
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    if (leaves_[i] == kept_leaves_[i]) continue;
+    if (progress_.size() == progress_.capacity()) {
+      progress_.resize(before);
+      return false;
+    }
+    progress_.push_back({moment, tree_.leaves[i].node, leaves_[i]});
+  }
+  kept_leaves_ = leaves_;
+  return true;
 }
 
 // From the last moment that is kept to the state in `now_`. False: they are too many.

@@ -20,6 +20,8 @@
 
 namespace lockstep::host {
 
+class NodeContext;
+
 struct MomentChange {
   NodeIndex node = 0;
   NodeState before = {}, after = {};
@@ -33,6 +35,16 @@ struct TickMoment {
                               // the last one to the state after the tick
 
   friend bool operator==(const TickMoment&, const TickMoment&) = default;
+};
+
+// The progress of a leaf at the start of a moment, where it is not what it was at the start of the
+// one before; at first it is 0.
+struct LeafProgress {
+  std::uint64_t moment = 0;
+  NodeIndex node = 0;
+  double progress = 0;
+
+  friend bool operator==(const LeafProgress&, const LeafProgress&) = default;
 };
 
 // How often something happened to a node.
@@ -67,6 +79,7 @@ struct MomentsView {
   std::span<const MomentChange> changes = {};
   // What happened after these moments, for which there was no room: without its order.
   std::span<const NodeTotals> rest = {};
+  std::span<const LeafProgress> progress = {};  // of a run that keeps it
 
   bool empty() const { return moments.empty(); }
   std::span<const MomentChange> changes_of(std::size_t moment) const {
@@ -114,14 +127,22 @@ class Moments {
   static constexpr std::size_t kMost = 256;
   static constexpr std::size_t kMostChanges = 1024;  // and one for each node
 
-  explicit Moments(const Tree& tree);
+  explicit Moments(NodeContext& context);
 
+  // Asks running leaves for their progress at the start of each moment, of a tick that has several.
+  // The first must have been asked before the tick: NodeContext::share_progress.
+  void keep_progress();
   // The most changes that a tick can have.
   static std::size_t most_changes(std::size_t nodes) { return kMostChanges + 2 * nodes; }
 
-  MomentsView view() const { return {first_, moments_, changes_, std::span(rest_).first(rests_)}; }
+  MomentsView view() const {
+    return {first_, moments_, changes_, std::span(rest_).first(rests_), progress_};
+  }
 
   // --- for the engine ----------------------------------------------------------------------------
+
+  // The most numbers of progress that a tick can have.
+  static std::size_t most_progress(std::size_t leaves) { return kMostChanges + leaves; }
 
   void begin_tick(const RunState& state);
   bool in_tick() const { return in_tick_; }
@@ -145,7 +166,10 @@ class Moments {
   void keep();
   void count();
   bool add_changes(std::size_t most);
+  bool add_progress();
+  void ask_progress(bool is_first);
 
+  NodeContext& context_;
   const Tree& tree_;
   std::vector<NodeState> first_, last_, now_;
   std::vector<NodeState> counted_;  // the state up to which `totals_` counts
@@ -153,6 +177,10 @@ class Moments {
   std::vector<MomentChange> changes_;
   std::vector<NodeTotals> totals_, rest_;
   std::size_t rests_ = 0;
+  std::vector<LeafProgress> progress_;
+  // Of each leaf at the start of this moment, and of the one that was kept last; empty: it is not
+  // kept.
+  std::vector<double> leaves_, kept_leaves_;
   bool in_tick_ = false, is_full_ = false;
 };
 

@@ -77,6 +77,12 @@ void NodeContext::share_progress() {
   return beside_->progress[node];
 }
 
+double NodeContext::progress_before_tick(NodeIndex node) const {
+  const bool is_known =
+      node < beside_->known_since.size() && beside_->known_since[node] == beside_->shared;
+  return is_known ? beside_->progress[node] : 0.0;
+}
+
 [[gnu::noinline]] Status NodeContext::tick_apart(NodeIndex node) {
   return tick(node);
 }

@@ -117,6 +117,8 @@ class NodeContext : public RunView {
   // who watch, and the nodes above it. Each of those who watch calls it before a tick, at the time
   // of that tick. The first call allocates.
   void share_progress();
+  // What it was when it was asked for since the last call of that; 0: it was not.
+  double progress_before_tick(NodeIndex node) const;
 
   // --- what went wrong ---------------------------------------------------------------------------
 

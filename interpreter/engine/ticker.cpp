@@ -49,11 +49,16 @@ Status Ticker::tick_root_again() {
 
 void Ticker::keep_moments() {
   if (moments_ != nullptr) return;
-  moments_ = std::make_unique<Moments>(tree_);
+  moments_ = std::make_unique<Moments>(*this);
   const bool shares = shares_progress_;
   share_progress();  // who watches will ask for it, in ticks that must not allocate
   shares_progress_ = shares;
   is_plain_ = false;
+}
+
+void Ticker::keep_moments_with_progress() {
+  keep_moments();
+  moments_->keep_progress();
 }
 
 void Ticker::begin_calls() {

@@ -74,6 +74,8 @@ class Ticker : public NodeContext {
 
   // What happens within ticks is kept from now on: for those who watch. Allocates.
   void keep_moments();
+  // The same, with the progress of leaves within a tick: for who asks all nodes before each tick.
+  void keep_moments_with_progress();
   // Of the last tick. Valid until the next one.
   MomentsView moments() const { return moments_ == nullptr ? MomentsView{} : moments_->view(); }
 

@@ -200,6 +200,7 @@ void add_log(std::string& text, const LeafLine& log) {
 
 // Longer than [4294967295,"success",1,0] and a comma; than [,[]] and a count; than most counts.
 constexpr std::size_t kMostOfMomentNode = 32, kMostOfMoment = 28, kUsualTotals = 32;
+constexpr std::size_t kMostOfLeafProgress = 48;  // [255,4294967295,0.00012345678901234567] likewise
 
 void add_moment_node(std::string& text, const MomentChange& it) {
   add_number(text += '[', it.node);
@@ -222,6 +223,13 @@ void add_moments(std::string& text, const MomentsView& view) {
     }
     text += "]]";
   }
+  text += ']';
+}
+
+void add_leaf_progress(std::string& text, const LeafProgress& it) {
+  add_number(text += '[', it.moment);
+  add_number(text += ',', it.node);
+  add_number(text += ',', it.progress);
   text += ']';
 }
 
@@ -294,6 +302,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   add_list(text, lines::kTick["rounds"], end.rounds, add_round);
   add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
   add_moments(text, end.moments);
+  add_list(text, lines::kTick["leaf_progress"], end.moments.progress, add_leaf_progress);
   add_list(text, lines::kTick["more"], end.moments.rest, add_totals);
   add_list(text, lines::kTick["faults"], end.faults, add_fault);
   add_list(text, lines::kTick["entries"], end.entries, add_entry);
@@ -304,9 +313,9 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
 
 std::size_t json_lines::most_of_tick_end(std::size_t nodes, std::size_t limits,
                                          std::size_t entries) {
-  const std::size_t moments = kMostOfMoment * Moments::kMost +
-                              kMostOfMomentNode * Moments::most_changes(nodes) +
-                              kUsualTotals * nodes;
+  const std::size_t moments =
+      kMostOfMoment * Moments::kMost + kMostOfMomentNode * Moments::most_changes(nodes) +
+      kMostOfLeafProgress * Moments::most_progress(nodes) + kUsualTotals * nodes;
   return 64 + 64 * (limits + entries) + moments;
 }
 

@@ -73,6 +73,7 @@ constexpr Tuple kTuples[] = {
        {"held", "Whole"},
        {"faults", "Whole"}}}},
     {"EntryCount", {{{"index", "Index"}, {"values", "Whole"}}}},
+    {"LeafProgress", {{{"moment", "Whole"}, {"index", "Index"}, {"progress", "Progress"}}}},
 };
 
 // Where a header or an end keeps the value; none: the value has a separate reader and writer.
@@ -204,6 +205,10 @@ constexpr Field kTickFields[] = {
      "its [moments](#moments), in their order. `times`: how many in a row are equal. `nodes`: "
      "`[index, status, ticked, held]` of each node that differs from the moment after it; in the "
      "last moment, from the state after the tick"},
+    {"leaf_progress", "LeafProgress[]", kMaybe,
+     "only of a tick with `moments`: {} for each leaf whose progress at the start of a moment "
+     "differs "
+     "from that at the start of the moment before it. The first moment is 0; before that, it is 0"},
     {"more", "NodeCounts[]", kMaybe,
      "only of a tick with more moments than there is room for: {} for each node, how often this "
      "happened to it after the `moments`"},

@@ -30,12 +30,12 @@ RecordedCalls::RecordedCalls(const RecordingHeader& header, const Tree& tree) {
 }
 
 template <class StateOf>
-void RecordedCalls::reach(const StateOf& state_of) {
+void RecordedCalls::reach(const StateOf& state_of, std::optional<std::size_t> next) {
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     Followed& it = followed_[i];
     const auto [status, ticked] = state_of(leaves_[i].node);
     const bool is_kept = it.keeper && it.keeper_before == Status::Running && is_complete(it.before);
-    if (ticked && !is_kept) it.calls.push_back({status, it.before != Status::Running});
+    if (ticked && !is_kept) it.calls.push_back({status, it.before != Status::Running, next});
     it.before = status;
     if (it.keeper) it.keeper_before = state_of(*it.keeper).first;
   }
@@ -48,13 +48,19 @@ void RecordedCalls::take(const RecordedTick& tick) {
     return std::pair(tick.nodes[node].status, bool(tick.nodes[node].ticked));
   };
   if (tick.moments.empty()) return reach(after);
+  std::size_t number = 0;
   tick.moments.each(moment_,
-                    [&](std::span<const NodeState> states, const TickMoment& moment, bool) {
-                      for (std::uint64_t i = 0; i < std::min(moment.times, kMost); ++i) {
-                        reach([&](NodeIndex node) {
-                          return std::pair(states[node].status(), bool(states[node].ticked()));
-                        });
+                    [&](std::span<const NodeState> states, const TickMoment& moment, bool is_last) {
+                      const std::uint64_t times = std::min(moment.times, kMost);
+                      for (std::uint64_t i = 1; i <= times; ++i) {
+                        const std::size_t next = i < times ? number : number + 1;
+                        reach(
+                            [&](NodeIndex node) {
+                              return std::pair(states[node].status(), bool(states[node].ticked()));
+                            },
+                            is_last && i == times ? std::nullopt : std::optional(next));
                       }
+                      ++number;
                     });
   for (std::size_t i = 0; i < leaves_.size(); ++i) {
     followed_[i].before = after(leaves_[i].node).first;

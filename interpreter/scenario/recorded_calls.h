@@ -17,6 +17,8 @@ class RecordedCalls {
   struct Call {
     Status status;  // after it; Idle: an ancestor has ended it in the same tick
     bool begins;    // an activation
+    // The moment that begins with it, by its number in the tick; none: the next tick does.
+    std::optional<std::size_t> next = {};
   };
 
   // Of the leaves that the tree has at the path of a node of the recording.
@@ -40,7 +42,7 @@ class RecordedCalls {
     std::vector<Call> calls = {};
   };
   template <class StateOf>
-  void reach(const StateOf& state_of);
+  void reach(const StateOf& state_of, std::optional<std::size_t> next = {});
 
   std::vector<Leaf> leaves_;
   std::vector<Followed> followed_;  // of each leaf

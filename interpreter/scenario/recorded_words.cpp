@@ -73,16 +73,25 @@ class WordMaker {
     std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
 
+  // That of a leaf at the start of a moment, or of the tick.
+  static double progress_at(const RecordedTick& tick, NodeIndex node, std::size_t moment) {
+    double progress = tick.moments.progress.empty() ? tick.nodes[node].progress : 0;
+    for (const LeafProgress& it : tick.moments.progress) {
+      if (it.node == node && it.moment <= moment) progress = it.progress;
+    }
+    return progress;
+  }
+
   // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
   // withheld is a word, but those behind which the leaf does not drift any more.
-  static void take_progress(const RecordedState& state, Leaf& it) {
+  static void take_progress(double progress, Leaf& it) {
     const RecordedState& before = it.before;
     if (it.words->empty() || before.status != Status::Running) return;
-    const bool has_moved = state.progress != before.progress;
+    const bool has_moved = progress != before.progress;
     if (before.ticked || !before.held) {
       LeafWord& last = it.words->back();
-      if (has_moved && last.status == Status::Running && last.kind != LeafWord::Kind::Fault) {
-        last.progress = state.progress;
+      if (last.status == Status::Running && last.kind != LeafWord::Kind::Fault) {
+        last.progress = progress;
       }
       if (before.held) ++it.still;
     } else if (!has_moved) {
@@ -90,26 +99,31 @@ class WordMaker {
     } else {
       it.words->insert(it.words->end(), std::exchange(it.still, 0),
                        {.kind = LeafWord::Kind::Held, .progress = before.progress});
-      it.words->push_back({.kind = LeafWord::Kind::Held, .progress = state.progress});
+      it.words->push_back({.kind = LeafWord::Kind::Held, .progress = progress});
     }
   }
 
   // A word for each tick that it got.
   void add(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls, Leaf& it) const {
-    take_progress(tick.nodes[it.node], it);
+    const double progress = progress_at(tick, it.node, 0);
+    take_progress(progress, it);
     it.before = tick.nodes[it.node];
+    it.before.progress = progress;
     if (it.before.ticked) it.still = 0;
     for (const RecordedCalls::Call& call : calls) {
       Status status = tick.moments.empty() ? results_.of(tick, it.node) : call.status;
       if (status == Status::Idle) status = Status::Running;
-      add_word(tick, it, status, call.begins);
+      const double after = call.next ? progress_at(tick, it.node, *call.next) : progress;
+      add_word(tick, it, status, call.begins, after);
     }
   }
 
-  void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins) const {
+  // `progress`: after it; the next tick may tell better.
+  void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins,
+                double progress) const {
     if (may_be_of_script(tree_, it.leaf->node, status, begins)) return;
     LeafWord word{.status = status};
-    if (status == Status::Running) word.progress = tick.nodes[it.node].progress;
+    if (status == Status::Running) word.progress = progress;
     for (const RecordedFault& fault : tick.faults) {
       if (fault.node == it.node) word.kind = LeafWord::Kind::Fault;
     }

@@ -13,14 +13,16 @@ struct RecordedRun {
   std::string nodes;   // of the tree
   std::string leaves;  // NAME.leaves or a leaf file; "": those of plugins
   std::string name = "t.leaves.xml";
+  std::string root = R"(lockstep="1")";
 };
 
 // The scenario that is made of the run, if the run is the same when it is played.
 std::string scenario_of(const RecordedRun& it, int seed = 0) {
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
-<plugin name="fetch"/><BehaviorTree ID="T">)" + it.nodes +
-                                                       "</BehaviorTree></root>");
+  const std::string tree = directory.file("t.xml",
+                                          "<root " + it.root +
+                                              R"(><plugin name="motion"/><plugin name="fetch"/>
+<BehaviorTree ID="T">)" + it.nodes + "</BehaviorTree></root>");
   const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
   std::vector<std::string> command = {
       "run",         tree,     "--rate",   "10",     "--clock",
@@ -147,6 +149,41 @@ TEST_CASE("the scenario of a recording is the run once more, whatever its leaves
       scenario_of({it, fmt::format(R"(<leaves lockstep="1"><leaf of="Advance" ticks="1..7"
 result="success;failure" progress="grid:10" step="0..3" held="{}"/></leaves>)",
                                    held)},
+                  seed);
+    }
+  }
+}
+
+TEST_CASE("the scenario of a run with several moments in a tick has the progress in each of them") {
+  const std::string for_other = R"(BTCPP_format="4")";
+  // `x` is held in the second moment, at what its tick in the first one has led to.
+  const std::string held = scenario_of(
+      {R"(<ParallelRelative delta="0"><RetryUntilSuccessful num_attempts="3"><AlwaysFailure/>
+</RetryUntilSuccessful><KeepRunningUntilFailure><Advance name="x"/></KeepRunningUntilFailure>
+</ParallelRelative>)",
+       "@rate 10\nT/ParallelRelative/KeepRunningUntilFailure/x = R0.6 R0.7\n", "t.leaves",
+       for_other});
+  CHECK(contains(held, R"(/x" does="R0.6"/>)"));
+  // It begins again in the moment in which it has succeeded, so it ends the tick with 0.
+  const std::string again = scenario_of(
+      {R"(<Repeat num_cycles="2"><ParallelRelative delta="1"><Advance name="x"/></ParallelRelative>
+</Repeat>)",
+       "@rate 10\nT/Repeat/ParallelRelative/x = R0.3 S R0.1 S\n", "t.leaves", for_other});
+  CHECK(contains(again, R"(/x" does="R0.3 S R0.1 S"/>)"));
+  for (const char* nodes :
+       {R"(<ParallelRelative delta="0.2"><RetryUntilSuccessful num_attempts="3"><BatteryAbove/>
+</RetryUntilSuccessful><Inverter><Advance name="a"/></Inverter></ParallelRelative>)",
+        R"(<Repeat num_cycles="4"><ParallelAbsolute barriers="0.3;0.6" failure_count="2">
+<Advance name="a"/><KeepRunningUntilFailure><Advance name="b"/></KeepRunningUntilFailure>
+<RetryUntilSuccessful num_attempts="2"><Advance name="c"/></RetryUntilSuccessful>
+</ParallelAbsolute></Repeat>)",
+        R"(<WhileDoElse><ParallelRelative delta="0.5" success_count="1"><Advance name="a"/>
+</ParallelRelative><Repeat num_cycles="2"><ForceSuccess><Advance name="b"/></ForceSuccess></Repeat>
+<ParallelRelative delta="1"><Advance name="c"/><BatteryAbove/></ParallelRelative></WhileDoElse>)"}) {
+    for (int seed = 0; seed < 12; ++seed) {
+      scenario_of({nodes, R"(<leaves lockstep="1"><leaf of="Advance" ticks="1..5"
+result="success;failure" progress="grid:10" step="0..3"/></leaves>)",
+                   "t.leaves.xml", for_other},
                   seed);
     }
   }

@@ -191,6 +191,26 @@ TickMoment moment_from(JsonValue value, std::size_t nodes, std::vector<MomentCha
   return moment;
 }
 
+LeafProgress leaf_progress_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "leaf_progress is not [moment, index, progress]";
+  if (!value.is_list()) throw JsonError(kNone);
+  LeafProgress progress;
+  unsigned field = 0;
+  value.each_item([&](JsonValue item) {
+    if (field == 0) {
+      if (!item.get(progress.moment)) throw JsonError(kNone);
+    } else if (field == 1) {
+      progress.node = node_from(item, nodes, kNone);
+    } else if (field > 2 || !item.get(progress.progress) || !(progress.progress >= 0) ||
+               progress.progress > 1) {
+      throw JsonError(kNone);
+    }
+    ++field;
+  });
+  if (field != 3) throw JsonError(kNone);
+  return progress;
+}
+
 NodeTotals totals_from(JsonValue value, std::size_t nodes) {
   constexpr char kNone[] =
       "counts are not [index, succeeded, failed, skipped, halted, held, faults]";
@@ -345,7 +365,7 @@ MomentsView RecordingJson::moments(const std::vector<RecordedState>& states) {
     MomentChange& it = moment_changes_[i];
     it.after = std::exchange(first_moment_[it.node], it.before);
   }
-  return {first_moment_, moments_, moment_changes_, totals_};
+  return {first_moment_, moments_, moment_changes_, totals_, leaf_progress_};
 }
 
 RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedState>& states) {
@@ -361,6 +381,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   moments_.clear();
   moment_changes_.clear();
   totals_.clear();
+  leaf_progress_.clear();
   entries_.clear();
   logs_.clear();
   const auto read_nodes = [&](JsonValue value) {
@@ -391,6 +412,14 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
       moments_.push_back(moment_from(it, states.size(), moment_changes_));
     });
   };
+  const auto read_leaf_progress = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) {
+      if (leaf_progress_.size() == Moments::most_progress(states.size())) {
+        throw JsonError("more leaf_progress than a tick has");
+      }
+      leaf_progress_.push_back(leaf_progress_from(it, states.size()));
+    });
+  };
   const auto read_more = [&](JsonValue value) {
     value.each_item([&](JsonValue it) { totals_.push_back(totals_from(it, states.size())); });
   };
@@ -416,6 +445,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["rounds"], read_rounds, kMayLack},
          {lines::kTick["succeeded"], read_succeeded, kMayLack},
          {lines::kTick["moments"], read_moments, kMayLack},
+         {lines::kTick["leaf_progress"], read_leaf_progress, kMayLack},
          {lines::kTick["more"], read_more, kMayLack},
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},

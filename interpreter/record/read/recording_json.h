@@ -38,6 +38,7 @@ class RecordingJson {
   std::vector<TickMoment> moments_;
   std::vector<MomentChange> moment_changes_;
   std::vector<NodeTotals> totals_;
+  std::vector<LeafProgress> leaf_progress_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<RecordedEntry> whole_;

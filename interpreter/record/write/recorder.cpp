@@ -47,7 +47,7 @@ Recorder::Recorder(const Tree& tree, RecorderOptions options)
       bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}
 
 void Recorder::run_started(Ticker& ticker, const RunStart& start) {
-  ticker.keep_moments();
+  ticker.keep_moments_with_progress();
   may_wait_ = !start.real_time;
   const std::string header = packets_.header(start);
   if (options_.rotation.is_wanted()) file_.set_header(header);

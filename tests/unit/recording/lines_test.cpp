@@ -249,6 +249,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const TickMoment moment{.times = 3, .changes = 1};
   const MomentChange of_moment{
       .node = 2, .before = NodeState::of(Activity::Success, true), .after = {}};
+  const LeafProgress progress{.moment = 0, .node = 2, .progress = 0.5};
   const NodeTotals more{.node = 1, .after = {}, .counts = {1, 2, 3, 4, 5}};
   char room[json_lines::kMostAtOnce];
   std::string text(room, json_lines::put_tick(room, tick, Nanoseconds(0)));
@@ -260,7 +261,8 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
                                  .moments = {.first = {},
                                              .moments = {&moment, 1},
                                              .changes = {&of_moment, 1},
-                                             .rest = {&more, 1}},
+                                             .rest = {&more, 1},
+                                             .progress = {&progress, 1}},
                                  .faults = {&fault, 1},
                                  .entries = {&entry, 1},
                                  .logs = {&log, 1},

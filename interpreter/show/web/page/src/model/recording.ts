@@ -15,6 +15,7 @@ export type EntryValue = [index: number, value: string | null];
 export type LogLine = [who: string, level: string, text: string];
 export type NodeCounts = [index: number, succeeded: number, failed: number, skipped: number, halted: number, held: number, faults: number];
 export type EntryCount = [index: number, values: number];
+export type LeafProgress = [moment: number, index: number, progress: number];
 
 export interface Header {
   lockstep_recording: number;
@@ -41,6 +42,7 @@ export interface TickLine {
   rounds?: RoundChange[];
   succeeded?: number[];
   moments?: Moment[];
+  leaf_progress?: LeafProgress[];
   more?: NodeCounts[];
   faults?: Fault[];
   entries?: EntryValue[];
