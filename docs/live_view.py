@@ -65,7 +65,8 @@ def picture():
         recording = directory + "/run.jsonl"
         lockstep("run", str(DOCS.parent / "trees/door_pulling.xml"), "--clock", "virtual", "--view", "none", "--record", recording)
         frames = [lockstep("replay", recording, "--at", str(tick), "--print").splitlines() for tick in TICKS]
-    width, height = 720, 2 * MARGIN + LINE * len(frames[0])
+    columns = max(len(line) for lines in frames for line in lines)
+    width, height = round(2 * MARGIN + (columns + 2) * CHARACTER), 2 * MARGIN + LINE * len(frames[0])
     share = 100 / len(frames)
     out = f'''<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" role="img">
 <title>The live view: an arm pulls a door open, and the base waits for it at three barriers</title>
