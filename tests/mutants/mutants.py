@@ -61,11 +61,11 @@ def copy_sources(to):
 def outcome(copy):
     """What notices the change that is made in the copy, or "survived"."""
     targets = [f"test_{program}" for program in PROGRAMS]
-    if subprocess.run(["cmake", "--build", "build/dev", "--target", *targets], cwd=copy, capture_output=True).returncode:
+    if subprocess.run(["cmake", "--build", "build/release", "--target", *targets], cwd=copy, capture_output=True).returncode:
         return "the compiler"
     for target in targets:
         try:
-            ran = subprocess.run([f"build/dev/tests/{target}", "--abort"], cwd=copy, capture_output=True, timeout=LONGEST)
+            ran = subprocess.run([f"build/release/tests/{target}", "--abort"], cwd=copy, capture_output=True, timeout=LONGEST)
         except subprocess.TimeoutExpired:
             return f"{target}, which never ends"
         if ran.returncode:

@@ -9,7 +9,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const SOURCE = join(dirname(fileURLToPath(import.meta.url)), "../..");
-export const BUILD = process.env.LOCKSTEP_BUILD ?? join(SOURCE, "build/dev");
+export const BUILD = process.env.LOCKSTEP_BUILD ?? join(SOURCE, "build/release");
 const require = createRequire(join(SOURCE, "interpreter/show/web/page/package.json"));
 const { chromium } = require("playwright-core");
 const AXE = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");

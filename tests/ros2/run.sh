@@ -22,15 +22,15 @@ if [ "${1:-}" = --build ]; then
   shift
   python=-DPython3_EXECUTABLE=/usr/bin/python3
   cmake -S plugins/ros2 -B build/ros2/plugin -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo $python \
-    -Dlockstep_DIR="$PWD/build/dev/cmake/lockstep" >/dev/null
+    -Dlockstep_DIR="$PWD/build/release/cmake/lockstep" >/dev/null
   cmake --build build/ros2/plugin
   # An interface package is used from where it is installed.
   cmake -S plugins/lockstep_ros -B build/ros2/lockstep_ros -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo $python \
-    -Dlockstep_DIR="$PWD/build/dev/cmake/lockstep" -DCMAKE_INSTALL_PREFIX="$PWD/build/ros2/installed" >/dev/null
+    -Dlockstep_DIR="$PWD/build/release/cmake/lockstep" -DCMAKE_INSTALL_PREFIX="$PWD/build/ros2/installed" >/dev/null
   cmake --build build/ros2/lockstep_ros
   cmake --install build/ros2/lockstep_ros >/dev/null
   cmake -S tests/ros2 -B build/ros2/tests -G Ninja -DCMAKE_BUILD_TYPE=Release $python \
-    -Dlockstep_DIR="$PWD/build/dev/cmake/lockstep" -Dlockstep_ros_DIR="$PWD/build/ros2/installed/share/lockstep_ros/cmake" \
+    -Dlockstep_DIR="$PWD/build/release/cmake/lockstep" -Dlockstep_ros_DIR="$PWD/build/ros2/installed/share/lockstep_ros/cmake" \
     >/dev/null
   cmake --build build/ros2/tests
 elif [ ! -e build/ros2/plugin/ros2.so ] || [ ! -e build/ros2/tests/counting_server ]; then

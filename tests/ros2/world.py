@@ -12,7 +12,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SERVERS = ROOT / "build/ros2/tests"
 TREE_SERVER = ROOT / "build/ros2/installed/lib/lockstep_ros/tree_server"
-LOCKSTEP = pathlib.Path(os.environ.get("LOCKSTEP", ROOT / "build/dev/lockstep"))
+LOCKSTEP = pathlib.Path(os.environ.get("LOCKSTEP", ROOT / "build/release/lockstep"))
 PLUGINS = ROOT / "build/ros2/plugin"
 
 
