@@ -19,6 +19,7 @@ DONE = [
     "docs/new.md",
     "docs/plugins.md",
     "docs/programs.md",
+    "docs/properties.md",
     "docs/recipes.md",
     "docs/testing.md",
     "docs/tutorial.md",
