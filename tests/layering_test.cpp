@@ -379,7 +379,8 @@ TEST_CASE("layers: no files of the page import each other in a circle") {
 // is the last stage that reads it, and a place needs only its text.
 TEST_CASE("layers: no stage after the check sees a document") {
   std::vector<std::string> files{
-      "interpreter/tree/check/references.cpp", "interpreter/engine/compile.cpp",
+      "interpreter/tree/check/references.cpp", "interpreter/tree/paths.cpp",
+      "interpreter/engine/compile.cpp",        "interpreter/run/loading/tree_properties.cpp",
       "interpreter/describe/tree_drawing.cpp", "interpreter/describe/tree_graph.cpp",
       "interpreter/describe/tree_lines.cpp"};
   for (const char* folder : {"expand", "types", "advise"}) {

@@ -1,9 +1,6 @@
 #include "engine/compile.h"
 
 #include <algorithm>
-#include <array>
-#include <list>
-#include <memory_resource>
 #include <numeric>
 #include <string>
 #include <unordered_map>
@@ -14,6 +11,7 @@
 #include "engine/node_scripts.h"
 #include "engine/nodes/kinds.h"
 #include "engine/resources.h"
+#include "tree/paths.h"
 
 namespace lockstep::host {
 namespace {
@@ -448,47 +446,19 @@ class Compiler {
       bytes += is_own(node) ? node.name.size() : 0;
     names->reserve(bytes);  // exactly, so that the views stay
     tree_.labels.reserve(definition_.nodes.size());
+    const std::vector<std::uint32_t> numbers = sibling_numbers(definition_);
     for (const DefinitionNode& node : definition_.nodes) {
       std::string_view name = node.type->id;
       if (is_own(node)) {
         names->append(node.name);
         name = std::string_view(*names).substr(names->size() - node.name.size());
       }
-      tree_.labels.push_back({.name = name, .type = node.type, .parent = node.parent});
+      tree_.labels.push_back({.name = name,
+                              .type = node.type,
+                              .parent = node.parent,
+                              .repeat = numbers[tree_.labels.size()]});
     }
     tree_.names = std::move(names);
-    for (const Group& group : tree_.groups) {  // beside the root, whose name may be the same
-      if (tree_.labels[group.node].name == tree_.labels[0].name)
-        tree_.labels[group.node].repeat = 2;
-    }
-    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
-      if (tree_.nodes[node].children > 1) make_segments_unique(node);
-    }
-  }
-
-  // The second child called "arm" becomes "arm#2", or the next number that is free.
-  void make_segments_unique(NodeIndex parent) {
-    bool numbered = false;  // else nobody is called "arm#2" from the start
-    for (const NodeIndex child : children_in(tree_.nodes, parent)) {
-      numbered |= tree_.labels[child].name.find('#') != std::string_view::npos;
-    }
-    std::array<std::byte, 2048> enough_for_few;
-    std::pmr::monotonic_buffer_resource memory(enough_for_few.data(), enough_for_few.size());
-    std::pmr::unordered_map<std::string_view, std::uint32_t> taken(&memory);  // and the last number
-    taken.reserve(tree_.nodes[parent].children);
-    std::list<std::string> segments;
-    for (const NodeIndex child : children_in(tree_.nodes, parent)) {
-      std::uint32_t& repeat = tree_.labels[child].repeat;
-      const auto [entry, is_new] = taken.try_emplace(tree_.labels[child].name, 1);
-      if (is_new) continue;
-      std::uint32_t& last = entry->second;
-      repeat = last;
-      do {
-        ++repeat;
-      } while (numbered &&
-               !taken.try_emplace(segments.emplace_back(tree_.segment(child)), 1).second);
-      last = repeat;
-    }
   }
 
   const Definition& definition_;

@@ -101,6 +101,7 @@ struct CheckedTrees {
   std::list<std::string> texts;                   // that are not as the documents have them
   std::map<std::string_view, CheckedTree> trees;  // by the ID of the BehaviorTree
   std::vector<std::string_view> ids;              // as they stand in the documents
+  std::vector<WrittenProperty> properties;        // of the main file
   std::vector<CheckedNode> groups;                // declared beside the trees; names are distinct
   bool shares_entries = false;                    // Definition::shares_entries
   bool has_outside = false;                       // "@key" is of a board outside of the main tree

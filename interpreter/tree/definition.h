@@ -87,6 +87,12 @@ struct DefinitionGroup {
   std::uint32_t rank = 0;                   // before each tick, lower ranks are ticked first
 };
 
+// A property that the main file declares. Its text names nodes of the expanded tree.
+struct WrittenProperty {
+  std::string_view name, text;
+  Place place;  // of the text
+};
+
 struct Definition {
   std::string_view id;
   const LanguageRules* rules = &kLockstepRules;
@@ -96,6 +102,7 @@ struct Definition {
   std::vector<Port> ports;
   std::vector<BlackboardEntry> entries;
   std::vector<WrittenAttribute> written = {};
+  std::vector<WrittenProperty> properties = {};
   std::vector<DefinitionGroup> groups = {};  // in the order of their nodes
   std::vector<NodeHooks> hooks = {};
   std::vector<BoundScript> scripts = {};

@@ -88,6 +88,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   Definition definition =
       expand(trees, *main, options.values, report, Expansion::OfMain, options.later);
   definition.stand_ins = stand_ins;
+  definition.properties = std::move(trees.properties);
   if (rules.checks_unused_trees) check_unused(trees, *main, report);
   resolve_resources(definition, report);
   if (report.has_errors()) return std::nullopt;

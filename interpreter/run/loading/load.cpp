@@ -96,7 +96,7 @@ tl::expected<Meaning, LoadFailure> meaning_of(const Project* project, const Load
   }
   if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
   if (!definition) return tl::unexpected(LoadFailure::NothingToRun);
-  auto properties = tree_properties(*project, *definition, diagnostics);
+  auto properties = tree_properties(*definition, Reporter(project->sources, diagnostics));
   if (const auto wrong = failure_of(project, diagnostics)) return tl::unexpected(*wrong);
   return Meaning{std::move(definition).value(), std::move(properties)};
 }

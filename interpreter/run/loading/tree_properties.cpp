@@ -1,36 +1,37 @@
 #include "run/loading/tree_properties.h"
 
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "base/core/pre_order.h"
-#include "engine/compile.h"
-#include "judge/measure/live_properties.h"
-#include "language/document/reporter.h"
+#include "base/core/parameter_value.h"
+#include "tree/paths.h"
 
 namespace lockstep::host {
+namespace {
 
-std::vector<Property> tree_properties(const Project& project, const Definition& definition,
-                                      Diagnostics& diagnostics) {
+PropertyNames property_names(const Definition& definition) {
+  PropertyNames names{.paths = paths_of(definition), .entries = {}};
+  for (const BlackboardEntry& it : definition.entries) {
+    names.entries.push_back(
+        {it.name, std::string(type_name(it.type, it.object)), it.typing == Typing::Strict});
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Property> tree_properties(const Definition& definition, const Reporter& report) {
   std::vector<Property> properties;
-  std::optional<PropertyNames> names;  // made for the first
-  const Reporter report(project.sources, diagnostics);
-  const Document& document = *project.documents.front();
-  const auto elements = document.elements();
-  for (const std::uint32_t child : children_in(elements, 0)) {
-    if (elements[child].tag != "property") continue;
-    const Attribute* const text = document.find_attribute(child, "");
-    const Attribute* const name = document.find_attribute(child, "name");
-    if (text == nullptr || name == nullptr) continue;  // another language
-    if (!names) names = property_names(shape_of(compile(definition)));
-    auto property = Property::parse(text->value, *names);
+  if (definition.properties.empty()) return properties;
+  const PropertyNames names = property_names(definition);
+  for (const WrittenProperty& it : definition.properties) {
+    auto property = Property::parse(it.text, names);
     if (!property) {
       const PropertyError& error = property.error();
-      report.in_value(text->place, error.offset, error.message, error.hint);
+      report.in_value(it.place, error.offset, error.message, error.hint);
       continue;
     }
-    property->set_name(std::string(name->value));
+    property->set_name(std::string(it.name));
     properties.push_back(std::move(*property));
   }
   return properties;

@@ -3,16 +3,13 @@
 
 #include <vector>
 
-#include "base/core/diagnostics.h"
-#include "language/document/project.h"
+#include "language/document/reporter.h"
 #include "language/property/property.h"
 #include "tree/definition.h"
 
 namespace lockstep::host {
 
-// Those of the main file. What a file that it includes says of its own trees does not count.
 // Reports what is wrong with them, at its place.
-std::vector<Property> tree_properties(const Project& project, const Definition& definition,
-                                      Diagnostics& diagnostics);
+std::vector<Property> tree_properties(const Definition& definition, const Reporter& report);
 
 }  // namespace lockstep::host

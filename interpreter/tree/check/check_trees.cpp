@@ -155,24 +155,30 @@ class TreeChecker {
     if (element(index).end > index + 1) {
       report_.at(element(index + 1).place, "'property' cannot contain elements");
     }
-    bool has_name = false, has_text = false;
+    const Attribute* name = nullptr;
+    const Attribute* text = nullptr;
     for (const Attribute& attribute : attributes(index)) {
-      has_text |= attribute.name.empty();
-      if (attribute.name == "name") {
-        has_name = true;
+      if (attribute.name.empty()) {
+        text = &attribute;
+      } else if (attribute.name == "name") {
+        name = &attribute;
         check_property_name(attribute);
-      } else if (!attribute.name.empty() && attribute.name != "_description") {
+      } else if (attribute.name != "_description") {
         report_.at(attribute.place,
                    fmt::format("'property' has no attribute '{}'", brief(attribute.name)),
                    "attributes of 'property': name");
       }
     }
-    if (!has_name) {
+    if (name == nullptr) {
       report_.at(place, "'property' needs the attribute 'name'", "write <property name=\"…\">");
     }
-    if (!has_text) {
+    if (text == nullptr) {
       report_.at(place, "the property says nothing",
                  "write it as text: <property name=\"…\">never arm.failure</property>");
+    }
+    const bool is_of_main = document_ == project_.documents.front().get();
+    if (is_of_main && name != nullptr && text != nullptr) {
+      trees_.properties.push_back({name->value, text->value, text->place});
     }
   }
 
