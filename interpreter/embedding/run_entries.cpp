@@ -58,7 +58,7 @@ template <class T, class Where>
 const T* find_value(lockstep_run* run, Where where) {
   const Entry* const entry = find_entry(run, where);
   if (entry == nullptr) return nullptr;
-  const T* const found = std::get_if<T>(&entry->value);
+  const T* const found = std::get_if<T>(&entry->value());
   if (found == nullptr) fail_to_read(*run, *entry);
   return found;
 }
@@ -82,12 +82,12 @@ bool get(lockstep_run* run, Where where, double* value) {
     if (value == nullptr) return fail("an argument is NULL");
     const Entry* const entry = find_entry(run, where);
     if (entry == nullptr) return false;
-    const auto* const whole = std::get_if<std::int64_t>(&entry->value);
+    const auto* const whole = std::get_if<std::int64_t>(&entry->value());
     if (whole != nullptr) {
       *value = static_cast<double>(*whole);
       return true;
     }
-    const auto* const number = std::get_if<double>(&entry->value);
+    const auto* const number = std::get_if<double>(&entry->value());
     if (number == nullptr) return fail_to_read(*run, *entry);
     *value = *number;
     return true;
@@ -109,8 +109,7 @@ bool get_list(lockstep_run* run, Where where, const Item** items, std::size_t* c
 }
 
 bool write(Entry& entry, Value value) {
-  entry.value = std::move(value);
-  ++entry.writes;
+  entry.assign(std::move(value));
   return true;
 }
 
@@ -152,7 +151,7 @@ bool set(lockstep_run* run, Where where, std::int64_t value) {
     const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
     return entry != nullptr &&
-           (entry->typing == Typing::Any ? std::holds_alternative<double>(entry->value)
+           (entry->typing == Typing::Any ? std::holds_alternative<double>(entry->value())
                                          : entry->type == ValueType::Double);
   });
   const auto real = static_cast<double>(value);
@@ -181,7 +180,7 @@ const char* get_text(lockstep_run* run, Where where) {
       fail_to_read(*run, *entry);
       return nullptr;
     }
-    run->text = to_text(entry->value);
+    run->text = to_text(entry->value());
     return run->text.c_str();
   });
 }
@@ -240,7 +239,7 @@ lockstep_type value_type(lockstep_run* run, Where where) {
     const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
     // The types of the contract have the numbers of the alternatives.
-    return entry == nullptr ? 0 : static_cast<lockstep_type>(entry->value.index());
+    return entry == nullptr ? 0 : static_cast<lockstep_type>(entry->value().index());
   });
 }
 
@@ -251,7 +250,7 @@ void* get_object(lockstep_run* run, Where where, const lockstep_object_type* typ
     const InEngine scope(lock_of(run));
     const Entry* const entry = find_entry(run, where);
     if (entry == nullptr || !has_objects(*run, *entry, type)) return nullptr;
-    const Object* const found = std::get_if<Object>(&entry->value);
+    const Object* const found = std::get_if<Object>(&entry->value());
     if (found == nullptr) fail_to_read(*run, *entry);
     return found == nullptr ? nullptr : found->get();
   });

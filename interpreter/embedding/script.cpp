@@ -36,7 +36,7 @@ bool take(lockstep_script& script, const lockstep_entry_value* values) {
     if (value.declared != 0 && !assign(entry, value)) {
       return fail(fmt::format("'{}' has no value of its type", script.code.names()[i]));
     }
-    entry.writes = 0;
+    entry.count_from(0);
   }
   return true;
 }
@@ -44,7 +44,7 @@ bool take(lockstep_script& script, const lockstep_entry_value* values) {
 lockstep_entry_value given_back(lockstep_script& script, const Entry& entry) {
   lockstep_entry_value value = described(entry, script.texts.emplace_back());
   if (!entry.is_present) value.declared = 0;
-  value.writes = entry.writes;
+  value.writes = entry.writes();
   return value;
 }
 
@@ -52,8 +52,8 @@ bool run(lockstep_script& script, lockstep_entry_value* values, lockstep_entry_v
   if (!take(script, values)) return false;
   std::vector<Entry*> entries;
   for (Entry& entry : script.entries) entries.push_back(&entry);
-  script.result = {.value = {}, .typing = Typing::Any};
-  const bool is_good = script.evaluator.evaluate(script.code, entries, script.result.value);
+  script.result = Entry(Typing::Any);
+  const bool is_good = script.evaluator.evaluate(script.code, entries, script.result.to_write());
   if (!is_good) fail(script.evaluator.error());
   for (std::size_t i = 0; i < script.entries.size(); ++i) {
     if (!write_struct(given_back(script, script.entries[i]), &values[i])) return false;

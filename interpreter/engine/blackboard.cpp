@@ -13,15 +13,12 @@ void Blackboard::reset(const Tree& tree) {
   names.reset();
   for (std::size_t slot = 0; slot < entries.size(); ++slot) {
     const Slot& it = tree.slots[slot];
+    Entry& entry = entries[slot];
+    entry = Entry(it.typing, it.type, it.object);
+    entry.is_present = it.is_present;
+    entry.assign(it.initial);
     // A start value counts as written where writes can be waited for.
-    const bool is_written =
-        it.typing != Typing::Strict && !std::holds_alternative<NoValue>(it.initial);
-    entries[slot] = {.value = it.initial,
-                     .writes = is_written ? 1u : 0u,
-                     .type = it.type,
-                     .typing = it.typing,
-                     .is_present = it.is_present,
-                     .object = it.object};
+    entry.count_from(it.typing != Typing::Strict && entry.has_value() ? 1 : 0);
   }
 }
 

@@ -90,7 +90,7 @@ bool BoundParameters::is_current(const BoundNode& node, const Values& values) co
     if (slot == PortBinding::kUnbound) continue;
     const Entry& entry = board_.entries[slot];
     // One that is not strict may have been removed and made again.
-    if (entry.typing != Typing::Strict || entry.writes != values.seen[i]) return false;
+    if (entry.typing != Typing::Strict || entry.writes() != values.seen[i]) return false;
   }
   return true;
 }
@@ -101,10 +101,10 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
   for (unsigned i = 0; i < values.values.size(); ++i) {
     const PortBinding& port = tree_.ports[node.first_port + i];
     const Entry* entry = port.slot == PortBinding::kUnbound ? nullptr : &board_.entries[port.slot];
-    const bool written = entry != nullptr && !std::holds_alternative<NoValue>(entry->value);
-    if (entry != nullptr) values.seen[i] = entry->writes;
+    const bool written = entry != nullptr && entry->has_value();
+    if (entry != nullptr) values.seen[i] = entry->writes();
     if (written) {
-      if (!take_value(type.parameters[i], entry->value, values.values[i])) {
+      if (!take_value(type.parameters[i], entry->value(), values.values[i])) {
         return unreadable(node, i);
       }
       if (const auto why = refuse_value(type.parameters[i], values.values[i])) {
@@ -176,7 +176,7 @@ std::string BoundParameters::refusal(const BoundNode& node, unsigned parameter,
   if (parameter < type.parameters.size()) {
     const std::uint32_t slot = tree_.ports[node.first_port + parameter].slot;
     if (slot != PortBinding::kUnbound) {
-      return refusal_text(why, type.parameters[parameter].name, board_.entries[slot].value,
+      return refusal_text(why, type.parameters[parameter].name, board_.entries[slot].value(),
                           tree_.slots[slot].name);
     }
   }

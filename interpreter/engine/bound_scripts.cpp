@@ -23,7 +23,7 @@ BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& na
     bound.comparison = script.code->comparison();
     bound.change = only_change(script.code->program().code);
     for (const std::uint32_t slot : script.slots) entries_.push_back(&board.entries[slot]);
-    if (bound.comparison != nullptr) bound.compared = &bound.entries.front()->value;
+    if (bound.comparison != nullptr) bound.compared = &bound.entries.front()->value();
   }
 }
 
@@ -57,7 +57,7 @@ void BoundScripts::reset() {
 bool BoundScripts::compile(NodeIndex node, std::uint32_t script) {
   Bound& it = scripts_[script];
   FromEntry& source = *it.source;
-  const Value& value = source.entry->value;
+  const Value& value = source.entry->value();
   const auto* const same = std::get_if<std::string>(&value);
   if (it.code != nullptr && same != nullptr && *same == source.text) return true;
   it.code = nullptr;

@@ -53,10 +53,10 @@ void Ticker::fold_entries() {
   for (const Node& node : tree_.nodes) {
     if (!node.kind->counts_writes) continue;
     const std::uint32_t slot = tree_.ports[node.params].slot;
-    if (slot < board_.entries.size()) kept.emplace_back(slot, board_.entries[slot].writes);
+    if (slot < board_.entries.size()) kept.emplace_back(slot, board_.entries[slot].writes());
   }
-  for (auto& entry : board_.entries) entry.writes = 0;
-  for (const auto& [slot, writes] : kept) board_.entries[slot].writes = writes;
+  for (auto& entry : board_.entries) entry.count_from(0);
+  for (const auto& [slot, writes] : kept) board_.entries[slot].count_from(writes);
   parameters_.reset();
 }
 

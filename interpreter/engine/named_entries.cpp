@@ -36,9 +36,7 @@ void NamedEntries::restore(const Made& from) {
 
 void NamedEntries::forget_objects() {
   for (auto& made : made_) {
-    for (auto& [key, entry] : made) {
-      if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
-    }
+    for (auto& [key, entry] : made) entry.forget_object();
   }
 }
 

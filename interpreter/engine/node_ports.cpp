@@ -8,7 +8,7 @@ const Value* NodePorts::value(NodeIndex node, unsigned index) const {
   const PortBinding& it = binding(node, index);
   if (it.slot != PortBinding::kUnbound) {
     const Entry& entry = entries_[it.slot];
-    if (entry.is_present && entry.has_value()) return &entry.value;
+    if (entry.is_present && entry.has_value()) return &entry.value();
   }
   return it.constant != PortBinding::kUnbound ? &tree_.constants[it.constant] : nullptr;
 }
@@ -19,7 +19,7 @@ std::optional<Entry*> NodePorts::named(NodeIndex node, unsigned index) {
   Entry& entry = entries_[it.slot];
   if (it.constant != PortBinding::kUnbound) return &entry;  // its name is in the tree
   const auto name =
-      entry.is_present ? convert_value(entry.value, ValueType::String, nullptr) : std::nullopt;
+      entry.is_present ? convert_value(entry.value(), ValueType::String, nullptr) : std::nullopt;
   if (!name) return std::nullopt;
   const auto& key = std::get<std::string>(*name);
   const bool own_only = tree_.labels[node].type->parameters[index].own_only;

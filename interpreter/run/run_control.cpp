@@ -66,8 +66,7 @@ void RunControl::set(Entry& entry, const Order& order) {
   if (entry.typing != Typing::Any) {
     write_entry(entry, order.type, nullptr, order.value);
   } else {
-    entry.value = order.value;
-    ++entry.writes;
+    entry.assign(order.value);
   }
 }
 

@@ -87,7 +87,7 @@ void Judge::tell_violated(std::size_t property, const std::string& when, const T
     const Entry& entry = ticker.blackboard().entries[comparison.entry];
     surprise.more.push_back(fmt::format(
         "{{{}}} is {}", tree_.slots[comparison.entry].name,
-        entry.has_value() ? brief(to_text(entry.value)) : std::string("without a value")));
+        entry.has_value() ? brief(to_text(entry.value())) : std::string("without a value")));
   }
   surprises_.push_back(std::move(surprise));
 }

@@ -215,7 +215,7 @@ void Expander::tell(News::Kind kind, std::size_t which, const Step& step, Chunk&
 // An entry with more and more values has no end of states.
 void Expander::look_at_values(const Step& step, Chunk& into) {
   for (auto& [slot, known] : values_) {
-    const Value& value = stepper_.ticker().blackboard().entries[slot].value;
+    const Value& value = stepper_.ticker().blackboard().entries[slot].value();
     if (std::holds_alternative<NoValue>(value) || known.size() > limits_.values) continue;
     const auto [it, is_new] = known.insert(to_text(value));
     if (is_new) into.news.push_back({News::Kind::EntryValue, slot, step.combination, *it});

@@ -44,7 +44,7 @@ class FixedConditions {
       it.has_other = it.has_other || ticker.status(it.node) != it.fixed;
     }
     for (auto& [slot, text] : values_) {
-      const Value& value = ticker.blackboard().entries[slot].value;
+      const Value& value = ticker.blackboard().entries[slot].value();
       const std::string now = std::holds_alternative<NoValue>(value) ? "no value" : to_text(value);
       if (text.empty()) text = now;
       if (text != now) text = kOthers;

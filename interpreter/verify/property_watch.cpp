@@ -68,7 +68,7 @@ void PropertyWatch::compare(Part& part, std::byte* compared, Ticker& ticker,
                              : comparisons[i].holds_for(Value(fact == FactState::True), room_);
       continue;
     }
-    const Value& value = ticker.blackboard().entries[comparisons[i].entry].value;
+    const Value& value = ticker.blackboard().entries[comparisons[i].entry].value();
     if (!std::holds_alternative<NoValue>(value)) {
       compared[i] = static_cast<std::byte>(comparisons[i].holds_for(value, room_));
     }

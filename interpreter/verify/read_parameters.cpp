@@ -12,8 +12,8 @@ namespace {
 // One that was read from such an entry would be read again.
 bool is_same(const Entry& one, const Entry& other) {
   return one.typing == Typing::Strict && other.typing == Typing::Strict &&
-         one.writes == other.writes && one.is_present == other.is_present &&
-         one.value == other.value;
+         one.writes() == other.writes() && one.is_present == other.is_present &&
+         one.value() == other.value();
 }
 
 std::size_t count_known(const BoundParameters::State& state) {

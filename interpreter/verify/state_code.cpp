@@ -236,9 +236,9 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
   writer.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {
     const Entry& entry = ticker.blackboard().entries[slot];
-    writer.plain(static_cast<std::uint8_t>(entry.value.index() | (entry.is_present ? 16u : 0u)));
-    std::visit(writer, entry.value);
-    writer.number(entry.writes);
+    writer.plain(static_cast<std::uint8_t>(entry.value().index() | (entry.is_present ? 16u : 0u)));
+    std::visit(writer, entry.value());
+    writer.number(entry.writes());
     if (fresh_.entries[slot].typing != Typing::Strict) {
       writer.plain(entry.typing);
       writer.plain(entry.type);
@@ -306,8 +306,8 @@ void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
     entry = fresh_.entries[slot];
     const auto head = reader.plain<std::uint8_t>();
     entry.is_present = (head & 16u) != 0;
-    entry.value = reader.value(head & 15u);
-    entry.writes = static_cast<std::uint32_t>(reader.number());
+    entry.assign(reader.value(head & 15u));
+    entry.count_from(static_cast<std::uint32_t>(reader.number()));
     if (fresh_.entries[slot].typing != Typing::Strict) {
       entry.typing = reader.plain<Typing>();
       entry.type = reader.plain<ValueType>();

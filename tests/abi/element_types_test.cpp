@@ -58,7 +58,7 @@ struct Shapes {
     std::string text;
     for (std::size_t slot = 0; slot < runnable->tree.slots.size(); ++slot) {
       text += (text.empty() ? "" : " ") + runnable->tree.slots[slot].name + "=" +
-              to_text(run.blackboard().entries[slot].value);
+              to_text(run.blackboard().entries[slot].value());
     }
     return text;
   }

@@ -52,7 +52,7 @@ struct Delivery {
     if (run.fault() != nullptr) return run.fault()->message;
     std::string text;
     for (std::size_t slot = 0; slot < runnable->tree.slots.size(); ++slot) {
-      const Value& value = run.blackboard().entries[slot].value;
+      const Value& value = run.blackboard().entries[slot].value();
       if (runnable->tree.slots[slot].name == "p") {
         process = std::get<std::int64_t>(value);
         continue;

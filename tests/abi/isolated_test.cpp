@@ -161,12 +161,12 @@ TEST_CASE("isolated: ports of one entry are one, for a leaf and between leaves")
       slot.type->tick(slot.self);
       CHECK(slot.error == nullptr);
     };
-    blackboard.entries[kStringIn].value = std::string("ab");
+    blackboard.entries[kStringIn].assign(std::string("ab"));
     tick(0);  // sees a size of 2, and then sets a string of that size
-    CHECK(std::get<std::string>(blackboard.entries[kStringIn].value) == "xx");
-    CHECK(std::get<std::int64_t>(blackboard.entries[kSeen].value) == 2);
+    CHECK(std::get<std::string>(blackboard.entries[kStringIn].value()) == "xx");
+    CHECK(std::get<std::int64_t>(blackboard.entries[kSeen].value()) == 2);
     tick(1);
-    CHECK(std::get<std::string>(blackboard.entries[kStringOut].value) == "xx");
+    CHECK(std::get<std::string>(blackboard.entries[kStringOut].value()) == "xx");
   }
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("isolated: runs at the same time have processes of their own") {
       }
       const LeafSlot& slot = set.slots()[0];
       for (int tick = 0; tick < 100; ++tick) slot.type->tick(slot.self);
-      process = std::get<std::int64_t>(blackboard.entries[kProcess].value);
+      process = std::get<std::int64_t>(blackboard.entries[kProcess].value());
     });
   }
   for (std::thread& thread : threads) thread.join();

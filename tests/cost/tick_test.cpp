@@ -200,8 +200,7 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
   std::string line;
   line.reserve(json_lines::most_of_tick_end(0, 0, 1));
   const auto tick = [&](double value) {
-    board.entries[0].value = value;
-    ++board.entries[0].writes;
+    board.entries[0].assign(value);
     json_lines::set_tick_end(line, {.entries = changes.changes(board)});
     changes.keep();
   };
@@ -265,8 +264,8 @@ TEST_CASE("a feed takes snapshots and entries that change without allocating or 
   const auto tick = [&](std::uint64_t number) {
     const Nanoseconds now = deadline_of(number, 100);
     run.set_now(now);
-    std::get<std::vector<double>>(board.entries[0].value)[0] = 0.3 / static_cast<double>(number);
-    ++board.entries[0].writes;
+    std::get<std::vector<double>>(board.entries[0].to_write())[0] =
+        0.3 / static_cast<double>(number);
     feed.after_tick(run.ticker(), {number, now, run.tick(now)});
   };
   for (std::uint64_t number = 1; number <= 10; ++number) tick(number);
@@ -286,9 +285,9 @@ TEST_CASE("a script allocates nothing for numbers, and for texts only when it ru
         "z == 'another text' || z .. z == 'a text'"}) {
     INFO(text);
     std::vector<Entry> board(3);
-    board[0].value = std::int64_t{5};
-    board[1].value = 1.5;
-    board[2].value = std::string("a text that takes memory, since it is too long for a string");
+    board[0].assign(std::int64_t{5});
+    board[1].assign(1.5);
+    board[2].assign(std::string("a text that takes memory, since it is too long for a string"));
     const auto script = Expression::parse(text);
     REQUIRE(script.has_value());
     std::vector<Entry*> entries;

@@ -105,7 +105,7 @@ TEST_CASE("an entry with an object has the text of the object") {
   Run run(pipeline.tree(), {});
   run.tick(Nanoseconds(0));
   for (std::size_t slot = 0; slot < pipeline.tree().slots.size(); ++slot) {
-    const std::string text = to_text(run.blackboard().entries[slot].value);
+    const std::string text = to_text(run.blackboard().entries[slot].value());
     CHECK(text == (pipeline.tree().slots[slot].name == "h" ? "0.5;1" : "(robot.Route)"));
   }
 }

@@ -35,12 +35,12 @@ std::map<std::string, Entry> entries(Ticker& ticker) {
     const lockstep::host::Entry& from = ticker.blackboard().entries[slot];
     if (!from.is_present) continue;
     Entry& entry = all[ticker.tree().slots[slot].name];
-    entry.writes = from.writes;
-    if (const auto* whole = std::get_if<std::int64_t>(&from.value)) {
+    entry.writes = from.writes();
+    if (const auto* whole = std::get_if<std::int64_t>(&from.value())) {
       entry.value = static_cast<double>(*whole);
     }
-    if (const auto* real = std::get_if<double>(&from.value)) entry.value = *real;
-    if (const auto* text = std::get_if<std::string>(&from.value)) entry.value = *text;
+    if (const auto* real = std::get_if<double>(&from.value())) entry.value = *real;
+    if (const auto* text = std::get_if<std::string>(&from.value())) entry.value = *text;
   }
   return all;
 }

@@ -37,7 +37,7 @@ Seen seen_in(ScriptedRun& run, Nanoseconds now) {
     seen.progress.push_back(ticker.progress(node));
     if (has_ended(ticker.status(node))) node = ticker.end_of(node) - 1;
   }
-  for (const Entry& entry : ticker.blackboard().entries) seen.entries.push_back(entry.value);
+  for (const Entry& entry : ticker.blackboard().entries) seen.entries.push_back(entry.value());
   return seen;
 }
 

@@ -47,7 +47,7 @@ std::vector<LoopTick> ticks_of(const LoopRun& it, LeafWatch* watch) {
       ticks.back().progress.push_back(run.ticker().progress(node));
     }
     for (const Entry& entry : run.ticker().blackboard().entries) {
-      ticks.back().entries.push_back(entry.value);
+      ticks.back().entries.push_back(entry.value());
     }
   }
   return ticks;

@@ -44,7 +44,7 @@ class Walk {
               .progress = {},
               .went_on = run_.ticker().went_on().size()};
     for (const Entry& entry : run_.ticker().blackboard().entries) {
-      seen.entries.push_back(entry.value);
+      seen.entries.push_back(entry.value());
     }
     for (NodeIndex node = 0; node < run_.tree().nodes.size(); ++node) {
       seen.progress.push_back(run_.ticker().progress(node));
@@ -126,7 +126,7 @@ TEST_CASE("a run that is taken back has what it had kept, and the entries that i
   const auto write = [&](std::string_view key, std::int64_t number) {
     Entry& entry = ticker.ports().at(0, key);
     make_entry(entry, Typing::Any);
-    entry.value = number;
+    entry.assign(number);
   };
   write("before", 1);
   ticker.kept_values()[0] = std::int64_t{1};
@@ -135,7 +135,7 @@ TEST_CASE("a run that is taken back has what it had kept, and the entries that i
   write("after", 2);
   ticker.kept_values()[0] = std::int64_t{2};
   run.restore(saved);
-  CHECK(ticker.ports().at(0, "before").value == Value(std::int64_t{1}));
+  CHECK(ticker.ports().at(0, "before").value() == Value(std::int64_t{1}));
   CHECK_FALSE(ticker.ports().at(0, "after").is_present);
   CHECK(ticker.kept_values()[0] == Value(std::int64_t{1}));
 }

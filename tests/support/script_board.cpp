@@ -9,7 +9,8 @@ namespace lockstep::host::test {
 Entry& ScriptBoard::declare(const std::string& name, ValueType type, Value value, Typing typing) {
   Entry& entry = entries_[name];
   make_entry(entry, typing, type);
-  entry.value = std::move(value);
+  entry.assign(std::move(value));
+  entry.count_from(0);
   return entry;
 }
 

@@ -402,28 +402,27 @@ class Walk {
     Value right = value_of(term.parts[1]);
     Entry& entry = existing(name);
     if (term.what.size() == 2 && term.what[0] != ':') {
-      right = two(term.what.substr(0, 1), entry.value, right);
+      right = two(term.what.substr(0, 1), entry.value(), right);
     }
     store(entry, right);
-    ++entry.writes;
-    return loaded(entry.value);
+    return loaded(entry.value());
   }
 
   void store(Entry& entry, const Value& value) {
     if (std::holds_alternative<NoValue>(value)) throw Failed();
     const bool is_any = entry.typing == Typing::Any;
-    const bool is_empty = std::holds_alternative<NoValue>(entry.value);
+    const bool is_empty = std::holds_alternative<NoValue>(entry.value());
     if (is_empty && (is_any || !is_text(value))) {
-      entry.value = value;
-    } else if (is_text(value) && !is_text(entry.value)) {
-      entry.value = is_any ? Value(meant(value)) : typed(entry.type, std::get<std::string>(value));
-    } else if (is_text(entry.value)) {
+      entry.assign(value);
+    } else if (is_text(value) && !is_text(entry.value())) {
+      entry.assign(is_any ? Value(meant(value)) : typed(entry.type, std::get<std::string>(value)));
+    } else if (is_text(entry.value())) {
       if (!is_text(value)) throw Failed();
-      entry.value = value;
-    } else if (std::holds_alternative<double>(entry.value)) {
-      entry.value = real_of(value);
+      entry.assign(value);
+    } else if (std::holds_alternative<double>(entry.value())) {
+      entry.assign(real_of(value));
     } else {
-      entry.value = whole_kind(entry, value);
+      entry.assign(whole_kind(entry, value));
     }
   }
 
@@ -435,7 +434,7 @@ class Walk {
                             *real >= 9223372036854775808.0);
     if (is_fraction) throw Failed();
     const std::int64_t whole = whole_of(value);
-    const bool is_flag = std::holds_alternative<bool>(entry.value) && (whole == 0 || whole == 1);
+    const bool is_flag = std::holds_alternative<bool>(entry.value()) && (whole == 0 || whole == 1);
     return is_flag ? Value(whole == 1) : Value(whole);
   }
 
@@ -494,7 +493,7 @@ bool is_same(const Value& left, const Value& right) {
 bool is_same(const Entry& left, const Entry& right) {
   if (left.is_present != right.is_present) return false;
   if (!left.is_present) return true;
-  return is_same(left.value, right.value) && left.writes == right.writes &&
+  return is_same(left.value(), right.value()) && left.writes() == right.writes() &&
          left.typing == right.typing && left.type == right.type;
 }
 
@@ -502,7 +501,8 @@ ReferenceEntries entries_to_begin_with() {
   const auto entry = [](Typing typing, ValueType type, Value value) {
     Entry it;
     make_entry(it, typing, type);
-    it.value = std::move(value);
+    it.assign(std::move(value));
+    it.count_from(0);
     return it;
   };
   constexpr auto kAny = Typing::Any;
@@ -546,8 +546,8 @@ std::string disagreement(const std::string& script) {
   }
   for (const auto& [name, entry] : entries) {
     if (!is_same(entry, expected.try_emplace(name, absent).first->second)) {
-      return "entry '" + name + "' has '" + to_text(entry.value) + "', not '" +
-             to_text(expected.at(name).value) + "'";
+      return "entry '" + name + "' has '" + to_text(entry.value()) + "', not '" +
+             to_text(expected.at(name).value()) + "'";
     }
   }
   return {};

@@ -63,8 +63,7 @@ std::string ScriptedRun::leaf_name(std::uint32_t leaf) const {
 void ScriptedRun::set(std::string_view key, Value value) {
   for (std::size_t slot = 0; slot < tree_.slots.size(); ++slot) {
     if (tree_.slots[slot].name != key) continue;
-    board_.entries[slot].value = std::move(value);
-    ++board_.entries[slot].writes;
+    board_.entries[slot].assign(std::move(value));
     return;
   }
   throw std::invalid_argument("no entry '" + std::string(key) + "'");

@@ -16,9 +16,9 @@ bool is_of(const Entry& entry, ValueType type, const ObjectType* object) {
 // A script decides with the first number that it puts into an entry whether the entry's numbers are
 // whole or real. Returns false if the value cannot be of that kind.
 bool keep_kind(const Entry& entry, Value& value) {
-  const bool is_whole = std::holds_alternative<std::int64_t>(entry.value);
-  if (!is_whole && !std::holds_alternative<double>(entry.value)) return true;
-  if (value.index() == entry.value.index()) return true;
+  const bool is_whole = std::holds_alternative<std::int64_t>(entry.value());
+  if (!is_whole && !std::holds_alternative<double>(entry.value())) return true;
+  if (value.index() == entry.value().index()) return true;
   auto kept = cast_value(value, is_whole ? ValueType::Int : ValueType::Double, nullptr);
   if (!kept) return false;
   value = std::move(*kept);
@@ -45,8 +45,7 @@ bool write_entry(Entry& entry, ValueType type, const ObjectType* object, Value v
   } else if (entry.typing == Typing::Declared && !keep_kind(entry, value)) {
     return false;
   }
-  std::swap(entry.value, value);  // what it had is released when the entry is as it will be
-  ++entry.writes;
+  entry.assign(std::move(value));
   return true;
 }
 

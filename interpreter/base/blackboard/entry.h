@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "base/core/value.h"
 
@@ -13,21 +14,58 @@ enum class Typing : std::uint8_t {
   Any        // nobody has declared a type: `type` has no meaning
 };
 
-struct Entry {
-  Value value;               // NoValue: not written yet
-  std::uint32_t writes = 0;  // how often it was written since it was made; it may wrap
+// Whoever looks for changes compares `writes`, not values: a recorder, a property, a node such as
+// EntryUpdated, a parameter that was read before. So a value that changes without a count is a
+// change that nobody sees, and only `to_write` gives access to the value.
+class Entry {
+ public:
+  Entry() = default;
+  explicit Entry(Typing typing_at_first, ValueType its_type = ValueType::String,
+                 const ObjectType* its_object = nullptr)
+      : type(its_type), typing(typing_at_first), object(its_object) {}
+
+  const Value& value() const { return value_; }  // NoValue: not written yet
+  bool has_value() const { return !std::holds_alternative<NoValue>(value_); }
+  // How often it was written since it was made. It may wrap.
+  std::uint32_t writes() const { return writes_; }
+
+  // Counts a write, and returns what it changes in place.
+  Value& to_write() {
+    ++writes_;
+    return value_;
+  }
+  // One that has a T gets another.
+  template <class T>
+  void assign_same(T value) {
+    *std::get_if<T>(&to_write()) = value;
+  }
+  // A copy needs no memory where the entry has enough. What is moved in lets what the entry had be
+  // released at the end: that finds the entry as it will be.
+  void assign(const Value& value) { to_write() = value; }
+  void assign(Value&& value) { std::swap(to_write(), value); }
+
+  // Two states that differ in counts alone are one, as no later tick depends on them.
+  void count_from(std::uint32_t writes) { writes_ = writes; }
+  // An object whose plugin ends. Nobody looks at the entry any more.
+  void forget_object() {
+    if (std::holds_alternative<Object>(value_)) value_ = NoValue();
+  }
+
+ private:
+  Value value_;
+  std::uint32_t writes_ = 0;
+
+ public:
   ValueType type = ValueType::String;
   Typing typing = Typing::Strict;
   bool is_present = true;              // false: there is no such entry now
   const ObjectType* object = nullptr;  // of type Object: which
-
-  bool has_value() const { return !std::holds_alternative<NoValue>(value); }
 };
 
 // Makes an entry that is not present, without a value.
 inline void make_entry(Entry& entry, Typing typing, ValueType type = ValueType::String,
                        const ObjectType* object = nullptr) {
-  entry = {.value = {}, .type = type, .typing = typing, .object = object};
+  entry = Entry(typing, type, object);
 }
 
 // Removes it: its value, its type and its count are gone.

@@ -19,8 +19,7 @@ const Mock& mock_of(const NodeContext& context, NodeIndex self) {
 // another one.
 void write(Entry& entry, const Value& value) {
   if (entry.is_present && entry.typing == Typing::Any) {
-    entry.value = value;
-    ++entry.writes;
+    entry.assign(value);
   } else {
     (void)write_entry(entry, static_cast<ValueType>(value.index()), nullptr, value);
   }

@@ -60,12 +60,12 @@ std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
   for (std::uint32_t number = 0; number < watched_.size(); ++number) {
     Watched& watched = watched_[number];
     const Entry& entry = board.entries[watched.slot];
-    if (watched.writes == entry.writes) continue;
-    if (std::holds_alternative<NoValue>(entry.value)) continue;
+    if (watched.writes == entry.writes()) continue;
+    if (!entry.has_value()) continue;
     // A text that is too long may be another value, so it is shown each time it is written.
-    const bool is_short = put_short(entry.value, watched.next);
+    const bool is_short = put_short(entry.value(), watched.next);
     if (is_short && watched.has_text && watched.next == watched.text) {
-      watched.writes = entry.writes;
+      watched.writes = entry.writes();
     } else {
       changes_.push_back({.entry = number, .text = is_short ? &watched.next : nullptr});
     }
@@ -91,7 +91,7 @@ std::span<const EntryChange> EntryChanges::values() {
 void EntryChanges::keep() {
   for (const EntryChange& change : changes_) {
     Watched& watched = watched_[change.entry];
-    watched.writes = board_->entries[watched.slot].writes;
+    watched.writes = board_->entries[watched.slot].writes();
     watched.has_text = change.text != nullptr;
     std::swap(watched.text, watched.next);
   }

@@ -57,9 +57,9 @@ std::span<const std::size_t> LiveProperties::after_tick(Ticker& ticker, std::uin
     const EntryComparison& comparison = checks_.comparisons()[i];
     const Entry& entry = ticker.blackboard().entries[comparison.entry];
     // Without a value, recordings keep the one before.
-    if (writes_[i] == entry.writes || std::holds_alternative<NoValue>(entry.value)) continue;
-    writes_[i] = entry.writes;
-    checks_.compared()[i] = comparison.holds_for(entry.value, room_);
+    if (writes_[i] == entry.writes() || !entry.has_value()) continue;
+    writes_[i] = entry.writes();
+    checks_.compared()[i] = comparison.holds_for(entry.value(), room_);
   }
   const auto see = [&](auto state_of, bool is_first) {
     for (std::size_t place = 0; place < seen.size(); ++place) {

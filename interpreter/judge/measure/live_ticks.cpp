@@ -84,7 +84,7 @@ void LiveTicks::read_others(Ticker& ticker) {
     user_ticks_[i] = {ticker.ticked(users_[i]), limit(ticker, users_[i])};
   }
   for (std::size_t i = 0; i < slots_.size(); ++i) {
-    numbers_[i] = number_of(ticker.blackboard().entries[slots_[i]].value);
+    numbers_[i] = number_of(ticker.blackboard().entries[slots_[i]].value());
   }
 }
 

@@ -20,7 +20,7 @@ class Assigned {
 
   std::optional<Value> of(const Operand& operand) const {
     const bool is_text = operand.kind == Operand::Kind::Text;
-    if (is_text && !std::holds_alternative<std::string>(entry_.value)) return of_text(operand);
+    if (is_text && !std::holds_alternative<std::string>(entry_.value())) return of_text(operand);
     if (!entry_.has_value()) return into_empty(operand);
     return same_kind(operand);
   }
@@ -32,7 +32,7 @@ class Assigned {
   std::optional<Value> of_text(const Operand& operand) const {
     if (is_typed()) return convert_value(*operand.text, entry_.type, entry_.object);
     if (!entry_.has_value()) return operand.value();
-    if (!Operand::of(entry_.value).is_number()) return std::nullopt;
+    if (!Operand::of(entry_.value()).is_number()) return std::nullopt;
     const auto number = number_in_script(*operand.text, enums_);
     return number ? std::optional<Value>(*number) : std::nullopt;
   }
@@ -46,7 +46,7 @@ class Assigned {
   }
 
   std::optional<Value> same_kind(const Operand& operand) const {
-    switch (Operand::of(entry_.value).kind) {
+    switch (Operand::of(entry_.value()).kind) {
       case Operand::Kind::Whole:
         return as_whole(operand);
       case Operand::Kind::Real:
@@ -67,7 +67,7 @@ class Assigned {
     const auto whole = cast_value(operand.value(), ValueType::Int, nullptr);
     if (!whole) return may_become_real() ? std::optional(operand.value()) : std::nullopt;
     // true and false stay what they are, as long as the number is one of them.
-    if (!std::holds_alternative<bool>(entry_.value)) return whole;
+    if (!std::holds_alternative<bool>(entry_.value())) return whole;
     auto flag = cast_value(*whole, ValueType::Bool, nullptr);
     return flag ? flag : whole;
   }
@@ -76,9 +76,9 @@ class Assigned {
 
   std::optional<Value> as_other(const Operand& operand) const {
     if (operand.kind != Operand::Kind::Other) return std::nullopt;
-    if (operand.other->index() != entry_.value.index()) return std::nullopt;
-    const auto* held = std::get_if<Object>(&entry_.value);
-    return cast_value(operand.value(), static_cast<ValueType>(entry_.value.index()),
+    if (operand.other->index() != entry_.value().index()) return std::nullopt;
+    const auto* held = std::get_if<Object>(&entry_.value());
+    return cast_value(operand.value(), static_cast<ValueType>(entry_.value().index()),
                       held == nullptr ? nullptr : held->type());
   }
 
@@ -107,35 +107,32 @@ std::optional<double> number_in_script(std::string_view text, const ScriptEnums*
 }
 
 bool assign_number(Entry& entry, const Operand& value) {
-  if (auto* const real = std::get_if<double>(&entry.value)) {
+  if (std::holds_alternative<double>(entry.value())) {
     const bool is_real = value.kind == Operand::Kind::Real && std::isfinite(value.real);
     const bool is_whole = value.kind == Operand::Kind::Whole && to_real(value.whole);
     if (!is_real && !is_whole) return false;
-    *real = is_real ? value.real : static_cast<double>(value.whole);
+    entry.assign_same(is_real ? value.real : static_cast<double>(value.whole));
   } else {
-    auto* const whole = std::get_if<std::int64_t>(&entry.value);
-    if (whole == nullptr || !value.is_number()) return false;
+    if (!std::holds_alternative<std::int64_t>(entry.value()) || !value.is_number()) return false;
     const auto exact = value.kind == Operand::Kind::Real ? to_whole(value.real) : value.whole;
     if (!exact) return false;
-    *whole = *exact;
+    entry.assign_same(*exact);
   }
-  ++entry.writes;
   return true;
 }
 
 bool assign(Entry& entry, const Operand& value, const ScriptEnums* enums) {
   if (assign_number(entry, value)) return true;
-  auto* const text = std::get_if<std::string>(&entry.value);
-  if (text != nullptr && value.kind == Operand::Kind::Text) {
-    *text = *value.text;
+  const bool is_text = std::holds_alternative<std::string>(entry.value());
+  if (is_text && value.kind == Operand::Kind::Text) {
+    *std::get_if<std::string>(&entry.to_write()) = *value.text;  // in the memory that it has
   } else if (value.kind == Operand::Kind::Empty) {
     return false;
   } else {
     auto assigned = Assigned(entry, enums).of(value);
     if (!assigned || !is_allowed(entry, *assigned)) return false;
-    entry.value = std::move(*assigned);
+    entry.assign(std::move(*assigned));
   }
-  ++entry.writes;
   return true;
 }
 
@@ -147,7 +144,7 @@ std::string refusal(const Entry& entry, const Operand& value, std::string_view n
   if (entry.typing != Typing::Any) {
     what = type_name(entry.type, entry.object);
   } else {
-    what = to_string(static_cast<ValueType>(entry.value.index()));
+    what = to_string(static_cast<ValueType>(entry.value().index()));
   }
   return fmt::format("cannot assign {} to '{}', which has the type {}", value.shown(), brief(name),
                      what);

@@ -39,14 +39,13 @@ std::optional<Change> only_change(const std::vector<Instruction>& code);
 
 // False: nothing has happened, and the whole program says what does.
 inline bool apply(const Change& change, Entry& entry) {
-  if (auto* const whole = std::get_if<std::int64_t>(&entry.value)) {
+  if (const auto* const whole = std::get_if<std::int64_t>(&entry.value())) {
     if (change.step) {
       const auto is_exact = [](std::int64_t it) {
         return it <= kLargestExact && it >= -kLargestExact;
       };
       if (!is_exact(*whole) || !is_exact(*whole + *change.step)) return false;
-      *whole += *change.step;
-      ++entry.writes;
+      entry.assign_same(*whole + *change.step);
       return true;
     }
     double number = 0;
@@ -55,15 +54,14 @@ inline bool apply(const Change& change, Entry& entry) {
     if (!(std::fabs(result) <= static_cast<double>(kLargestExact))) return false;
     const auto exact = static_cast<std::int64_t>(result);
     if (static_cast<double>(exact) != result) return false;
-    *whole = exact;
+    entry.assign_same(exact);
   } else {
-    auto* const real = std::get_if<double>(&entry.value);
+    const auto* const real = std::get_if<double>(&entry.value());
     if (real == nullptr) return false;
     const double result = calculated(*real, change.operation, change.by);
     if (!std::isfinite(result)) return false;
-    *real = result;
+    entry.assign_same(result);
   }
-  ++entry.writes;
   return true;
 }
 

@@ -69,7 +69,7 @@ struct Reached {
     switch (at->operation) {
       case Operation::Load:
       case Operation::LoadCopy: {
-        const Value& value = entries[at->argument]->value;
+        const Value& value = entries[at->argument]->value();
         if (const auto* real = std::get_if<double>(&value)) {
           *top++ = Operand::of(*real);
           continue;
@@ -81,7 +81,7 @@ struct Reached {
         break;
       }
       case Operation::LoadToCompare:
-        if (!take(entries[at->argument]->value, left)) break;
+        if (!take(entries[at->argument]->value(), left)) break;
         *top++ = Operand::of(are_related(left, at->relation, at->real) ? 1.0 : 0.0);
         at += 2;
         continue;
@@ -121,7 +121,7 @@ struct Reached {
       case Operation::Store: {
         Entry& entry = *entries[at->argument];
         if (!assign_number(entry, top[-1])) break;
-        top[-1] = Operand::of(entry.value);
+        top[-1] = Operand::of(entry.value());
         continue;
       }
       default:
@@ -250,7 +250,7 @@ class Machine {
   bool load() {
     const Entry& from = entry();
     if (!from.is_present) return no_entry();
-    return push(Operand::of(from.value));
+    return push(Operand::of(from.value()));
   }
 
   // The text made for the operand at `place`.
@@ -406,13 +406,13 @@ class Machine {
     if (!assign(entry(), value, expression_.enums())) {
       return fail(refusal(entry(), value, name()));
     }
-    last() = Operand::of(entry().value);
+    last() = Operand::of(entry().value());
     return copy_text();
   }
 
   bool store_changed() {
     if (!entry().is_present) return no_entry();
-    const Operand old = Operand::of(entry().value);
+    const Operand old = Operand::of(entry().value());
     double left = 0;
     double right = 0;
     if (take(old, left) && take(last(), right)) {

@@ -288,8 +288,7 @@ class Adviser {
       for (std::size_t name = 0; name < script.entries.size(); ++name) {
         const BlackboardEntry& it = definition_.entries[script.entries[name]];
         if (changes[script.entries[name]] || std::holds_alternative<NoValue>(it.initial)) continue;
-        entries.push_back(
-            {.value = it.initial, .type = it.type, .typing = it.typing, .object = it.object});
+        entries.emplace_back(it.typing, it.type, it.object).assign(it.initial);
         values += fmt::format("{}'{}' is {}", values.empty() ? "" : ", ",
                               script.code->names()[name], Operand::of(it.initial).shown());
       }

@@ -127,7 +127,7 @@ struct Leaves {
   std::string tick(std::size_t leaf = 0) {
     return error_of(leaf, [](LeafSlot& slot) { slot.type->tick(slot.self); });
   }
-  Value& value(std::size_t slot) { return blackboard->entries[slot].value; }
+  Value& value(std::size_t slot) { return blackboard->entries[slot].to_write(); }
   template <class T>
   T get(std::size_t slot) {
     return std::get<T>(value(slot));

@@ -2,6 +2,7 @@
 #include "base/blackboard/entry.h"
 
 #include <catch2/catch.hpp>
+#include <type_traits>
 
 using namespace lockstep::host;
 
@@ -12,7 +13,8 @@ using Whole = std::int64_t;
 Entry entry_of(Typing typing, ValueType type, Value value = {}) {
   Entry entry;
   make_entry(entry, typing, type);
-  entry.value = std::move(value);
+  entry.assign(std::move(value));
+  entry.count_from(0);
   return entry;
 }
 
@@ -64,8 +66,8 @@ TEST_CASE("a port writes an entry, which gets its type or converts the value") {
     INFO(row.what);
     Entry entry = row.before;
     CHECK(write_entry(entry, row.type, nullptr, row.value) == row.after.has_value());
-    CHECK(entry.value == row.after.value_or(row.before.value));
-    CHECK(entry.writes == (row.after ? 1 : 0));
+    CHECK(entry.value() == row.after.value_or(row.before.value));
+    CHECK(entry.writes() == (row.after ? 1 : 0));
     CHECK(entry.is_present);
     CHECK(entry.typing == row.typing);
     CHECK(entry.type == row.type_after);
@@ -74,11 +76,27 @@ TEST_CASE("a port writes an entry, which gets its type or converts the value") {
 
 TEST_CASE("an entry that was removed begins again") {
   Entry entry = entry_of(Typing::Declared, ValueType::Int, Whole{3});
-  entry.writes = 5;
+  entry.count_from(5);
   unset_entry(entry);
   CHECK_FALSE(entry.is_present);
   CHECK_FALSE(entry.has_value());
   CHECK(write_entry(entry, ValueType::Double, nullptr, 2.5));
-  CHECK(entry.writes == 1);
+  CHECK(entry.writes() == 1);
   CHECK(entry.type == ValueType::Double);
+}
+
+TEST_CASE("each change of a value is counted") {
+  Entry entry = entry_of(Typing::Any, ValueType::String, 1.5);
+  entry.assign(Value(2.5));
+  CHECK(entry.writes() == 1);
+  const Value text = std::string("a text");
+  entry.assign(text);
+  CHECK(entry.value() == text);
+  entry.assign(Value(Whole{1}));
+  entry.assign_same(Whole{2});
+  CHECK(entry.value() == Value(Whole{2}));
+  entry.to_write() = NoValue();
+  CHECK(entry.writes() == 5);
+  CHECK_FALSE(entry.has_value());
+  static_assert(std::is_const_v<std::remove_reference_t<decltype(entry.value())>>);
 }

@@ -64,7 +64,7 @@ TEST_CASE("a name means an entry of the tree, or one that is made for it and doe
   CHECK(&named.at(2, "fresh") == &fresh);
   CHECK(&named.at(1, "fresh") == &fresh);
   CHECK(&named.at(0, "fresh") != &fresh);
-  CHECK(fresh.value == Value(std::int64_t{5}));
+  CHECK(fresh.value() == Value(std::int64_t{5}));
   CHECK(named.own(1, "speed") == &slots[2]);
   CHECK(named.own(0, "b") == &slots[1]);
   CHECK(named.own(0, "@b") == nullptr);

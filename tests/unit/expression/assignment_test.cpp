@@ -49,11 +49,12 @@ void check(std::span<const Row> rows) {
     const Entry& x = board.at("x");
     if (!run.error.empty()) {
       CHECK(run.error == row.after);
-      CHECK(x.value == row.before.value);
-      CHECK(x.writes == 0);
+      CHECK(x.value() == row.before.value);
+      CHECK(x.writes() == 0);
       continue;
     }
-    CHECK((x.is_present ? fmt::format("{}*{}", shown(x.value), x.writes) : "missing") == row.after);
+    CHECK((x.is_present ? fmt::format("{}*{}", shown(x.value()), x.writes()) : "missing") ==
+          row.after);
     if (it.is_present) CHECK(x.typing == it.typing);
   }
 }
@@ -198,7 +199,7 @@ TEST_CASE("each assignment is a write, and its value is what is stored") {
     const ScriptRun run = board.run(row.script);
     CHECK(run.error == "");
     CHECK(shown(run.value) == row.value);
-    CHECK(fmt::format("{}*{}", shown(board.at("x").value), board.at("x").writes) == row.x);
+    CHECK(fmt::format("{}*{}", shown(board.at("x").value()), board.at("x").writes()) == row.x);
   }
 }
 
@@ -233,5 +234,5 @@ TEST_CASE("a script makes no text of more than a megabyte") {
   ScriptBoard board;
   board.any("x", half);
   CHECK(board.run("x += x").error == "");
-  CHECK(std::get<std::string>(board.at("x").value).size() == Evaluator::kLongestText);
+  CHECK(std::get<std::string>(board.at("x").value()).size() == Evaluator::kLongestText);
 }

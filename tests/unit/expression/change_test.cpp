@@ -78,9 +78,9 @@ TEST_CASE("a change by the short way is what the whole program makes of the entr
           ++taken;
           INFO(shown(before) << "  " << script);
           CHECK(board.run(script).error.empty());
-          CHECK(shown(board.at("n").value) == shown(entry.value));
-          CHECK(board.at("n").value.index() == entry.value.index());
-          CHECK(board.at("n").writes == entry.writes);
+          CHECK(shown(board.at("n").value()) == shown(entry.value()));
+          CHECK(board.at("n").value().index() == entry.value().index());
+          CHECK(board.at("n").writes() == entry.writes());
         }
       }
     }

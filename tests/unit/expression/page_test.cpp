@@ -56,7 +56,7 @@ ScriptBoard board_of_page() {
     const auto script = Expression::parse(code(row[1]));
     REQUIRE(script.has_value());
     Evaluator evaluator;
-    REQUIRE(evaluator.evaluate(*script, {}, entry.value));
+    REQUIRE(evaluator.evaluate(*script, {}, entry.to_write()));
   }
   return board;
 }

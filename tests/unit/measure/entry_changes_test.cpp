@@ -15,10 +15,7 @@ struct Board {
       tree_from_text("Parallel(Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](a))");
   Blackboard board{tree};
 
-  void set(std::size_t slot, Value value) {
-    board.entries[slot].value = std::move(value);
-    ++board.entries[slot].writes;
-  }
+  void set(std::size_t slot, Value value) { board.entries[slot].assign(std::move(value)); }
 };
 
 // "0=0.5 1=(too long)"

@@ -177,7 +177,7 @@ TEST_CASE("set writes entries of the port's type, and nothing else") {
   Fixture fixture(2);
   const auto entries = [&] {
     std::vector<Value> values;
-    for (const Entry& entry : fixture.blackboard->entries) values.push_back(entry.value);
+    for (const Entry& entry : fixture.blackboard->entries) values.push_back(entry.value());
     return values;
   };
   const double nan = std::nan("");
@@ -202,7 +202,7 @@ TEST_CASE("set writes entries of the port's type, and nothing else") {
   CHECK_FALSE(host.set_string(fixture.leaf(), kText, nullptr, 1));
   CHECK_FALSE(host.set_double(lab.run, kSpeed, 1));
   CHECK(entries() == expected);
-  for (const Entry& entry : fixture.blackboard->entries) CHECK(entry.writes == 1);
+  for (const Entry& entry : fixture.blackboard->entries) CHECK(entry.writes() == 1);
 }
 
 TEST_CASE("a string or list that does not grow stays where it is, even when set to itself") {
@@ -216,10 +216,10 @@ TEST_CASE("a string or list that does not grow stays where it is, even when set 
   CHECK(host.set_string(fixture.leaf(), kText, text + 1, 3));
   CHECK(host.set_double_list(fixture.leaf(), kList, list + 1, 2));
   const auto& entries = fixture.blackboard->entries;
-  CHECK(std::get<std::string>(entries[2].value) == "ell");
-  CHECK(std::get<std::string>(entries[2].value).data() == text);
-  CHECK(std::get<std::vector<double>>(entries[3].value) == std::vector{2.0, 3.0});
-  CHECK(std::get<std::vector<double>>(entries[3].value).data() == list);
+  CHECK(std::get<std::string>(entries[2].value()) == "ell");
+  CHECK(std::get<std::string>(entries[2].value()).data() == text);
+  CHECK(std::get<std::vector<double>>(entries[3].value()) == std::vector{2.0, 3.0});
+  CHECK(std::get<std::vector<double>>(entries[3].value()).data() == list);
 }
 
 TEST_CASE("set_error keeps a copy of the first message until it is taken") {

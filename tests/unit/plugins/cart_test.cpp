@@ -77,7 +77,7 @@ TEST_CASE("the arms' progress is 1 within the boundary, else 0", "[plugins][cart
   int within = 0, beyond = 0;
   const auto compare = [&](Ticker& ticker) {
     if (!ticker.ticked(arms) || ticker.status(arms) != Status::Running) return;
-    const double error = std::get<double>(ticker.blackboard().entries[0].value);
+    const double error = std::get<double>(ticker.blackboard().entries[0].value());
     const bool is_within = std::abs(error) <= 0.04;
     ++(is_within ? within : beyond);
     CHECK(ticker.progress(arms) == (is_within ? 1 : 0));

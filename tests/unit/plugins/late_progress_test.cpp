@@ -118,7 +118,7 @@ class BoundCheck {
     const auto check = [&](Ticker& ticker) {
       std::vector<double> actual;
       for (const Entry& entry : ticker.blackboard().entries) {
-        const auto* number = std::get_if<double>(&entry.value);
+        const auto* number = std::get_if<double>(&entry.value());
         actual.push_back(number == nullptr ? 0 : *number);
       }
       REQUIRE(actual.size() == actions.size());

@@ -183,7 +183,7 @@ class Examiner {
       const auto slot = std::ranges::find(tree.slots, key_of(i), &Slot::name);
       if (slot == tree.slots.end()) continue;
       Entry& entry = run.blackboard().entries[static_cast<std::size_t>(slot - tree.slots.begin())];
-      if (type_.parameters[i].direction != Direction::Output) entry.value = values[i];
+      if (type_.parameters[i].direction != Direction::Output) entry.assign(values[i]);
     }
   }
 

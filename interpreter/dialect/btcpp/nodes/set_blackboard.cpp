@@ -34,13 +34,13 @@ constexpr Parameter kUnsetParameters[] = {{.name = "key",
 bool store(NodeContext& context, NodeIndex self, Entry& target, const Value& value) {
   const auto* const text = std::get_if<std::string>(&value);
   if (target.typing == Typing::Any || holds(value, target.type)) {
-    target.value = value;
+    target.assign(value);
     return true;
   }
   auto converted =
       text == nullptr ? std::nullopt : convert_value(value, target.type, target.object);
   if (converted) {
-    target.value = std::move(*converted);
+    target.assign(std::move(*converted));
     return true;
   }
   context.set_fault(self, "cannot write '" + brief(to_text(value)) + "' to an entry that holds " +
@@ -71,9 +71,7 @@ Status tick_set(NodeContext& context, NodeIndex self) {
     source == nullptr ? make_entry(*target, Typing::Declared, ValueType::String)
                       : make_entry(*target, source->typing, source->type, source->object);
   }
-  if (!store(context, self, *target, *value)) return Status::Failure;
-  ++target->writes;
-  return Status::Success;
+  return store(context, self, *target, *value) ? Status::Success : Status::Failure;
 }
 
 Status tick_unset(NodeContext& context, NodeIndex self) {

@@ -24,8 +24,8 @@ struct UpdatedState {
 
 bool was_written(NodeContext& context, NodeIndex self, UpdatedState& state) {
   const Entry* entry = context.ports().entry(self, kEntry);
-  if (entry == nullptr || !entry->is_present || entry->writes == state.seen) return false;
-  state.seen = entry->writes;
+  if (entry == nullptr || !entry->is_present || entry->writes() == state.seen) return false;
+  state.seen = entry->writes();
   return true;
 }
 

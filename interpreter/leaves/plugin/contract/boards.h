@@ -46,7 +46,7 @@ class BoardsOfRun {
   Blackboard* blackboard() { return blackboard_; }
   const Tree& tree() const { return *tree_; }
   std::uint32_t parent(std::uint32_t index) const { return parents_[index]; }
-  std::uint64_t writes(const Entry& entry) const { return generation_ << 32 | entry.writes; }
+  std::uint64_t writes(const Entry& entry) const { return generation_ << 32 | entry.writes(); }
   // The home of an entry of the tree: `name` is the slot's own. Null if the tree has no such entry.
   const Home* home_of_slot(std::string_view name) const {
     const auto found = homes_.find(name.data());

@@ -28,7 +28,7 @@ BoundPort bound(const Tree& tree, const PortBinding& binding, const Parameter& p
     return port;
   }
   Entry& entry = blackboard.entries[binding.slot];
-  port.read = &entry.value;
+  port.read = &entry.value();
   port.is_strict = tree.slots[binding.slot].typing == Typing::Strict;
   if (parameter.direction != Direction::Input) port.write = &entry;
   port.fallback = constant;

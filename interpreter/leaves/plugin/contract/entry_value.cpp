@@ -110,8 +110,8 @@ lockstep_entry_value described(const Entry& entry, std::vector<lockstep_text>& t
                                                      : static_cast<lockstep_type>(entry.type);
   if (entry.object != nullptr) value.object_name = entry.object->name().data();
   // The types of the contract have the numbers of the alternatives.
-  value.type = static_cast<lockstep_type>(entry.value.index());
-  std::visit(Describer{value, texts}, entry.value);
+  value.type = static_cast<lockstep_type>(entry.value().index());
+  std::visit(Describer{value, texts}, entry.value());
   return value;
 }
 
@@ -129,9 +129,7 @@ bool assign(Entry& entry, const lockstep_entry_value& given) {
   } else {
     declare(entry, given.declared, type);
   }
-  if (!value) return true;
-  std::swap(entry.value, *value);  // what it had is released when the entry is as it will be
-  ++entry.writes;
+  if (value) entry.assign(*std::move(value));
   return true;
 }
 

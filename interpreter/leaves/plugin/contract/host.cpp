@@ -198,9 +198,8 @@ void note_written(std::vector<Entry*>& written, Entry* entry) {
 Value* writable(const lockstep_caller& caller, const BoundPort& port, ValueType type) {
   Entry* const entry = port.write;
   if (entry == nullptr || (port.is_generic ? entry->type : port.type) != type) return nullptr;
-  ++entry->writes;
   if (caller.run->written != nullptr) note_written(*caller.run->written, entry);
-  return &entry->value;
+  return &entry->to_write();
 }
 
 // The port is bound to an entry whose type may be another, or none.
@@ -266,12 +265,11 @@ bool set(const lockstep_caller* caller, std::uint32_t port, T value) {
   Entry* const entry = it->write;
   if (it->has_limits) return set_otherwise(*caller, *it, value);
   if (entry == nullptr) return false;
-  T* const target = std::get_if<T>(&entry->value);
-  const bool is_ordinary = target != nullptr && it->type == value_type_of<T>() && !it->is_generic &&
+  const bool is_ordinary = std::holds_alternative<T>(entry->value()) &&
+                           it->type == value_type_of<T>() && !it->is_generic &&
                            entry->typing == Typing::Strict && caller->run->sets_plainly();
   if (!is_ordinary || !is_finite(value)) return set_otherwise(*caller, *it, value);
-  ++entry->writes;
-  *target = value;
+  entry->assign_same(value);
   return true;
 }
 

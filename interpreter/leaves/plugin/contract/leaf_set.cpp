@@ -180,9 +180,7 @@ void LeafSet::Implementation::destroy_all() {
   // While what the leaves of a run share is still there.
   const InEngine scope(run_.lock);
   blackboard_.names.forget_objects();
-  for (Entry& entry : blackboard_.entries) {
-    if (std::holds_alternative<Object>(entry.value)) entry.value = NoValue();
-  }
+  for (Entry& entry : blackboard_.entries) entry.forget_object();
   for (lockstep_caller& caller : callers_) {
     for (const BoundPort* const port : caller.ports) {
       if (port->memory == nullptr) continue;

@@ -120,8 +120,11 @@ bool set_object(const lockstep_caller* caller, std::uint32_t port,
 
 // As a port that is bound to it.
 BoundPort opened_port(Entry& entry, std::string_view key) {
-  return {
-      .read = &entry.value, .write = &entry, .entry = key, .is_strict = false, .is_generic = true};
+  return {.read = &entry.value(),
+          .write = &entry,
+          .entry = key,
+          .is_strict = false,
+          .is_generic = true};
 }
 
 // How many ports the tree gives to the node.

@@ -58,14 +58,13 @@ class Trial {
 
  private:
   void bind(const Parameter& port, const ElementTexts& constants) {
-    Entry& entry = entries_.emplace_back();
-    entry.type = port.type;
+    Entry& entry = entries_.emplace_back(Typing::Strict, port.type);
     BoundPort bound{.parameter = &port, .entry = port.name, .type = port.type};
-    if (port.direction != Direction::Output) entry.value = sample_value(port);
+    if (port.direction != Direction::Output) entry.assign(sample_value(port));
     for (const auto& [parameter, text] : constants) {
-      if (parameter == port.name) entry.value = parse_value(port.type, text).value_or(Value());
+      if (parameter == port.name) entry.assign(parse_value(port.type, text).value_or(Value()));
     }
-    bound.read = &entry.value;
+    bound.read = &entry.value();
     if (port.direction != Direction::Input) bound.write = &entry;
     ports_.add(std::move(bound));
   }

@@ -52,8 +52,7 @@ bool write_generic(Entry& entry, const Value& value) {
     return write_entry(entry, static_cast<ValueType>(value.index()), nullptr, value);
   }
   if (!holds(value, entry.type)) return false;
-  entry.value = value;
-  ++entry.writes;
+  entry.assign(value);
   return true;
 }
 
@@ -116,13 +115,12 @@ bool RemoteEntries::read(MessageReader& message, bool& refused) {
     if (!message.value_into(entry.last, entry.objects)) return false;
     if (entry.is_generic ? !entry.last.index() : !holds(entry.last, entry.type)) return false;
     // A node that looks whether the entry has changed sees that it has not.
-    if (is_same_object(entry.write->value, entry.last)) entry.last = entry.write->value;
+    if (is_same_object(entry.write->value(), entry.last)) entry.last = entry.write->value();
     entry.known = true;
     if (entry.is_generic) {
       refused |= !write_generic(*entry.write, entry.last);
     } else if (entry.is_strict) {
-      entry.write->value = entry.last;
-      ++entry.write->writes;
+      entry.write->assign(entry.last);
     } else if (!write_entry(*entry.write, entry.type, entry.object, entry.last)) {
       refused = true;
     }

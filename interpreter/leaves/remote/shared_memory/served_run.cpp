@@ -63,7 +63,7 @@ bool ServedRun::bind(BoundPort& port, std::uint32_t number, bool is_writable) {
   Mirror* const bound = entry(number);
   if (bound == nullptr) return false;
   if (port.object() != nullptr) bound->objects = &PackedType::of(port.object()->name());
-  port.read = &bound->value;
+  port.read = &bound->value();
   if (is_writable) port.write = bound;
   if (port.is_generic) {
     bound->typing = Typing::Any;
@@ -88,7 +88,7 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
     if (fallback != RemoteEntries::kNone) {
       const Entry* const held = entry(fallback);
       if (held == nullptr) return false;
-      port.fallback = &held->value;
+      port.fallback = &held->value();
     }
     if (number != RemoteEntries::kNone && !bind(port, number, is_writable)) return false;
     leaf.ports.add(std::move(port));
@@ -137,7 +137,7 @@ bool ServedRun::read_entries(MessageReader& request) {
   for (auto number = request.get<std::uint32_t>(); number != RemoteEntries::kNone;
        number = request.get<std::uint32_t>()) {
     Mirror* const known = entry(number);
-    if (known == nullptr || !request.value_into(known->value, known->objects)) return false;
+    if (known == nullptr || !request.value_into(known->to_write(), known->objects)) return false;
   }
   return request.good();
 }
@@ -202,9 +202,9 @@ std::string ServedRun::call(Object& object, PluginFunction function, std::uint64
 void ServedRun::write_entries(MessageWriter& answer) const {
   for (const Entry* entry : written_) {
     // A set that failed for want of memory may have left nothing there.
-    if (std::holds_alternative<NoValue>(entry->value)) continue;
+    if (!entry->has_value()) continue;
     answer.put(numbers_.at(entry));
-    answer.put_value(entry->value);
+    answer.put_value(entry->value());
   }
   answer.put(RemoteEntries::kNone);
 }
