@@ -9,13 +9,11 @@
 #include <optional>
 #include <span>
 
+#include "base/core/progress.h"
 #include "engine/node_context.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
-
-// Tolerance for comparing progress: 0.8 <= 0.7 + 0.1 is false in doubles.
-inline constexpr double kProgressEpsilon = 1e-9;
 
 // The least number that is more than this progress.
 inline double least_above(double progress) {

@@ -3,26 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/nodes/barrier_list.h"
+#include "base/core/progress.h"
+#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {
 
-constexpr double kRounding = 1e-9;
 // More are as good as unknown: a grid has fewer.
 constexpr std::size_t kMostCuts = 1000;
 
 void add(std::vector<double>& values, double value) {
-  const auto at = std::ranges::lower_bound(values, value - kRounding);
-  if (at == values.end() || *at > value + kRounding) values.insert(at, value);
+  const auto at = std::ranges::lower_bound(values, value - kProgressEpsilon);
+  if (at == values.end() || *at > value + kProgressEpsilon) values.insert(at, value);
 }
 
 void add_at(Cuts& cuts, double value) {
-  if (value > kRounding && value <= 1 + kRounding) add(cuts.at, std::min(value, 1.0));
+  if (value > kProgressEpsilon && value <= 1 + kProgressEpsilon) add(cuts.at, std::min(value, 1.0));
 }
 
 void add_behind(Cuts& cuts, double value) {
-  if (value >= -kRounding && value < 1 - kRounding) add(cuts.behind, std::max(value, 0.0));
+  if (value >= -kProgressEpsilon && value < 1 - kProgressEpsilon)
+    add(cuts.behind, std::max(value, 0.0));
 }
 
 class CutFinder {
@@ -86,11 +87,11 @@ class CutFinder {
     const double rounds = is_bound(repeat) ? 1 : rounds_of(repeat);
     for (const double cut : above.at) {
       const double done = rounds * cut;
-      add_at(here, done - (std::ceil(done - kRounding) - 1));
+      add_at(here, done - (std::ceil(done - kProgressEpsilon) - 1));
     }
     for (const double cut : above.behind) {
       const double done = rounds * cut;
-      add_behind(here, done - std::floor(done + kRounding));
+      add_behind(here, done - std::floor(done + kProgressEpsilon));
     }
   }
 
@@ -155,7 +156,7 @@ class CutFinder {
 std::vector<double> Cuts::levels() const {
   std::vector<double> all = at;
   for (const double cut : behind) {
-    const auto next = std::ranges::upper_bound(at, cut + kRounding);
+    const auto next = std::ranges::upper_bound(at, cut + kProgressEpsilon);
     add(all, (cut + (next == at.end() ? 1.0 : *next)) / 2);
   }
   return all;

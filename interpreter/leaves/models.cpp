@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/core/any_value.h"
+#include "base/core/progress.h"
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "engine/synchronized.h"
@@ -22,7 +23,6 @@ namespace {
 constexpr std::int64_t kNoEnd = 1'000'000'000;
 constexpr std::string_view kProgress = "progress";
 constexpr std::uint32_t kUsualParts = 10, kMostParts = 1000;
-constexpr double kSameLevel = 1e-9;
 
 bool is_whole(double value) {
   return std::abs(value - std::round(value)) < 1e-6;
@@ -363,7 +363,7 @@ class ModelMaker {
   // What a property compares progress with is seen, but makes no step smaller.
   static void count_steps(LeafModel& model, const std::vector<double>& steps) {
     const auto steps_to = [&](double level) {
-      return static_cast<std::int32_t>(std::ranges::lower_bound(steps, level - kSameLevel) -
+      return static_cast<std::int32_t>(std::ranges::lower_bound(steps, level - kProgressEpsilon) -
                                        steps.begin());
     };
     model.steps.clear();
@@ -400,8 +400,8 @@ class ModelMaker {
   }
 
   static void add_level(LeafModel& model, double value) {
-    const auto at = std::ranges::lower_bound(model.levels, value - kSameLevel);
-    if (at == model.levels.end() || *at > value + kSameLevel) model.levels.insert(at, value);
+    const auto at = std::ranges::lower_bound(model.levels, value - kProgressEpsilon);
+    if (at == model.levels.end() || *at > value + kProgressEpsilon) model.levels.insert(at, value);
   }
 
   void check_parts(const ProgressWay& way, Place place, const std::vector<double>& deltas) {

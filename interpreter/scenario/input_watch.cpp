@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/blackboard/conversion.h"
+#include "base/core/progress.h"
 #include "base/core/wording.h"
 #include "leaves/plugin/contract/host.h"
 
@@ -22,10 +23,9 @@ Value read_input(const BoundPort& port) {
 }
 
 bool are_same(const Value& value, const PreparedInput& input) {
-  constexpr double kSame = 1e-9;
   const auto* const number = std::get_if<double>(&value);
   const auto expected = number != nullptr ? parse_double(input.text) : std::nullopt;
-  if (expected) return std::abs(*number - *expected) <= kSame;
+  if (expected) return std::abs(*number - *expected) <= kProgressEpsilon;
   return to_text(value) == input.text;
 }
 

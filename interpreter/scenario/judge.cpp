@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/core/progress.h"
 #include "base/core/wording.h"
 #include "engine/blackboard.h"
 #include "judge/measure/decision.h"
@@ -29,8 +30,8 @@ std::string range_text(const NumberRange& range) {
 }
 
 bool is_within(double value, const NumberRange& range) {
-  constexpr double kSame = 1e-9;
-  return value >= range.least - kSame && (!range.most || value <= *range.most + kSame);
+  return value >= range.least - kProgressEpsilon &&
+         (!range.most || value <= *range.most + kProgressEpsilon);
 }
 
 }  // namespace
@@ -188,8 +189,8 @@ void Judge::judge_limits(const RunMeasures& measures) {
       const StudyColumn& it = measures.columns()[column];
       if (it.is_gap || it.measure != name) continue;
       const double value = measures.values()[column];
-      constexpr double kSame = 1e-9;
-      if (!std::isnan(value) && are_nearly(value, limit.relation, limit.limit, kSame)) continue;
+      const bool holds = are_nearly(value, limit.relation, limit.limit, kProgressEpsilon);
+      if (!std::isnan(value) && holds) continue;
       surprises_.push_back({limit.of->place,
                             fmt::format("expected {}, came {}", limit.text,
                                         std::isnan(value) ? "no value: it was not reached"

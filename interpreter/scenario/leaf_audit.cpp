@@ -4,14 +4,13 @@
 
 #include <cmath>
 
+#include "base/core/progress.h"
 #include "base/core/wording.h"
 #include "scenario/recorded_calls.h"
 #include "scenario/script_results.h"
 
 namespace lockstep::host {
 namespace {
-
-constexpr double kStill = 1e-9;  // progress that differs by less has not moved
 
 struct AuditedLeaf {
   NodeIndex node;  // in the recording
@@ -63,7 +62,7 @@ class Auditor {
     const LeafModel& model = *leaf.model;
     // Progress is that at the start of this tick: after the one before, and a tick without one.
     const double moved = state.progress - leaf.progress;
-    if (leaf.was_held && !model.drifts() && std::abs(moved) > kStill && leaf.ticks > 0) {
+    if (leaf.was_held && !model.drifts() && std::abs(moved) > kProgressEpsilon && leaf.ticks > 0) {
       add(tick, leaf,
           fmt::format("moved from {:g} to {:g} while it was held, the leaf file says "
                       "held=\"still\"",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/core/plugin_exception.h"
+#include "base/core/progress.h"
 #include "engine/leaf_call.h"
 #include "engine/node_kind.h"
 #include "engine/tree.h"
@@ -220,8 +221,9 @@ double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double re
     context.set_fault(self, "reported a progress that is not a number");
     return 0.0;
   }
-  constexpr double kRounding = 1e-9;  // of a sum of shares; not reported
-  if (reported < -kRounding || reported > 1 + kRounding) context.note_out_of_range(self, reported);
+  if (reported < -kProgressEpsilon || reported > 1 + kProgressEpsilon) {
+    context.note_out_of_range(self, reported);
+  }
   return std::clamp(reported, 0.0, 1.0) + 0.0;  // -0 is 0
 }
 

@@ -9,8 +9,6 @@
 
 namespace lockstep::host {
 
-static_assert(kSameProgress == kProgressEpsilon);
-
 PropertyNames property_names(const Shape& shape) {
   PropertyNames names{.paths = paths_of(shape), .entries = {}};
   for (const ShapeEntry& it : shape.entries)

@@ -1,5 +1,6 @@
 #include "language/property/formula.h"
 
+#include "base/core/progress.h"
 #include "language/property/nearly.h"
 
 namespace lockstep::host {
@@ -22,7 +23,7 @@ bool Formula::holds(std::span<const FormulaStep> code, std::span<const SeenNode>
         break;
       case What::Progress: {
         const ProgressComparison& it = progress[step.place];
-        push(are_nearly(seen[it.node].progress, it.relation, it.constant, kSameProgress));
+        push(are_nearly(seen[it.node].progress, it.relation, it.constant, kProgressEpsilon));
         break;
       }
       case What::Entry:

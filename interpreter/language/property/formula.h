@@ -20,9 +20,6 @@ struct SeenNode {
   double progress = 0;  // at the start of the tick; needed only where a property compares it
 };
 
-// Progress that differs by no more is the same, as for barriers.
-inline constexpr double kSameProgress = 1e-9;
-
 struct ProgressComparison {
   std::uint32_t node;  // its place in Formula::nodes, or its index in the tree
   Relation relation;

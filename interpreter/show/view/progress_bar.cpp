@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "base/core/progress.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -16,9 +18,8 @@ constexpr Signs kUnicodeSigns{"█", "▒", "░", "┃"};
 
 std::string to_text(const ProgressBar& bar, bool unicode) {
   const Signs& signs = unicode ? kUnicodeSigns : kAsciiSigns;
-  constexpr double kEpsilon = 1e-9;
   const auto cell_of = [&](double progress) {
-    return static_cast<std::size_t>(progress * static_cast<double>(bar.cells) + kEpsilon);
+    return static_cast<std::size_t>(progress * static_cast<double>(bar.cells) + kProgressEpsilon);
   };
   std::string text = "[";
   for (std::size_t cell = 0; cell < bar.cells; ++cell) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "base/core/progress.h"
 #include "base/core/status.h"
 #include "record/json_lines.h"
 #include "record/live/event_counts.h"
@@ -57,7 +58,8 @@ std::string typescript(std::string_view type) {
 std::string page_types() {
   std::string text =
       "// The lines of a recording, as docs/recording.md describes them. Made by `./dev generate` "
-      "from\n// interpreter/record/lines.h and base/core/status.h.\n\nexport const STATUSES = [";
+      "from\n// interpreter/record/lines.h, base/core/status.h and base/core/progress.h.\n\nexport const "
+      "STATUSES = [";
   std::string numbers;
   for (const StatusRow& row : kStatuses) {
     const char* separator = row.status == kStatuses.front().status ? "" : ", ";
@@ -67,7 +69,8 @@ std::string page_types() {
     numbers += fmt::format(" = {}", index_of(row.status));
   }
   text += "] as const;\nexport type StatusName = (typeof STATUSES)[number];\nexport const ";
-  text += numbers + ";\n\n";
+  text += numbers + ";\n\n// Progress that differs by no more is the same.\n";
+  text += fmt::format("export const PROGRESS_EPSILON = {};\n\n", kProgressEpsilon);
   for (const Tuple& it : lines::kTuples) {
     std::string list;
     for (const Tuple::Part& part : parts(it)) {

@@ -1,9 +1,12 @@
 // The lines of a recording, as docs/recording.md describes them. Made by `./dev generate` from
-// interpreter/record/lines.h and base/core/status.h.
+// interpreter/record/lines.h, base/core/status.h and base/core/progress.h.
 
 export const STATUSES = ["idle", "running", "success", "failure", "skipped"] as const;
 export type StatusName = (typeof STATUSES)[number];
 export const IDLE = 0, RUNNING = 1, SUCCESS = 2, FAILURE = 3, SKIPPED = 4;
+
+// Progress that differs by no more is the same.
+export const PROGRESS_EPSILON = 1e-09;
 
 export type NodeChange = [index: number, status: StatusName, progress: number, ticked: number, held: number];
 export type MomentNode = [index: number, status: StatusName, ticked: number, held: number];

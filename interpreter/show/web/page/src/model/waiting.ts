@@ -1,9 +1,9 @@
 // Finds which node waits for which, and where: the same sentences as those of `lockstep replay`.
 import type { Moment, Span } from "./moment";
-import { IDLE, RUNNING, SKIPPED } from "./recording";
+import { IDLE, PROGRESS_EPSILON, RUNNING, SKIPPED } from "./recording";
 import type { ShapeNode } from "./shape";
 
-const EPSILON = 1e-9, FEW = 8;
+const FEW = 8;
 
 export interface Wait {
   node: number;
@@ -27,7 +27,7 @@ export function spanOf(moment: Moment, keeper: ShapeNode): Span {
     if (counted[place]) least = Math.min(least, moment.progress[child]);
   });
   const slowest = [...keeper.inStep.keys()].filter(
-    (place) => counted[place] && moment.progress[keeper.inStep[place]] <= least + EPSILON);
+    (place) => counted[place] && moment.progress[keeper.inStep[place]] <= least + PROGRESS_EPSILON);
   const limit = moment.limit(keeper.index);
   const most = Math.min(1, keeper.synchronization === "relative" ? least + limit : limit);
   const span = { least, most, slowest };
@@ -138,4 +138,9 @@ export function marksOf(moment: Moment, keeper: ShapeNode): number[] {
   if (keeper.barriers.length > 0) return keeper.barriers;
   const { most } = spanOf(moment, keeper);
   return most > 0 && keeper.synchronization !== "resources" ? [most] : [];
+}
+
+// Whether a mark is where children are held now.
+export function isLimit(mark: number, most: number): boolean {
+  return Math.abs(mark - most) < PROGRESS_EPSILON;
 }

@@ -1,6 +1,6 @@
 // The progress of a node, with the barriers or the delta band of the node that holds it.
 import type { Moment } from "../../model/moment";
-import { marksOf, short, spanOf } from "../../model/waiting";
+import { isLimit, marksOf, short, spanOf } from "../../model/waiting";
 import { stateOf } from "../../model/words";
 
 interface Place {
@@ -40,7 +40,7 @@ function Marks({ moment, keeper, place }: { moment: Moment; keeper: number; plac
   return (
     <>
       {marksOf(moment, it).map((mark) => {
-        const current = Math.abs(mark - most) < 1e-9;
+        const current = isLimit(mark, most);
         const beyond = current ? 3 : 1;
         const x = place.x + mark * place.width;
         return (

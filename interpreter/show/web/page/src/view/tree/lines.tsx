@@ -1,7 +1,7 @@
 // The lines between the cards: edges, barriers through siblings, and arrows from a waiting node to the one that it waits for.
 import type { Moment } from "../../model/moment";
 import { IDLE } from "../../model/recording";
-import { marksOf, spanOf, waitOf } from "../../model/waiting";
+import { isLimit, marksOf, spanOf, waitOf } from "../../model/waiting";
 import { PADDING } from "./card";
 import { GAP_X, type Box, type Layout } from "./layout";
 
@@ -62,7 +62,7 @@ function Through({ moment, layout, keeper }: { moment: Moment; layout: Layout; k
     <>
       {marksOf(moment, it).slice(0, 20).map((mark) => {
         const x = first.x + PADDING + mark * (first.width - 2 * PADDING);
-        const current = Math.abs(mark - most) < 1e-9;
+        const current = isLimit(mark, most);
         return (
           <line key={mark} class={current ? "through current" : "through"} x1={x} x2={x}
             y1={first.y - 4} y2={last.y + last.height + 4} />
