@@ -24,10 +24,10 @@ std::string failure_text(const ReportedScenario& it) {
 std::string test_case(const ReportedScenario& it) {
   std::string text = fmt::format("    <testcase classname=\"{}\" name=\"{}\" file=\"{}\"",
                                  xsd_escaped(it.file), xsd_escaped(it.name), xsd_escaped(it.file));
-  if (it.outcome == "passed") return text + "/>\n";
-  if (it.outcome == "stopped")
+  if (it.outcome == ScenarioOutcome::Passed) return text + "/>\n";
+  if (it.outcome == ScenarioOutcome::Stopped)
     return text + ">\n      <skipped message=\"stopped\"/>\n    </testcase>\n";
-  const std::string_view tag = it.outcome == "failed" ? "failure" : "error";
+  const std::string_view tag = it.outcome == ScenarioOutcome::Failed ? "failure" : "error";
   const std::string first = it.failures.empty() ? std::string() : it.failures.front().message;
   return text + fmt::format(">\n      <{0} message=\"{1}\">{2}</{0}>\n    </testcase>\n", tag,
                             xsd_escaped(printable(first)), xsd_escaped(failure_text(it)));
@@ -42,7 +42,7 @@ std::string to_json(std::span<const ReportedScenario> all, const TestCounts& cou
     scenario["file"] = it.file;
     scenario["name"] = it.name;
     scenario["place"] = it.place;
-    scenario["outcome"] = it.outcome;
+    scenario["outcome"] = to_string(it.outcome);
     scenario["runs"] = it.runs;
     scenario["ticks"] = it.ticks;
     if (!it.failures.empty()) {
@@ -56,7 +56,7 @@ std::string to_json(std::span<const ReportedScenario> all, const TestCounts& cou
       }
       scenario["failures"] = std::move(failures);
     }
-    if (it.outcome == "failed") scenario["seed"] = it.seed;
+    if (it.outcome == ScenarioOutcome::Failed) scenario["seed"] = it.seed;
     if (!it.recording.empty()) scenario["recording"] = it.recording;
     scenarios.push_back(std::move(scenario));
   }
@@ -79,9 +79,9 @@ std::string to_junit(std::span<const ReportedScenario> all, const TestCounts& co
     if (suites.empty() || suites.back().first != it.file) suites.emplace_back(it.file, Suite());
     Suite& suite = suites.back().second;
     ++suite.tests;
-    if (it.outcome == "failed") ++suite.failures;
-    if (it.outcome == "invalid") ++suite.errors;
-    if (it.outcome == "stopped") ++suite.skipped;
+    if (it.outcome == ScenarioOutcome::Failed) ++suite.failures;
+    if (it.outcome == ScenarioOutcome::Invalid) ++suite.errors;
+    if (it.outcome == ScenarioOutcome::Stopped) ++suite.skipped;
     suite.cases += test_case(it);
   }
   std::string text = fmt::format(

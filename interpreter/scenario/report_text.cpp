@@ -10,10 +10,17 @@
 namespace lockstep::host {
 namespace {
 
-std::string sign_of(std::string_view outcome, bool color) {
-  if (outcome == "passed") return styled("ok  ", Style::Good, color);
-  if (outcome == "failed") return styled("FAIL", Style::Bad, color);
-  return outcome == "invalid" ? styled("BAD ", Style::Bad, color) : "stop";
+ScenarioOutcome outcome_of(const ScenarioReport& report) {
+  if (!report.errors.empty()) return ScenarioOutcome::Invalid;
+  if (report.was_stopped) return ScenarioOutcome::Stopped;
+  return report.is_good() ? ScenarioOutcome::Passed : ScenarioOutcome::Failed;
+}
+
+std::string sign_of(ScenarioOutcome outcome, bool color) {
+  constexpr std::string_view kSigns[] = {"ok  ", "FAIL", "BAD "};
+  if (outcome == ScenarioOutcome::Stopped) return "stop";
+  const Style style = outcome == ScenarioOutcome::Passed ? Style::Good : Style::Bad;
+  return styled(kSigns[static_cast<std::size_t>(outcome)], style, color);
 }
 
 std::string render_errors(std::span<const Diagnostic> all, bool color) {
@@ -32,15 +39,17 @@ std::string what_came(const ReportedScenario& it) {
 
 }  // namespace
 
+std::string_view to_string(ScenarioOutcome outcome) {
+  constexpr std::string_view kTexts[] = {"passed", "failed", "invalid", "stopped"};
+  return kTexts[static_cast<std::size_t>(outcome)];
+}
+
 ReportedScenario reported(const ScenarioReport& report) {
   const Sources& sources = report.file->sources;
   ReportedScenario it{.file = report.file->path,
                       .name = report.scenario->name,
                       .place = to_text(sources.locate(report.scenario->place)),
-                      .outcome = !report.errors.empty() ? "invalid"
-                                 : report.was_stopped   ? "stopped"
-                                 : report.is_good()     ? "passed"
-                                                        : "failed",
+                      .outcome = outcome_of(report),
                       .runs = report.runs,
                       .ticks = report.ticks,
                       .seed = report.seed};
@@ -62,9 +71,10 @@ ReportedScenario reported(const ScenarioReport& report) {
 std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
                     std::span<const Diagnostic> told) {
   const ReportedScenario it = reported(report);
+  const bool has_failed = it.outcome == ScenarioOutcome::Failed;
   std::string text =
       fmt::format("  {}  {:<{}}", sign_of(it.outcome, color), printable(it.name), width);
-  if (it.outcome == "passed" || it.outcome == "failed") text += "  " + what_came(it);
+  if (has_failed || it.outcome == ScenarioOutcome::Passed) text += "  " + what_came(it);
   const std::string errors = render_errors(report.errors, color);
   const bool is_told = !errors.empty() && errors == render_errors(told, color);
   if (is_told) text += "  likewise";
@@ -79,22 +89,17 @@ std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
       }
     }
   }
-  if (it.outcome == "failed" && it.runs > 1) {
+  if (has_failed && it.runs > 1) {
     text += fmt::format("        run {}, seed {}\n", it.runs, it.seed);
   }
   if (!it.replay.empty()) text += fmt::format("        {}\n", it.replay);
-  if (it.outcome == "failed") text += fmt::format("        {}\n", it.again);
+  if (has_failed) text += fmt::format("        {}\n", it.again);
   return text;
 }
 
 void TestCounts::add(const ScenarioReport& report) {
-  if (!report.errors.empty()) {
-    ++invalid;
-  } else if (report.was_stopped) {
-    ++stopped;
-  } else {
-    ++(report.is_good() ? passed : failed);
-  }
+  std::size_t* const counts[] = {&passed, &failed, &invalid, &stopped};
+  ++*counts[static_cast<std::size_t>(outcome_of(report))];
   runs += report.runs;
   ticks += report.ticks;
 }

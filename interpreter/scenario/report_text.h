@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/core/clock.h"
@@ -14,6 +15,9 @@ namespace lockstep::host {
 // the names. Errors that are `told` are not told again.
 std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
                     std::span<const Diagnostic> told = {});
+
+enum class ScenarioOutcome : unsigned char { Passed, Failed, Invalid, Stopped };
+std::string_view to_string(ScenarioOutcome outcome);  // "passed"
 
 struct TestCounts {
   std::size_t passed = 0, failed = 0, invalid = 0, stopped = 0;
@@ -28,7 +32,7 @@ std::string to_text(const TestCounts& counts);
 // The content of a report, in one form for all programs.
 struct ReportedScenario {
   std::string file, name, place;  // of its name: "a.test.xml:3:5"
-  std::string outcome;            // "passed", "failed", "invalid", "stopped"
+  ScenarioOutcome outcome = ScenarioOutcome::Passed;
   std::uint64_t runs = 0, ticks = 0, seed = 0;
   struct Failure {
     std::string place, message;

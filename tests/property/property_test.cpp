@@ -118,7 +118,8 @@ void check_verdicts(WatchedRun& run, std::uint64_t ticks, std::uint64_t seed, Ve
   REQUIRE(reader.error().empty());
   std::size_t violated = 0;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const Verdict of_run{live.properties[i].verdict, live.properties[i].tick};
+    const Verdict of_run{std::string(to_string(live.properties[i].verdict)),
+                         live.properties[i].tick};
     const Verdict of_recording{std::string(to_string(checks.verdict(i))), checks.decided(i)};
     INFO(texts[i] << ": " << of_run.text << ", of the recording " << of_recording.text);
     CHECK(of_recording == of_run);

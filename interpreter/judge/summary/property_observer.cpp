@@ -35,7 +35,7 @@ void PropertyObserver::add_to(Summary& summary) const {
     const Property& it = checks_.all()[i];
     summary.properties.push_back({.name = it.name(),
                                   .text = it.text(),
-                                  .verdict = std::string(to_string(checks_.verdict(i))),
+                                  .verdict = checks_.verdict(i),
                                   .tick = checks_.decided(i)});
   }
 }

@@ -65,7 +65,7 @@ StandstillSummary* Standstills::find(const Standstill& standstill) {
 }
 
 StandstillSummary Standstills::summarize(const Standstill& standstill) const {
-  StandstillSummary summary{.cause = std::string(to_string(standstill.chain.obstacle)),
+  StandstillSummary summary{.cause = standstill.chain.obstacle,
                             .since = to_seconds(standstill.since),
                             .reported = to_seconds(standstill.time),
                             .links = {},

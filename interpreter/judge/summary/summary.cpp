@@ -132,9 +132,10 @@ void write_deciding(const DecidingSummary& node, std::size_t indent, std::string
 }
 
 void write_property(const PropertySummary& property, std::string& out, bool color) {
-  const bool is_violated = property.verdict == "violated";
-  out += fmt::format("  property   {}: {}", printable(property.name),
-                     styled(property.verdict, is_violated ? Style::Bad : Style::Good, color));
+  const bool is_violated = property.verdict == PropertyVerdict::Violated;
+  out += fmt::format(
+      "  property   {}: {}", printable(property.name),
+      styled(to_string(property.verdict), is_violated ? Style::Bad : Style::Good, color));
   if (property.tick) out += fmt::format(" in tick {}", *property.tick);
   out += '\n';
 }

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "judge/measure/decision.h"
+#include "judge/measure/hindrance.h"
 #include "judge/measure/synchronized_measure.h"
+#include "language/property/property.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -92,7 +94,7 @@ struct StandstillLinkSummary {
 };
 
 struct StandstillSummary {
-  std::string cause;               // "circle", "idle", "failed", "resources" or "running"
+  Obstacle cause = Obstacle::Idle;
   double since = 0, reported = 0;  // seconds
   std::vector<StandstillLinkSummary> links;
   std::vector<std::string> lines;  // in words
@@ -102,7 +104,7 @@ struct StandstillSummary {
 
 struct PropertySummary {
   std::string name, text;
-  std::string verdict;                     // "holds", "violated" or "open"
+  PropertyVerdict verdict = PropertyVerdict::Open;
   std::optional<std::uint64_t> tick = {};  // that has decided; none: the end, or nothing
 };
 

@@ -1,6 +1,7 @@
 
 #include "base/core/wording.h"
 #include "base/json/json.h"
+#include "judge/summary/standstill_text.h"
 #include "judge/summary/summary.h"
 
 namespace lockstep::host {
@@ -97,7 +98,7 @@ Json json_of(const std::vector<StandstillSummary>& standstills) {
   for (const StandstillSummary& it : standstills) {
     Json links = Json::array();
     for (const StandstillLinkSummary& link : it.links) links.push_back(json_of(link));
-    list.push_back({{"cause", it.cause},
+    list.push_back({{"cause", to_string(it.cause)},
                     {"since_s", it.since},
                     {"time_s", it.reported},
                     {"links", std::move(links)}});
@@ -111,8 +112,10 @@ Json json_of(const std::vector<StandstillSummary>& standstills) {
 Json json_of(const std::vector<PropertySummary>& properties) {
   Json list = Json::array();
   for (const PropertySummary& it : properties) {
-    list.push_back(
-        {{"name", it.name}, {"property", it.text}, {"verdict", it.verdict}, {"tick", it.tick}});
+    list.push_back({{"name", it.name},
+                    {"property", it.text},
+                    {"verdict", to_string(it.verdict)},
+                    {"tick", it.tick}});
   }
   return list;
 }

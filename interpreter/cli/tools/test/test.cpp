@@ -123,7 +123,8 @@ class TestCommand {
   // For programs that read the results: a file counts as one scenario.
   void add_unreadable(const std::string& path, const Diagnostics& diagnostics) {
     ++counts_.invalid;
-    ReportedScenario it{.file = path, .name = "the file", .place = path, .outcome = "invalid"};
+    ReportedScenario it{
+        .file = path, .name = "the file", .place = path, .outcome = ScenarioOutcome::Invalid};
     for (const Diagnostic& error : diagnostics.all()) {
       if (error.severity != Severity::Error) continue;
       it.failures.push_back({to_text(error.location), error.message, {}});
