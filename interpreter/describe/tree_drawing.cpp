@@ -12,14 +12,6 @@ namespace {
 
 constexpr std::size_t kMostBarriers = 12;
 
-// A parameter that is a constant; null when an entry gives it.
-const Value* constant(const Definition& definition, const DefinitionNode& node,
-                      std::string_view name) {
-  const auto& parameters = node.type->parameters;
-  const auto it = std::ranges::find(parameters, name, &Parameter::name);
-  return definition.constant(node, static_cast<std::size_t>(it - parameters.begin()));
-}
-
 std::string barriers_text(const std::vector<double>& barriers) {
   if (barriers.empty()) return "no barriers";
   if (barriers.size() > kMostBarriers) return fmt::format("{} barriers", barriers.size());
@@ -31,12 +23,13 @@ std::string barriers_text(const std::vector<double>& barriers) {
 // The parameters of a control node that its sign does not show.
 std::vector<std::string> control_lines(const Definition& definition, const DefinitionNode& node) {
   const Synchronization synchronization = definition.synchronization(node);
+  const HoldingParameters& holding = node.type->holding;
   if (synchronization == Synchronization::Absolute) {
-    if (const Value* barriers = constant(definition, node, "barriers")) {
+    if (const Value* barriers = definition.constant(node, holding.barriers)) {
       return {barriers_text(std::get<std::vector<double>>(*barriers))};
     }
   } else if (synchronization == Synchronization::Relative) {
-    if (const Value* delta = constant(definition, node, "delta")) {
+    if (const Value* delta = definition.constant(node, holding.delta)) {
       return {fmt::format("Δ = {}", std::get<double>(*delta))};
     }
   }

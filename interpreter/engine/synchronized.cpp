@@ -7,15 +7,13 @@
 namespace lockstep::host {
 namespace {
 
-std::size_t place_of(const Tree& tree, NodeIndex node, std::string_view parameter) {
-  const auto parameters = tree.labels[node].type->parameters;
-  const auto it = std::ranges::find(parameters, parameter, &Parameter::name);
-  return static_cast<std::size_t>(it - parameters.begin());
+const HoldingParameters& holding(const Tree& tree, NodeIndex node) {
+  return tree.labels[node].type->holding;
 }
 
 // The cell of a parameter that the node has.
-const Cell& cell_of(const Tree& tree, NodeIndex node, std::string_view parameter) {
-  return tree.cells[tree.nodes[node].params + place_of(tree, node, parameter)];
+const Cell& cell_of(const Tree& tree, NodeIndex node, unsigned parameter) {
+  return tree.cells[tree.nodes[node].params + parameter];
 }
 
 // Null when all its parameters are constants.
@@ -57,24 +55,30 @@ const Member* barrier_member(const Tree& tree, NodeIndex node) {
 
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Absolute)) return std::nullopt;
-  const Cell& cell = cell_of(tree, node, "barriers");
+  const Cell& cell = cell_of(tree, node, holding(tree, node).barriers);
   return std::span(tree.numbers).subspan(cell.list.first, cell.list.count);
+}
+
+std::uint32_t entry_of_barriers(const Tree& tree, NodeIndex node) {
+  return tree.ports[bound_of(tree, node)->first_port + holding(tree, node).barriers].slot;
+}
+
+bool ticks_at_barrier(const Tree& tree, NodeIndex node) {
+  return cell_of(tree, node, holding(tree, node).at_barrier).integer == kTicksAtBarrier;
 }
 
 std::optional<double> delta(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Relative)) return std::nullopt;
-  return cell_of(tree, node, "delta").number;
+  return cell_of(tree, node, holding(tree, node).delta).number;
 }
 
 bool ignores_idle(const Tree& tree, NodeIndex node) {
-  if (!tree.is_group(node)) return false;
-  const std::size_t place = place_of(tree, node, "idle");
-  if (place == tree.labels[node].type->parameters.size()) return false;
+  const unsigned place = holding(tree, node).idle;
+  if (place == HoldingParameters::kNone) return false;
   if (const BoundNode* bound = bound_of(tree, node)) {
     return tree.constants[tree.ports[bound->first_port + place].constant] == Value("ignore");
   }
-  return tree.labels[node].type->parameters[place].choices[static_cast<std::size_t>(
-             cell_of(tree, node, "idle").integer)] == "ignore";
+  return cell_of(tree, node, place).integer == kIgnoresIdle;
 }
 
 }  // namespace lockstep::host

@@ -99,10 +99,20 @@ const Member* barrier_member(const Tree& tree, NodeIndex node);
 // Whether a member of a barrier beside the tree is held in this tick.
 bool is_held_at_barrier(NodeContext& context, NodeIndex member);
 
+// The words of two parameters of barriers, by their places: at_barrier="tick", idle="ignore".
+inline constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
+inline constexpr std::int64_t kTicksAtBarrier = 1;
+inline constexpr std::string_view kIdleChoices[] = {"wait", "ignore"};
+inline constexpr std::int64_t kIgnoresIdle = 1;
+
 // The barriers of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for
 // other nodes, and where an entry gives any parameter.
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node);
 std::optional<double> delta(const Tree& tree, NodeIndex node);
+// Of a node with barriers that are constant.
+bool ticks_at_barrier(const Tree& tree, NodeIndex node);
+// Of one where an entry gives a parameter: the slot of its barriers, or none.
+std::uint32_t entry_of_barriers(const Tree& tree, NodeIndex node);
 // A group that leaves out the members that are idle.
 bool ignores_idle(const Tree& tree, NodeIndex node);
 

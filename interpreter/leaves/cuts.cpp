@@ -122,13 +122,9 @@ class CutFinder {
       return;
     }
     if (const auto list = barriers(tree_, node)) {
-      const bool ticks = tree_.cells[tree_.nodes[node].params + absolute::kAtBarrier].integer ==
-                         absolute::kTickAtBarrier;
-      return add_list(*list, ticks, cuts);
+      return add_list(*list, ticks_at_barrier(tree_, node), cuts);
     }
-    const auto bound = std::ranges::find(tree_.bound, node, &BoundNode::node);
-    const std::uint32_t slot = tree_.ports[bound->first_port + absolute::kBarriers].slot;
-    const auto known = entries_.find(slot);
+    const auto known = entries_.find(entry_of_barriers(tree_, node));
     if (known == entries_.end()) {
       cuts.is_unknown = true;
     } else {

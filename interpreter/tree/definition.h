@@ -136,14 +136,15 @@ struct Definition {
     return list == nullptr ? std::string_view() : *list;
   }
 
-  // Whether a parameter of that name is there, as a value or from an entry.
+  // Whether a parameter is there, as a value or from an entry.
+  bool has(const DefinitionNode& node, std::size_t parameter) const {
+    if (parameter >= node.type->parameters.size()) return false;
+    const Port& port = ports[node.first + parameter];
+    return port.entry != Port::kNone || port.value != Port::kNone;
+  }
   bool has(const DefinitionNode& node, std::string_view parameter) const {
-    for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
-      if (node.type->parameters[i].name != parameter) continue;
-      const Port& port = ports[node.first + i];
-      return port.entry != Port::kNone || port.value != Port::kNone;
-    }
-    return false;
+    const auto place = std::ranges::find(node.type->parameters, parameter, &Parameter::name);
+    return has(node, static_cast<std::size_t>(place - node.type->parameters.begin()));
   }
 
   // How often such a node begins its child (ProgressShare::EachRound); at most 0: for ever;
@@ -161,17 +162,15 @@ struct Definition {
 
   // A barrier with a delta holds as ParallelRelative does.
   Synchronization synchronization(const DefinitionNode& node) const {
-    const bool by_delta = node.type->category == NodeCategory::Group && has(node, "delta");
-    return by_delta ? Synchronization::Relative : node.type->synchronization;
+    return has(node, node.type->holding.delta) ? Synchronization::Relative
+                                               : node.type->synchronization;
   }
 
   // A barrier whose members wait for those that are idle.
   bool waits(const DefinitionGroup& group) const {
     const DefinitionNode& node = nodes[group.node];
-    for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
-      if (node.type->parameters[i].name == "idle") return *constant(node, i) == Value("wait");
-    }
-    return false;
+    const unsigned idle = node.type->holding.idle;
+    return idle < node.type->parameters.size() && *constant(node, idle) == Value("wait");
   }
 
   // Says for each script whether its value is a yes or a no.

@@ -110,6 +110,14 @@ struct Mock {
 
 class ElementTypes;
 
+// Which of its parameters say how a synchronized node holds what is in it.
+struct HoldingParameters {
+  static constexpr unsigned kNone = 0xffffffff;
+  unsigned barriers = kNone, at_barrier = kNone;  // of one that may be Absolute
+  unsigned delta = kNone;                         // of one that may be Relative
+  unsigned idle = kNone;                          // of a barrier beside the trees
+};
+
 struct NodeType {
   std::string_view id;  // the XML tag
   NodeCategory category;
@@ -124,6 +132,7 @@ struct NodeType {
   Again again = Again::Acts;
   ProgressShare progress_share = ProgressShare::NotByPlace;
   Synchronization synchronization = Synchronization::None;
+  HoldingParameters holding = {};
   Status goes_on_after = Status::Idle;  // children are ticked from the left, each after this result
   bool is_reactive = false;             // it begins with its first child in every tick
   bool latches = false;                 // a parallel: a child with actions is not ticked again

@@ -16,9 +16,6 @@ namespace {
 constexpr unsigned kBarrierDelta = 3;
 constexpr unsigned kIdle = 4;
 
-constexpr std::string_view kIdleChoices[] = {"wait", "ignore"};
-constexpr std::int64_t kIgnore = 1;
-
 constexpr Parameter kBarrierParameters[] = {
     absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
     Parameter{.name = "delta",
@@ -130,7 +127,7 @@ struct Snapshot {
 
 Snapshot take_snapshot(NodeContext& context, NodeIndex self) {
   const Tree& tree = context.tree();
-  const bool ignores_idle = context.parameter(self, kIdle).integer == kIgnore;
+  const bool ignores_idle = context.parameter(self, kIdle).integer == kIgnoresIdle;
   const double of_idle = ignores_idle ? kLeftOut : 0.0;
   const bool begins = context.status(self) == Status::Idle;
   const auto progress = context.child_states<double>(self);
@@ -166,8 +163,7 @@ void set_limit(NodeContext& context, NodeIndex self, double least) {
   } else {
     const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
     limit = absolute::current_barrier(barriers, least, state.place);
-    const bool ticks =
-        context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
+    const bool ticks = context.parameter(self, absolute::kAtBarrier).integer == kTicksAtBarrier;
     hold(context, self, absolute::held_from(limit, ticks));
   }
 }
@@ -262,7 +258,11 @@ const NodeKind kBarrier{
              .parameters = kBarrierParameters,
              .rule = rule_of_barrier,
              .sign = "‖",
-             .synchronization = Synchronization::Absolute},
+             .synchronization = Synchronization::Absolute,
+             .holding = {.barriers = absolute::kBarriers,
+                         .at_barrier = absolute::kAtBarrier,
+                         .delta = kBarrierDelta,
+                         .idle = kIdle}},
     .tick = tick_barrier,
     .progress = [](NodeContext& context,
                    NodeIndex self) { return least_progress(context.child_states<double>(self)); },

@@ -21,9 +21,6 @@ inline constexpr unsigned kBarriers = 0;
 inline constexpr unsigned kBarrierCount = 1;
 inline constexpr unsigned kAtBarrier = 2;
 
-inline constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
-inline constexpr std::int64_t kTickAtBarrier = 1;
-
 inline constexpr Parameter kBarriersParameter{
     .name = "barriers",
     .type = ValueType::DoubleList,

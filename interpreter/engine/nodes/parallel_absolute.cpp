@@ -28,8 +28,7 @@ Status tick_absolute(NodeContext& context, NodeIndex self) {
   auto& state = context.state<SynchronizedState>(self);
   const double barrier = absolute::current_barrier(barriers, least, state.place);
   state.limit = barrier;
-  const bool ticks =
-      context.parameter(self, absolute::kAtBarrier).integer == absolute::kTickAtBarrier;
+  const bool ticks = context.parameter(self, absolute::kAtBarrier).integer == kTicksAtBarrier;
   return synchronized::tick_children(context, self, kAbsoluteCounts,
                                      absolute::held_from(barrier, ticks));
 }
@@ -48,6 +47,7 @@ const NodeKind kParallelAbsolute{
              .rule = rule_of_absolute,
              .sign = "⇉A",
              .synchronization = Synchronization::Absolute,
+             .holding = {.barriers = absolute::kBarriers, .at_barrier = absolute::kAtBarrier},
              .latches = true},
     .tick = tick_absolute,
     .progress = synchronized::least_progress,

@@ -40,6 +40,7 @@ const NodeKind kParallelRelative{
              .doc = "Ticks its children in parallel and holds those that are ahead of the slowest "
                     "by more than delta. Ends as Parallel does.",
              .arity = {1},
+             .holding = {.delta = kDelta},
              .parameters = kRelativeParameters,
              .rule = rule_of_relative,
              .sign = "⇉R",
