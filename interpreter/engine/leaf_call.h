@@ -61,7 +61,7 @@ class LeafCall {
     return static_cast<std::uint32_t>(&leaf - context.leaves_.data());
   }
   // In nodes/leaf.cpp. What a tick in line has to do for a result that is not the usual one.
-  static Status complete(NodeContext& context, NodeIndex node, const LeafSlot& leaf,
+  static Status complete(NodeContext& context, NodeIndex node, LeafSlot& leaf,
                          lockstep_status result);
   static double spoiled_progress(NodeContext& context, NodeIndex node, double reported);
   static void note_exception(NodeContext& context, const LeafSlot& leaf);

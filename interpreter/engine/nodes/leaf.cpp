@@ -157,6 +157,16 @@ template <Kind kKind>
   return leaf.failed() ? out<kKind>(context, self) : Status::Running;
 }
 
+// What the result of a tick means: no other place says so. The loop of leaves goes on after the one
+// result that it was made for, and has all others from here (LeafCall::complete).
+template <Kind kKind>
+Status meaning_of(NodeContext& context, NodeIndex self, LeafSlot& leaf, lockstep_status result,
+                  bool is_out_now) {
+  if (leaf.error == nullptr && !is_out_now && is_result<kKind>(result)) [[likely]]
+    return static_cast<Status>(result);
+  return spoiled<kKind>(context, self, leaf, result);
+}
+
 lockstep_status call_tick(NodeContext& context, NodeIndex self) {
   lockstep_status result = LOCKSTEP_IDLE;  // no result, as after an exception
   guarded(context, self, PluginFunction::Tick,
@@ -180,9 +190,7 @@ Status tick_leaf(NodeContext& context, NodeIndex self) {
   } else {
     result = call_tick(context, self);
   }
-  if (leaf.error == nullptr && !is_out_now && is_result<kKind>(result)) [[likely]]
-    return static_cast<Status>(result);
-  return spoiled<kKind>(context, self, leaf, result);
+  return meaning_of<kKind>(context, self, leaf, result, is_out_now);
 }
 
 Status tick_control(NodeContext& context, NodeIndex self) {
@@ -263,11 +271,9 @@ double progress_of_control(NodeContext& context, NodeIndex self) {
 
 }  // namespace
 
-Status LeafCall::complete(NodeContext& context, NodeIndex node, const LeafSlot& leaf,
+Status LeafCall::complete(NodeContext& context, NodeIndex node, LeafSlot& leaf,
                           lockstep_status result) {
-  const bool is_plain = leaf.error == nullptr && is_result<Kind::Action>(result);
-  Status status = is_plain ? static_cast<Status>(result)
-                           : spoiled<Kind::Action>(context, node, context.leaf(node), result);
+  Status status = meaning_of<Kind::Action>(context, node, leaf, result, false);
   if (context.faulted()) status = Status::Running;
   context.state_.activity[node] = static_cast<Activity>(status);
   context.state_.last_tick[node] = context.state_.tick_number;
