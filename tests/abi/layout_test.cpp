@@ -85,7 +85,7 @@ MEMBER_AT(lockstep_boards, write, 104);
 MEMBER_AT(lockstep_boards, unset, 112);
 MEMBER_AT(lockstep_boards, each, 120);
 
-SIZE_IS(lockstep_host, 232);
+SIZE_IS(lockstep_host, 240);
 MEMBER_AT(lockstep_host, abi_major, 0);
 MEMBER_AT(lockstep_host, abi_minor, 4);
 MEMBER_AT(lockstep_host, struct_size, 8);
@@ -116,6 +116,7 @@ MEMBER_AT(lockstep_host, set_bool_list, 200);
 MEMBER_AT(lockstep_host, set_string_list, 208);
 MEMBER_AT(lockstep_host, get_object, 216);
 MEMBER_AT(lockstep_host, set_object, 224);
+MEMBER_AT(lockstep_host, set_empty_port, 232);
 
 SIZE_IS(lockstep_leaf_type, 176);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);

@@ -264,6 +264,11 @@ struct lockstep_host {
    * NULL is no object. */
   bool (*get_object)(const lockstep_caller* caller, uint32_t port, void** object);
   bool (*set_object)(const lockstep_caller* caller, uint32_t port, void* object);
+
+  /* [run] Since 1.5 (struct_size says whether it is there). In place of set_error, where the caller
+   * needs the value of a port that has none: the host says why, "port 'goal' has no value: nothing
+   * has written the entry '{goal}'". */
+  void (*set_empty_port)(const lockstep_caller* caller, uint32_t port);
 };
 
 /* Bits of lockstep_leaf_type::flags. A host ignores those that it does not know. */

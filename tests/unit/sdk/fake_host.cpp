@@ -85,6 +85,10 @@ void set_error(const lockstep_caller* caller, const char* message) {
   if (self(caller).error.empty()) self(caller).error = message;
 }
 
+void set_empty_port(const lockstep_caller* caller, std::uint32_t port) {
+  set_error(caller, ("empty: " + std::to_string(port)).c_str());
+}
+
 double now(const lockstep_caller* caller) {
   return self(caller).time;
 }
@@ -154,8 +158,14 @@ const lockstep_host& FakeHost::table() {
                                        set_list<Flags>,
                                        set_string_list,
                                        nullptr,
-                                       nullptr};
-  return kTable;
+                                       nullptr,
+                                       set_empty_port};
+  static const lockstep_host kOlder = [] {
+    lockstep_host table = kTable;
+    table.struct_size = offsetof(lockstep_host, set_empty_port);
+    return table;
+  }();
+  return knows_empty_ports ? kTable : kOlder;
 }
 
 }  // namespace sdk_test

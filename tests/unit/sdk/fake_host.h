@@ -31,6 +31,8 @@ struct FakeHost {
   static const lockstep_host& table();
   // It has LOCKSTEP_LASTING: what is not writable is a constant then.
   static inline bool tells_what_lasts = false;
+  // It has set_empty_port.
+  static inline bool knows_empty_ports = false;
 
   std::string take_error() { return std::exchange(error, std::string()); }
 

@@ -132,6 +132,16 @@ TEST_CASE("reading a port without a value is an error that names the port", "[sd
   CHECK(error_of([](Probe& it) { it.list.view(); }, leaf) == "port 'list' has no value");
 }
 
+TEST_CASE("a host that knows why a port is empty is told which one", "[sdk]") {
+  FakeHost::knows_empty_ports = true;
+  FakeLeaf leaf(kProbe, std::vector<PortValue>(6));
+  CHECK(error_of([](Probe& it) { it.length.get(); }, leaf) == "empty: 2");
+  CHECK(error_of([](Probe& it) { it.list.view(); }, leaf) == "empty: 4");
+  CHECK(error_of([](Probe&) { throw std::runtime_error("port 'length' has no value"); }, leaf) ==
+        "port 'length' has no value");
+  FakeHost::knows_empty_ports = false;
+}
+
 TEST_CASE("try_get of a port without a value is nothing", "[sdk]") {
   FakeLeaf leaf(kProbe, std::vector<PortValue>(6));
   CHECK(error_of(

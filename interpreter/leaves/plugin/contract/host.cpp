@@ -391,6 +391,27 @@ void set_error(const lockstep_caller* caller, const char* message) {
   take_error(*caller, Shortened(message));
 }
 
+// A leaf knows its ports, only we know the entries.
+std::string why_empty(const BoundPort& port) {
+  std::string text = fmt::format("port '{}' has no value", port.name());
+  if (port.entry.empty() || port.read == nullptr) return text;
+  if (std::holds_alternative<NoValue>(*port.read)) {
+    text += fmt::format(": nothing has written the entry '{{{}}}'", brief(port.entry));
+  } else if (!convert_value(*port.read, port.type, port.object())) {
+    text += fmt::format(": the entry '{{{}}}' has '{}', which is not {}", brief(port.entry),
+                        brief(to_text(*port.read)), expected_text(port.type, port.object()));
+  }
+  return text;
+}
+
+void set_empty_port(const lockstep_caller* caller, std::uint32_t port) {
+  if (caller->is_foreign()) return;
+  const BoundPort* const it = port_of(*caller, port);
+  if (it == nullptr) return take_error(*caller, Shortened("needs a port that it does not have"));
+  const InEngine scope(caller->run->lock);
+  take_error(*caller, Shortened(why_empty(*it)));
+}
+
 double now(const lockstep_caller* caller) {
   return caller->is_foreign() ? 0 : to_seconds(caller->time->now);
 }
@@ -455,6 +476,7 @@ constexpr lockstep_host whole_table() {
   table.get_object = get_object;
   table.set_object = set_object;
   table.set_error = set_error;
+  table.set_empty_port = set_empty_port;
   table.now = now;
   table.tick_period = tick_period;
   table.random_bits = random_bits;
@@ -462,29 +484,6 @@ constexpr lockstep_host whole_table() {
   table.log = log;
   table.get_extension = get_extension;
   return table;
-}
-
-// A leaf knows its ports, only we know the entries: what leaf.hpp says of a port without a value is
-// made complete.
-Shortened with_entry(const lockstep_caller& caller, const Shortened& message) {
-  const InEngine scope(caller.run->lock);
-  for (const BoundPort* const it : caller.ports) {
-    const BoundPort& port = *it;
-    if (port.entry.empty() ||
-        message.text() != fmt::format("port '{}' has no value", port.name())) {
-      continue;
-    }
-    if (std::holds_alternative<NoValue>(*port.read)) {
-      return Shortened(fmt::format("{}: nothing has written the entry '{{{}}}'", message.text(),
-                                   brief(port.entry)));
-    }
-    if (!convert_value(*port.read, port.type, port.object())) {
-      return Shortened(fmt::format("{}: the entry '{{{}}}' has '{}', which is not {}",
-                                   message.text(), brief(port.entry), brief(to_text(*port.read)),
-                                   expected_text(port.type, port.object())));
-    }
-  }
-  return message;
 }
 
 }  // namespace
@@ -498,7 +497,7 @@ void take_error(const lockstep_caller& caller, const Shortened& message) {
     it.slot->set_error("an error, and no memory is left for its text");
     return;
   }
-  it.rest->error = with_entry(caller, message);
+  it.rest->error = message;
   it.slot->set_error(it.rest->error.c_str());
 }
 

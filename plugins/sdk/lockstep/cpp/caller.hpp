@@ -67,14 +67,39 @@ template <class Work, class Report>
   }
 }
 
+// A port that was read although it has no value.
+class EmptyPort : public std::runtime_error {
+ public:
+  EmptyPort(std::uint32_t index, std::string_view name)
+      : std::runtime_error("port '" + std::string(name) + "' has no value"), index_(index) {}
+  std::uint32_t index() const { return index_; }
+
+ private:
+  std::uint32_t index_;
+};
+
+// The host knows why the port is empty; an older one gets the text.
+inline bool tell_empty_port(const Caller& caller, std::uint32_t index) {
+  constexpr std::size_t kEnd = offsetof(lockstep_host, set_empty_port) + sizeof(void*);
+  if (caller.host->struct_size < kEnd) return false;
+  caller.host->set_empty_port(caller.id, index);
+  return true;
+}
+
 // Runs `work` and returns its result. An exception becomes an error of the caller, and `otherwise`
 // the result, which then does not count.
 template <class Result, class Work>
 [[gnu::always_inline]] inline Result guarded(const Caller& caller, Result otherwise,
                                              Work&& work) noexcept {
   Result result = otherwise;
-  catching([&] { result = work(); },
-           [&](const char* message) { caller.host->set_error(caller.id, message); });
+  const auto attempt = [&] {
+    try {
+      result = work();
+    } catch (const EmptyPort& error) {
+      if (!tell_empty_port(caller, error.index())) throw;
+    }
+  };
+  catching(attempt, [&](const char* message) { caller.host->set_error(caller.id, message); });
   return result;
 }
 

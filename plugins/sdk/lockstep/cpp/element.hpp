@@ -143,7 +143,7 @@ class MorePort {
   View view() const {
     View value{};
     if (!detail::PortTraits<T>::get(caller(), index_, value)) {
-      throw std::runtime_error("port '" + name_ + "' has no value");
+      throw detail::EmptyPort(index_, name_);
     }
     return value;
   }

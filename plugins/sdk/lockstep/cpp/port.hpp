@@ -248,7 +248,7 @@ class ReadablePort : public Port {
   View view_of_now() const {
     View value{};
     if (!PortTraits<T>::get(caller(), index(), value)) {
-      throw std::runtime_error("port '" + std::string(name()) + "' has no value");
+      throw EmptyPort(index(), name());
     }
     return value;
   }
