@@ -11,10 +11,6 @@ constexpr parallel::Counts kParallelCounts{.success_count = 0, .failure_count = 
 constexpr Parameter kParallelParameters[] = {parallel::kSuccessCount, parallel::kFailureCount,
                                              parallel::kMemory};
 
-std::optional<RuleBreak> rule_of_parallel(const ParameterValues& given) {
-  return parallel::check_counts(given, kParallelCounts);
-}
-
 Status tick_parallel(NodeContext& context, NodeIndex self) {
   const NodeIndex end = context.end_of(self);
   parallel::Tally tally;
@@ -46,7 +42,7 @@ const NodeKind kParallel{
                     "that still run are then halted.",
              .arity = {1},
              .parameters = kParallelParameters,
-             .rule = rule_of_parallel,
+             .rule = parallel::rule<kParallelCounts>,
              .sign = "⇉",
              .latches = true},
     .tick = tick_parallel,

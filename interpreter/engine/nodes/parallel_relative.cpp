@@ -20,10 +20,6 @@ constexpr Parameter kRelativeParameters[] = {
     parallel::kMemory,
 };
 
-std::optional<RuleBreak> rule_of_relative(const ParameterValues& given) {
-  return parallel::check_counts(given, kRelativeCounts);
-}
-
 Status tick_relative(NodeContext& context, NodeIndex self) {
   const double least = synchronized::take_snapshot(context, self);
   const double delta = context.parameter(self, kDelta).number;
@@ -40,11 +36,11 @@ const NodeKind kParallelRelative{
              .doc = "Ticks its children in parallel and holds those that are ahead of the slowest "
                     "by more than delta. Ends as Parallel does.",
              .arity = {1},
-             .holding = {.delta = kDelta},
              .parameters = kRelativeParameters,
-             .rule = rule_of_relative,
+             .rule = parallel::rule<kRelativeCounts>,
              .sign = "⇉R",
              .synchronization = Synchronization::Relative,
+             .holding = {.delta = kDelta},
              .latches = true},
     .tick = tick_relative,
     .progress = synchronized::least_progress,

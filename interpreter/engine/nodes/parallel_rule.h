@@ -54,6 +54,11 @@ inline std::optional<RuleBreak> check_counts(const ParameterValues& given, const
   return check_count(given, counts.failure_count, kFailureCount.name);
 }
 
+template <Counts kCounts>
+std::optional<RuleBreak> rule(const ParameterValues& given) {
+  return check_counts(given, kCounts);
+}
+
 // The progress of the child that is the M-th when the farthest is the first: where M children will
 // have arrived. One that was skipped is not there. Uses child_states, which asking must not
 // change.

@@ -63,15 +63,23 @@ bool flag_from(JsonValue value) {
   throw JsonError("a node's change has a flag that is neither 0 nor 1");
 }
 
+// Reads a list of so many items; `take` gets each with its place. Else throws `why`.
+template <class Take>
+void read_tuple(JsonValue value, std::size_t count, const char* why, Take take) {
+  if (!value.is_list()) throw JsonError(why);
+  std::size_t place = 0;
+  value.each_item([&](JsonValue item) {
+    if (place == count || !take(place++, item)) throw JsonError(why);
+  });
+  if (place != count) throw JsonError(why);
+}
+
 void apply(JsonValue change, std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's change is not [index, status, progress, ticked, held]";
-  constexpr unsigned kFields = 5;
-  if (!change.is_list()) throw JsonError(kNone);
   NodeIndex node = 0;
   RecordedState state;
-  unsigned field = 0;
-  change.each_item([&](JsonValue item) {
-    switch (field++) {
+  read_tuple(change, 5, kNone, [&](std::size_t place, JsonValue item) {
+    switch (place) {
       case 0:
         node = node_from(item, states.size(), kNone);
         break;
@@ -84,14 +92,11 @@ void apply(JsonValue change, std::vector<RecordedState>& states) {
       case 3:
         state.ticked = flag_from(item);
         break;
-      case 4:
-        state.held = flag_from(item);
-        break;
       default:
-        throw JsonError(kNone);
+        state.held = flag_from(item);
     }
+    return true;
   });
-  if (field != kFields) throw JsonError(kNone);
   state.limit = states[node].limit;
   state.round = states[node].round;
   states[node] = state;
@@ -99,19 +104,12 @@ void apply(JsonValue change, std::vector<RecordedState>& states) {
 
 void apply_round(JsonValue change, std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's round is not [index, number, of]";
-  if (!change.is_list()) throw JsonError(kNone);
   std::uint64_t fields[3] = {};
-  unsigned field = 0;
   NodeIndex node = 0;
-  change.each_item([&](JsonValue item) {
-    if (field == 0) {
-      node = node_from(item, states.size(), kNone);
-    } else if (field > 2 || !item.get(fields[field]) || fields[field] > INT64_MAX) {
-      throw JsonError(kNone);
-    }
-    ++field;
+  read_tuple(change, 3, kNone, [&](std::size_t place, JsonValue item) {
+    if (place == 0) node = node_from(item, states.size(), kNone);
+    return place == 0 || (item.get(fields[place]) && fields[place] <= INT64_MAX);
   });
-  if (field != 3) throw JsonError(kNone);
   states[node].round = {static_cast<std::int64_t>(fields[1]), static_cast<std::int64_t>(fields[2])};
 }
 
@@ -127,44 +125,36 @@ void apply_limit(JsonValue change, const std::vector<bool>& users,
                  std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's limit is not [index, number in [0, 1] or null]";
   constexpr char kNoSet[] = "the limit of a UseResources is not [index, set of resources]";
-  if (!change.is_list()) throw JsonError(kNone);
   NodeIndex node = 0;
   double limit = std::numeric_limits<double>::infinity();
-  unsigned field = 0;
-  change.each_item([&](JsonValue item) {
-    if (field == 0) {
+  read_tuple(change, 2, kNone, [&](std::size_t place, JsonValue item) {
+    if (place == 0) {
       node = node_from(item, states.size(), kNone);
-    } else if (field == 1 && users[node]) {
+    } else if (users[node]) {
       if (!item.get(limit) || !is_limit(limit, true)) throw JsonError(kNoSet);
-    } else if (field > 1 || (!item.is_null() && !(item.get(limit) && is_limit(limit, false)))) {
-      throw JsonError(kNone);
+    } else {
+      return item.is_null() || (item.get(limit) && is_limit(limit, false));
     }
-    ++field;
+    return true;
   });
-  if (field != 2) throw JsonError(kNone);
   states[node].limit = limit;
 }
 
 MomentChange moment_node_from(JsonValue value, std::size_t nodes) {
   constexpr char kNone[] = "a node of a moment is not [index, status, ticked, held]";
-  if (!value.is_list()) throw JsonError(kNone);
   MomentChange change;
   Status status = Status::Idle;
   bool flags[2] = {};
-  unsigned field = 0;
-  value.each_item([&](JsonValue item) {
-    if (field == 0) {
+  read_tuple(value, 4, kNone, [&](std::size_t place, JsonValue item) {
+    if (place == 0) {
       change.node = node_from(item, nodes, kNone);
-    } else if (field == 1) {
+    } else if (place == 1) {
       status = status_from(item);
-    } else if (field < 4) {
-      flags[field - 2] = flag_from(item);
     } else {
-      throw JsonError(kNone);
+      flags[place - 2] = flag_from(item);
     }
-    ++field;
+    return true;
   });
-  if (field != 4) throw JsonError(kNone);
   const bool is_held = flags[1] && status == Status::Running;
   change.before =
       NodeState::of(is_held ? Activity::Paused : static_cast<Activity>(status), flags[0]);
@@ -172,21 +162,13 @@ MomentChange moment_node_from(JsonValue value, std::size_t nodes) {
 }
 
 TickMoment moment_from(JsonValue value, std::size_t nodes, std::vector<MomentChange>& changes) {
-  constexpr char kNone[] = "a moment is not [times, nodes]";
-  if (!value.is_list()) throw JsonError(kNone);
   TickMoment moment;
-  unsigned field = 0;
-  value.each_item([&](JsonValue item) {
-    if (field == 0) {
-      if (!item.get(moment.times) || moment.times == 0) throw JsonError(kNone);
-    } else if (field == 1 && item.is_list()) {
-      item.each_item([&](JsonValue it) { changes.push_back(moment_node_from(it, nodes)); });
-    } else {
-      throw JsonError(kNone);
-    }
-    ++field;
+  read_tuple(value, 2, "a moment is not [times, nodes]", [&](std::size_t place, JsonValue item) {
+    if (place == 0) return item.get(moment.times) && moment.times != 0;
+    if (!item.is_list()) return false;
+    item.each_item([&](JsonValue it) { changes.push_back(moment_node_from(it, nodes)); });
+    return true;
   });
-  if (field != 2) throw JsonError(kNone);
   moment.changes = static_cast<std::uint32_t>(changes.size());
   return moment;
 }
@@ -214,79 +196,67 @@ LeafProgress leaf_progress_from(JsonValue value, std::size_t nodes) {
 NodeTotals totals_from(JsonValue value, std::size_t nodes) {
   constexpr char kNone[] =
       "counts are not [index, succeeded, failed, skipped, halted, held, faults]";
-  if (!value.is_list()) throw JsonError(kNone);
   NodeTotals totals;
-  std::size_t field = 0;
-  value.each_item([&](JsonValue item) {
+  read_tuple(value, NodeTotals::kKinds + 2, kNone, [&](std::size_t place, JsonValue item) {
     std::uint64_t count = 0;
-    if (field == 0) {
+    if (place == 0) {
       totals.node = node_from(item, nodes, kNone);
-    } else if (field > NodeTotals::kKinds + 1 || !item.get(count)) {
-      throw JsonError(kNone);
-    } else if (field <= NodeTotals::kKinds) {
-      totals.counts[field - 1] = count;
+    } else if (!item.get(count)) {
+      return false;
+    } else if (place <= NodeTotals::kKinds) {
+      totals.counts[place - 1] = count;
     }
-    ++field;
+    return true;
   });
-  if (field != NodeTotals::kKinds + 2) throw JsonError(kNone);
   return totals;
 }
 
 RecordedFault fault_from(JsonValue value, std::size_t nodes) {
   constexpr char kNone[] = "a fault is not [index, message]";
-  if (!value.is_list()) throw JsonError(kNone);
   RecordedFault fault;
-  unsigned field = 0;
-  value.each_item([&](JsonValue item) {
+  read_tuple(value, 2, kNone, [&](std::size_t place, JsonValue item) {
     std::string_view message;
-    if (field == 0) {
+    if (place == 0) {
       fault.node = node_from(item, nodes, kNone);
-    } else if (field == 1 && item.get(message)) {
+    } else if (item.get(message)) {
       fault.message = message;
     } else {
-      throw JsonError(kNone);
+      return false;
     }
-    ++field;
+    return true;
   });
-  if (field != 2) throw JsonError(kNone);
   return fault;
 }
 
 RecordedEntry entry_from(JsonValue value, std::size_t keys) {
   constexpr char kNone[] = "an entry is not [index, text or null]";
-  if (!value.is_list()) throw JsonError(kNone);
   RecordedEntry entry;
-  unsigned field = 0;
-  value.each_item([&](JsonValue item) {
+  read_tuple(value, 2, kNone, [&](std::size_t place, JsonValue item) {
     std::uint64_t number = 0;
     std::string_view text;
-    if (field == 0 && item.get(number)) {
-      if (number >= keys)
-        throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
-      entry.entry = static_cast<std::uint32_t>(number);
-    } else if (field == 1 && item.get(text)) {
-      entry.value = text;
-    } else if (field != 1 || !item.is_null()) {
-      throw JsonError(kNone);
+    if (place == 1) {
+      if (item.get(text)) entry.value = text;
+      return entry.value || item.is_null();
     }
-    ++field;
+    if (!item.get(number)) return false;
+    if (number >= keys)
+      throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
+    entry.entry = static_cast<std::uint32_t>(number);
+    return true;
   });
-  if (field != 2) throw JsonError(kNone);
   return entry;
 }
 
 LeafLine log_from(JsonValue value) {
-  constexpr char kNone[] = "a log line is not [who, level, text]";
-  if (!value.is_list()) throw JsonError(kNone);
   LeafLine log;
   std::string* const fields[] = {&log.who, &log.level, &log.text};
-  std::size_t field = 0;
-  value.each_item([&](JsonValue item) {
-    std::string_view text;
-    if (field == std::size(fields) || !item.get(text)) throw JsonError(kNone);
-    *fields[field++] = text;
-  });
-  if (field != std::size(fields)) throw JsonError(kNone);
+  read_tuple(value, std::size(fields), "a log line is not [who, level, text]",
+             [&](std::size_t place, JsonValue item) {
+               std::string_view text;
+               if (!item.get(text)) return false;
+               *fields[place] = text;
+               return true;
+             });
   return log;
 }
 
