@@ -1,6 +1,13 @@
-// Order statistics of sums, without a list of them: 10,000 values with 10,000 others have 10^8
-// sums. How many are at most v takes one walk along both lists; the double v is found by bisection,
-// which takes at most 64 walks and is exact (selection in X + Y: Johnson, Mizoguchi 1978).
+// The n-th smallest of all sums of two values, without a list of the sums: two cells of a study
+// with 10,000 runs each have 10^8. `study compare` needs it for the interval of a shift (the median
+// of all differences y - x) and of a paired one (the median of all means of two differences).
+//
+// The walk. For x = 1 4 6 and y = 0 2 5, how many sums are at most 6?
+//   1 + 5 is: all 3 of y.  4 + 5 is not, 4 + 2 is: 2.  6 + 2 is not, 6 + 0 is: 1.  So 6.
+// As x rises, the end in y only falls, so one walk along both lists finds the number. The n-th sum
+// is then the least double up to which there are more than n, which bisection finds: over the order
+// of all doubles, not by halving distances, so it takes at most 64 walks and the result is exact
+// (selection in X + Y: Johnson and Mizoguchi 1978).
 #pragma once
 
 #include <cstdint>
