@@ -175,21 +175,13 @@ TickMoment moment_from(JsonValue value, std::size_t nodes, std::vector<MomentCha
 
 LeafProgress leaf_progress_from(JsonValue value, std::size_t nodes) {
   constexpr char kNone[] = "leaf_progress is not [moment, index, progress]";
-  if (!value.is_list()) throw JsonError(kNone);
   LeafProgress progress;
-  unsigned field = 0;
-  value.each_item([&](JsonValue item) {
-    if (field == 0) {
-      if (!item.get(progress.moment)) throw JsonError(kNone);
-    } else if (field == 1) {
-      progress.node = node_from(item, nodes, kNone);
-    } else if (field > 2 || !item.get(progress.progress) || !(progress.progress >= 0) ||
-               progress.progress > 1) {
-      throw JsonError(kNone);
-    }
-    ++field;
+  read_tuple(value, 3, kNone, [&](std::size_t place, JsonValue item) {
+    if (place == 0) return item.get(progress.moment);
+    if (place == 1) progress.node = node_from(item, nodes, kNone);
+    return place == 1 ||
+           (item.get(progress.progress) && progress.progress >= 0 && progress.progress <= 1);
   });
-  if (field != 3) throw JsonError(kNone);
   return progress;
 }
 
