@@ -1,7 +1,16 @@
-// The groups of a run: barriers and pools beside the tree (Tree::groups). They are ticked before
-// the root. A group is idle when the common ancestor of its members does not run: the ancestor's
-// next tick begins an activation, and the group begins again with it. Its members say whether a
-// tick reached it.
+// The groups of a run: barriers and pools beside the tree (Tree::groups), whose members may be
+// anywhere in it. Example: <barrier name="close" barriers="0.5"/>, and a SyncProgress that names it
+// around each of two hands, deep in two branches.
+//
+// They are ticked before the root, since all members must see one snapshot. If each member decided
+// when the tick reaches it, the second one would see how far the first has moved in this tick, and
+// the order of the branches would say who waits. So a group looks at all of its members and decides
+// who is held; a member only reads that.
+//
+// A group has no parent, so its activation is that of the lowest node that all members are below:
+// it is idle while that node does not run, and begins again with it. Example: with a Retry around
+// both hands, the barrier is closed again in each attempt. Its members say whether a tick reached
+// it.
 #pragma once
 
 #include "engine/run_state.h"

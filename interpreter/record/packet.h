@@ -1,5 +1,7 @@
 // The numbers that the tick thread passes to the threads of those who watch, which print or count
-// them. Only in the memory of one process, never in a file.
+// them: to print a number takes far longer than to copy it, and a tick has no time for that. They
+// are plain data, so that a crash handler can print what is still in the ring. Only in the memory
+// of one process, never in a file.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,11 @@
 // The last lines of a run, for any number of listeners: each reads on from its cursor, at its pace,
-// and keeps nothing else. A listener that falls behind goes on at a line that has the whole state,
-// and what was counted until then.
-// The log has bounded size and begins with such a line.
+// and keeps nothing else, so the hundredth listener costs the run no memory.
+//
+// A slow listener must neither make the run wait nor the log grow. One that is more than
+// kMostBehind bytes behind continues at the last line that has the whole state, with what was
+// counted until then. Example: a browser takes 50 kB/s of a run that makes 200 kB/s. After some
+// seconds it leaves out ticks; its tree and its counts of results are still right. The log has
+// bounded size and begins with such a line.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,10 @@
 // Passes the newest of a series of values from one thread to another: neither ever waits, and
 // values that were not read are lost. One writer, one reader.
+//
+// It takes three values: one that the writer fills in, one that the reader looks at, and the newest
+// in between, which either of them swaps for its own. With two, the writer would have to wait while
+// the reader looks. Example: a terminal draws for 50 ms, in which the tick thread publishes five
+// snapshots into the other two; the next take() gives the fifth.
 #pragma once
 
 #include <array>
