@@ -17,7 +17,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
-#include "verify/check/certainties.h"
+#include "verify/check/advice.h"
 
 namespace lockstep::host {
 namespace {
@@ -142,7 +142,10 @@ int check(const CheckOptions& options) {
     }
     load.is_part = neighbors.is_part(tree);
     auto loaded = load_given(tree, load, diagnostics);
-    if (loaded) add_certainties(*loaded->project, std::move(loaded->definition), diagnostics);
+    if (loaded) {
+      add_advice(*loaded->project, std::move(loaded->definition), AdviceEffort::Certain,
+                 diagnostics);
+    }
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
     if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;

@@ -97,9 +97,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   advise(definition, report);
   advise_holds(definition, report);
   advise_resources(definition, report);
-  warn_of_circle(definition, report);
-  warn_of_keepers(definition, report);
-  note_idle_members(definition, report);
+  note_openings(definition, report);
   note_unfairness(definition, report);
   return definition;
 }

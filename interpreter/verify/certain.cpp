@@ -9,46 +9,21 @@
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "language/expression/expression.h"
-#include "verify/chance_runs.h"
-#include "verify/verifiable.h"
 
 namespace lockstep::host {
 namespace {
 
-// The same on every machine, and some hundredths of a second.
-constexpr std::size_t kMostNodes = 10'000;
-
-SearchLimits bound(const Tree& tree) {
-  return {.states = 20'000,
-          .transitions = std::min<std::uint64_t>(50'000, 10'000'000 / tree.nodes.size()),
-          .memory = std::numeric_limits<std::size_t>::max()};
-}
-
-// The rate decides what comes first.
-bool has_clocks(const Tree& tree) {
-  return std::ranges::any_of(tree.labels, [](const NodeLabel& label) {
-    return label.type->leaf == nullptr && label.type->mock == nullptr &&
-           std::ranges::any_of(label.type->parameters,
-                               [](const Parameter& it) { return !it.unit.empty(); });
-  });
-}
-
-// Whoever starts the tree may give it other start values.
-bool has_start_values(const Tree& tree, const LeafModels& models) {
-  const auto written = writers(tree);  // by the tree itself, or by its leaves
-  for (std::size_t slot = 0; slot < tree.slots.size(); ++slot) {
-    const bool has_value = !std::holds_alternative<NoValue>(tree.slots[slot].initial);
-    if (models.entries[slot] && (has_value || written[slot].empty())) return true;
-  }
-  return false;
-}
-
 class Certainties {
  public:
-  Certainties(const Tree& tree, std::span<const Place> places, const SearchResult& found)
-      : tree_(tree), places_(places), found_(found), graph_(found.graph_of_cycles()) {}
+  Certainties(const Tree& tree, std::span<const Place> places, const SearchResult& found,
+              std::string why_it_stands)
+      : tree_(tree),
+        places_(places),
+        found_(found),
+        graph_(found.graph_of_cycles()),
+        why_it_stands_(std::move(why_it_stands)) {}
 
-  std::vector<Certainty> find() {
+  std::vector<Advice> find() {
     look_for_dead_nodes();
     if (std::ranges::none_of(found_.results, [](const auto& it) { return it.has_value(); }) &&
         found_.faults.empty()) {
@@ -150,7 +125,7 @@ class Certainties {
     }
     certainties_.push_back({0, Severity::Warning,
                             "this tree can never end: whatever its leaves do, it stands still",
-                            "`lockstep verify` shows how"});
+                            std::move(why_it_stands_)});
   }
 
   const Tree& tree_;
@@ -158,32 +133,15 @@ class Certainties {
   const SearchResult& found_;
   const Graph& graph_;
   const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
-  std::vector<Certainty> certainties_;
+  std::string why_it_stands_;
+  std::vector<Advice> certainties_;
 };
 
 }  // namespace
 
-std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places,
-                                      std::function<int()> stop_signal) {
-  Diagnostics diagnostics;
-  if (tree.nodes.size() > kMostNodes || has_clocks(tree) || !not_verifiable(tree).empty())
-    return {};
-  std::vector<NodeProblem> problems;
-  const LeafModels models =
-      make_models(tree, nullptr, diagnostics, problems, {}, Declared::Ignored);
-  if (!problems.empty() || has_start_values(tree, models)) return {};
-  SearchLimits limits = bound(tree);
-  limits.stop_signal = std::move(stop_signal);
-  const SearchResult found = search(tree, models, {}, from_seconds(1 / kModelRate), limits);
-  if (!found.is_complete()) return {};
-  std::vector<Certainty> certainties = Certainties(tree, places, found).find();
-  // A few are enough to say nothing false; their number is the same on every machine.
-  const ChanceLimits few{.runs = std::clamp<std::uint64_t>(10'000 / tree.nodes.size(), 2, 30),
-                         .time = Nanoseconds::max()};
-  const bool is_wrong =
-      !certainties.empty() &&
-      find_contradiction(tree, models, {}, from_seconds(1 / kModelRate), found, few);
-  return is_wrong ? std::vector<Certainty>() : certainties;
+std::vector<Advice> certainties(const Tree& tree, std::span<const Place> places,
+                                const SearchResult& found, std::string why_it_stands) {
+  return Certainties(tree, places, found, std::move(why_it_stands)).find();
 }
 
 }  // namespace lockstep::host

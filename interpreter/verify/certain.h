@@ -1,30 +1,19 @@
-// A search with the most general leaves finds what is certain of a tree whatever its leaves do, for
-// `lockstep check`. Its bound is a number of states and of ticks, so it says the same on every
-// machine. It says nothing of a tree that depends on more than its leaves (clocks, start values).
+// What is certain of a tree whatever its leaves do, as a complete search with the most general
+// leaves has found it.
 #pragma once
 
-#include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "base/core/diagnostics.h"
 #include "base/core/place.h"
-#include "engine/tree.h"
+#include "verify/advice.h"
+#include "verify/search.h"
 
 namespace lockstep::host {
 
-struct Certainty {
-  NodeIndex node;
-  Severity severity;
-  std::string message, hint;
-};
-
 // Nodes that no behavior ticks (of a subtree, only its root), and that no behavior ends. `places`
-// are those of the nodes in their documents.
-// Nothing if `stop_signal` is there and returns something else than 0: another thread wants no
-// answer.
-std::vector<Certainty> certainties_of(const Tree& tree, std::span<const Place> places,
-                                      std::function<int()> stop_signal = {});
+// are those of the nodes in their documents. `why_it_stands` explains a tree that stands still.
+std::vector<Advice> certainties(const Tree& tree, std::span<const Place> places,
+                                const SearchResult& found, std::string why_it_stands);
 
 }  // namespace lockstep::host

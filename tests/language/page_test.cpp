@@ -108,7 +108,8 @@ TEST_CASE("the examples of the page load, and the wrong ones are reported as it 
   CHECK(all.size() > 10);
   for (const Example& example : all) {
     INFO(example.xml);
-    const Pipeline pipeline(example.xml);
+    Pipeline pipeline(example.xml);
+    pipeline.advise();
     if (example.told.empty()) {
       CHECK(pipeline.told().empty());
       continue;

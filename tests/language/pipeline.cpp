@@ -11,6 +11,7 @@
 #include "run/run.h"
 #include "tree/check/plugin_requests.h"
 #include "tree/resolve.h"
+#include "verify/check/advice.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -63,8 +64,12 @@ Pipeline::Pipeline(std::string_view xml, std::string_view options, const std::st
   if (project_ == nullptr) return;
   requested_plugins(*project_, diagnostics_);
   const Catalog catalog = make_catalog(plugins_);
-  const auto definition = resolve(*project_, catalog, parsed.resolve, diagnostics_);
-  if (definition && !diagnostics_.has_errors()) tree_ = compile(*definition);
+  definition_ = resolve(*project_, catalog, parsed.resolve, diagnostics_);
+  if (definition_ && !diagnostics_.has_errors()) tree_ = compile(*definition_);
+}
+
+void Pipeline::advise() {
+  if (tree_) add_advice(*project_, *definition_, AdviceEffort::Deadlocks, diagnostics_);
 }
 
 std::string Pipeline::told() const {

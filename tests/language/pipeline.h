@@ -11,6 +11,7 @@
 #include "engine/tree.h"
 #include "language/document/project.h"
 #include "run/loading/plugin_set.h"
+#include "tree/definition.h"
 
 namespace lockstep::host::test {
 
@@ -39,6 +40,8 @@ class Pipeline {
   bool loaded() const { return tree_.has_value(); }
   const Tree& tree() const { return *tree_; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
+  // Adds what `check` says after it has searched the behaviors of the tree for deadlocks.
+  void advise();
   std::string told() const;
   std::string run() const;
   std::string paths() const;
@@ -47,6 +50,7 @@ class Pipeline {
   Diagnostics diagnostics_;
   std::unique_ptr<Project> project_;
   PluginSet plugins_;
+  std::optional<Definition> definition_;
   std::optional<Tree> tree_;
 };
 

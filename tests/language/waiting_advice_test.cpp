@@ -18,11 +18,12 @@ struct Row {
 void check_rows(std::span<const Row> rows) {
   for (const Row& row : rows) {
     INFO(row.claim);
-    const Pipeline pipeline(
+    Pipeline pipeline(
         fmt::format("<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"robot\"/>{}"
                     "<BehaviorTree ID=\"T\">\n{}</BehaviorTree></root>",
                     row.declared, row.tree),
         row.options);
+    pipeline.advise();
     CHECK(pipeline.told() == row.told);
     CHECK(pipeline.run().starts_with(row.run));
   }
@@ -37,25 +38,33 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 <UseResources name="u1" pool="pool" resources="A" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
 </ParallelRelative>)",
-       "3:1 warning: 'u1' and 'u2' may wait for each other for ever", "running"},
+       "3:1 warning: held nodes may wait for each other in a circle: "
+       "ParallelRelative -> pool -> ParallelRelative",
+       "running"},
       {"below its children", kPool, R"(<ParallelAbsolute barriers="0.5">
 <Parallel><UseResources name="u1" pool="pool" resources="A;B" keep="true"><Advance step="0.05"/>
 </UseResources></Parallel>
-<Timeout seconds="99"><UseResources name="u2" pool="pool" resources="B;C"><Advance step="0.05"/>
-</UseResources></Timeout></ParallelAbsolute>)",
-       "3:11 warning: 'u1' and 'u2' may wait for each other for ever", "running"},
+<ForceSuccess><UseResources name="u2" pool="pool" resources="B;C"><Advance step="0.05"/>
+</UseResources></ForceSuccess></ParallelAbsolute>)",
+       "3:1 warning: held nodes may wait for each other in a circle: "
+       "ParallelAbsolute -> pool -> ParallelAbsolute",
+       "running"},
       {"each has a member of a barrier in it", kBoth, R"(<Parallel>
 <UseResources name="u1" pool="pool" resources="A" keep="true"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources></Parallel>)",
-       "3:1 warning: 'u1' and 'u2' may wait for each other for ever", "running"},
+       "5:1 warning: held nodes may wait for each other in a circle: "
+       "pool -> b -> pool",
+       "running"},
       {"each is in a member of a barrier", kBoth, R"(<Parallel>
 <SyncProgress barrier="b"><UseResources name="u1" pool="pool" resources="A" keep="true">
 <Advance step="0.05"/></UseResources></SyncProgress>
 <SyncProgress barrier="b"><UseResources name="u2" pool="pool" resources="A">
 <Advance step="0.05"/></UseResources></SyncProgress></Parallel>)",
-       "3:27 warning: 'u1' and 'u2' may wait for each other for ever", "running"},
+       "5:27 warning: held nodes may wait for each other in a circle: "
+       "pool -> b -> pool",
+       "running"},
       {"not without keep: each gets its turn", kBoth, R"(<Parallel>
 <UseResources name="u1" pool="pool" resources="A"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources>
@@ -89,7 +98,9 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 <Sequence memory="true"><Advance step="0.05"/>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources></Sequence>
 </ParallelAbsolute>)",
-       "3:1 warning: 'u1' and 'u2' may wait for each other for ever", "running"},
+       "3:1 warning: held nodes may wait for each other in a circle: "
+       "ParallelAbsolute -> pool -> ParallelAbsolute",
+       "running"},
       {"not where it has given them back before the barrier", kPool,
        R"(<ParallelAbsolute barriers="0.75">
 <Sequence memory="true">
@@ -103,12 +114,16 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 <UseResources name="u1" pool="pool" resources="{r}" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
 </ParallelRelative>)",
-       "3:1 warning: 'u1' and 'u2' may wait for each other for ever", "running", "set.r=A"},
+       "3:1 warning: held nodes may wait for each other in a circle: "
+       "ParallelRelative -> pool -> ParallelRelative",
+       "running", "set.r=A"},
       {"limits from an entry may be anywhere", kPool, R"(<ParallelAbsolute barriers="{b}">
 <UseResources name="u1" pool="pool" resources="A" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
 </ParallelAbsolute>)",
-       "3:1 warning: 'u1' and 'u2' may wait for each other for ever", "running", "set.b=0.5"},
+       "3:1 warning: held nodes may wait for each other in a circle: "
+       "ParallelAbsolute -> pool -> ParallelAbsolute",
+       "running", "set.b=0.5"},
       {"not known: resources from an entry without a value",
        R"(<resources name="pool" resources="A"/>)",
        R"(<ParallelRelative delta="0.2">
@@ -120,7 +135,7 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
   check_rows(kRows);
 }
 
-TEST_CASE("keep: without it and with increment=0, the one warning is that of the pool") {
+TEST_CASE("keep: without it and with increment=0, the first in the tree always wins") {
   constexpr Row kRows[] = {
       {"the first in the tree always wins, though its child is held",
        R"(<resources name="pool" increment="0"/><barrier name="b" barriers="0.5"/>)", R"(<Parallel>
@@ -129,7 +144,9 @@ TEST_CASE("keep: without it and with increment=0, the one warning is that of the
 </UseResources>
 <UseResources pool="pool" resources="A"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources></Parallel>)",
-       "1:65 warning: the members of 'pool' may wait for ever", "running"},
+       "1:65 warning: the members of 'pool' may wait for ever\n"
+       "6:1 warning: held nodes may wait for each other in a circle: pool -> b -> pool",
+       "running"},
   };
   check_rows(kRows);
 }

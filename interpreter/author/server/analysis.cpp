@@ -6,7 +6,7 @@
 #include "leaves/leaf_file.h"
 #include "scenario/scenario_reader.h"
 #include "tree/check/plugin_requests.h"
-#include "verify/check/certainties.h"
+#include "verify/check/advice.h"
 
 namespace lockstep::host {
 namespace {
@@ -166,8 +166,8 @@ Analysis analyze(const AnalysisJob& job, PluginCache& cache) {
 void complete(Analysis& analysis, std::function<int()> stop_signal) {
   Diagnostics diagnostics;
   for (Diagnostic& it : analysis.diagnostics) diagnostics.add(std::move(it));
-  add_certainties(*analysis.project, analysis.meaning->definition, diagnostics,
-                  std::move(stop_signal));
+  add_advice(*analysis.project, analysis.meaning->definition, AdviceEffort::Certain, diagnostics,
+             std::move(stop_signal));
   diagnostics.sort();
   analysis.diagnostics = diagnostics.all();
   analysis.is_whole = true;

@@ -36,6 +36,7 @@
 #include "run/stall_fail.h"
 #include "run/stop_signals.h"
 #include "show/view/line_budget.h"
+#include "verify/check/advice.h"
 
 namespace lockstep::host {
 namespace {
@@ -447,6 +448,7 @@ int run(RunCommandOptions options) {
   }
   Diagnostics diagnostics;
   auto loaded = load_given(options.tree, options.load, diagnostics);
+  if (loaded) add_advice_of_run(*loaded->project, loaded->definition, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
   if (!loaded) return exit_code_of(loaded.error());
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.

@@ -46,6 +46,12 @@ class StandstillText {
     return lines;
   }
 
+  std::vector<std::string> links() const {
+    std::vector<std::string> lines;
+    for (std::size_t place = 0; place < links_.size(); ++place) lines.push_back(link(place));
+    return lines;
+  }
+
  private:
   std::string circle() const {
     std::vector<std::string> names;
@@ -148,6 +154,11 @@ class StandstillText {
 
 std::vector<std::string> standstill_lines(const Tree& tree, const Standstill& standstill) {
   return StandstillText(tree, standstill).lines();
+}
+
+std::vector<std::string> wait_lines(const Tree& tree, const WaitChain& chain) {
+  const Standstill standstill{.chain = chain};
+  return StandstillText(tree, standstill).links();
 }
 
 std::string_view to_string(Obstacle obstacle) {

@@ -13,6 +13,9 @@ namespace lockstep::host {
 // "Door/pull/base stands still at 0.31 since 2.4 s and holds the other children of 'pull' back".
 std::vector<std::string> standstill_lines(const Tree& tree, const Standstill& standstill);
 
+// Only the lines of the links, each of which says who is held and what that waits for.
+std::vector<std::string> wait_lines(const Tree& tree, const WaitChain& chain);
+
 // "circle", "idle", "failed", "resources" or "running": why it stands.
 std::string_view to_string(Obstacle obstacle);
 

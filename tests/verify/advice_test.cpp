@@ -1,9 +1,10 @@
-// What `check` says of a tree without knowing its leaves: only what no behavior can do.
+// What `check` says of a tree without knowing its leaves: what no behavior can do, and deadlocks
+// that some behavior leads to.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "support/tree_text.h"
-#include "verify/certain.h"
+#include "verify/advice.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -25,12 +26,16 @@ constexpr Row kRows[] = {
    "'a' can never run, whatever the leaves do: 'Check' before it never succeeds\n"},
   {"a circle of barriers that may be, but need not", "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
    "SyncProgress[barrier=coarse](Sequence[memory=true](b SyncProgress[barrier=fine](c)))) "
-   "barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]", ""},
+   "barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]",
+   "held nodes may wait for each other in a circle: coarse -> fine -> coarse: 'coarse' holds 'Sequence' at 0.5 until "
+   "'SyncProgress' comes, which is at 0.25 and has 'a' in it; 'fine' holds 'a' at 0.25 until 'c' comes, which is at 0 "
+   "and is inside of 'Sequence'\n"},
   {"a barrier that waits for what never comes",
    "Sequence(Parallel(ForceSuccess(SyncProgress[barrier=g](a)) SyncProgress[barrier=g](AlwaysRunning)) b) "
    "barrier[name=g barriers=.5]",
    "'b' can never run, whatever the leaves do: 'Parallel' before it never succeeds\n"
-   "this tree can never end: whatever its leaves do, it stands still: `lockstep verify` shows how\n"},
+   "this tree can never end: whatever its leaves do, it stands still: 'g' holds 'a' at 0.5 until "
+   "'AlwaysRunning' comes, which is at 0\n"},
   {"a hook reads what only a later node writes",
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
    "'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
@@ -49,7 +54,7 @@ std::string said_of(std::string_view text) {
   std::vector<Place> places;
   for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) places.push_back({node});
   std::string said;
-  for (const Certainty& it : certainties_of(tree, places)) {
+  for (const Advice& it : advice_of(tree, places)) {
     said += it.message + (it.hint.empty() ? "" : ": " + it.hint) + '\n';
   }
   return said;
@@ -57,7 +62,7 @@ std::string said_of(std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("check says what is certain, whatever the leaves do") {
+TEST_CASE("check says what is certain, whatever the leaves do, and what may wait for ever") {
   for (const Row& row : kRows) {
     INFO(row.claim << ": " << row.tree);
     CHECK(said_of(row.tree) == row.said);
@@ -68,9 +73,9 @@ TEST_CASE("a node that is dead in one of its SubTrees only is not spoken of") {
   const Tree tree = tree_from_text("Sequence[memory=true](a Fallback(AlwaysSuccess b))");
   std::vector<Place> places;
   for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) places.push_back({node});
-  CHECK(certainties_of(tree, places).size() == 1);
+  CHECK(advice_of(tree, places).size() == 1);
   places.back() = places[1];  // b is written where a is
-  CHECK(certainties_of(tree, places).empty());
+  CHECK(advice_of(tree, places).empty());
 }
 
 TEST_CASE("of a tree with more states than the bound nothing is said") {

@@ -1,0 +1,166 @@
+#include "verify/deadlocks.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "engine/resources.h"
+#include "verify/components.h"
+#include "verify/trace.h"
+
+namespace lockstep::host {
+namespace {
+
+constexpr std::size_t kMostDeadlocks = 10, kMostTraced = 50;
+
+// A bottom component of the graph is a set of states that no tick leaves, and in which no run ends.
+// What is held on all of its edges is held for ever.
+class Deadlocks {
+ public:
+  Deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
+            const SearchResult& found)
+      : tree_(tree),
+        found_(found),
+        graph_(found.graph),
+        held_(holdable(tree)),
+        tracer_(tree, models, {}, period, found) {}
+
+  std::vector<Deadlock> find() {
+    std::set<std::vector<bool>> traced;
+    for (const Bottom& bottom : bottoms()) {
+      std::vector<bool> holders = that_hold(bottom);
+      if (std::ranges::find(holders, true) == holders.end()) continue;
+      if (traced.size() == kMostTraced || !traced.insert(holders).second) continue;
+      look_at(bottom.first, holders);
+    }
+    return std::move(deadlocks_);
+  }
+
+ private:
+  struct Bottom {
+    StateId first;
+    std::vector<StateId> states;
+  };
+
+  // By their first states.
+  std::vector<Bottom> bottoms() const {
+    std::vector<StateId> states(graph_.expanded());
+    std::iota(states.begin(), states.end(), StateId{0});
+    Components components(graph_);
+    components.find(states, [](StateId, const Edge&) { return true; });
+    std::vector<bool> has_way_out(components.count());
+    for (const StateId state : states) {
+      const EdgeRow edges = graph_.edges_of(state);
+      const bool leaves = std::ranges::any_of(edges, [&](const Edge& edge) {
+        return edge.to >= graph_.expanded() || components.of(edge.to) != components.of(state);
+      });
+      if (leaves || graph_.ends[state]) has_way_out[components.of(state)] = true;
+    }
+    std::vector<Bottom> bottoms;
+    std::vector<std::size_t> places(components.count(), kNone);
+    for (const StateId state : states) {
+      const std::uint32_t component = components.of(state);
+      if (has_way_out[component]) continue;
+      if (places[component] == kNone) {
+        places[component] = bottoms.size();
+        bottoms.push_back({state, {}});
+      }
+      bottoms[places[component]].states.push_back(state);
+    }
+    return bottoms;
+  }
+
+  // Of each node, whether it holds one for ever. Children that change places may be held in turn,
+  // each at the place of the other; not where nothing happens at all.
+  std::vector<bool> that_hold(const Bottom& bottom) const {
+    std::vector<bool> holders(tree_.nodes.size());
+    const bool is_frozen = bottom.states.size() == 1 && is_frozen_in(bottom.first);
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      const auto [holder, child] = held_[i];
+      if (is_pool(tree_, holder) || (found_.symmetry.moves(child) && !is_frozen)) continue;
+      if (is_held_in_all(bottom, graph_.shape.held_bit(i))) {
+        // The run may have another one at that place.
+        for (std::size_t j = 0; j < held_.size(); ++j) {
+          if (like(held_[j].holder) == like(holder)) holders[held_[j].holder] = true;
+        }
+      }
+    }
+    return holders;
+  }
+  NodeIndex like(NodeIndex node) const { return found_.symmetry.first_like(node); }
+
+  bool is_held_in_all(const Bottom& bottom, std::size_t bit) const {
+    return std::ranges::all_of(bottom.states, [&](StateId state) {
+      return std::ranges::all_of(graph_.edges_of(state),
+                                 [&](const Edge& edge) { return graph_.has(edge, bit); });
+    });
+  }
+
+  bool is_frozen_in(StateId state) const {
+    const LabelShape& shape = graph_.shape;
+    return std::ranges::none_of(graph_.edges_of(state), [&](const Edge& edge) {
+      for (std::size_t leaf = 0; leaf < shape.leaves; ++leaf) {
+        if (graph_.has(edge, shape.worked_bit(leaf)) || graph_.has(edge, shape.ended_bit(leaf))) {
+          return true;
+        }
+      }
+      return graph_.has(edge, shape.begun_bit());
+    });
+  }
+
+  // Behind a tick from that state.
+  void look_at(StateId state, const std::vector<bool>& holders) {
+    Trail trail = tracer_.begin();
+    std::vector<StateId> way = found_.way_to(state);
+    way.push_back(graph_.edges_of(state).begin()->to);
+    tracer_.go(trail, way);
+    tracer_.play({trail.run.back()}, [&](Stepper& stepper, Status, std::size_t) {
+      for (NodeIndex node = 0; node < holders.size(); ++node) {
+        if (!holders[node] || !holds_somebody(stepper.ticker(), node)) continue;
+        WaitChain chain = wait_chain(stepper.ticker(), node);
+        const bool lasts = std::ranges::all_of(chain.links, [&](const WaitLink& link) {
+          return is_pool(tree_, link.node) || holders[link.node];
+        });
+        if (!lasts) chain = {.links = {chain.links.front()}};
+        const NodeIndex decider = decider_of(stepper.ticker(), chain.links.back().awaited);
+        add({std::move(chain), decider});
+      }
+    });
+  }
+
+  // The lowest node above this one that has done something in this tick, or before.
+  NodeIndex decider_of(const Ticker& ticker, NodeIndex node) const {
+    do node = tree_.labels[node].parent;
+    while (node != 0 && ticker.status(node) == Status::Idle);
+    return node;
+  }
+
+  // What leads to a circle is not reported beside it.
+  void add(Deadlock deadlock) {
+    if (deadlocks_.size() == kMostDeadlocks) return;
+    const std::vector<WaitLink>& links = deadlock.chain.links;
+    std::vector<NodeIndex> nodes;
+    for (const WaitLink& link : links) nodes.push_back(link.node);
+    if (deadlock.chain.obstacle != Obstacle::Circle) nodes = {nodes.back(), links.back().awaited};
+    if (known_.insert(std::move(nodes)).second) deadlocks_.push_back(std::move(deadlock));
+  }
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  const Tree& tree_;
+  const SearchResult& found_;
+  const Graph& graph_;
+  const std::vector<Holdable> held_;
+  Tracer tracer_;
+  std::set<std::vector<NodeIndex>> known_;
+  std::vector<Deadlock> deadlocks_;
+};
+
+}  // namespace
+
+std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
+                                const SearchResult& found) {
+  return Deadlocks(tree, models, period, found).find();
+}
+
+}  // namespace lockstep::host

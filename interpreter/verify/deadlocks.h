@@ -1,0 +1,23 @@
+// Deadlocks: from some state on, a synchronized node or a barrier holds a node in every tick,
+// whatever the leaves do then. For example, `x` waits at a barrier for `y`, and `y` is inside of
+// what another barrier holds until `x` comes.
+#pragma once
+
+#include <vector>
+
+#include "judge/measure/wait_chain.h"
+#include "verify/search.h"
+
+namespace lockstep::host {
+
+struct Deadlock {
+  WaitChain chain;
+  NodeIndex decider = 0;  // if the last node that is waited for does not run: why it does not
+};
+
+// Each deadlock that the search has come to: the nearest ones first, those of the same nodes once.
+// It need not be complete: a state counts only if all that can come after it is known.
+std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
+                                const SearchResult& found);
+
+}  // namespace lockstep::host
