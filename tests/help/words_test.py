@@ -11,6 +11,7 @@ SOURCES = sys.argv[1]
 DONE = [
     "README.md",
     "docs/btcpp.md",
+    "docs/embedding.md",
     "docs/from-behaviortree-cpp.md",
     "docs/glossary.md",
     "docs/guards.md",
