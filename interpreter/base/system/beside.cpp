@@ -12,14 +12,6 @@
 namespace lockstep::host {
 namespace {
 
-// Cut, for a name may have 255 bytes.
-std::string name_beside(const std::string& path, int attempt, const char* ending) {
-  constexpr std::size_t kLongest = 200;
-  const std::size_t name = path.rfind('/') + 1;  // 0 when there is none
-  return fmt::format("{}{}.{}-{}{}", path.substr(0, name), path.substr(name, kLongest), getpid(),
-                     attempt, ending);
-}
-
 // Others say what is in a file, as a signature does, or what a program may do.
 bool is_kept(std::string_view attribute) {
   return attribute == "system.posix_acl_access" || attribute == "security.selinux" ||
@@ -41,6 +33,14 @@ void keep_attributes(const char* path, int file) {
 }
 
 }  // namespace
+
+// Cut, for a name may have 255 bytes.
+std::string name_beside(const std::string& path, int attempt, const char* ending) {
+  constexpr std::size_t kLongest = 200;
+  const std::size_t name = path.rfind('/') + 1;  // 0 when there is none
+  return fmt::format("{}{}.{}-{}{}", path.substr(0, name), path.substr(name, kLongest), getpid(),
+                     attempt, ending);
+}
 
 BesideFile open_beside(const std::string& path, const char* ending, mode_t mode) {
   constexpr int kAttempts = 100;  // each name of a process that was killed costs one

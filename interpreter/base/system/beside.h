@@ -16,6 +16,8 @@ struct BesideFile {
   std::string name = {};
 };
 
+// A name in the directory of `path` that ends with the process, the attempt and the ending.
+std::string name_beside(const std::string& path, int attempt, const char* ending);
 // A new file in the directory of `path`, with this ending. `mode` as of open().
 BesideFile open_beside(const std::string& path, const char* ending, mode_t mode);
 

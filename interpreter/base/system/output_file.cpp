@@ -57,7 +57,22 @@ void OutputFile::open_as_it_is() {
   fail("it was replaced while it was opened");
 }
 
+// Without /proc, it could get no name.
+bool OutputFile::open_without_name() {
+  const std::string directory = path_.substr(0, path_.rfind('/') + 1);
+  file_ = FileDescriptor(open(directory.empty() ? "." : directory.c_str(),
+                              O_TMPFILE | O_WRONLY | O_APPEND | O_CLOEXEC, 0666));
+  nameless_ = fmt::format("/proc/self/fd/{}", descriptor());
+  if (descriptor() >= 0 && access(nameless_.c_str(), F_OK) == 0) return true;
+  nameless_.clear();
+  return false;
+}
+
 void OutputFile::open_fresh() {
+  if (open_without_name()) {
+    temporary_ = name_beside(path_, 0, ".new");
+    return;
+  }
   BesideFile fresh = open_beside(path_, ".new", 0666);
   if (fresh.file.number() < 0) return fail(reason_text(errno));
   file_ = std::move(fresh.file);
@@ -65,14 +80,35 @@ void OutputFile::open_fresh() {
 }
 
 bool OutputFile::take_name() {
+  if (!nameless_.empty() && !link_name()) return false;
   if (temporary_.empty()) return true;
   if (!host::take_name(descriptor(), temporary_.c_str(), path_.c_str())) return false;
   temporary_.clear();
   return true;
 }
 
+// To its final name, or to the temporary one if there is a file with that name.
+bool OutputFile::link_name() {
+  const auto link_to = [this](const std::string& name) {
+    const bool done =
+        linkat(AT_FDCWD, nameless_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    if (done) nameless_.clear();
+    return done;
+  };
+  if (link_to(path_)) {
+    temporary_.clear();
+    return true;
+  }
+  if (errno != EEXIST) return false;
+  char& attempt = temporary_[temporary_.size() - 5];  // the digit of "-0.new"
+  while (!link_to(temporary_)) {
+    if (errno != EEXIST || attempt++ == '9') return false;
+  }
+  return true;
+}
+
 void OutputFile::remove() const {
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (nameless_.empty() && !temporary_.empty()) unlink(temporary_.c_str());
 }
 
 void OutputFile::fail(const std::string& reason) {

@@ -1,10 +1,11 @@
 // Writes a file that a command makes, under the name that a user gives it. An existing file with
-// that name is kept until the new one is ready; until then the new file has a temporary name in the
-// same directory. The new file gets the owner, the mode and the access control list of the existing
-// one; other names of that (hard links) keep the old bytes. One that this user may not write is
-// refused. (What people keep and commands change is for replace_text.h.) A symbolic link to a file,
-// or to nothing, is refused, so that output never goes to a different file. A named pipe or a
-// device, such as /dev/null, is written directly.
+// that name is kept until the new one is ready; until then the new file has no name, so that a
+// signal that ends the process leaves nothing behind, or a temporary one in the same directory,
+// where the file system has only files with names. The new file gets the owner, the mode and the
+// access control list of the existing one; other names of that (hard links) keep the old bytes. One
+// that this user may not write is refused. (What people keep and commands change is for
+// replace_text.h.) A symbolic link to a file, or to nothing, is refused, so that output never goes
+// to a different file. A named pipe or a device, such as /dev/null, is written directly.
 #pragma once
 
 #include <string>
@@ -28,8 +29,7 @@ class OutputFile {
   // "" if there is no error, else "cannot open 'run.jsonl': Permission denied".
   const std::string& error() const { return error_; }
 
-  // Renames it to its final name, replacing an existing file. Returns false, with errno, on
-  // failure.
+  // Gives it its final name, replacing an existing file. Returns false, with errno, on failure.
   bool take_name();
   // Removes it if it still has its temporary name.
   void remove() const;
@@ -37,11 +37,14 @@ class OutputFile {
 
  private:
   void open_fresh();
+  bool open_without_name();
+  bool link_name();
   void open_as_it_is();
   void fail(const std::string& reason);
 
   const std::string path_;
   std::string temporary_;  // "": it has its name
+  std::string nameless_;   // the kernel's path to the file while it has no name; else ""
   FileDescriptor file_;
   std::string error_;
 };

@@ -14,6 +14,7 @@
 
 #include "base/system/beside.h"
 #include "base/system/descriptors.h"
+#include "base/system/signal_mask.h"
 
 namespace lockstep::host {
 namespace {
@@ -54,6 +55,13 @@ bool overwrite(int file, std::string_view text) {
          ftruncate(file, static_cast<off_t>(text.size())) == 0 && fsync(file) == 0;
 }
 
+// Whoever writes to a file takes the rights from it that its owner gives to others with it
+// (S_ISUID, S_ISGID). The system may refuse to give them back.
+void restore_mode(int file, mode_t mode) {
+  struct stat now {};
+  if (fstat(file, &now) == 0 && now.st_mode != mode) fchmod(file, mode & 07777u);
+}
+
 class Replacement {
  public:
   Replacement(const std::string& path, std::string_view expected, std::string_view text)
@@ -69,6 +77,7 @@ class Replacement {
     if (!has_text(old.number(), expected_)) return changed();
     if (faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
       return cannot_write(path_, errno);
+    mode_ = status.st_mode;
     if (status.st_nlink > 1) return in_place();
     const BesideFile fresh = open_beside(target_, ".new", 0600);
     if (fresh.file.number() < 0) {
@@ -80,7 +89,10 @@ class Replacement {
       unlink(fresh.name.c_str());
       return in_place();
     }
-    if (write_all(file, text_) && fsync(file) == 0) return exchange(fresh.name);
+    if (write_all(file, text_) && fsync(file) == 0) {
+      restore_mode(file, mode_);
+      return exchange(fresh.name);
+    }
     const int reason = errno;
     unlink(fresh.name.c_str());
     return cannot_write(path_, reason);
@@ -126,6 +138,7 @@ class Replacement {
     if (file.number() < 0) return cannot_write(path_, errno);
     const BesideFile copy = open_beside(target_, ".old", 0600);
     const auto end = [&](Result<void> result) {
+      restore_mode(file.number(), mode_);
       if (copy.file.number() >= 0) unlink(copy.name.c_str());
       return result;
     };
@@ -148,12 +161,14 @@ class Replacement {
   const std::string& path_;
   const std::string_view expected_, text_;
   std::string target_;  // without links
+  mode_t mode_ = 0;
 };
 
 }  // namespace
 
 Result<void> replace_text(const std::string& path, std::string_view expected,
                           std::string_view text) {
+  const SignalMask complete(SIG_BLOCK, signal_set({SIGINT, SIGQUIT, SIGTERM, SIGHUP}));
   return Replacement(path, expected, text).run();
 }
 

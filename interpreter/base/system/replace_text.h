@@ -10,7 +10,8 @@
 namespace lockstep::host {
 
 // Replaces `expected`, the bytes that were read from the file, by `text`, through a symbolic link
-// if it is one. Owner, mode, access control list and hard links stay.
+// if it is one. Owner, mode, access control list and hard links stay. A signal that ends the
+// process waits until it is done.
 //
 // - If the file has another text by now, it keeps that: "has changed meanwhile".
 // - The new text is written to a second file in the directory, which then exchanges its name with

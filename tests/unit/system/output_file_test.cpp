@@ -69,6 +69,24 @@ TEST_CASE("output file: the old file stays until the new one takes its name") {
   CHECK(directory.entries() == 1);
 }
 
+TEST_CASE("output file: what a killed process leaves has no name") {
+  const Directory directory;
+  for (const bool is_there : {false, true}) {
+    if (is_there) directory.file("out", "old\n");
+    OutputFile out(directory / "out");
+    CHECK(write_all(out.descriptor(), "half"));
+    CHECK(directory.entries() == std::size_t{is_there});
+  }
+}
+
+TEST_CASE("output file: as the umask says") {
+  const Directory directory;
+  const mode_t before = umask(027);
+  REQUIRE(write_output(directory / "out", "x").has_value());
+  umask(before);
+  CHECK(fs::status(directory / "out").permissions() == fs::perms(0640));
+}
+
 TEST_CASE("output file: the new file has the mode of the old one") {
   const Directory directory;
   const std::string path = directory.file("out", "old\n");
@@ -108,12 +126,15 @@ TEST_CASE("output file: a link that appears meanwhile is replaced, not followed"
 TEST_CASE("output file: temporary names that are taken, by files or links, are passed over") {
   const Directory directory;
   const std::string victim = directory.file("victim", "precious\n");
-  const std::string first = directory / ("out." + std::to_string(getpid()) + "-0.new");
-  fs::create_symlink(victim, first);
-  OutputFile out(directory / "out");
-  CHECK(write_all(out.descriptor(), "new\n"));
-  CHECK(out.take_name());
-  CHECK(text_of(directory / "out") == "new\n");
+  const std::string own = directory / ("out." + std::to_string(getpid()) + "-");
+  for (const std::string attempt : {"0", "1", "2"}) {
+    fs::create_symlink(victim, own + attempt + ".new");
+  }
+  for (const std::string text : {"new\n", "newer\n"}) {
+    REQUIRE(write_output(directory / "out", text).has_value());
+    CHECK(text_of(directory / "out") == text);
+  }
+  CHECK(directory.entries() == 5);
   CHECK(text_of(victim) == "precious\n");
 }
 

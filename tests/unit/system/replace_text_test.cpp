@@ -63,6 +63,17 @@ TEST_CASE("a text is replaced, with the mode and the attributes of its file, thr
   CHECK(count_files(directory) == 2);
 }
 
+TEST_CASE("a text is replaced, with setuid and setgid, in a new file and in place") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.file("a", "old");
+  REQUIRE(chmod(file.c_str(), 06755) == 0);
+  REQUIRE(replace_text(file, "old", "new").has_value());
+  CHECK((state_of(file).st_mode & 07777u) == 06755);
+  REQUIRE(link(file.c_str(), directory.path("b").c_str()) == 0);
+  REQUIRE(replace_text(file, "new", "newer").has_value());
+  CHECK((state_of(file).st_mode & 07777u) == 06755);
+}
+
 TEST_CASE("a file with several names keeps them") {
   const TemporaryDirectory directory;
   const std::string file = directory.file("a", "a long text"), other = directory.path("b");
