@@ -8,8 +8,7 @@ namespace lockstep::host {
 struct TickRange {
   std::uint64_t from = 0, to = UINT64_MAX;
 
-  bool is_all() const { return from == 0 && is_open(); }
-  bool is_open() const { return to == UINT64_MAX; }
+  bool is_all() const { return from == 0 && to == UINT64_MAX; }
 };
 
 }  // namespace lockstep::host

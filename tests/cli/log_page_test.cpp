@@ -30,7 +30,7 @@ Outcome log_page(const std::string& recording, const std::string& page) {
 // As a browser finds it.
 std::string recording_in(const std::string& page) {
   return run({.arguments = {"-c",
-                            "sed -n 's/.*{\"recording\":\"\\([^\"]*\\)\"}.*/\\1/p' \"$0\" | "
+                            "sed -n 's/.*\"recording\":\"\\([^\"]*\\)\"}.*/\\1/p' \"$0\" | "
                             "base64 -d | gzip -dc",
                             page},
               .program = "/bin/sh"})
@@ -83,6 +83,28 @@ TEST_CASE("log page --from --to writes the header and the ticks of the range") {
   const Outcome pipe = run({.arguments = {"log", "page", "-", "--out", page, "--to", "10"}});
   CHECK(pipe.code == 2);
   CHECK(contains(pipe.err, "--from and --to need a recording in a file"));
+}
+
+TEST_CASE("a page says which ticks were asked for, and of a range that a cut recording lacks") {
+  const TemporaryDirectory directory;
+  const std::string recording = record_ticks(directory, "20"), page = directory.path("run.html");
+  const auto source_of = [&](const std::string& file, std::vector<std::string> range) {
+    range.insert(range.begin(), {"log", "page", file, "--out", page});
+    const Outcome outcome = run_lockstep(range);
+    CHECK(outcome.code == 0);
+    const std::string text = read_file(page), begin = "id=\"source\">";
+    const std::size_t at = text.find(begin) + begin.size();
+    return outcome.err + text.substr(at, text.find("\"recording\"") - at);
+  };
+  CHECK(source_of(recording, {}) == "{");
+  CHECK(source_of(recording, {"--from", "5"}) == R"({"from":5,)");
+  CHECK(source_of(recording, {"--to", "7"}) == R"({"to":7,)");
+  CHECK(source_of(recording, {"--from", "5", "--to", "7"}) == R"({"from":5,"to":7,)");
+  CHECK(source_of(recording, {"--to", "70"}) == "{");  // all, with its end
+  const std::string text = read_file(recording);
+  const std::string cut = directory.file("cut.jsonl", text.substr(0, text.size() - 30));
+  CHECK(source_of(cut, {"--to", "7"}) == R"({"to":7,)");
+  CHECK(contains(source_of(cut, {"--from", "5", "--to", "70"}), "the recording is cut"));
 }
 
 TEST_CASE("log page takes a recording from stdin, and what a cut one has") {

@@ -48,7 +48,6 @@ int no_ticks() {
 struct Search {
   Moment found;
   std::uint64_t ticks = 0, last = 0;
-  bool is_read = true;  // to its end
 };
 
 Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
@@ -59,8 +58,7 @@ Search search(RecordingReader& reader, std::optional<std::uint64_t> at) {
   while (const auto tick = reader.next()) {
     if (search.ticks++ == 0) expected = tick->whole ? tick->tick : expected;
     search.last = tick->tick;
-    search.is_read = !at || tick->tick <= *at;
-    if (!search.is_read) break;
+    if (at && tick->tick > *at) break;
     take(*tick, tick->tick - expected, search.found);
     expected = tick->tick + 1;
   }
@@ -71,9 +69,7 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   const Search found = search(reader, options.at);
   const std::uint64_t first = reader.header().first_tick;
   if (options.at && *options.at < first) return before_first(*options.at, first);
-  RecordingOutcome outcome = reader.outcome();
-  if (!found.is_read) outcome.cut.clear();  // that is not known
-  const int code = report_end(outcome);
+  const int code = report_end(reader);
   if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
   if (options.at && *options.at > found.last)
     return code == kExitSuccess ? no_such_tick(*options.at, first, found.last) : code;

@@ -50,7 +50,7 @@ bool RecordingReader::go_to(const Position& position, std::span<const RecordedSt
   end_.reset();
   is_part_over_ = false;
   error_.clear();
-  is_cut_ = false;
+  is_cut_ = is_read_ = false;
   return true;
 }
 
@@ -134,7 +134,7 @@ std::string RecordingReader::gaps() const {
 }
 
 std::string RecordingReader::cut() const {
-  if (end_ || is_part_over_ || !error_.empty()) return {};
+  if (!is_read_ || end_ || is_part_over_ || !error_.empty()) return {};
   const std::uint64_t line = lines_.position().lines;
   if (!lines_.position().knows_lines) {
     return is_cut_ ? "its last line is cut, the run did not end there"
@@ -146,6 +146,7 @@ std::string RecordingReader::cut() const {
 
 bool RecordingReader::next_line() {
   if (lines_.next()) return true;
+  is_read_ = true;
   if (!lines_.damage().empty())
     fail(fmt::format("{}; tick {} and later ones cannot be read", lines_.damage(), next_tick_));
   if (lines_.is_too_long()) fail(fmt::format("the line is longer than {} bytes", lines_.longest()));
@@ -158,7 +159,7 @@ void RecordingReader::read_line(Read read) {
   try {
     read();
   } catch (const NotJson& bad) {
-    is_cut_ = !lines_.has_end();
+    is_read_ = is_cut_ = !lines_.has_end();
     if (!is_cut_) fail(bad.what());
   } catch (const JsonError& bad) {
     fail(bad.what());

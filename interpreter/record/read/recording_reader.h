@@ -63,8 +63,8 @@ class RecordingReader {
   // The gaps in the lines read so far: "" when no tick is lost, else "2 ticks are missing, the
   // first is 7: the disk was too slow".
   std::string gaps() const;
-  // After the last tick: "" if the recording is complete, else how it ends. A part is complete that
-  // says that the run goes on in another one.
+  // "" if the recording is complete, or not read to its end, else how it ends. A part is complete
+  // that says that the run goes on in another one.
   std::string cut() const;
   // It is a part, and the run goes on in the next one.
   bool goes_on() const { return is_part_over_; }
@@ -95,7 +95,8 @@ class RecordingReader {
   std::unique_ptr<RecordingJson> format_;
   std::string name_;
   std::string error_;
-  bool is_cut_ = false;  // within the last line
+  bool is_read_ = false;  // to its end
+  bool is_cut_ = false;   // within the last line
   bool has_skipped_ = false;
   bool is_part_over_ = false;  // the next line is a header
   bool begins_here_ = false;   // with the next line, which has the whole state

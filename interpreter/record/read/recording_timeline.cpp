@@ -61,7 +61,6 @@ RecordingTimeline::RecordingTimeline(RecordingReader& reader, const TimelineOpti
     past.add(*tick);
   }
   outcome_ = reader_.outcome();
-  if (tick) outcome_.cut.clear();  // that is not known
   if (size_ > 0) go_to_begin();
 }
 

@@ -16,8 +16,8 @@ enum class CsvNames : bool { Exact, Printable };
 // Receives whole rows; returns false to stop.
 using CsvSink = std::function<bool(std::string_view rows)>;
 
-// Writes all readable ticks of the range; then check reader.error(), and reader.cut() if the range
-// has no end. Returns false if the sink stopped it.
+// Writes all readable ticks of the range; then check reader.error() and reader.cut(). Returns false
+// if the sink stopped it.
 bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names = CsvNames::Exact,
                TickRange range = {});
 

@@ -1,5 +1,7 @@
 #include "show/web/page.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "show/web/page_text.h"
@@ -29,7 +31,7 @@ std::pair<std::string_view, std::string_view> parts_around_source() {
   return {kPage.substr(0, begin), kPage.substr(kPage.find('<', begin))};
 }
 
-constexpr std::string_view kRecordingBegin = R"({"recording":")", kRecordingEnd = R"("})";
+constexpr std::string_view kRecordingBegin = R"("recording":")", kRecordingEnd = R"("})";
 
 }  // namespace
 
@@ -38,11 +40,15 @@ std::string page_with_source(std::string_view source) {
   return std::string(before) + without_tags(source) + std::string(behind);
 }
 
-RecordingPage::RecordingPage(Gzip::Sink sink)
+RecordingPage::RecordingPage(Gzip::Sink sink, std::optional<std::uint64_t> from,
+                             std::optional<std::uint64_t> to)
     : sink_(std::move(sink)),
       base64_(sink_),
       gzip_([this](std::string_view bytes) { base64_.add(bytes); }) {
   sink_(parts_around_source().first);
+  sink_("{");
+  if (from) sink_(fmt::format(R"("from":{},)", *from));
+  if (to) sink_(fmt::format(R"("to":{},)", *to));
   sink_(kRecordingBegin);
 }
 

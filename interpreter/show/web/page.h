@@ -2,6 +2,8 @@
 // sources are in web/page/.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,7 +19,9 @@ std::string page_with_source(std::string_view source);
 // `sink` gets the pieces of the page in order.
 class RecordingPage {
  public:
-  explicit RecordingPage(Gzip::Sink sink);
+  // The bounds are those of the ticks that were asked for, if not all of the recording is there.
+  explicit RecordingPage(Gzip::Sink sink, std::optional<std::uint64_t> from = {},
+                         std::optional<std::uint64_t> to = {});
 
   // The next bytes of the recording.
   void add(std::string_view bytes) { gzip_.add(bytes); }

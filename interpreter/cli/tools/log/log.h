@@ -40,8 +40,7 @@ int make_page(std::istream& in, const std::string& path, TickRange range,
 // Reports an error in the recording, or that it is cut. Returns the exit code.
 int report_end(const RecordingOutcome& outcome);
 int report_end(const RecordingReader& reader);
-// The same for a part of it: what comes behind the range has not been read, so that it is not known
-// whether it is cut. A range that begins behind the last tick is a mistake.
+// The same for a part of it. A range that begins behind the last tick is a mistake.
 int report_end(const RecordingReader& reader, TickRange range);
 // Reports a mistake of the user. Returns the exit code.
 int usage_error(const std::string& message);

@@ -68,9 +68,7 @@ int report_end(const RecordingReader& reader) {
 }
 
 int report_end(const RecordingReader& reader, TickRange range) {
-  RecordingOutcome outcome = reader.outcome();
-  if (!range.is_open()) outcome.cut.clear();
-  const int code = report_end(outcome);
+  const int code = report_end(reader);
   const std::uint64_t ticks = reader.position().next_tick, first = reader.header().first_tick;
   if (code != kExitSuccess) return code;
   if (range.to < first) {

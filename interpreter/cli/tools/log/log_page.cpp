@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <memory>
+#include <optional>
 #include <streambuf>
 #include <string>
 #include <utility>
@@ -82,15 +83,19 @@ int make_page_of(std::istream& in, const std::string& path, TickRange range,
     const Piece header{0, reader.position().lines.bytes};
     if (range.from > 0) reader.skip_to(range.from);
     Piece ticks{reader.position().lines.bytes, reader.position().lines.bytes};
-    bool is_read = true;
-    while (is_read) {
-      const auto tick = reader.next();
-      is_read = tick && tick->tick <= range.to;
-      if (is_read || !tick) ticks.to = reader.position().lines.bytes;
+    bool has_more = false;
+    while (const auto tick = reader.next()) {
+      has_more = tick->tick > range.to;
+      if (has_more) break;
+      ticks.to = reader.position().lines.bytes;
     }
+    if (!has_more) ticks.to = reader.position().lines.bytes;
     const int code = report_end(reader, range);
     if (code != kExitSuccess) return code;
-    RecordingPage page(write);
+    const auto asked = [](bool is_bound, std::uint64_t tick) {
+      return is_bound ? std::optional(tick) : std::nullopt;
+    };
+    RecordingPage page(write, asked(range.from > 0, range.from), asked(has_more, range.to));
     const auto add = [&page](std::string_view bytes) {
       page.add(bytes);
       return true;

@@ -9,6 +9,12 @@ import { withMoment } from "./span";
 export type Theme = "auto" | "light" | "dark";
 export type Arrangement = "diagram" | "outline";
 
+// The ticks of the recording that were asked for, and are here; all without a bound.
+export interface TickRange {
+  from?: number;
+  to?: number;
+}
+
 export interface Looking {
   line: number | null; // null: the newest
   selected: number | null;
@@ -29,6 +35,7 @@ export interface Looking {
 export class Store {
   run = new Run();
   live: Live | null = null; // null: a recording
+  range: TickRange = {};
   looking: Looking = {
     line: null, selected: null, folds: new Map(), onlyActive: false, follow: true,
     arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, span: null, lanesHeight: 152,
@@ -91,7 +98,7 @@ export class Store {
   }
   // Nothing more comes of a recording.
   complete() {
-    if (!this.run.end && !this.trouble) this.trouble = "The recording is cut: it has no closing line.";
+    if (!this.run.end && !this.trouble && this.range.to === undefined) this.trouble = "The recording is cut: it has no closing line.";
     if (this.looking.line === null) this.looking = { ...this.looking, line: firstLine(this.run) };
     this.changed();
   }

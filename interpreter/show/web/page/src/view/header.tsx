@@ -1,7 +1,7 @@
 // The head of the page: which run it is, where it stands, and how the page looks.
 import { seconds } from "../model/words";
 import type { Connection } from "../store/live";
-import type { Store, Theme } from "../store/store";
+import type { Store, Theme, TickRange } from "../store/store";
 import { Search } from "./panels/search";
 
 const NEXT: Record<Theme, Theme> = { auto: "dark", dark: "light", light: "auto" };
@@ -11,6 +11,12 @@ const CONNECTIONS: Record<Connection, string> = {
   asleep: "asleep",
 };
 
+// What was asked for is not cut.
+function recorded({ from, to }: TickRange): string {
+  if (from === undefined && to === undefined) return "recording";
+  return `asked for: ${to === undefined ? `tick ${from} and later` : `ticks ${from ?? 0} to ${to}`}`;
+}
+
 function State({ store }: { store: Store }) {
   const { live, run } = store;
   const { end } = run;
@@ -19,7 +25,7 @@ function State({ store }: { store: Store }) {
     <span role="status" class="states">
       {live && !end && <span class={`connection ${live.connection}`}>{CONNECTIONS[live.connection]}</span>}
       {live && !end && paused && <span class="warning">‖ paused</span>}
-      {!live && <span class="dim">recording</span>}
+      {!live && <span class="dim">{recorded(store.range)}</span>}
       {end && !store.moment.isLastOfEnded() && <span class="dim">{`it ended later: ${end.result}`}</span>}
       {store.moment.isLastOfEnded() && <span class={`result ${end?.result}`}>{`ended: ${end?.result} (${end?.reason})`}</span>}
     </span>
