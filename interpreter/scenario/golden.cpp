@@ -79,6 +79,12 @@ bool is_recording(const std::string& path) {
 
 void Golden::compare(std::vector<Surprise>& surprises) const {
   const std::string& golden = expected.texts[0];
+  // The writer of a pipe is not waited for.
+  if (std::error_code none; fs::exists(golden, none) && !fs::is_regular_file(golden, none)) {
+    surprises.push_back(
+        {expected.place, fmt::format("'{}' is not a regular file", golden), {"name a recording"}});
+    return;
+  }
   const BriefRecording brief;
   PerformOptions again = options;
   again.record = brief.path();

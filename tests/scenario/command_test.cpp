@@ -485,6 +485,16 @@ TEST_CASE("a golden recording is written by --update, and compared") {
   CHECK(contains(it.out, "the run is not that of"));
 }
 
+TEST_CASE("a pipe or a device in place of a recording is refused, not waited for") {
+  const Folder folder(R"(<scenario name="pipe"><expect same-as="pipe.jsonl"/></scenario>)"
+                      R"(<scenario name="device"><expect same-as="/dev/tty"/></scenario>)");
+  REQUIRE(mkfifo(folder.path("pipe.jsonl").c_str(), 0600) == 0);
+  const Outcome it = folder.test({});
+  CHECK(it.code == 1);
+  CHECK(contains(it.out, "pipe.jsonl' is not a regular file"));
+  CHECK(contains(it.out, "'/dev/tty' is not a regular file"));
+}
+
 TEST_CASE("test --update writes over nothing but the recordings of one scenario, in its folder") {
   const auto scenario = [](const std::string& name, const std::string& file) {
     return "<scenario name=\"" + name + "\"><expect same-as=\"" + file + "\"/></scenario>";
