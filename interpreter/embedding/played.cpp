@@ -53,7 +53,7 @@ bool play(lockstep_project& project, std::string_view path, std::string_view tex
   if (!is_found) {
     const std::vector<std::string_view> known(paths.begin(), paths.end());
     return fail(fmt::format("no leaf has the path '{}': {}", brief(path),
-                            suggest(path, known, "its leaves")));
+                            suggest_path(path, known, "its leaves")));
   }
   if (const auto wrong = PlayedLeaves::check(scripts, tree)) {
     return fail(wrong->hint.empty() ? wrong->message

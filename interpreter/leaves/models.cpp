@@ -173,7 +173,7 @@ class ModelMaker {
                       row.path.empty()
                           ? fmt::format("the tree has no leaf of type '{}'", brief(given))
                           : fmt::format("no leaf has the path '{}'", brief(given)),
-                      suggest(given, known, "its leaves"));
+                      suggest_path(given, known, "its leaves"));
   }
 
   void apply(const LeafRow& row, std::size_t leaf) {

@@ -169,7 +169,7 @@ Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string&
   const std::vector<std::string_view> known(names.begin(), names.end());
   return {path.empty() ? fmt::format("the tree has no leaf of type '{}'", brief(of))
                        : fmt::format("the tree has no leaf '{}'", brief(path)),
-          suggest(path.empty() ? of : path, known, "its leaves")};
+          suggest_path(path.empty() ? of : path, known, "its leaves")};
 }
 
 Cast make_cast(const Scenario& scenario, const Tree& tree, const Definition& given, bool has_models,

@@ -103,6 +103,30 @@ std::string suggest(std::string_view word, std::span<const std::string_view> can
   return hint;
 }
 
+std::string_view end_that_reads(std::string_view path, std::string_view name) {
+  constexpr std::string_view kSlash = "%2F";
+  std::size_t begin = path.size();
+  for (std::size_t left = name.size(); left > 0; --left) {
+    const char letter = name[left - 1];
+    if (letter == '/' && path.substr(0, begin).ends_with(kSlash)) {
+      begin -= kSlash.size();
+    } else if (begin > 0 && path[begin - 1] == letter) {
+      --begin;
+    } else {
+      return {};
+    }
+  }
+  return begin == 0 || path[begin - 1] == '/' ? path.substr(begin) : std::string_view();
+}
+
+std::string suggest_path(std::string_view name, std::span<const std::string_view> paths,
+                         std::string_view what) {
+  const auto reads = [name](std::string_view it) { return !end_that_reads(it, name).empty(); };
+  const auto path = std::ranges::find_if(paths, reads);
+  return path == paths.end() ? suggest(name, paths, what)
+                             : fmt::format("did you mean '{}'?", brief(*path));
+}
+
 std::string join_hints(std::string first, std::string_view second) {
   if (!first.empty() && !second.empty()) first += "; ";
   return first.append(second);

@@ -23,6 +23,13 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates,
                     std::string_view what);
 
+// The end of a path of a node that reads as `name` does: a '/' within a name is %2F in a path. ""
+// if it does not end so.
+std::string_view end_that_reads(std::string_view path, std::string_view name);
+// The same as suggest() for paths of nodes.
+std::string suggest_path(std::string_view name, std::span<const std::string_view> paths,
+                         std::string_view what);
+
 // "first; second", or the one that is not empty.
 std::string join_hints(std::string first, std::string_view second);
 

@@ -40,13 +40,13 @@ std::string unknown_measure(std::string_view name) {
          (near.empty() ? "there are: " + measure_usages() : near);
 }
 
-// A node is named by its path or by its last part.
-std::string suggest_path(std::span<const std::string> paths, std::string_view name) {
+// A node is named by its path or by an end of it.
+std::string suggested(std::span<const std::string> paths, std::string_view name) {
   const std::vector<std::string_view> whole(paths.begin(), paths.end());
   std::vector<std::string_view> names;
   for (const std::string_view path : whole) names.push_back(path.substr(path.rfind('/') + 1));
   const std::string near = did_you_mean(name, names);
-  return near.empty() ? suggest(name, whole, "there are") : near;
+  return near.empty() ? suggest_path(name, whole, "there are") : near;
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ Result<std::size_t> find_path(std::span<const std::string> paths, std::string_vi
   }
   if (found) return *found;
   std::string error = "no " + std::string(what) + " " + quoted(name);
-  const std::string hint = suggest_path(paths, name);
+  const std::string hint = suggested(paths, name);
   if (!hint.empty()) error += ", " + hint;
   return problem(std::move(error));
 }

@@ -140,6 +140,7 @@ void FormulaParser::node_term() {
         has_token_ = true;
         expected("what holds in a tick", std::string(kTermHint));
       }
+      check_quotes(name);
       throw PropertyError{
           fmt::format("'{}' says nothing of a tick", brief(path)),
           fmt::format("add what of the node is meant: '{}.running'; also {}", brief(path),
@@ -151,8 +152,17 @@ void FormulaParser::node_term() {
     path = path.substr(0, point);
   }
   const auto node = find_node(path, names_.paths);
+  if (!node && name.kind == Kind::Word) check_quotes(name);
   if (!node) throw PropertyError{node.error().message, node.error().hint, name.offset};
   field_of(static_cast<std::uint32_t>(place_of(formula_.nodes, *node)), field, field_offset);
+}
+
+// Also where a part of the path that stands without quotes is a word.
+void FormulaParser::check_quotes(const PropertyToken& name) const {
+  const std::string_view meant = quoted_name(text_.substr(name.offset), names_.paths);
+  if (meant.empty()) return;
+  throw PropertyError{fmt::format("the path '{}' needs quotes", brief(meant)),
+                      fmt::format("write '{}'.running", brief(meant)), name.offset};
 }
 
 void FormulaParser::field_of(std::uint32_t place, std::string_view field, std::size_t offset) {

@@ -30,6 +30,7 @@ class FormulaParser {
   void negation(std::size_t depth);
   void primary(std::size_t depth);
   void node_term();
+  void check_quotes(const PropertyToken& name) const;
   void field_of(std::uint32_t place, std::string_view field, std::size_t offset);
   void progress_of(std::uint32_t place);
   void entry_term();

@@ -7,6 +7,7 @@
 
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
+#include "language/property/property_token.h"
 
 namespace lockstep::host {
 namespace {
@@ -43,6 +44,17 @@ std::string_view shortest_end(std::string_view path, std::span<const std::string
 
 }  // namespace
 
+std::string_view quoted_name(std::string_view text, std::span<const std::string> paths) {
+  std::string_view longest;
+  for (const std::string& path : paths) {
+    for (std::size_t count = 1; count <= segments_of(path); ++count) {
+      const std::string_view end = last_segments(path, count);
+      if (end.size() > longest.size() && text.starts_with(end) && needs_quotes(end)) longest = end;
+    }
+  }
+  return longest;
+}
+
 Result<std::uint32_t> find_node(std::string_view name, std::span<const std::string> paths) {
   constexpr std::size_t kMostListed = 11;  // one more than a message lists
   std::vector<std::uint32_t> found;
@@ -60,11 +72,20 @@ Result<std::uint32_t> find_node(std::string_view name, std::span<const std::stri
                    "write more of the one that is meant: " + listed(ends));
   }
   std::vector<std::string_view> ends;
-  for (const std::string& path : paths) ends.push_back(last_segments(path, segments_of(name)));
-  std::string hint = did_you_mean(name, ends);
-  if (hint.empty()) {
+  std::string_view meant;
+  for (const std::string& path : paths) {
+    ends.push_back(last_segments(path, segments_of(name)));
+    if (meant.empty()) meant = end_that_reads(path, name);
+  }
+  if (meant.empty()) meant = nearest(name, ends);
+  std::string hint;
+  if (meant.empty()) {
     hint = fmt::format("a node is named by its path or the end of it, as '{}'",
                        paths.empty() ? "" : brief(shortest_end(paths.back(), paths)));
+  } else if (needs_quotes(meant)) {
+    hint = fmt::format("write '{}', with the quotes", brief(meant));
+  } else {
+    hint = fmt::format("did you mean '{}'?", brief(meant));
   }
   return problem(fmt::format("no node '{}'", brief(name)), std::move(hint));
 }

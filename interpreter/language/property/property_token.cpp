@@ -154,6 +154,10 @@ class PropertyLexer {
 
 }  // namespace
 
+bool needs_quotes(std::string_view name) {
+  return !std::ranges::all_of(name, is_of_word);
+}
+
 tl::expected<PropertyToken, PropertyError> next_property_token(std::string_view text,
                                                                std::size_t& offset) {
   offset = std::min(text.find_first_not_of(" \t\n\r", offset), text.size());

@@ -34,4 +34,7 @@ struct PropertyToken {
 tl::expected<PropertyToken, PropertyError> next_property_token(std::string_view text,
                                                                std::size_t& offset);
 
+// Whether the name of a node has characters that only stand in quotes.
+bool needs_quotes(std::string_view name);
+
 }  // namespace lockstep::host

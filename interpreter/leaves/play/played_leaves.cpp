@@ -316,7 +316,7 @@ std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tre
       std::vector<std::string_view> known;
       for (const auto& it : leaves) known.emplace_back(it.first);
       return Problem{fmt::format("the tree has no leaf '{}'", brief(path)),
-                     suggest(path, known, "its leaves")};
+                     suggest_path(path, known, "its leaves")};
     }
     for (const LeafWord& word : words) {
       if (auto wrong = check_written(*leaf->second, word)) return wrong;

@@ -87,3 +87,16 @@ TEST_CASE("a word that is too long to be a typing error is near nothing") {
   CHECK(nearest(word, words).empty());
   CHECK(nearest(std::string_view(word).substr(1), words) == word);
 }
+
+TEST_CASE("the end of a path reads as a name whose '/' is %2F in it") {
+  CHECK(end_that_reads("m/Sequence/go%2Fhome", "go/home") == "go%2Fhome");
+  CHECK(end_that_reads("m/Sequence/go%2Fhome", "Sequence/go/home") == "Sequence/go%2Fhome");
+  CHECK(end_that_reads("m/Sequence/go%2Fhome", "Sequence/go%2Fhome") == "Sequence/go%2Fhome");
+  CHECK(end_that_reads("go%2Fhome", "go/home") == "go%2Fhome");
+  CHECK(end_that_reads("m/ago%2Fhome", "go/home").empty());
+  CHECK(end_that_reads("home", "go/home").empty());
+  CHECK(end_that_reads("%2Fhome", "home").empty());
+  constexpr std::array<std::string_view, 2> kPaths = {"m/a", "m/go%2Fhome"};
+  CHECK(suggest_path("go/home", kPaths, "its leaves") == "did you mean 'm/go%2Fhome'?");
+  CHECK(suggest_path("xyz", kPaths, "its leaves") == "its leaves: 'm/a', 'm/go%2Fhome'");
+}

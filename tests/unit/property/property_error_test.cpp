@@ -73,6 +73,29 @@ TEST_CASE("each mistake in a property is reported at its column") {
   }
 }
 
+TEST_CASE("a path with other characters needs quotes, and an error says so") {
+  const PropertyNames names = {.paths = {"Main/go%2Fhome", "Main/pick up", "Main/v1.0%2Fb"},
+                               .entries = {}};
+  constexpr Row kRows[] = {
+      {"never go/home.failure", 7, "no node 'go/home'", "write 'go%2Fhome', with the quotes"},
+      {"never 'go/home'.failure", 7, "no node 'go/home'", "write 'go%2Fhome', with the quotes"},
+      {"never 'pick_up'.failure", 7, "no node 'pick_up'", "write 'pick up', with the quotes"},
+      {"never go%2Fhome.failure", 7, "the path 'go%2Fhome' needs quotes",
+       "write 'go%2Fhome'.running"},
+      {"never Main/pick up.failure", 7, "the path 'Main/pick up' needs quotes",
+       "write 'Main/pick up'.running"},
+      {"never v1.0%2Fb.failure", 7, "the path 'v1.0%2Fb' needs quotes", "write 'v1.0%2Fb'.running"},
+  };
+  for (const Row& row : kRows) {
+    INFO(row.text);
+    const auto property = Property::parse(row.text, names);
+    REQUIRE_FALSE(property);
+    CHECK(property.error().message == row.message);
+    CHECK(property.error().offset + 1 == row.column);
+    CHECK(property.error().hint == row.hint);
+  }
+}
+
 TEST_CASE("parentheses may be nested, but not without end") {
   const auto nested = [](std::size_t depth) {
     return "never " + std::string(depth, '(') + "base.running or base.idle and base.held" +

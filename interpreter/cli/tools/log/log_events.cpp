@@ -50,7 +50,7 @@ class UnknownPaths {
     for (const ShapeEntry& it : header_.entries) known.emplace_back(it.key);
     const std::string& first = patterns_.front();
     print_error(fmt::format("--path {}: no node, entry or leaf that logs is called so", first),
-                suggest(first, known, "there are"));
+                suggest_path(first, known, "there are"));
     return kExitUsage;
   }
 
