@@ -570,6 +570,24 @@ TEST_CASE("convert makes a list of the cases of a Switch, and back") {
   CHECK(again.out == here.out);
 }
 
+TEST_CASE("convert tells what check finds wrong in the result only") {
+  const TemporaryDirectory directory;
+  const auto warnings_of = [&](const std::string& first) {
+    const std::string nodes =
+        "<Sequence><Script code=\"" + first +
+        "\"/><Switch2 variable=\"{x}\" case_1=\"1\" case_2=\"16abc\"><A/><A/><A/></Switch2>"
+        "</Sequence>";
+    const Outcome outcome = run_lockstep(
+        {"convert", directory.file("theirs.xml", around("BTCPP_format=\"4\"", nodes))});
+    CHECK(outcome.code == 0);
+    return outcome.err;
+  };
+  CHECK(contains(warnings_of("x := 16"),
+                 "theirs.xml: warning: line 3 of the result has an error: the case '16abc' is "
+                 "never equal to "));
+  CHECK_FALSE(contains(warnings_of("x := 'a'"), "of the result"));
+}
+
 TEST_CASE("what lockstep's language cannot say is an error at its place") {
   const TemporaryDirectory directory;
   const Row rows[] = {

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "author/convert/convert.h"
 #include "cli/checks.h"
@@ -7,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "language/document/file.h"
+#include "run/loading/load.h"
 #include "run/loading/plugins.h"
 
 namespace lockstep::host {
@@ -16,6 +20,31 @@ struct ConvertOptions {
   std::string tree;
   std::string to;
 };
+
+// All that `check` finds without plugins.
+Diagnostics checked(const std::string& name, const std::string& text) {
+  LoadOptions options;
+  options.unknown = MissingNodes::AreNoted;
+  options.may_lack_main = true;
+  Diagnostics found;
+  const auto project = load_project_text(name, text, options, found);
+  LoadedPlugins none;
+  none.plugins = std::make_shared<PluginSet>();
+  if (project) static_cast<void>(meaning_of(project.get(), none, options, found));
+  return found;
+}
+
+// The errors of the result, if what it was made of has none.
+void check_result(const Document& document, const std::string& result, Diagnostics& diagnostics) {
+  const std::string& name = document.source()->path();
+  if (checked(name, std::string(document.source()->text())).has_errors()) return;
+  for (const Diagnostic& it : checked(name, result).all()) {
+    if (it.severity != Severity::Error || it.location.file != name) continue;
+    diagnostics.warning(
+        {name}, fmt::format("line {} of the result has an error: {}", it.location.line, it.message),
+        it.hint);
+  }
+}
 
 std::optional<std::string> converted(const ConvertOptions& options, Diagnostics& diagnostics) {
   const bool is_stdin = options.tree == "-";
@@ -41,7 +70,10 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   const Catalog from_nodes = make_catalog(none, from), to_nodes = make_catalog(none, to);
   Sources sources;
   sources.add(document->source());
-  return convert(*document, {from, to, from_nodes, to_nodes}, Reporter(sources, diagnostics));
+  auto result =
+      convert(*document, {from, to, from_nodes, to_nodes}, Reporter(sources, diagnostics));
+  if (result) check_result(*document, *result, diagnostics);
+  return result;
 }
 
 int convert_file(const ConvertOptions& options) {
