@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "support/json.h"
 #include "web/client.h"
 
 using namespace lockstep::host::test;
@@ -119,6 +120,24 @@ TEST_CASE("a name that leads here is not enough") {
   }
   CHECK(it.status_of("GET / HTTP/1.1\r\n\r\n") >= 400);
   CHECK(it.status_of("GET / HTTP/1.0\r\n\r\n") == 421);
+}
+
+TEST_CASE("each refusal is JSON, with its error") {
+  Guarded it;
+  const auto error_of = [](const Response& response) {
+    CHECK(contains(response.head, "Content-Type: application/json"));
+    return response.status >= 400 ? parse_json(response.body)["error"].get<std::string>() : "";
+  };
+  const unsigned port = it.port();
+  CHECK(error_of(post(port, "/control", R"({"do":"halt"})")) == "the token is missing or wrong");
+  CHECK(error_of(post(port, "/control", R"({"do":"halt"})",
+                      "Origin: http://evil.example\r\n" + it.token())) ==
+        "pages of other hosts may not ask");
+  CHECK(error_of(post(port, "/control", std::string(4097, ' '), it.token())) ==
+        "the body is too large");
+  CHECK_FALSE(error_of(post(port, "/control", "?", it.token())).empty());
+  CHECK(error_of(get(port, "/control", it.token())) == "only POST");
+  CHECK(error_of(get(port, "/nothing", it.token())) == "there is no such page");
 }
 
 TEST_CASE("pages of other sites may not ask, and may not look at the answer") {

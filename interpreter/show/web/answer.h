@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/core/problem.h"
 #include "record/live/stream.h"
 
 namespace lockstep::host {
@@ -25,6 +26,10 @@ struct WebAnswer {
   std::unique_ptr<Stream> stream = {};        // instead of `body`
   std::string policy = "default-src 'none'";  // what a page may load: Content-Security-Policy
 };
+
+// What is answered to a request that is not granted: {"error": "...", "hint": "..."}, without an
+// empty hint.
+WebAnswer refusal(unsigned status, const Problem& problem);
 
 class Answering {
  public:

@@ -37,16 +37,15 @@ bool Gate::is_own_host(std::string_view host) const {
 
 std::optional<WebAnswer> Gate::refuse(const WebRequest& request) const {
   if (!request.host || !is_own_host(*request.host)) {
-    return WebAnswer{.status = 421, .body = "this is the monitor of lockstep, not that host\n"};
+    return refusal(421, {"this is the monitor of lockstep, not that host"});
   }
   if (request.origin && *request.origin != "http://" + *request.host) {
-    return WebAnswer{.status = 403, .body = "pages of other hosts may not ask\n"};
+    return refusal(403, {"pages of other hosts may not ask"});
   }
   const bool is_open = token_.empty() || (request.path == "/" && request.method == "GET");
   if (!is_open && !is_token(token_, request.token.value_or(""))) {
-    return WebAnswer{
-        .status = 403,
-        .body = "the token is missing or wrong: it is in the link that lockstep printed\n"};
+    return refusal(403,
+                   {"the token is missing or wrong", "it is in the link that lockstep printed"});
   }
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "show/web/http_server.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <microhttpd.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -83,13 +84,14 @@ WebRequest read_head(MHD_Connection* connection, const char* url, const char* me
 // Only a body whose length is known is read.
 std::optional<WebAnswer> refuse_body(MHD_Connection* connection) {
   if (header(connection, MHD_HTTP_HEADER_TRANSFER_ENCODING)) {
-    return WebAnswer{.status = MHD_HTTP_LENGTH_REQUIRED, .body = "a body must tell its length\n"};
+    return refusal(MHD_HTTP_LENGTH_REQUIRED, {"a body must have a Content-Length"});
   }
   const auto length = header(connection, MHD_HTTP_HEADER_CONTENT_LENGTH);
   if (!length) return std::nullopt;
   const auto bytes = whole_number(length->c_str());
   if (bytes && *bytes <= kMostBody) return std::nullopt;
-  return WebAnswer{.status = MHD_HTTP_CONTENT_TOO_LARGE, .body = "the body is too large\n"};
+  return refusal(MHD_HTTP_CONTENT_TOO_LARGE,
+                 {"the body is too large", fmt::format("at most {} bytes", kMostBody)});
 }
 
 }  // namespace
@@ -174,7 +176,7 @@ struct HttpServer::Implementation {
   MHD_Result answer(MHD_Connection* connection, const WebRequest& request) {
     WebAnswer it = answering.answer(request);
     if (it.stream && streams >= kMostStreams) {
-      it = {.status = MHD_HTTP_SERVICE_UNAVAILABLE, .body = "too many watch this run\n"};
+      it = refusal(MHD_HTTP_SERVICE_UNAVAILABLE, {"too many watch this run"});
     }
     const bool is_endless = it.stream && it.stream->is_endless();
     deadlines[connection] = {

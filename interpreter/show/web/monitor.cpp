@@ -211,12 +211,12 @@ std::optional<WebAnswer> Monitor::refuse(const WebRequest& head) {
 WebAnswer Monitor::answer(const WebRequest& request) {
   if (request.path == "/control") {
     if (request.method == "POST") return obey(request.body);
-    return {.status = 405, .body = "only POST\n"};
+    return refusal(405, {"only POST"});
   }
   const bool is_known =
       request.path == "/" || request.path == "/events" || request.path == "/history";
-  if (!is_known) return {.status = 404, .body = "there is no such page\n"};
-  if (request.method != "GET") return {.status = 405, .body = "only GET\n"};
+  if (!is_known) return refusal(404, {"there is no such page"});
+  if (request.method != "GET") return refusal(405, {"only GET"});
   if (request.path == "/") return page();
   if (request.path == "/history") {
     return {.type = "application/x-ndjson", .stream = history()};
@@ -243,16 +243,11 @@ WebAnswer Monitor::page() const {
 }
 
 WebAnswer Monitor::obey(const std::string& text) {
-  const auto refuse = [](unsigned status, const Problem& problem) {
-    Json json = {{"error", problem.message}};
-    if (!problem.hint.empty()) json["hint"] = problem.hint;
-    return WebAnswer{.status = status, .type = "application/json", .body = json.text() + '\n'};
-  };
   if (control_ == nullptr) {
-    return refuse(403, {"this monitor only shows the run", "start it with --monitor-control"});
+    return refusal(403, {"this monitor only shows the run", "start it with --monitor-control"});
   }
   auto order = read_order(tree_, is_real_time_, text);
-  if (!order) return refuse(400, order.error());
+  if (!order) return refusal(400, order.error());
   if (order->what == RunControl::Order::What::Break) status_.note(order->breakpoint, order->is_on);
   control_->give(std::move(*order));
   return {.status = 204};

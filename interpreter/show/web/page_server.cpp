@@ -28,8 +28,8 @@ std::optional<WebAnswer> PageServer::refuse(const WebRequest& head) {
 }
 
 WebAnswer PageServer::answer(const WebRequest& request) {
-  if (request.path != "/") return {.status = 404, .body = "there is no such page\n"};
-  if (request.method != "GET") return {.status = 405, .body = "only GET\n"};
+  if (request.path != "/") return refusal(404, {"there is no such page"});
+  if (request.method != "GET") return refusal(405, {"only GET"});
   return {.type = "text/html; charset=utf-8", .body = page_, .policy = std::string(page_policy())};
 }
 
