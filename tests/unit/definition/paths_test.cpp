@@ -33,14 +33,20 @@ TEST_CASE("siblings of one name are numbered") {
   using Paths = std::vector<std::string>;
   CHECK(paths("<BehaviorTree ID=\"T\"><AlwaysSuccess/></BehaviorTree>") ==
         Paths{"T/AlwaysSuccess"});
-  CHECK(paths("<BehaviorTree ID=\"T\"><Sequence><AlwaysSuccess name=\"a\"/><Wait seconds=\"1\"/>"
-              "<AlwaysFailure name=\"a\"/><AlwaysSuccess name=\"a#2\"/><Wait seconds=\"1\"/>"
-              "</Sequence></BehaviorTree>") == Paths{"T/Sequence", "T/Sequence/a",
-                                                     "T/Sequence/Wait", "T/Sequence/a#3",
-                                                     "T/Sequence/a#2", "T/Sequence/Wait#2"});
+  // "a#2" is taken from the start, and "a#2#2" follows from a name that comes too late.
+  CHECK(paths("<BehaviorTree ID=\"T\"><Sequence><AlwaysSuccess name=\"a#2\"/><Wait seconds=\"1\"/>"
+              "<AlwaysFailure name=\"a\"/><AlwaysSuccess name=\"a\"/><Wait seconds=\"1\"/>"
+              "</Sequence></BehaviorTree>") == Paths{"T/Sequence", "T/Sequence/a#2",
+                                                     "T/Sequence/Wait", "T/Sequence/a",
+                                                     "T/Sequence/a#3", "T/Sequence/Wait#2"});
+  CHECK(
+      paths("<BehaviorTree ID=\"T\"><Sequence><AlwaysSuccess name=\"a\"/>"
+            "<AlwaysFailure name=\"a\"/><AlwaysSuccess name=\"a#2\"/></Sequence></BehaviorTree>") ==
+      Paths{"T/Sequence", "T/Sequence/a", "T/Sequence/a#2", "T/Sequence/a#2#2"});
   CHECK(paths("<BehaviorTree ID=\"T\"><Sequence><SubTree ID=\"S\"/><SubTree ID=\"S\"/></Sequence>"
-              "</BehaviorTree><BehaviorTree ID=\"S\"><Sequence/></BehaviorTree>")
-            .size() > 2);
+              "</BehaviorTree><BehaviorTree ID=\"S\"><AlwaysSuccess/></BehaviorTree>") ==
+        Paths{"T/Sequence", "T/Sequence/S", "T/Sequence/S/AlwaysSuccess", "T/Sequence/S#2",
+              "T/Sequence/S#2/AlwaysSuccess"});
 }
 
 TEST_CASE("a barrier beside the trees is beside the root") {

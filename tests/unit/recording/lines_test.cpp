@@ -58,7 +58,8 @@ std::string typescript(std::string_view type) {
 std::string page_types() {
   std::string text =
       "// The lines of a recording, as docs/recording.md describes them. Made by `./dev generate` "
-      "from\n// interpreter/record/lines.h, base/core/status.h and base/core/progress.h.\n\nexport const "
+      "from\n// interpreter/record/lines.h, base/core/status.h and base/core/progress.h.\n\nexport "
+      "const "
       "STATUSES = [";
   std::string numbers;
   for (const StatusRow& row : kStatuses) {
