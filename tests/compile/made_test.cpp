@@ -72,11 +72,30 @@ std::string ports_of(const std::string& names) {
   return ports;
 }
 
-// Nodes of these arguments of `lockstep new` are inserted, and the plugin keeps the contract.
-void insert_nodes(const std::vector<std::string>& nodes, const std::string& plugin,
-                  const TemporaryDirectory& directory) {
+// What a person does with a node that is printed: its definition goes in front of the line with the
+// list of nodes, its last line into that list.
+struct Paste {
+  std::string line, list;
+};
+
+// What `lockstep new` makes of these arguments goes into the source of the plugin, which keeps the
+// contract.
+void add_nodes(const std::vector<std::string>& nodes, const std::string& plugin,
+               const TemporaryDirectory& directory, const Paste& paste = {}) {
   std::string script = "cd robot\n";
-  for (const std::string& node : nodes) script += "lockstep new " + node + "\n";
+  for (const std::string& node : nodes) {
+    script += "lockstep new " + node + " > made\n";
+    if (paste.line.empty()) continue;
+    script +=
+        "python3 - '" + paste.line + "' '" + paste.list +
+        "' plugins/robot/robot.* <<'E'\nimport sys\nline, list, path = sys.argv[1:]\n"
+        "text, made = open(path).read(), open('made').read().rstrip()\n"
+        "definition, entry = made.rsplit('\\n\\n', 1)\n"
+        "at = text.index(line)\ninto = text.index(list, at) + len(list)\n"
+        "end = '' if entry.endswith(';') else ', '\n"
+        "open(path, 'w').write(text[:at] + definition + '\\n\\n' + text[at:into] + entry + end + "
+        "text[into:])\nE\n";
+  }
   script += "touch plugins/robot/CMakeLists.txt\n" + kConfigure +
             " || { cat log; exit 1; }\nlockstep plugin check " + plugin;
   const std::string out = succeed(script, directory);
@@ -111,10 +130,10 @@ TEST_CASE("what README.md and docs/new.md say of a first project works word for 
   }
 }
 
-TEST_CASE("a project in C++ builds and passes its tests, and nodes of all kinds can be inserted") {
+TEST_CASE("a project in C++ builds and passes its tests, and nodes of all kinds can be added") {
   const TemporaryDirectory directory;
   make_project("c++", directory);
-  insert_nodes(
+  add_nodes(
       {"leaf OpenDoor" + kPorts,
        "leaf Lists" + kListPorts + " --port 'd:list of bool' --port e:number=1",
        "leaf Awkward --port elapsed_:int=1" + ports_of(kWordsOfCpp) + ports_of(kMembersOfCpp),
@@ -125,10 +144,10 @@ TEST_CASE("a project in C++ builds and passes its tests, and nodes of all kinds 
       "build/robot.so", directory);
 }
 
-TEST_CASE("a project in C builds and passes its tests, and nodes can be inserted") {
+TEST_CASE("a project in C builds and passes its tests, and nodes can be added") {
   const TemporaryDirectory directory;
   make_project("c", directory);
-  insert_nodes(
+  add_nodes(
       {"leaf OpenDoor" + kPorts,
        "leaf Lists" + kListPorts + " --port 'd:list of bool' --port e:number=1",
        "leaf Awkward --port progress:double=1 --port create:string --port ports:int=1",
@@ -136,41 +155,41 @@ TEST_CASE("a project in C builds and passes its tests, and nodes can be inserted
        "leaf Plain", "node TryAll --kind control", "node Twice --kind decorator",
        // In small letters they are words of C, or functions of its library.
        "leaf Int", "leaf Enum --port x:int", "leaf Exit --kind condition"},
-      "build/robot.so", directory);
+      "build/robot.so", directory, {"static const lockstep_leaf_type* const", "= {"});
 }
 
-TEST_CASE("a project in Python passes its tests, and leaves can be inserted") {
+TEST_CASE("a project in Python passes its tests, and leaves can be added") {
   const TemporaryDirectory directory;
   make_project("python", directory);
-  insert_nodes(
+  add_nodes(
       {"leaf OpenDoor" + kPorts, "leaf Lists" + kListPorts + " --port 'd:list of bool'",
        "leaf IsOpen --kind condition --doc 'Whether the \"door\" is open' --port limit:double",
        "leaf Plain"},
       "build/robot.py", directory);
 }
 
-TEST_CASE("a project in Rust builds and passes its tests, and leaves can be inserted") {
+TEST_CASE("a project in Rust builds and passes its tests, and leaves can be added") {
   if (!has_rust()) {
     WARN("there is no rustc: not tested");
     return;
   }
   const TemporaryDirectory directory;
   make_project("rust", directory);
-  insert_nodes(
+  add_nodes(
       {"leaf OpenDoor" + kPorts,
        "leaf IsOpen --kind condition --doc 'Whether the \"door\" is open' --port limit:double",
        "leaf Plain"},
-      "build/robot.so", directory);
+      "build/robot.so", directory, {"#[no_mangle]", "&["});
 }
 
 #ifndef LOCKSTEP_SANITIZED  // what it is linked with would need the sanitizer
-TEST_CASE("a project for BehaviorTree.CPP builds and passes its tests, and nodes can be inserted") {
+TEST_CASE("a project for BehaviorTree.CPP builds and passes its tests, and nodes can be added") {
   const TemporaryDirectory directory;
   make_project("btcpp", directory);
-  insert_nodes({"leaf OpenDoor" + kPorts, "leaf Lists" + kListPorts,
-                "leaf IsOpen --kind condition --port limit:double", "leaf Plain",
-                "node TryAll --kind control --port times:int=3", "node Twice --kind decorator"},
-               "build/robot.so", directory);
+  add_nodes({"leaf OpenDoor" + kPorts, "leaf Lists" + kListPorts,
+             "leaf IsOpen --kind condition --port limit:double", "leaf Plain",
+             "node TryAll --kind control --port times:int=3", "node Twice --kind decorator"},
+            "build/robot.so", directory, {"BT_REGISTER_NODES", "{"});
 }
 #endif
 

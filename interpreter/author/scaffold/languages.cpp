@@ -14,6 +14,8 @@ const std::vector<SourceLanguage>& rows() {
        ".cpp",
        "LOCKSTEP_PLUGIN(",
        {"Input", "Output", "InOut"},
+       {},
+       {},
        {{Number, "lockstep::Number"},
         {Bool, "bool"},
         {Int, "std::int64_t"},
@@ -29,6 +31,8 @@ const std::vector<SourceLanguage>& rows() {
        ".c",
        "lockstep_plugin_entry",
        {"LOCKSTEP_INPUT", "LOCKSTEP_OUTPUT", "LOCKSTEP_INOUT"},
+       "above the list of types, with <stdlib.h> included",
+       "into that list",
        {{Number, "LOCKSTEP_NUMBER"},
         {Bool, "LOCKSTEP_BOOL"},
         {Int, "LOCKSTEP_INT"},
@@ -44,6 +48,8 @@ const std::vector<SourceLanguage>& rows() {
        ".py",
        "lockstep_leaf",
        {"", "Output", "InOut"},
+       {},
+       {},
        {{Bool, "bool"},
         {Int, "int"},
         {Double, "float"},
@@ -58,6 +64,8 @@ const std::vector<SourceLanguage>& rows() {
        ".rs",
        "lockstep_plugin_entry",
        {"input", "output", "inout"},
+       "above #[no_mangle]",
+       "into the list of Plugin::of(…)",
        {{Bool, "Bool"},
         {Int, "Int"},
         {Double, "Double"},
@@ -69,6 +77,8 @@ const std::vector<SourceLanguage>& rows() {
        ".cpp",
        "BT_REGISTER_NODES(",
        {"InputPort", "OutputPort", "BidirectionalPort"},
+       "above BT_REGISTER_NODES",
+       "into its braces",
        {{Bool, "bool"},
         {Int, "int"},
         {Double, "double"},
@@ -86,6 +96,10 @@ std::string_view to_string(NewNodeKind kind) {
   static constexpr std::string_view kNames[] = {"action", "condition", "threaded", "control",
                                                 "decorator"};
   return kNames[static_cast<int>(kind)];
+}
+
+bool is_python(const SourceLanguage& language) {
+  return language.name == "python";
 }
 
 std::span<const SourceLanguage> source_languages() {

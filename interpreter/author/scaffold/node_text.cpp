@@ -13,10 +13,6 @@
 namespace lockstep::host {
 namespace {
 
-bool is_python(const SourceLanguage& language) {
-  return language.name == "python";
-}
-
 // The names of the classes of a source are no members of them.
 bool is_class_of(const NewNode& node, std::string_view name) {
   return name == node.id || name == node.id + "Ports";

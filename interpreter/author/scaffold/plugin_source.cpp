@@ -34,27 +34,23 @@ void add_item(const std::string& mask, const ItemList& list, const std::string& 
               Insertions& to) {
   const auto last = mask.find_last_not_of(kBlanks, list.close - 1);
   const bool is_empty = last <= list.open, ends_with_comma = mask[last] == ',';
-  const bool has_commas = list.separator == Separator::Comma;
   const auto line_end = mask.find('\n', last);
   const bool stays_on_line = list.may_stay_on_line && mask.find('\n', list.open) >= list.close;
   const auto at =
       line_end < list.close ? line_end - (mask[line_end - 1] == '\r' ? 1 : 0) : last + 1;
   const std::string before = stays_on_line ? (is_empty ? "" : " ") : '\n' + list.indentation;
-  if (has_commas && !is_empty && !ends_with_comma) to.add(last + 1, ",");
-  to.add(at, before + item + (has_commas && ends_with_comma ? "," : ""));
+  if (!is_empty && !ends_with_comma) to.add(last + 1, ",");
+  to.add(at, before + item + (ends_with_comma ? "," : ""));
 }
 
-// The names that the node needs and the source does not import: into its list of them, or, where it
-// has none, as a line of text, which is returned.
-std::string import_names(const PluginSource& source, const std::string& mask, const NewNode& node,
-                         Insertions& to) {
-  const std::string_view language = source.language->name;
-  if (language != "python" && language != "rust") return {};
-  const ItemList list = import_list(source, mask);
+// The names that the node needs and a source in Python does not import: into its list of them, or,
+// where it has none, as a line of text, which is returned.
+std::string import_names(const std::string& mask, const NewNode& node, Insertions& to) {
+  const ItemList list = import_list(mask);
   const bool has_list = list.open != kNowhere;
   const std::string known = has_list ? mask.substr(list.open, list.close - list.open) : "";
   std::vector<std::string> missing;
-  for (const std::string& name : names_used(*source.language, node)) {
+  for (const std::string& name : names_used(node)) {
     const bool is_known =
         known.find('*') != kNowhere || std::regex_search(known, std::regex("\\b" + name + "\\b"));
     if (!is_known && std::ranges::find(missing, name) == missing.end()) missing.push_back(name);
@@ -65,40 +61,30 @@ std::string import_names(const PluginSource& source, const std::string& mask, co
     add_item(mask, list, names, to);
     return {};
   }
-  return language == "python" ? fmt::format("from lockstep_leaf import {}\n\n\n", names)
-                              : fmt::format("use lockstep::{{{}}};\n\n", names);
+  return fmt::format("from lockstep_leaf import {}\n\n\n", names);
 }
 
-bool has_node(const PluginSource& source, const std::string& mask, const NewNode& node,
-              const NodeText& text) {
+bool has_node(const PluginSource& source, const std::string& mask, const NewNode& node) {
   const std::regex is_class("\\b(class|struct)\\s{1,99}" + node.id + "\\b");
-  const bool is_listed = !text.entry.empty() && mask.find(text.entry) != kNowhere;
   const bool is_named =
-      source.language->name != "python" && source.text.find('"' + node.id + '"') != kNowhere;
-  return is_listed || is_named || std::regex_search(mask, is_class);
-}
-
-// The plugin may call its factory as it likes.
-std::string entry_of(const PluginSource& source, const std::string& mask,
-                     const std::string& entry) {
-  std::smatch match;
-  const bool is_named =
-      source.language->name == "btcpp" &&
-      std::regex_search(mask, match,
-                        std::regex("BT_REGISTER_NODES\\(\\s{0,99}(\\w{1,99})\\s{0,99}\\)"));
-  return is_named ? match.str(1) + entry.substr(entry.find('.')) : entry;
+      !is_python(*source.language) && source.text.find('"' + node.id + '"') != kNowhere;
+  return is_named || std::regex_search(mask, is_class);
 }
 
 }  // namespace
 
-Result<std::string> insert_node(const PluginSource& source, const NewNode& node) {
-  const auto text = node_text(*source.language, node);
-  if (!text) return tl::unexpected(text.error());
-  const std::string mask = code_mask(*source.language, source.text);
-  if (has_node(source, mask, node, *text)) {
+Result<NodeText> text_for(const PluginSource& source, const NewNode& node) {
+  if (has_node(source, code_mask(*source.language, source.text), node)) {
     return problem(fmt::format("'{}' has a '{}' already", source.path.string(), node.id),
                    "take another name");
   }
+  return node_text(*source.language, node);
+}
+
+Result<std::string> insert_node(const PluginSource& source, const NewNode& node) {
+  const auto text = text_for(source, node);
+  if (!text) return tl::unexpected(text.error());
+  const std::string mask = code_mask(*source.language, source.text);
   const SourcePlaces places = source_places(source, mask);
   if (!places.are_complete) {
     return problem(
@@ -106,13 +92,13 @@ Result<std::string> insert_node(const PluginSource& source, const NewNode& node)
         "--print prints the node, for you to paste");
   }
   Insertions insertions;
-  const std::string import = import_names(source, mask, node, insertions);
-  const bool is_python = source.language->name == "python";
-  insertions.add(places.definition, import + text->definition + (is_python ? "\n\n" : "\n"));
-  if (!is_python) add_item(mask, places.nodes, entry_of(source, mask, text->entry), insertions);
-  const bool needs_header =
-      source.language->name == "c" && source.text.find("<stdlib.h>") == kNowhere;
-  if (needs_header) insertions.add(0, "#include <stdlib.h>\n");
+  if (is_python(*source.language)) {
+    const std::string import = import_names(mask, node, insertions);
+    insertions.add(places.definition, import + text->definition + "\n\n");
+  } else {
+    insertions.add(places.definition, text->definition + "\n");
+    add_item(mask, places.nodes, text->entry, insertions);
+  }
   return insertions.apply(source.text);
 }
 

@@ -1,5 +1,4 @@
-// The source of a plugin, into which a node is inserted: no byte of what the author has written
-// changes.
+// The source of a plugin, into which a node goes: no byte of what the author has written changes.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +19,10 @@ struct PluginSource {
 // The one source of a plugin below `where`, a folder, or `where` itself, a file.
 Result<PluginSource> find_plugin_source(const std::filesystem::path& where);
 
-// The text with the node in it. A Problem if the plugin has a node of this ID, or no list of nodes
-// where one is expected.
+// The text of a node for it. A Problem if it has a node of this ID.
+Result<NodeText> text_for(const PluginSource& source, const NewNode& node);
+// The whole source with the node in it, in C++ or Python. A Problem also where no list of nodes is
+// found.
 Result<std::string> insert_node(const PluginSource& source, const NewNode& node);
 
 }  // namespace lockstep::host

@@ -1,7 +1,6 @@
 #include "author/scaffold/source_places.h"
 
 #include <algorithm>
-#include <array>
 #include <regex>
 
 #include "author/scaffold/code_mask.h"
@@ -9,42 +8,10 @@
 namespace lockstep::host {
 namespace {
 
-// How a language lists the nodes of a plugin. No part of a pattern is without a limit, since a
-// match takes stack for each character, and a comment is as many blanks. The last character that
-// `list` finds is the bracket; the definition of a node goes in front of the last line before it
-// that begins with `mark`.
-struct Listing {
-  std::string_view language;
-  const char* list;
-  std::string_view mark;
-  ItemList items;
-  const char* description;
-};
-
-const std::array<Listing, 4>& listings() {
-  static const std::array<Listing, 4> all{
-      {{"cpp",
-        R"(\bLOCKSTEP_PLUGIN\()",
-        "LOCKSTEP_PLUGIN(",
-        {kNowhere, kNowhere, Separator::Comma, std::string(16, ' '), false},
-        "LOCKSTEP_PLUGIN(…)"},
-       {"btcpp",
-        R"(\bBT_REGISTER_NODES\([^)]{0,200}\)\s{0,200}\{)",
-        "BT_REGISTER_NODES(",
-        {kNowhere, kNowhere, Separator::Line, "  ", false},
-        "BT_REGISTER_NODES(…) {…}"},
-       {"c",
-        R"(lockstep_leaf_type\s{0,9}\*\s{0,9}const\s{1,9}\w{1,99}\s{0,9}\[\w{0,99}\]\s{0,9}=\s{0,99}\{)",
-        "",
-        {kNowhere, kNowhere, Separator::Comma, "    ", true},
-        "a list of lockstep_leaf_type* const"},
-       {"rust",
-        R"(\bPlugin::of\([^;]{0,2000}?&\[)",
-        "#[no_mangle]",
-        {kNowhere, kNowhere, Separator::Comma, "    ", true},
-        "#[no_mangle] and Plugin::of(…, &[…])"}}};
-  return all;
-}
+// No part of a pattern is without a limit, since a match takes stack for each character, and a
+// comment is as many blanks.
+constexpr const char* kCppList = R"(\bLOCKSTEP_PLUGIN\()";
+constexpr const char* kPythonImport = R"(\bfrom lockstep_leaf import\b[ \t]{0,99}\(?)";
 
 // Where the last character that a pattern finds is.
 std::size_t end_of_match(const std::string& mask, const char* pattern) {
@@ -90,45 +57,33 @@ SourcePlaces places_in_python(const std::string& mask) {
 
 }  // namespace
 
+// The definition goes in front of the line with the list of nodes.
 SourcePlaces source_places(const PluginSource& source, const std::string& mask) {
-  const auto listing = std::ranges::find(listings(), source.language->name, &Listing::language);
-  if (listing == listings().end()) return places_in_python(mask);
-  SourcePlaces places{.nodes = listing->items, .missing = listing->description};
-  places.nodes.open = end_of_match(mask, listing->list);
+  if (is_python(*source.language)) return places_in_python(mask);
+  SourcePlaces places{.nodes = {.indentation = std::string(16, ' ')},
+                      .missing = "LOCKSTEP_PLUGIN(…)"};
+  places.nodes.open = end_of_match(mask, kCppList);
   if (places.nodes.open == kNowhere) return places;
   places.nodes.close = closing_bracket(mask, places.nodes.open);
-  const auto mark =
-      listing->mark.empty() ? places.nodes.open : mask.rfind(listing->mark, places.nodes.open);
-  if (mark == kNowhere || places.nodes.close == kNowhere) return places;
-  const auto line = above_comments(source.text, mask, begin_of_line(mask, mark));
+  if (places.nodes.close == kNowhere) return places;
+  const auto line = above_comments(source.text, mask, begin_of_line(mask, places.nodes.open));
   places.definition = inside_namespace(source.text, mask, line);
   places.are_complete = true;
   return places;
 }
 
-ItemList import_list(const PluginSource& source, const std::string& mask) {
+ItemList import_list(const std::string& mask) {
   ItemList list{.indentation = "    ", .may_stay_on_line = true};
-  const bool is_rust = source.language->name == "rust";
-  const char* const import =
-      is_rust ? R"(\buse lockstep::\{)" : R"(\bfrom lockstep_leaf import\b[ \t]{0,99}\(?)";
-  list.open = end_of_match(mask, import);
+  list.open = end_of_match(mask, kPythonImport);
   if (list.open == kNowhere) return list;
-  const bool has_bracket = mask[list.open] == '(' || mask[list.open] == '{';
-  list.close = has_bracket ? closing_bracket(mask, list.open)
-                           : std::min(mask.find('\n', list.open), mask.size());
+  list.close = mask[list.open] == '(' ? closing_bracket(mask, list.open)
+                                      : std::min(mask.find('\n', list.open), mask.size());
   if (list.close == kNowhere) list.open = kNowhere;
   return list;
 }
 
-std::vector<std::string> names_used(const SourceLanguage& language, const NewNode& node) {
-  const bool is_condition = node.kind == NewNodeKind::Condition, is_rust = language.name == "rust";
-  std::vector<std::string> names{is_condition ? "Condition" : "Action"};
-  if (is_rust) {
-    names.insert(names.end(), {"Here", "LeafType"});
-    if (!is_condition) names.emplace_back("Status");
-    if (!node.ports.empty()) names.insert(names.end(), {"Port", "Type"});
-    return names;
-  }
+std::vector<std::string> names_used(const NewNode& node) {
+  std::vector<std::string> names{node.kind == NewNodeKind::Condition ? "Condition" : "Action"};
   for (const NewPort& port : node.ports) {
     if (port.direction == PortDirection::Output) names.emplace_back("Output");
     if (port.direction == PortDirection::InOut) names.emplace_back("InOut");

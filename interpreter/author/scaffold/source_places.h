@@ -11,13 +11,10 @@ namespace lockstep::host {
 inline constexpr auto kNowhere = std::string::npos;
 inline constexpr const char* kBlanks = " \t\r\n";
 
-enum class Separator : bool { Comma, Line };
-
-// A list in brackets, or the statements of a function.
+// A list in brackets.
 struct ItemList {
   std::size_t open = kNowhere;  // the bracket, or the last letter in front of the list
   std::size_t close = kNowhere;
-  Separator separator = Separator::Comma;
   std::string indentation = {};   // of an item on its own line
   bool may_stay_on_line = false;  // if all others are on the line of the bracket
 };
@@ -32,9 +29,9 @@ struct SourcePlaces {
 // `mask` is the code of the source.
 SourcePlaces source_places(const PluginSource& source, const std::string& mask);
 
-// The list of names that a source imports from lockstep, in languages that have one.
-ItemList import_list(const PluginSource& source, const std::string& mask);
+// The list of names that a source in Python imports from lockstep.
+ItemList import_list(const std::string& mask);
 // The names that the text of a node needs.
-std::vector<std::string> names_used(const SourceLanguage& language, const NewNode& node);
+std::vector<std::string> names_used(const NewNode& node);
 
 }  // namespace lockstep::host

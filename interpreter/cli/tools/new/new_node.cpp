@@ -62,14 +62,27 @@ std::string tag_of(const NewNode& node) {
 
 std::vector<std::string> next_steps(const PluginSource& source, const NewNode& node) {
   std::vector<std::string> next;
-  const bool is_built = std::filesystem::exists(source.path.parent_path() / "CMakeLists.txt");
-  const bool is_program = source.language->name == "python" && !is_built;
   const std::string path = source.path.string();
-  next.push_back(is_program
+  const SourceLanguage& language = *source.language;
+  if (!language.entry_place.empty()) {
+    next.push_back(fmt::format("put this into {}, {},", path, language.definition_place));
+    next.push_back(fmt::format("and its last line {}", language.entry_place));
+  }
+  const bool is_built = std::filesystem::exists(source.path.parent_path() / "CMakeLists.txt");
+  next.push_back(is_python(language) && !is_built
                      ? fmt::format("{} plugin check --list --save ./{}", program_word(), path)
                      : "cmake --build build");
   next.push_back("and in a tree: " + tag_of(node));
   return next;
+}
+
+int print(const PluginSource& source, const NewNode& node, bool is_asked_for) {
+  const auto text = is_asked_for ? node_text(*source.language, node) : text_for(source, node);
+  if (!text) return refuse(text.error());
+  const int code =
+      write_results(text->definition + (text->entry.empty() ? "" : '\n' + text->entry + '\n'));
+  if (code == kExitSuccess && !is_asked_for) print_next(next_steps(source, node));
+  return code;
 }
 
 int insert(const NodeOptions& options, const NewNode& node, const PluginSource& source) {
@@ -89,10 +102,9 @@ int new_node(const NodeOptions& options) {
   if (!node) return refuse(node.error());
   const auto source = find_plugin_source(options.where);
   if (!source) return refuse(source.error());
-  if (!options.prints) return insert(options, *node, *source);
-  const auto text = node_text(*source->language, *node);
-  if (!text) return refuse(text.error());
-  return write_results(text->definition + (text->entry.empty() ? "" : '\n' + text->entry + '\n'));
+  const bool is_inserted = source->language->entry_place.empty();
+  if (options.prints || !is_inserted) return print(*source, *node, options.prints);
+  return insert(options, *node, *source);
 }
 
 void add_options(CLI::App& app, NodeOptions& options, const std::vector<std::string>& kinds) {
@@ -127,17 +139,19 @@ NewPart define(CLI::App& app, const char* name, const char* summary,
 }  // namespace
 
 NewPart define_new_leaf(CLI::App& app) {
-  return define(app, "leaf", "A leaf, inserted into the source of a plugin",
-                {"action", "condition", "threaded"},
-                "A threaded action may block: it is done in a separate thread (C++ only).\n"
-                "Nothing that you wrote changes.\n\n"
-                "Example: lockstep new leaf OpenDoor --port goal:string --port out:angle:double");
+  return define(
+      app, "leaf", "A leaf for the source of a plugin", {"action", "condition", "threaded"},
+      "A threaded action may block: it is done in a separate thread (C++ only).\n"
+      "It is inserted into a source in C++ or Python: nothing that you wrote changes. For "
+      "others\nit is printed, with where it goes.\n\n"
+      "Example: lockstep new leaf OpenDoor --port goal:string --port out:angle:double");
 }
 
 NewPart define_new_node(CLI::App& app) {
-  return define(app, "node", "A control node or a decorator, inserted into the source of a plugin",
+  return define(app, "node", "A control node or a decorator for the source of a plugin",
                 {"control", "decorator"},
-                "Plugins in C++, C and for BehaviorTree.CPP have such nodes.\n\n"
+                "Plugins in C++, C and for BehaviorTree.CPP have such nodes. In C++ it is inserted "
+                "into the\nsource; for others it is printed, with where it goes.\n\n"
                 "Example: lockstep new node TryAll --kind control --port times:int=3");
 }
 
