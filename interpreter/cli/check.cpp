@@ -34,8 +34,7 @@ using CheckWriter = std::string (*)(std::span<const Diagnostic>);
 // Null: text, for people.
 CheckWriter writer_of(const std::string& format) {
   if (format == "json") return as_json;
-  if (format == "github") return as_github;
-  return format == "sarif" ? as_sarif : nullptr;
+  return format == "github" ? as_github : nullptr;
 }
 
 std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
@@ -168,9 +167,10 @@ std::function<int()> define_check(CLI::App& app) {
   app.add_flag("--strict", options->strict,
                "Treat warnings as errors, and nodes that no plugin has: exit code 3");
   app.add_option("--format", options->format,
-                 "text, or on stdout: json (an array of messages), github (annotations of a "
-                 "workflow) or sarif (2.1.0)")
-      ->check(one_of({"text", "json", "github", "sarif"}))
+                 "text, or on stdout: json (an array of messages) or github (annotations of a "
+                 "workflow)")
+      ->check(one_of({"text", "json", "github"},
+                     {"sarif", "github annotates the files in a workflow, and json is for others"}))
       ->capture_default_str();
   add_load_options(app, options->load);
   add_mock_option(app, options->load);

@@ -53,9 +53,12 @@ CLI::Validator number_between(double least, double most) {
   return {check, ""};
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words) {
-  const auto check = [words](std::string& text) -> std::string {
+CLI::Validator one_of(const std::vector<std::string>& words, FormerWord former) {
+  const auto check = [words, former](std::string& text) -> std::string {
     if (std::ranges::find(words, text) != words.end()) return "";
+    if (text == former.word && !text.empty()) {
+      return fmt::format("there is no '{}' any more: {}", text, former.instead);
+    }
     const std::vector<std::string_view> candidates(words.begin(), words.end());
     const std::string near = did_you_mean(text, candidates);
     return fmt::format("'{}' is not one of {}{}{}", brief(text), joined(words, ", "),

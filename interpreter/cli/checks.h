@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -22,6 +23,10 @@ CLI::Validator whole_number(std::uint64_t least = 0,
 
 // For ->check().
 CLI::Validator number_between(double least, double most);
-CLI::Validator one_of(const std::vector<std::string>& words);
+// A word that there is no more, and what to take instead.
+struct FormerWord {
+  std::string_view word, instead;
+};
+CLI::Validator one_of(const std::vector<std::string>& words, FormerWord former = {});
 
 }  // namespace lockstep::host

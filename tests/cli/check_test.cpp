@@ -155,36 +155,6 @@ TEST_CASE("check --format github is a workflow command for each message") {
   CHECK(fine.out.empty());
 }
 
-TEST_CASE("check --format sarif is a log that code scanners read") {
-  const TemporaryDirectory directory;
-  const std::string path = directory.file(
-      "a b.xml", doubtful("<Wait name=\"éé\" seconds=\"x\"/><Advance step=\"{x}\"/>"));
-  const std::string warned = directory.file("w.xml", doubtful("<Advance step=\"{x}\"/>"));
-  const Outcome outcome =
-      run_lockstep({"check", "--format", "sarif", path, warned, "--plugin-path", "/none"});
-  CHECK(outcome.code == 3);
-  CHECK(outcome.err.empty());
-  const auto log = parse_json(outcome.out);
-  CHECK(log["version"] == "2.1.0");
-  const auto& run = log["runs"][0];
-  CHECK(run["tool"]["driver"]["name"] == "lockstep");
-  CHECK(run["columnKind"] == "unicodeCodePoints");
-  const auto& results = run["results"];
-  REQUIRE(results.size() == 4);  // the directory that is not there, for each tree
-  const auto& error = results[1];
-  CHECK(error["level"] == "error");
-  CHECK(run["tool"]["driver"]["rules"][error["ruleIndex"].get<int>()]["id"] == error["ruleId"]);
-  CHECK(contains(error["message"]["text"], "'x' is not a number"));
-  const auto& place = error["locations"][0]["physicalLocation"];
-  const std::string uri = place["artifactLocation"]["uri"];
-  CHECK(uri.starts_with("file:///"));
-  CHECK(uri.ends_with("/a%20b.xml"));
-  CHECK(place["region"]["startLine"] == 2);
-  CHECK(place["region"]["startColumn"] == 26);  // 28 in bytes
-  CHECK(results[3]["level"] == "warning");
-  CHECK(results[0]["locations"].empty());
-}
-
 TEST_CASE("a directory for plugins that is not there is warned of") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", tree_text("<Advance/>"));

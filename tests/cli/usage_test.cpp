@@ -72,8 +72,16 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
        "--tolerance: 'nan' is not a number from 0 to 1",
        "see `lockstep log diff --help`"},
       {{"check", "--format", "xml", "t.xml"},
-       "--format: 'xml' is not one of text, json, github, sarif",
+       "--format: 'xml' is not one of text, json, github",
        "see `lockstep check --help`"},
+      {{"check", "--format", "sarif", "t.xml"},
+       "--format: there is no 'sarif' any more: github annotates the files in a workflow, and json "
+       "is for others",
+       "see `lockstep check --help`"},
+      {{"verify", "--format", "sarif", "t.xml"},
+       "--format: there is no 'sarif' any more: junit is for a workflow, and json for other "
+       "programs",
+       "see `lockstep verify --help`"},
       {{"log"}, "`lockstep log` needs a command", "commands: 'csv', "},
       {{"log", "inf", "x"},
        "unknown command 'log inf'",

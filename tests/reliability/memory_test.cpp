@@ -40,7 +40,7 @@ TEST_CASE("out of memory, every command says so and has a code for it") {
           0);
   const std::vector<Strings> commands = {
       {"check", tree},
-      {"check", tree, "--format", "sarif"},
+      {"check", tree, "--format", "github"},
       {"show", tree},
       {"nodes"},
       {"schema"},

@@ -84,8 +84,7 @@ class Places {
   explicit Places(const Loaded& loaded) : sources_(loaded.project->sources) {
     for (const DefinitionNode& node : loaded.definition.nodes) places_.push_back(node.place);
   }
-  SourceLocation at(NodeIndex node) const { return sources_.locate(places_[node]); }
-  std::string text(NodeIndex node) const { return to_text(at(node)); }
+  std::string text(NodeIndex node) const { return to_text(sources_.locate(places_[node])); }
   void report(const std::vector<NodeProblem>& problems, Diagnostics& diagnostics) const {
     const Reporter reporter(sources_, diagnostics);
     for (const NodeProblem& it : problems) reporter.at(places_[it.node], it.message, it.hint);
@@ -201,7 +200,6 @@ class VerifyCommand {
     if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
-    report.place_of = [&](NodeIndex node) { return places.at(node); };
     const Nanoseconds period = from_seconds(1 / rate);
     Tracer tracer(runnable.tree, models, properties_, period, found);
     ChanceLimits chance = usual_chance(found);
@@ -231,8 +229,7 @@ class VerifyCommand {
 
   std::string written(const VerifyReport& report) const {
     if (options_.json || options_.format == "json") return to_json(report);
-    if (options_.format == "junit") return to_junit(report);
-    return options_.format == "sarif" ? to_sarif(report) : to_text(report);
+    return options_.format == "junit" ? to_junit(report) : to_text(report);
   }
 
   SearchLimits limits(SearchLine& line) const {
@@ -344,9 +341,9 @@ std::function<int()> define_verify(CLI::App& app) {
          "--only", options->only,
          "Findings that count: a name as 'trap', in which * stands for any part (repeatable)")
       ->type_name("FINDING");
-  app.add_option("--format", options->format,
-                 "text, json, junit (a test for each question) or sarif (2.1.0)")
-      ->check(one_of({"text", "json", "junit", "sarif"}))
+  app.add_option("--format", options->format, "text, json or junit (a test for each question)")
+      ->check(one_of({"text", "json", "junit"},
+                     {"sarif", "junit is for a workflow, and json for other programs"}))
       ->capture_default_str();
   app.add_flag("--compact", options->compact,
                "Keep a hash of 64 bits in place of each state: less memory, and no proof, since a "

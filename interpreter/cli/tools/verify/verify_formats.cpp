@@ -1,8 +1,7 @@
-// Verdicts for other programs: what a workflow shows as tests, and as remarks at places.
+// Verdicts for other programs: what a workflow shows as tests.
 #include <fmt/format.h>
 
 #include "base/core/wording.h"
-#include "cli/check_formats.h"
 #include "cli/tools/verify/verify_report.h"
 #include "describe/xsd.h"
 
@@ -54,30 +53,6 @@ std::string to_junit(const VerifyReport& report) {
       "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n"
       "{}  </testsuite>\n</testsuites>\n",
       suite, count, failures, skipped, to_seconds(report.found.took), tests);
-}
-
-std::string to_sarif(const VerifyReport& report) {
-  std::vector<Diagnostic> messages;
-  for (const Finding& it : report.verdict.findings) {
-    SourceLocation location = report.place_of ? report.place_of(it.node.value_or(0))
-                                              : SourceLocation{.file = report.tree};
-    messages.push_back(
-        {.severity = it.accepted.empty() ? Severity::Error : Severity::Note,
-         .location = std::move(location),
-         .message = it.name + ": " + it.message,
-         .hint = it.accepted.empty() ? joined(it.more, "; ") : "accepted: " + it.accepted});
-  }
-  if (!report.internal_error.empty()) {
-    messages.push_back({.severity = Severity::Error,
-                        .location = {.file = report.tree},
-                        .message = report.internal_error});
-  }
-  if (messages.empty() && !report.found.is_proof()) {
-    messages.push_back({.severity = Severity::Note,
-                        .location = {.file = report.tree},
-                        .message = conclusion(report)});
-  }
-  return as_sarif(messages);
 }
 
 }  // namespace lockstep::host

@@ -1,11 +1,9 @@
 // A verdict as `lockstep verify` prints it.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 
-#include "base/core/diagnostics.h"
 #include "verify/counter_example.h"
 #include "verify/verdict.h"
 
@@ -18,7 +16,6 @@ struct VerifyReport {
   std::size_t leaf_count = 0;
   std::map<std::string, CounterExample> files = {};  // of findings, by their names
   std::string internal_error = {};  // a run contradicts the search: nothing of it is told as true
-  std::function<SourceLocation(NodeIndex)> place_of = {};
 };
 
 // "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …",
@@ -27,6 +24,5 @@ std::string conclusion(const VerifyReport& report);
 std::string to_text(const VerifyReport& report);
 std::string to_json(const VerifyReport& report);
 std::string to_junit(const VerifyReport& report);
-std::string to_sarif(const VerifyReport& report);
 
 }  // namespace lockstep::host
