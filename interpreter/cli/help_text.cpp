@@ -1,5 +1,7 @@
 #include "cli/help_text.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
@@ -7,7 +9,9 @@
 namespace lockstep::host {
 namespace {
 
-constexpr std::size_t kColumn = 30;     // where descriptions begin
+constexpr std::size_t kColumn = 30;  // where descriptions begin
+// The end of the names of groups that are in --help-all only.
+constexpr std::string_view kMore = ", more";
 constexpr std::size_t kNarrowest = 20;  // columns for them, in any terminal
 
 // The paragraphs of a text, wrapped again. Lines that begin with a blank, as examples do, stay.
@@ -54,13 +58,35 @@ class WrappedHelp final : public CLI::Formatter {
     return filled(command->get_description(), kColumn + width_) + "\n";
   }
 
+  std::string make_help(const CLI::App* command, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    shows_all_ = mode == CLI::AppFormatMode::All;
+    std::string text = Formatter::make_help(command, std::move(name), mode);
+    for (auto at = text.find("\n\n\n"); at != text.npos; at = text.find("\n\n\n", at)) {
+      text.erase(at, 1);  // around groups that are left out
+    }
+    return text;
+  }
+
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (group.ends_with(kMore) && !shows_all_) return "";
+    return Formatter::make_group(std::move(group), is_positional, std::move(options));
+  }
+
   std::string make_footer(const CLI::App* command) const override {
     const std::string footer = filled(command->get_footer(), kColumn + width_);
-    return footer.empty() ? "" : footer + "\n";
+    const auto more = command->get_options(
+        [](const CLI::Option* it) { return it->get_group().ends_with(kMore); });
+    const std::string hint = more.empty() || shows_all_
+                                 ? ""
+                                 : fmt::format("{} more options: --help-all\n\n", more.size());
+    return footer.empty() ? hint : hint + footer + "\n";
   }
 
  private:
   std::size_t width_;
+  mutable bool shows_all_ = false;  // in the call of make_help that goes on
 };
 
 }  // namespace
@@ -81,6 +107,15 @@ std::string wrapped(std::string_view text, std::size_t width) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;
+}
+
+void only_in_help_all(CLI::App& command, std::span<const char* const> options) {
+  for (const char* name : options) {
+    CLI::Option* const option = command.get_option(name);
+    option->group(option->get_group() + std::string(kMore));
+  }
+  command.option_defaults()->group("Options");
+  command.set_help_all_flag("--help-all", "Print the help with all options and exit");
 }
 
 std::shared_ptr<CLI::FormatterBase> help_formatter(std::size_t width) {

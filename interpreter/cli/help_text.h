@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace CLI {
+class App;
 class FormatterBase;
 }  // namespace CLI
 
@@ -16,5 +18,9 @@ namespace lockstep::host {
 std::string wrapped(std::string_view text, std::size_t width);
 
 std::shared_ptr<CLI::FormatterBase> help_formatter(std::size_t width);
+
+// Leaves these options out of --help, which nobody reads if it is longer than two screens. They are
+// in --help-all, in completion and in the manual page.
+void only_in_help_all(CLI::App& command, std::span<const char* const> options);
 
 }  // namespace lockstep::host

@@ -164,6 +164,25 @@ TEST_CASE("help fits into 80 columns where there is no terminal") {
   }
 }
 
+TEST_CASE("the help of each command fits on two screens, and --help-all has every option") {
+  const auto count = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  for (const char* command : {"run", "check", "test", "verify", "study", "show", "replay", "log"}) {
+    INFO(command);
+    CHECK(count(run_lockstep({command, "--help"}).out) <= 100);
+  }
+  const std::string usual = run_lockstep({"run", "--help"}).out;
+  const std::string all = run_lockstep({"run", "--help-all"}).out;
+  CHECK(contains(usual, " more options: --help-all\n"));
+  CHECK_FALSE(contains(usual, "--spin US"));
+  CHECK_FALSE(contains(usual, "\n\n\n"));
+  CHECK(contains(all, "Time, more:\n"));
+  for (const char* option : {"--rate HZ", "--spin US", "--record-keep N", "--notify"}) {
+    CHECK(contains(all, option));
+  }
+}
+
 TEST_CASE("help COMMAND is COMMAND --help") {
   const std::vector<std::vector<std::string>> commands = {
       {}, {"run"}, {"check"}, {"log"}, {"log", "info"}, {"study", "merge"}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/checks.h"
+#include "cli/help_text.h"
 #include "cli/load/given_leaves.h"
 #include "cli/run/rotation.h"
 #include "run/deadlines.h"
@@ -15,6 +16,11 @@ namespace lockstep::host {
 namespace {
 
 constexpr lockstep_log_level kNoLogs = LOCKSTEP_LOG_WARNING + 1;
+
+// Of the options that follow.
+void begin_group(CLI::App& app, const char* title) {
+  app.option_defaults()->group(title);
+}
 
 // An option whose value is one of some words.
 template <class T>
@@ -34,6 +40,7 @@ void add_choice(CLI::App& app, const std::string& name, T& value,
 }
 
 void define_loop_options(CLI::App& app, RunCommandOptions& options) {
+  begin_group(app, "Time");
   app.add_option("--rate", options.rate, "Ticks per second")
       ->type_name("HZ")
       ->check(number_between(0.001, 100000.0))
@@ -125,6 +132,7 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
 }
 
 void define_fault_options(CLI::App& app, RunCommandOptions& options) {
+  begin_group(app, "Faults");
   add_choice<FaultPolicy>(
       app, "--on-fault", options.on_fault,
       {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
@@ -149,6 +157,7 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
 }
 
 void define_property_options(CLI::App& app, RunCommandOptions& options) {
+  begin_group(app, "Properties");
   add_property_options(app, options.properties);
   add_choice<bool>(app, "--on-violation", options.ends_on_violation,
                    {{"warn", false}, {"end", true}},
@@ -211,6 +220,79 @@ void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
       ->needs("--record-rotate");
 }
 
+void define_record_options(CLI::App& app, RunCommandOptions& options) {
+  begin_group(app, "Recording");
+  app.add_option("--record", options.record,
+                 "Write a recording (JSON Lines; see docs/recording.md); FILE.jsonl.zst compresses "
+                 "it, FILE.mcap is for Foxglove and PlotJuggler")
+      ->type_name("FILE.jsonl");
+  app.add_flag("--record-compress", options.record_compress,
+               "Compress the recording with zstd, whatever its name")
+      ->needs("--record");
+  define_rotation_options(app, options);
+  app.add_option(
+         "--record-entries", options.record_entries,
+         "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "
+         "longer than 256 bytes, only that it changed)")
+      ->type_name("KEYS")
+      ->capture_default_str();
+  add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,
+                   {{"stop", true}, {"go-on", false}},
+                   "When the recording cannot be written any more, as on a full disk");
+}
+
+void define_view_options(CLI::App& app, RunCommandOptions& options) {
+  begin_group(app, "Watching");
+  app.add_option("--view", options.view,
+                 "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
+                 "terminal, else plain")
+      ->check(one_of({"auto", "live", "plain", "none"}))
+      ->capture_default_str();
+  add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
+                                 {{"debug", LOCKSTEP_LOG_DEBUG},
+                                  {"info", LOCKSTEP_LOG_INFO},
+                                  {"warning", LOCKSTEP_LOG_WARNING},
+                                  {"none", kNoLogs}},
+                                 "What leaves log that is shown on stderr, in any view: this "
+                                 "level and what is more urgent");
+  app.add_flag("--json", options.json, "Print the summary as JSON");
+  define_monitor_options(app, options);
+  define_groot_options(app, options);
+  app.add_flag("--notify", options.notifies,
+               "Tell systemd that the run has begun, that it goes on (WatchdogSec=), and that it "
+               "ends: for a service with Type=notify");
+}
+
+// What one expert needs, or needs once.
+constexpr const char* kOfExperts[] = {"--ros-package",
+                                      "--hang-limit",
+                                      "--mock-output",
+                                      "--leaves",
+                                      "--stall-fail",
+                                      "--overrun",
+                                      "--tick",
+                                      "--tick-budget",
+                                      "--realtime",
+                                      "--priority",
+                                      "--cpu",
+                                      "--helper-cpu",
+                                      "--spin",
+                                      "--halt-limit",
+                                      "--condition-wait",
+                                      "--condition-age",
+                                      "--property-file",
+                                      "--record-compress",
+                                      "--record-rotate",
+                                      "--record-keep",
+                                      "--record-entries",
+                                      "--on-record-error",
+                                      "--monitor-socket",
+                                      "--monitor-paused",
+                                      "--monitor-open",
+                                      "--monitor-linger",
+                                      "--groot2-control",
+                                      "--notify"};
+
 }  // namespace
 
 std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
@@ -240,49 +322,18 @@ LoopOptions RunCommandOptions::loop() const {
 
 void define_run_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  begin_group(app, "The tree and its leaves");
+  add_load_options(app, options.load);
+  options.load.plugins.run_programs = true;
   add_leaves_option(app, options.leaves);
+  add_mock_options(app, options.load);
   define_loop_options(app, options);
   define_time_options(app, options);
   define_fault_options(app, options);
   define_property_options(app, options);
-  app.add_option("--record", options.record,
-                 "Write a recording (JSON Lines; see docs/recording.md); FILE.jsonl.zst compresses "
-                 "it, FILE.mcap is for Foxglove and PlotJuggler")
-      ->type_name("FILE.jsonl");
-  app.add_flag("--record-compress", options.record_compress,
-               "Compress the recording with zstd, whatever its name")
-      ->needs("--record");
-  define_rotation_options(app, options);
-  app.add_option(
-         "--record-entries", options.record_entries,
-         "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "
-         "longer than 256 bytes, only that it changed)")
-      ->type_name("KEYS")
-      ->capture_default_str();
-  add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,
-                   {{"stop", true}, {"go-on", false}},
-                   "When the recording cannot be written any more, as on a full disk");
-  app.add_option("--view", options.view,
-                 "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
-                 "terminal, else plain")
-      ->check(one_of({"auto", "live", "plain", "none"}))
-      ->capture_default_str();
-  add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
-                                 {{"debug", LOCKSTEP_LOG_DEBUG},
-                                  {"info", LOCKSTEP_LOG_INFO},
-                                  {"warning", LOCKSTEP_LOG_WARNING},
-                                  {"none", kNoLogs}},
-                                 "What leaves log that is shown on stderr, in any view: this "
-                                 "level and what is more urgent");
-  define_monitor_options(app, options);
-  define_groot_options(app, options);
-  app.add_flag("--notify", options.notifies,
-               "Tell systemd that the run has begun, that it goes on (WatchdogSec=), and that it "
-               "ends: for a service with Type=notify");
-  app.add_flag("--json", options.json, "Print the summary as JSON");
-  add_load_options(app, options.load);
-  options.load.plugins.run_programs = true;
-  add_mock_options(app, options.load);
+  define_record_options(app, options);
+  define_view_options(app, options);
+  only_in_help_all(app, kOfExperts);
 }
 
 }  // namespace lockstep::host

@@ -45,7 +45,7 @@ std::string about(const CLI::Option& option) {
 }
 
 bool is_help(const CLI::Option& option) {
-  return option.check_lname("help");
+  return option.check_lname("help") || option.check_lname("help-all");
 }
 
 void add_usage(ManualPage& page, const CLI::App& command) {
