@@ -29,8 +29,11 @@ for command in commands:
         continue
     page = pages[f"lockstep-{command}.1"]
     help_text = subprocess.run([LOCKSTEP, command, "--help"], capture_output=True, text=True).stdout
+    if "--help-all" in help_text:
+        help_text = subprocess.run([LOCKSTEP, command, "--help-all"], capture_output=True, text=True).stdout
+        assert "--spin US" in help_text, help_text
     for option in re.findall(r"^  (?:-.,)?--([a-z][a-z0-9-]*)", help_text, re.M):
-        assert option == "help" or re.search(rf"Fl -{option}\b", page), f"{command}: no --{option}"
+        assert option in ("help", "help-all") or re.search(rf"Fl -{option}\b", page), f"{command}: no --{option}"
     assert ".Sh EXIT STATUS" in page and ".Sh EXAMPLES" in page, command
 assert all(".Dd January 2, 1970" in page for page in pages.values())
 assert "Cm \\&ParallelAbsolute" in pages["lockstep-tree.5"] and "Cm \\&rate_hz" in pages["lockstep-recording.5"]
