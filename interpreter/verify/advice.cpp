@@ -158,6 +158,7 @@ class Adviser {
     const bool holds = std::ranges::any_of(
         holdable(tree_), [&](const Holdable& it) { return !is_pool(tree_, it.holder); });
     if (holds && !stands_still_) look_for_deadlocks(effort);
+    if (stop_signal_ && stop_signal_() != 0) return {};
     return std::move(advice_);
   }
 
