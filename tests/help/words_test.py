@@ -10,7 +10,9 @@ SOURCES = sys.argv[1]
 
 DONE = [
     "README.md",
+    "docs/authoring.md",
     "docs/btcpp.md",
+    "docs/editors.md",
     "docs/embedding.md",
     "docs/from-behaviortree-cpp.md",
     "docs/glossary.md",
@@ -18,6 +20,7 @@ DONE = [
     "docs/index.md",
     "docs/monitor.md",
     "docs/new.md",
+    "docs/packages.md",
     "docs/plugins.md",
     "docs/programs.md",
     "docs/properties.md",
