@@ -64,10 +64,10 @@ void replay(const std::string& text) {
     draw_replay(recording.reader.header(), snapshot, player, options);
     draw_moment(recording.reader.header(), snapshot, timeline.now(), options);
   };
-  const Moment first = timeline.now();
+  const TimelineTick first = timeline.now();
   draw();
   timeline.go_to_end();
-  const Moment last = timeline.now();
+  const TimelineTick last = timeline.now();
   draw();
   timeline.step_back();
   timeline.step_forward();

@@ -46,7 +46,7 @@ int no_ticks() {
 
 // The tick that was asked for, else the last before it. Reads no more than is needed.
 struct Search {
-  Moment found;
+  TimelineTick found;
   std::uint64_t ticks = 0, last = 0;
 };
 
@@ -73,7 +73,7 @@ int print_tick(const ReplayOptions& options, RecordingReader& reader) {
   if (found.ticks == 0) return code == kExitSuccess ? no_ticks() : code;
   if (options.at && *options.at > found.last)
     return code == kExitSuccess ? no_such_tick(*options.at, first, found.last) : code;
-  const Moment& moment = found.found;
+  const TimelineTick& moment = found.found;
   if (options.at && moment.tick != *options.at) {
     print_error(fmt::format("tick {} is not in the recording: {} is the last before it",
                             *options.at, moment.tick));

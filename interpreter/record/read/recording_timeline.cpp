@@ -31,7 +31,7 @@ std::size_t Past::memory() const {
   return size;
 }
 
-void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment) {
+void take(const RecordedTick& tick, std::uint64_t lost, TimelineTick& moment) {
   moment.tick = tick.tick;
   moment.time = tick.time;
   moment.nodes.assign(tick.nodes.begin(), tick.nodes.end());

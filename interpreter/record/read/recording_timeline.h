@@ -28,7 +28,7 @@ struct Past {
 };
 
 // One tick with the state of all nodes after it.
-struct Moment {
+struct TimelineTick {
   std::uint64_t number = 0;  // of its line among those of ticks, from 0
   std::uint64_t tick = 0;
   double time = 0;  // seconds
@@ -40,11 +40,11 @@ struct Moment {
   std::uint64_t lost = 0;  // ticks just before it that are not in the recording
   Past past = {};          // with this tick
 
-  friend bool operator==(const Moment&, const Moment&) = default;
+  friend bool operator==(const TimelineTick&, const TimelineTick&) = default;
 };
 
 // Copies the current tick of a reader to `moment`, which is at the tick before.
-void take(const RecordedTick& tick, std::uint64_t lost, Moment& moment);
+void take(const RecordedTick& tick, std::uint64_t lost, TimelineTick& moment);
 
 struct TimelineOptions {
   std::uint64_t distance = 64 << 10;  // bytes of the file from one keyframe to the next, at first
@@ -65,7 +65,7 @@ class RecordingTimeline {
   std::uint64_t last_tick() const { return last_tick_; }
   double last_time() const { return last_time_; }
 
-  const Moment& now() const { return now_; }
+  const TimelineTick& now() const { return now_; }
   bool at_end() const { return now_.number + 1 == size_; }
   // When the next tick began; not at the end.
   double next_time() const { return next_->time; }
@@ -85,7 +85,7 @@ class RecordingTimeline {
 
  private:
   struct Keyframe {
-    Moment moment;
+    TimelineTick moment;
     RecordingReader::Position position;
     std::size_t memory() const;
   };
@@ -103,7 +103,7 @@ class RecordingTimeline {
   std::uint64_t size_ = 0;
   std::uint64_t last_tick_ = 0;
   double last_time_ = 0;
-  Moment now_;
+  TimelineTick now_;
   std::optional<RecordedTick> next_;  // the reader is one tick ahead
   bool failed_ = false;
 };

@@ -29,7 +29,8 @@ RecordedState random_state(std::mt19937& random) {
   return state;
 }
 
-void append_line(const Moment& moment, const std::vector<RecordedState>& before, std::string& out) {
+void append_line(const TimelineTick& moment, const std::vector<RecordedState>& before,
+                 std::string& out) {
   if (moment.lost > 0) {
     out += fmt::format("{{\"lost\":{{\"ticks\":{},\"from\":{}}}}}\n", moment.lost,
                        moment.tick - moment.lost);
@@ -60,7 +61,7 @@ std::string RandomRecording::text() const {
   std::string out = json_lines::header(header);
   std::vector<RecordedState> before(header.nodes.size());
   RecordedEnd closing = end;
-  for (const Moment& moment : ticks) {
+  for (const TimelineTick& moment : ticks) {
     append_line(moment, before, out);
     before = moment.nodes;
     closing.ticks = moment.tick + 1;
@@ -91,12 +92,12 @@ RandomRecording random_recording(std::mt19937& random, const RandomRecordingOpti
     for (RecordedState& state : nodes) {
       if (below(random, 3) == 0) state = random_state(random);
     }
-    Moment moment{.number = number,
-                  .tick = tick,
-                  .time = static_cast<double>(tick) / 10,
-                  .nodes = nodes,
-                  .faults = {},
-                  .lost = lost};
+    TimelineTick moment{.number = number,
+                        .tick = tick,
+                        .time = static_cast<double>(tick) / 10,
+                        .nodes = nodes,
+                        .faults = {},
+                        .lost = lost};
     if (below(random, 10) == 0) {
       moment.faults.push_back(
           {static_cast<NodeIndex>(below(random, options.nodes)), fmt::format("fault {}", number)});

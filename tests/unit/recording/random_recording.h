@@ -11,7 +11,7 @@ namespace lockstep::host::test {
 
 struct RandomRecording {
   RecordingHeader header;
-  std::vector<Moment> ticks;
+  std::vector<TimelineTick> ticks;
   RecordedEnd end;  // but for how many ticks there are, and are lost
 
   // The file, each line with what has changed.

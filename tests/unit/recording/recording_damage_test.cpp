@@ -39,7 +39,7 @@ const std::string kRecording =
 // What the reader says of a text.
 struct Reading {
   RecordingHeader header;
-  std::vector<Moment> ticks;
+  std::vector<TimelineTick> ticks;
   RecordingOutcome outcome;
 };
 
@@ -113,7 +113,7 @@ void apply_limits(const Json& changes, std::vector<RecordedState>& states) {
   }
 }
 
-bool same(const Moment& moment, const Json& json, const std::vector<RecordedState>& states) {
+bool same(const TimelineTick& moment, const Json& json, const std::vector<RecordedState>& states) {
   const Json faults = json.value("faults", Json::array());
   bool is_same = json.at("tick") == moment.tick && json.at("time_s") == moment.time &&
                  moment.nodes == states && faults.size() == moment.faults.size();

@@ -139,7 +139,7 @@ TEST_CASE("of different trees the nodes with the same path are compared") {
   other.header.nodes.insert(other.header.nodes.begin() + 1, other.header.nodes[3]);
   other.header.nodes[1].path = "Main/root/new";
   other.header.nodes[2].kind = "Wait";
-  for (Moment& moment : other.ticks) {
+  for (TimelineTick& moment : other.ticks) {
     moment.nodes.insert(moment.nodes.begin() + 1, RecordedState{});
     for (RecordedFault& fault : moment.faults) fault.node += fault.node > 0;
   }

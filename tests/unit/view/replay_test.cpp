@@ -9,7 +9,7 @@
 
 namespace lockstep::host {
 
-std::ostream& operator<<(std::ostream& out, const Moment& moment) {
+std::ostream& operator<<(std::ostream& out, const TimelineTick& moment) {
   return out << "tick " << moment.tick << " (number " << moment.number << ")";
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("each tick, read backwards, is as when it is read forwards") {
     CAPTURE(seed);
     REQUIRE(timeline.outcome().error == "");
     REQUIRE(timeline.size() == recording.ticks.size());
-    for (const Moment& expected : recording.ticks) {
+    for (const TimelineTick& expected : recording.ticks) {
       REQUIRE(timeline.now() == expected);
       timeline.step_forward();
     }
@@ -65,8 +65,8 @@ TEST_CASE("jumps anywhere arrive at the tick, or at the last before it when it i
     CHECK(timeline.last_tick() == recording.ticks.back().tick);
     for (int jump = 0; jump < 100; ++jump) {
       const auto tick = random() % (timeline.last_tick() + 10);
-      const Moment* expected = &recording.ticks.front();
-      for (const Moment& moment : recording.ticks) {
+      const TimelineTick* expected = &recording.ticks.front();
+      for (const TimelineTick& moment : recording.ticks) {
         if (moment.tick <= tick) expected = &moment;
       }
       timeline.go_to_tick(tick);
@@ -158,7 +158,7 @@ std::string with_gap() {
     recording.ticks[i].time += 0.3;
   }
   recording.ticks[3].lost = 3;
-  for (Moment& moment : recording.ticks) moment.faults.clear();
+  for (TimelineTick& moment : recording.ticks) moment.faults.clear();
   return recording.text();
 }
 

@@ -25,7 +25,7 @@ std::string fault_text(const Shape& shape, const RecordedFault& fault) {
 
 // What nodes returned before the state that is shown: "grasped: failure, success".
 template <class Add>
-void each_result(const Moment& moment, const Add& add) {
+void each_result(const TimelineTick& moment, const Add& add) {
   for (NodeIndex node = 0; node < moment.results.size(); ++node) {
     if (!moment.results[node].empty()) add(node, moment.results[node]);
   }
@@ -34,7 +34,8 @@ void each_result(const Moment& moment, const Add& add) {
 constexpr std::string_view kWithin = "within this tick: ";
 
 // A line for all of them; empty: the tick has one moment.
-std::string results_line(const Shape& shape, const Moment& moment, const DrawOptions& options) {
+std::string results_line(const Shape& shape, const TimelineTick& moment,
+                         const DrawOptions& options) {
   TextLine line = new_line(options);
   std::string_view between = kWithin;
   each_result(moment, [&](NodeIndex node, const std::string& results) {
@@ -60,7 +61,7 @@ RunResult result_of(const RecordedEnd& end) {
 }
 
 void add_warnings(TextLine& line, const Shape& shape, const RecordingTimeline& timeline) {
-  const Moment& now = timeline.now();
+  const TimelineTick& now = timeline.now();
   if (now.lost > 0) {
     line.add("  ");
     line.add(counted(now.lost, "tick") + " lost before this", Style::Warning);
@@ -93,7 +94,8 @@ void add_keys(TextLine& line, const ReplayPlayer& player, const DrawOptions& opt
 
 }  // namespace
 
-Snapshot snapshot_of(const RecordingHeader& header, const Moment& moment, const RecordedEnd* end) {
+Snapshot snapshot_of(const RecordingHeader& header, const TimelineTick& moment,
+                     const RecordedEnd* end) {
   Snapshot snapshot{.header = {.rate_hz = header.rate_hz,
                                .real_time = header.clock != "virtual",
                                .tick = moment.tick,
@@ -121,7 +123,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const Moment& moment, const 
   return snapshot;
 }
 
-std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Moment& moment,
+std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const TimelineTick& moment,
                         const DrawOptions& options) {
   DrawOptions tree = options;
   tree.entries = 0;  // those of this tick follow

@@ -8,11 +8,12 @@
 namespace lockstep::host {
 
 // `end`: of the run, when it ended with this tick; else null.
-Snapshot snapshot_of(const RecordingHeader& header, const Moment& moment, const RecordedEnd* end);
+Snapshot snapshot_of(const RecordingHeader& header, const TimelineTick& moment,
+                     const RecordedEnd* end);
 
 // One tick as a whole: all nodes, then its faults, the entries that have changed, what leaves
 // logged.
-std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Moment& moment,
+std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const TimelineTick& moment,
                         const DrawOptions& options);
 
 // At most height - 1 lines, as draw().
