@@ -2,7 +2,6 @@
 // a group (Tree::groups); its members are the nodes that use its resources.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "base/core/resource_set.h"
@@ -33,18 +32,6 @@ struct ResourcePool : SynchronizedState {
 
 inline bool is_pool(const Tree& tree, NodeIndex node) {
   return synchronization(tree.nodes[node]) == Synchronization::Resources;
-}
-
-// Whether the limit of a member says that it waits.
-inline bool waits(double limit) {
-  return limit < 0;
-}
-inline bool owns(double limit) {
-  return limit > 0;
-}
-// The set that it waits for, or owns.
-inline ResourceSet resource_set(double limit) {
-  return static_cast<ResourceSet>(std::fabs(limit));
 }
 
 // Visits the members of all pools.

@@ -28,6 +28,20 @@ bool is_constant(const Tree& tree, NodeIndex node, Synchronization wanted) {
 
 }  // namespace
 
+std::vector<NodeIndex> synchronized_nodes(const Tree& tree) {
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    if (synchronization(tree.nodes[node]) != Synchronization::None) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node) {
+  std::vector<NodeIndex> children;
+  for_each_child(tree, node, [&](NodeIndex child) { children.push_back(child); });
+  return children;
+}
+
 double snapshot_of(NodeContext& context, NodeIndex child) {
   double progress = 0, least = 1;
   if (LeafLoop::read_progress(context, child, child + 1, &progress, least) != child) {

@@ -1,6 +1,5 @@
-// The state of a synchronized node, a parallel or a barrier beside the tree, for measures, views
-// and recordings. Who waits for whom follows from it: judge/measure/wait_chain.h of a run,
-// record/use/recorded_probe.h of a recording.
+// The state of a synchronized node, a parallel or a barrier beside the tree. Who waits for whom
+// follows from it: judge/measure/wait_chain.h.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +7,10 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/core/progress.h"
+#include "base/core/synchronization.h"
 #include "engine/node_context.h"
 #include "engine/tree.h"
 
@@ -36,12 +37,6 @@ inline double limit(const RunView& run, NodeIndex node) {
   return run.state<SynchronizedState>(node).limit;
 }
 
-// The most progress that a child may have without being held, given that limit and the least
-// progress.
-inline double farthest(Synchronization synchronization, double limit, double least) {
-  return synchronization == Synchronization::Relative ? least + limit : limit;
-}
-
 // Visits the nodes that a synchronized node, or any other, holds or ticks: the children of a
 // parallel, and of a group what each member holds.
 template <class Visit>
@@ -54,6 +49,11 @@ void for_each_child(const Tree& tree, NodeIndex node, Visit visit) {
     visit(child);
   }
 }
+
+// The nodes of the tree that keep their children in step, in pre-order, and the pools.
+std::vector<NodeIndex> synchronized_nodes(const Tree& tree);
+// The nodes that the node may hold: the children of a parallel; of a group, what its members hold.
+std::vector<NodeIndex> children_of(const Tree& tree, NodeIndex node);
 
 // The progress of each child at the start of its parallel's last tick, as the node used it: 1 for a
 // child that has succeeded, not a number for one that was left out. Only for nodes that compare
@@ -72,24 +72,9 @@ inline bool asked_children(const RunView& run, NodeIndex node) {
   return false;
 }
 
-// Stands for the progress of a child that is left out: nobody waits for it, and it is not held.
-inline constexpr double kLeftOut = std::numeric_limits<double>::quiet_NaN();
-
 // The progress of a child as its parallel counts it. One that was skipped in the last tick is left
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
 double snapshot_of(NodeContext& context, NodeIndex child);
-
-// The least progress of the children that were not left out; 1 if all were.
-inline double least_progress(std::span<const double> progress) {
-  double least = 1.0;
-  for (const double number : progress) {
-    if (number < least) least = number;
-  }
-  return least;
-}
-inline bool is_left_out(double progress) {
-  return std::isnan(progress);
-}
 
 // Whether a synchronized parallel has withheld the last tick of a running node and may do so again.
 bool is_held_by_parallel(const RunView& run, NodeIndex node);

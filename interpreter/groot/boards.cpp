@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "engine/synchronized.h"
-#include "judge/measure/synchronized_measure.h"
 
 namespace lockstep::host {
 namespace {

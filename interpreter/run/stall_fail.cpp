@@ -87,7 +87,7 @@ bool StallFail::comes_on(Ticker& ticker, const Standstill& circle) {
 bool StallFail::comes_on(Ticker& ticker, Standing& at) {
   const double most = at.detector.best() + kProgressEpsilon;
   const auto progress = child_progress(ticker, at.node());
-  const auto children = at.probe.children();
+  const auto children = at.ticks.children();
   bool is_in_doubt = false;
   for (std::size_t number = 0; number < children.size(); ++number) {
     if (!(progress[number] <= most)) continue;  // or it is left out

@@ -6,7 +6,7 @@
 
 namespace lockstep::host {
 RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate)
-    : measuring_(shape_of(tree), measures), ticks_(tree, measuring_), rate_(rate) {
+    : measuring_(shape_of(tree), measures), moments_(tree, measuring_.asked()), rate_(rate) {
   for (const auto& [spec, node] : measuring_.columns()) {
     columns_.push_back({to_text(*spec), node});
     if (!spec->measure->has_gap) continue;

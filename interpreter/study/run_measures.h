@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/measure/live_ticks.h"
+#include "judge/measure/measuring.h"
 #include "study/plan.h"
+#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -24,9 +25,9 @@ class RunMeasures final : public Observer {
   std::span<const double> values() const { return values_; }
 
   // What an observer does with a tick, for an owner that knows this one.
-  void before_tick(Ticker& ticker) { ticks_.before_tick(ticker); }
+  void before_tick(Ticker& ticker) { moments_.before_tick(ticker); }
   void after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
-    measuring_.after_tick(ticks_.read(ticker, tick, time));
+    measuring_.after_tick(moments_.after_tick(ticker, tick, time));
     last_ = time;
   }
 
@@ -37,7 +38,7 @@ class RunMeasures final : public Observer {
 
  private:
   Measuring measuring_;
-  LiveTicks ticks_;
+  LiveMoments moments_;
   double rate_;
   Nanoseconds last_{0};  // tick of the run
   std::vector<StudyColumn> columns_;

@@ -153,7 +153,7 @@ void Labeller::add_held(const Stepper& stepper, Label& label) const {
 }
 
 // A node that waits for resources is held also before it has begun. What is held in the tick in
-// which its holder ends is halted then, as SynchronizedProbe has it.
+// which its holder ends is halted then, as SynchronizedTicks has it.
 bool Labeller::is_held(const Stepper& stepper, const Holdable& it) const {
   const Ticker& ticker = stepper.ticker();
   if (is_pool(tree_, it.holder)) {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "engine/synchronized.h"
-#include "judge/measure/synchronized_measure.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::host::test {

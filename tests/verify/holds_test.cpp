@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "judge/measure/synchronized_measure.h"
-#include "judge/measure/tick_view.h"
+#include "judge/measure/synchronized_ticks.h"
+#include "trace/live_moments.h"
 #include "verify/labels.h"
 #include "verify/verified.h"
 
@@ -22,10 +22,10 @@ class HoldWalks {
         stepper_(it.tree, it.models, {}, from_seconds(1 / it.rate), kNone, false) {}
 
   void walk(std::mt19937& random) {
-    std::vector<SynchronizedProbe> probes;
-    for (const NodeIndex node : synchronized_nodes(it_.tree)) {
-      probes.emplace_back(it_.tree, node, true);
-    }
+    const Shape shape = shape_of(it_.tree);
+    LiveMoments moments(it_.tree);
+    std::vector<SynchronizedTicks> nodes;
+    for (const NodeIndex node : synchronized_nodes(shape)) nodes.emplace_back(shape, node);
     std::vector<std::uint64_t> row(held_.size());
     StateBytes state = stepper_.first_state();
     for (int tick = 0; tick < 60; ++tick) {
@@ -39,7 +39,7 @@ class HoldWalks {
         stepper_.next();
         status = stepper_.tick();
       }
-      count(probes, row);
+      count(moments.after_tick(stepper_.ticker(), 0, {}), nodes, row);
       if (status != Status::Running || stepper_.ticker().faulted()) return;
       stepper_.fold();
       state = stepper_.in_place();
@@ -50,11 +50,12 @@ class HoldWalks {
   std::uint64_t most(std::size_t child) const { return most_[child]; }
 
  private:
-  void count(std::vector<SynchronizedProbe>& probes, std::vector<std::uint64_t>& row) {
-    for (SynchronizedProbe& probe : probes) {
-      const SynchronizedTick tick = probe.read(stepper_.ticker(), {});
-      for (std::size_t i = 0; i < probe.children().size(); ++i) {
-        const auto it = std::ranges::find(held_, probe.children()[i], &Holdable::child);
+  void count(const Moment& moment, std::vector<SynchronizedTicks>& nodes,
+             std::vector<std::uint64_t>& row) {
+    for (SynchronizedTicks& node : nodes) {
+      const SynchronizedTick tick = node.read(moment);
+      for (std::size_t i = 0; i < node.children().size(); ++i) {
+        const auto it = std::ranges::find(held_, node.children()[i], &Holdable::child);
         if (it == held_.end()) continue;
         const auto child = static_cast<std::size_t>(it - held_.begin());
         row[child] = i < tick.held.size() && tick.held[i] ? row[child] + 1 : 0;

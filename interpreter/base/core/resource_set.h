@@ -1,6 +1,7 @@
 // Sets of resources, as bits: the names of a pool are numbered when a tree is loaded.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,6 +15,19 @@ using ResourceSet = std::uint64_t;
 // The most resources of a pool: a set fits into the whole numbers of a double, as which recordings
 // have it.
 inline constexpr std::size_t kMaxResources = 50;
+
+// The limit of a member of a pool, in the engine and in recordings, is the set that it owns in a
+// tick; negative: the set that it waits for; 0: neither.
+inline bool waits(double limit) {
+  return limit < 0;
+}
+inline bool owns(double limit) {
+  return limit > 0;
+}
+// The set that it waits for, or owns.
+inline ResourceSet resource_set(double limit) {
+  return static_cast<ResourceSet>(std::fabs(limit));
+}
 
 // Takes the next name off a list as it is written in a tree, "left;gripper": separated by ; or , or
 // blanks. "" at the end.

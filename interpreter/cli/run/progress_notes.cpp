@@ -6,7 +6,6 @@
 
 #include "base/core/wording.h"
 #include "engine/synchronized.h"
-#include "judge/measure/synchronized_measure.h"
 
 namespace lockstep::host {
 namespace {

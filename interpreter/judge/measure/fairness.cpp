@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/resources.h"
+#include "base/core/resource_set.h"
 #include "judge/measure/measure.h"
 
 namespace lockstep::host {
@@ -11,12 +11,15 @@ namespace {
 
 class Fairness final : public Accumulator {
  public:
-  explicit Fairness(const MeasureTarget& target) : place_(target.place), ticks_(target.children) {}
+  explicit Fairness(const MeasureTarget& target)
+      : members_(target.nodes), ticks_(target.nodes.size()) {}
 
   void reset() override { std::ranges::fill(ticks_, 0); }
 
   void after_tick(const TickView& view) override {
-    for (std::size_t i = 0; i < ticks_.size(); ++i) ticks_[i] += owns(view.users[place_ + i].limit);
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      ticks_[i] += owns(view.moment->limit(members_[i]));
+    }
   }
 
   double value(const EndView&) const override {
@@ -30,7 +33,7 @@ class Fairness final : public Accumulator {
   }
 
  private:
-  std::size_t place_;          // of the first member
+  std::vector<NodeIndex> members_;
   std::vector<double> ticks_;  // in which each member owned its resources
 };
 

@@ -40,12 +40,12 @@ enum class MeasureOf : std::uint8_t {
 
 // Where an accumulator finds its input.
 struct MeasureTarget {
-  // In TickView::parallels (Parallel, Child, Pair), TickView::users (User; Pool: its first member,
-  // the others follow), TickView::nodes (Node) or TickView::entries (Entry).
-  std::size_t place = 0;
-  std::size_t children = 0;  // of the parallel or the pool
-  std::size_t child = 0;     // which of them
-  std::size_t other = 0;     // which of them the argument names second
+  std::size_t place = 0;              // in TickView::parallels (Parallel, Child, Pair)
+  std::size_t children = 0;           // of the parallel
+  std::size_t child = 0;              // which of them
+  std::size_t other = 0;              // which of them the argument names second
+  std::vector<NodeIndex> nodes = {};  // the node (Node, User), or the members (Pool)
+  std::size_t entry = 0;              // of the Shape (Entry)
 };
 
 struct Measure;

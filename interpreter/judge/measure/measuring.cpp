@@ -146,6 +146,8 @@ Measuring::Measuring(const Shape& tree, std::span<const MeasureSpec> specs) {
     }
     if (!error_.empty()) return;
   }
+  for (const NodeIndex node : asked_.parallels) parallels_.emplace_back(tree, node, needs_flags_);
+  ticks_.resize(parallels_.size());
 }
 
 void Measuring::add(const MeasureSpec& spec, std::string node, const MeasureTarget& target) {
@@ -161,8 +163,8 @@ std::optional<std::size_t> Measuring::found(Result<std::size_t> place) {
 }
 
 MeasureTarget Measuring::target_of(const Shape& tree, NodeIndex parallel) {
-  const auto [place, is_new] = places_.try_emplace(parallel, parallels_.size());
-  if (is_new) parallels_.push_back(parallel);
+  const auto [place, is_new] = places_.try_emplace(parallel, asked_.parallels.size());
+  if (is_new) asked_.parallels.push_back(parallel);
   return {.place = place->second, .children = tree.nodes[parallel].held().size()};
 }
 
@@ -220,24 +222,22 @@ void Measuring::add_user(const MeasureSpec& spec, const Shape& tree) {
   const auto user = found(find_path(choice.paths, spec.name, "UseResources"));
   if (!user) return;
   const NodeIndex node = choice.meant[*user];
-  add(spec, tree.nodes[node].path, {.place = users_.size()});
-  users_.push_back(node);
+  add(spec, tree.nodes[node].path, {.nodes = {node}});
 }
 
 void Measuring::add_pool(const MeasureSpec& spec, const Shape& tree) {
   const Choice choice = all_pools(tree);
   const auto pool = found(find_path(choice.paths, spec.name, "pool"));
   if (!pool) return;
-  const auto members = users_of(tree, choice.meant[*pool]);
-  add(spec, choice.paths[*pool], {.place = users_.size(), .children = members.size()});
-  users_.insert(users_.end(), members.begin(), members.end());
+  add(spec, choice.paths[*pool], {.nodes = users_of(tree, choice.meant[*pool])});
 }
 
 void Measuring::add_node(const MeasureSpec& spec, const Shape& tree) {
   const auto node = found(find_path(paths_of(tree), spec.name));
   if (!node) return;
-  add(spec, tree.nodes[*node].path, {.place = nodes_.size()});
-  nodes_.push_back(static_cast<NodeIndex>(*node));
+  const auto index = static_cast<NodeIndex>(*node);
+  add(spec, tree.nodes[index].path, {.nodes = {index}});
+  asked_.progress.push_back(index);
 }
 
 void Measuring::add_entry(const MeasureSpec& spec, const Shape& tree) {
@@ -250,15 +250,17 @@ void Measuring::add_entry(const MeasureSpec& spec, const Shape& tree) {
     error_ = "the entry '" + keys[*entry] + "' is a " + type + ", expected a number";
     return;
   }
-  add(spec, tree.id, {.place = entries_.size()});
-  entries_.push_back(*entry);
+  add(spec, tree.id, {.entry = *entry});
 }
 
 void Measuring::reset() {
   for (auto& accumulator : accumulators_) accumulator->reset();
 }
 
-void Measuring::after_tick(const TickView& view) {
+void Measuring::after_tick(const Moment& moment) {
+  SynchronizedTick* next = ticks_.data();
+  for (SynchronizedTicks& parallel : parallels_) parallel.read(moment, *next++);
+  const TickView view{.moment = &moment, .parallels = ticks_};
   for (auto& accumulator : accumulators_) accumulator->after_tick(view);
 }
 

@@ -1,5 +1,4 @@
-// Measures runs of one tree, one after the other, with the requested measures. The ticks may come
-// from a live run or from a recording.
+// Measures runs of one tree, one after the other, with the requested measures.
 #pragma once
 
 #include <map>
@@ -11,6 +10,8 @@
 
 #include "base/core/problem.h"
 #include "judge/measure/measure.h"
+#include "judge/measure/synchronized_ticks.h"
+#include "trace/moment.h"
 #include "trace/shape.h"
 
 namespace lockstep::host {
@@ -30,16 +31,11 @@ class Measuring {
   };
   std::span<const Column> columns() const { return columns_; }
 
-  // A TickView must contain these, in this order.
-  std::span<const NodeIndex> parallels() const { return parallels_; }
-  std::span<const NodeIndex> nodes() const { return nodes_; }
-  std::span<const NodeIndex> users() const { return users_; }
-  std::span<const std::size_t> entries() const { return entries_; }
-  // Whether it must also contain which children are held.
-  bool needs_flags() const { return needs_flags_; }
+  // What the Moments must have.
+  const AskedOfRun& asked() const { return asked_; }
 
   void reset();  // for the next run
-  void after_tick(const TickView& view);
+  void after_tick(const Moment& moment);
   // NaN: it was not reached.
   double value(std::size_t column, const EndView& end) const;
   double gap(std::size_t column) const { return accumulators_[column]->gap(); }
@@ -59,10 +55,11 @@ class Measuring {
 
   std::vector<Column> columns_;
   std::vector<std::unique_ptr<Accumulator>> accumulators_;  // of each column
-  std::vector<NodeIndex> parallels_, nodes_, users_;
-  std::vector<std::size_t> entries_;
-  std::map<NodeIndex, std::size_t> places_;  // of the parallels
-  bool needs_flags_ = false;
+  AskedOfRun asked_;
+  std::vector<SynchronizedTicks> parallels_;
+  std::vector<SynchronizedTick> ticks_;      // of these
+  std::map<NodeIndex, std::size_t> places_;  // of the parallels, in `asked_`
+  bool needs_flags_ = false;                 // which children are held
   std::string error_;
 };
 

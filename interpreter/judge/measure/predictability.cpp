@@ -26,11 +26,11 @@ bool NearestInstant::reached() const {
 }
 
 void Predictability::after_tick(const TickView& view) {
-  const NodeTick& node = view.nodes[place_];
-  nearest_.sample(static_cast<double>(view.tick), node.progress);
-  ticks_ = static_cast<double>(view.tick + 1);
-  ticked_ |= node.ticked;
-  succeeded_ = node.status == Status::Success;
+  const Moment& moment = *view.moment;
+  nearest_.sample(static_cast<double>(moment.tick), moment.progress[node_]);
+  ticks_ = static_cast<double>(moment.tick + 1);
+  ticked_ |= moment.ticked(node_);
+  succeeded_ = moment.status(node_) == Status::Success;
 }
 
 NearestInstant Predictability::nearest() const {
@@ -104,7 +104,7 @@ extern const Measure kPredictability{
     .has_gap = true,
     .make = [](const MeasureSpec& spec,
                const MeasureTarget& target) -> std::unique_ptr<Accumulator> {
-      return std::make_unique<Predictability>(target.place, spec.numbers[0], expected_of(spec));
+      return std::make_unique<Predictability>(target.nodes[0], spec.numbers[0], expected_of(spec));
     },
     .is_possible = is_instant,
     .parse = parse_predictability,

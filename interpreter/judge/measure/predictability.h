@@ -34,10 +34,10 @@ class NearestInstant {
 // The predictability of one node, in ticks, which count from 0.
 class Predictability final : public Accumulator {
  public:
-  Predictability(std::size_t place, double target, double expected)
-      : place_(place), target_(target), expected_(expected) {}
+  Predictability(NodeIndex node, double target, double expected)
+      : node_(node), target_(target), expected_(expected) {}
 
-  void reset() override { *this = Predictability(place_, target_, expected_); }
+  void reset() override { *this = Predictability(node_, target_, expected_); }
   void after_tick(const TickView& view) override;
 
   // The instant minus the expected one; negative is early. The progress after the last tick counts
@@ -49,7 +49,7 @@ class Predictability final : public Accumulator {
  private:
   NearestInstant nearest() const;
 
-  std::size_t place_;
+  NodeIndex node_;
   double target_, expected_;
   NearestInstant nearest_{target_};
   double ticks_ = 0;

@@ -41,16 +41,18 @@ void StallDetector::after_tick(const SynchronizedTick& tick, bool holds_somebody
   ++number_;
 }
 
-StandingNodes::StandingNodes(const Tree& tree, Nanoseconds limit) : limit_(limit) {
-  for (const NodeIndex node : synchronized_nodes(tree)) {
-    if (!compares_progress(synchronization(tree.nodes[node]))) continue;
-    nodes_.push_back({.probe = SynchronizedProbe(tree, node, false)});
+StandingNodes::StandingNodes(const Tree& tree, Nanoseconds limit) : limit_(limit), moments_(tree) {
+  const Shape shape = shape_of(tree);
+  for (const NodeIndex node : synchronized_nodes(shape)) {
+    if (!compares_progress(shape.nodes[node].synchronization)) continue;
+    nodes_.push_back({.ticks = SynchronizedTicks(shape, node, false)});
   }
 }
 
 void StandingNodes::after_tick(Ticker& ticker, Nanoseconds time) {
+  const Moment& moment = moments_.after_tick(ticker, 0, time);
   for (Standing& it : nodes_) {
-    const SynchronizedTick tick = it.probe.read(ticker, time);
+    const SynchronizedTick tick = it.ticks.read(moment);
     it.detector.after_tick(tick, tick.ticked && holds_somebody(ticker, it.node()));
   }
 }

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "base/core/clock.h"
-#include "judge/measure/synchronized_measure.h"
+#include "judge/measure/synchronized_ticks.h"
 #include "judge/measure/wait_chain.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 
@@ -54,14 +55,14 @@ class StallDetector {
 class StandingNodes {
  public:
   struct Standing {
-    SynchronizedProbe probe;
+    SynchronizedTicks ticks;
     StallDetector detector = {};
     Nanoseconds next_look{0};  // not before
     // Numbers of standstills: of the last one that was reported, that was reported as a circle, and
     // that has to wait for a moment.
     std::uint64_t told = 0, told_as_circle = 0, put_off = 0;
 
-    NodeIndex node() const { return probe.node(); }
+    NodeIndex node() const { return ticks.node(); }
     bool is_over(Nanoseconds limit, Nanoseconds now) const {
       return detector.stands() && now - detector.since() > limit;
     }
@@ -81,6 +82,7 @@ class StandingNodes {
   void describe_chain(Standstill& found, const Standing& at, const Tree& tree);
 
   Nanoseconds limit_;
+  LiveMoments moments_;
   std::vector<Standing> nodes_;
 };
 

@@ -1,6 +1,4 @@
-// A measure's view of a run: each tick, after it, and the end. A live run (live_ticks.h) and a
-// recording (record/use/recording_measures.cpp) both provide it, so measures work the same for
-// both.
+// What measures see of a run: each tick, after it, and the end.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +7,16 @@
 
 #include "base/core/clock.h"
 #include "base/core/status.h"
+#include "trace/moment.h"
 
 namespace lockstep::host {
 
-// The state of one parallel after a tick of the run.
+// The state of one parallel after a tick of the run: judge/measure/synchronized_ticks.h.
 struct SynchronizedTick {
   Nanoseconds time{0};  // when the tick of the run began, since the run began
   bool ticked = false;  // did the node ask its children in this tick? If not, only the time counts.
   Status status = Status::Idle;
-  double limit = 0;  // that counted: engine/synchronized.h
+  double limit = 0;  // that counted: base/core/synchronization.h
   // The progress of each child as the node used it in this tick; not a number: it was left out.
   std::span<const double> used = {};
   // The same, as measures compare it: a guard, which contains no action, is left out too.
@@ -29,27 +28,9 @@ struct SynchronizedTick {
   std::span<const bool> succeeded = {};
 };
 
-// The state of any node after a tick of the run.
-struct NodeTick {
-  bool ticked = false;  // did the tick reach it?
-  Status status = Status::Idle;
-  double progress = 0;  // before the tick, as its parent used it
-};
-
-// The state of a node that uses resources, after a tick of the run.
-struct ResourceTick {
-  bool ticked = false;  // did the tick reach it?
-  double limit = 0;     // what it owns or waits for: engine/resources.h
-};
-
 struct TickView {
-  std::uint64_t tick = 0;  // the first is 0
-  Nanoseconds time{0};     // when it began, since the run began
-  // Only what is measured, in the order of MeasureTarget::place.
-  std::span<const SynchronizedTick> parallels = {};
-  std::span<const NodeTick> nodes = {};
-  std::span<const ResourceTick> users = {};
-  std::span<const double> entries = {};  // after the tick; NaN: it has no number
+  const Moment* moment = nullptr;                    // of the whole run
+  std::span<const SynchronizedTick> parallels = {};  // that are measured: MeasureTarget::place
 };
 
 struct EndView {

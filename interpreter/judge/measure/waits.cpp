@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/resources.h"
+#include "base/core/resource_set.h"
 #include "judge/measure/measure.h"
 
 namespace lockstep::host {
@@ -11,16 +11,17 @@ namespace {
 
 class LongestWait final : public Accumulator {
  public:
-  explicit LongestWait(const MeasureTarget& target) : place_(target.place) {}
+  explicit LongestWait(const MeasureTarget& target) : node_(target.nodes[0]) {}
 
-  void reset() override { *this = LongestWait({.place = place_}); }
+  void reset() override { *this = LongestWait({.nodes = {node_}}); }
 
   void after_tick(const TickView& view) override {
-    const ResourceTick& user = view.users[place_];
-    if (view.tick != next_) now_ = 0;  // nobody knows what it did in the ticks that were lost
-    next_ = view.tick + 1;
-    reached_ |= user.ticked;
-    now_ = user.ticked && waits(user.limit) ? now_ + 1 : 0;
+    const Moment& moment = *view.moment;
+    if (moment.tick != next_) now_ = 0;  // nobody knows what it did in the ticks that were lost
+    next_ = moment.tick + 1;
+    const bool ticked = moment.ticked(node_);
+    reached_ |= ticked;
+    now_ = ticked && waits(moment.limit(node_)) ? now_ + 1 : 0;
     longest_ = std::max(longest_, now_);
   }
 
@@ -29,7 +30,7 @@ class LongestWait final : public Accumulator {
   }
 
  private:
-  std::size_t place_;
+  NodeIndex node_;
   bool reached_ = false;  // by any tick
   std::uint64_t next_ = 0;
   std::uint64_t now_ = 0, longest_ = 0;  // in a row

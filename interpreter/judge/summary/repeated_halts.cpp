@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "base/core/wording.h"
-#include "engine/tree.h"
-#include "judge/measure/synchronized_measure.h"
+#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {

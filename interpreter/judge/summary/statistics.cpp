@@ -9,15 +9,8 @@
 
 namespace lockstep::host {
 
-Statistics::Statistics(const Tree& tree) : tree_(tree) {
-  for (const NodeIndex node : synchronized_nodes(tree)) {
-    const Node& it = tree.nodes[node];
-    SynchronizedProbe probe(tree, node);
-    SynchronizedMeasure measure(it.children, probe.guards(), synchronization(it),
-                                tree.is_group(node));
-    nodes_.push_back({std::move(probe), std::move(measure)});
-  }
-}
+Statistics::Statistics(const Tree& tree)
+    : tree_(tree), shape_(shape_of(tree)), moments_(tree), nodes_(measured_nodes(shape_)) {}
 
 void Statistics::run_started(Ticker&, const RunStart& start) {
   real_time_ = start.real_time;
@@ -27,9 +20,8 @@ void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
   if (report.tick > 0) periods_.record(report.time - last_start_);
   last_start_ = report.time;
   lateness_.record(report.late);
-  for (Measured& node : nodes_) {
-    node.measure.after_tick(node.probe.read(ticker, report.time));
-  }
+  const Moment& moment = moments_.after_tick(ticker, report.tick, report.time);
+  for (MeasuredNode& node : nodes_) node.after_tick(moment);
   for (const Fault& fault : report.faults) note(fault, report.tick);
   if (report.status == Status::Failure) why_failed_ = deciding_path(ticker);
 }
@@ -43,7 +35,7 @@ void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
   for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
   progress_notes_ = progress_notes(ticker);
   went_on_ = ticker.went_on().size();
-  for (Measured& node : nodes_) node.measure.run_ended(end.time);
+  for (MeasuredNode& node : nodes_) node.measure.run_ended(end.time);
 }
 
 Summary Statistics::summary() const {
@@ -60,9 +52,11 @@ Summary Statistics::summary() const {
                   .went_on = went_on_};
   faults_.append_to(summary.notes);
   summary.notes.insert(summary.notes.end(), progress_notes_.begin(), progress_notes_.end());
-  for (const Measured& node : nodes_) {
+  for (const MeasuredNode& node : nodes_) {
     std::vector<std::string> paths;
-    for (const NodeIndex child : node.probe.children()) paths.push_back(tree_.path(child));
+    for (const NodeIndex child : node.ticks.children()) {
+      paths.push_back(shape_.nodes[child].path);
+    }
     append_fall_notes(node.measure.falls(), paths, summary.notes);
   }
   if (real_time_ && periods_.count() > 0) {
@@ -80,10 +74,9 @@ Summary Statistics::summary() const {
     summary.why_failed.push_back(
         summarize(node, tree_.path(node.node), std::string(tree_.labels[node.node].type->id)));
   }
-  const Shape shape = shape_of(tree_);
-  for (const Measured& node : nodes_) {
+  for (const MeasuredNode& node : nodes_) {
     if (node.measure.distance().samples() > 0) {
-      summary.synchronized_nodes.push_back(summary_of(node, shape));
+      summary.synchronized_nodes.push_back(summary_of(node));
     }
   }
   summary.never_reached = nodes_.size() - summary.synchronized_nodes.size();
@@ -99,10 +92,10 @@ std::optional<WorstTickSummary> Statistics::worst_tick() const {
                           .leaf_took = to_seconds(worst.leaf_took)};
 }
 
-SynchronizedSummary Statistics::summary_of(const Measured& measured, const Shape& shape) {
-  const NodeIndex index = measured.probe.node();
-  const ShapeNode& node = shape.nodes[index];
-  return summarize(measured.measure, node.path, node.kind, child_names(shape, index));
+SynchronizedSummary Statistics::summary_of(const MeasuredNode& measured) const {
+  const NodeIndex index = measured.ticks.node();
+  const ShapeNode& node = shape_.nodes[index];
+  return summarize(measured.measure, node.path, node.kind, child_names(shape_, index));
 }
 
 std::string describe_node(const Tree& tree, NodeIndex node) {

@@ -9,6 +9,7 @@
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/capped_notes.h"
 #include "judge/summary/summary.h"
+#include "trace/live_moments.h"
 #include "trace/observer.h"
 #include "trace/shape.h"
 
@@ -26,16 +27,14 @@ class Statistics final : public Observer {
   Summary summary() const;
 
  private:
-  struct Measured {
-    SynchronizedProbe probe;
-    SynchronizedMeasure measure;
-  };
   void note(const Fault& fault, std::uint64_t tick);
   std::optional<WorstTickSummary> worst_tick() const;
-  static SynchronizedSummary summary_of(const Measured& measured, const Shape& shape);
+  SynchronizedSummary summary_of(const MeasuredNode& measured) const;
 
   const Tree& tree_;
-  std::vector<Measured> nodes_;
+  const Shape shape_;
+  LiveMoments moments_;
+  std::vector<MeasuredNode> nodes_;
   Histogram periods_;
   Histogram lateness_{Histogram::kCoarse};
   bool real_time_ = false;

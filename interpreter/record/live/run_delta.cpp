@@ -7,7 +7,6 @@
 #include "base/core/differences.h"
 #include "engine/resources.h"
 #include "engine/ticker.h"
-#include "judge/measure/synchronized_measure.h"
 #include "record/live/watched_nodes.h"
 
 namespace lockstep::host {

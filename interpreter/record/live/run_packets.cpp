@@ -9,7 +9,6 @@
 #include "base/core/version.h"
 #include "base/core/wording.h"
 #include "engine/writers.h"
-#include "judge/measure/synchronized_measure.h"
 #include "judge/summary/statistics.h"
 #include "record/json_lines.h"
 #include "record/live/watched_nodes.h"

@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "engine/resources.h"
-#include "judge/measure/synchronized_measure.h"
 #include "record/live/watched_nodes.h"
 
 namespace lockstep::host {

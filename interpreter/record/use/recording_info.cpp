@@ -8,8 +8,9 @@
 #include "base/core/wording.h"
 #include "base/terminal/style.h"
 #include "judge/measure/decision.h"
+#include "judge/measure/synchronized_measure.h"
 #include "judge/summary/summary.h"
-#include "record/use/recorded_probe.h"
+#include "record/read/recorded_moments.h"
 
 namespace lockstep::host {
 namespace {
@@ -99,16 +100,18 @@ void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::st
 
 std::string info_text(RecordingReader& reader, bool color) {
   const RecordingHeader& header = reader.header();
-  std::vector<RecordedMeasure> nodes = measures_of(header);
+  RecordedMoments moments(header);
+  std::vector<MeasuredNode> nodes = measured_nodes(header);
   std::uint64_t ticks = 0, faults = 0;
   RecordedTick last;
   while (const auto tick = reader.next()) {
     if (ticks++ == 0 && tick->tick > 0) {
-      for (RecordedMeasure& node : nodes) node.measure.join();
+      for (MeasuredNode& node : nodes) node.measure.join();
     }
     faults += tick->faults.size();
     last = *tick;
-    for (RecordedMeasure& node : nodes) node.after_tick(last);
+    const Moment& moment = moments.read(last);
+    for (MeasuredNode& node : nodes) node.after_tick(moment);
   }
   if (!reader.error().empty()) return {};
   std::string out;
@@ -121,14 +124,15 @@ std::string info_text(RecordingReader& reader, bool color) {
   write_warnings(reader, faults, out, color);
   std::vector<SynchronizedSummary> reached;
   std::vector<std::string> notes;
-  for (auto& [probe, measure] : nodes) {
+  for (auto& [parallel, measure] : nodes) {
     if (measure.distance().samples() == 0) continue;
     std::vector<std::string> paths;
-    for (const NodeIndex child : probe.children()) paths.push_back(header.nodes[child].path);
+    for (const NodeIndex child : parallel.children()) paths.push_back(header.nodes[child].path);
     append_fall_notes(measure.falls(), paths, notes);
     measure.run_ended(from_seconds(time));
-    const ShapeNode& node = header.nodes[probe.node()];
-    reached.push_back(summarize(measure, node.path, node.kind, probe.names()));
+    const ShapeNode& node = header.nodes[parallel.node()];
+    reached.push_back(
+        summarize(measure, node.path, node.kind, child_names(header, parallel.node())));
   }
   for (const std::string& note : notes) {
     out += fmt::format("  note: {}\n", printable(note));

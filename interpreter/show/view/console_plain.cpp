@@ -15,13 +15,13 @@
 namespace lockstep::host {
 
 ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
-    : tree_(tree), shape_(shape_of(tree)), out_(out), real_time_(real_time) {
+    : tree_(tree), shape_(shape_of(tree)), moments_(tree), out_(out), real_time_(real_time) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (tree.nodes[node].children == 0) leaves_.push_back({.node = node});
   }
-  for (const NodeIndex node : synchronized_nodes(tree)) {
-    const std::size_t children = tree.nodes[node].children;
-    nodes_.push_back({SynchronizedProbe(tree, node), std::vector<Wait>(children),
+  for (const NodeIndex node : synchronized_nodes(shape_)) {
+    const std::size_t children = shape_.nodes[node].held().size();
+    nodes_.push_back({SynchronizedTicks(shape_, node), std::vector<Wait>(children),
                       std::vector<double>(is_pool(tree, node) ? children : 0)});
   }
 }
@@ -38,9 +38,10 @@ void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
 
 void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
   for (const Fault& fault : report.faults) tell_fault(fault);
-  for (Watched& node : nodes_) tell_waits(ticker, node);
+  const Moment& moment = moments_.after_tick(ticker, report.tick, time_);
+  for (Watched& node : nodes_) tell_waits(moment, node);
   for (Leaf& leaf : leaves_) {
-    tell_leaf(leaf, ticker.status(leaf.node), ticker.ticked(leaf.node));
+    tell_leaf(leaf, moment.status(leaf.node), moment.ticked(leaf.node));
   }
 }
 
@@ -106,10 +107,10 @@ void ConsolePlain::tell_again(Leaf& leaf, Status status) {
                                            again, leaf.first, leaf.latest));
 }
 
-void ConsolePlain::tell_waits(Ticker& ticker, Watched& node) {
-  const SynchronizedTick tick = node.probe.read(ticker, time_);
+void ConsolePlain::tell_waits(const Moment& moment, Watched& node) {
+  const SynchronizedTick tick = node.ticks.read(moment);
   for (std::size_t i = 0; i < node.limits.size(); ++i) {
-    node.limits[i] = limit(ticker, node.probe.children()[i] - 1);
+    node.limits[i] = moment.limit(node.ticks.children()[i] - 1);
   }
   if (!tick.ticked) {  // it is held itself, or it was halted
     if (tick.status != Status::Running) std::ranges::fill(node.waits, Wait{});
@@ -119,7 +120,7 @@ void ConsolePlain::tell_waits(Ticker& ticker, Watched& node) {
     if (tick.held[child] && tick.status == Status::Running) {
       tell_wait(node, child, tick);
     } else if (node.waits[child].held) {
-      tell_end_of_wait(ticker, node, child);
+      tell_end_of_wait(moment, node, child);
     }
   }
 }
@@ -135,12 +136,12 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
   wait.told = true;
   std::string text = waiting(node, child, tick);
   if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
-  tell(node.probe.children()[child], text);
+  tell(node.ticks.children()[child], text);
 }
 
 std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
                                   const SynchronizedTick& tick) const {
-  const NodeIndex self = node.probe.node();
+  const NodeIndex self = node.ticks.node();
   const std::vector<std::string> names = child_names(shape_, self);
   const auto name_of = [&](std::size_t number) { return names[number]; };
   if (is_pool(tree_, self)) {
@@ -158,13 +159,13 @@ std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
                       child);
 }
 
-void ConsolePlain::tell_end_of_wait(Ticker& ticker, Watched& node, std::size_t child) {
-  const NodeIndex it = node.probe.children()[child];
+void ConsolePlain::tell_end_of_wait(const Moment& moment, Watched& node, std::size_t child) {
+  const NodeIndex it = node.ticks.children()[child];
   const Nanoseconds now = time_;
   const Wait wait = std::exchange(node.waits[child], Wait{.last_end = now});
   if (!wait.told) {
     ++short_waits_;
-  } else if (ticker.ticked(it)) {
+  } else if (moment.ticked(it)) {
     tell(it, fmt::format("goes on after {:.3f} s", to_seconds(now - wait.since)));
   }
 }

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "base/terminal/outlet.h"
-#include "judge/measure/synchronized_measure.h"
+#include "judge/measure/synchronized_ticks.h"
 #include "show/view/line_budget.h"
+#include "trace/live_moments.h"
 #include "trace/observer.h"
 #include "trace/shape.h"
 
@@ -54,7 +55,7 @@ class ConsolePlain final : public Observer {
     std::optional<Nanoseconds> last_end;
   };
   struct Watched {
-    SynchronizedProbe probe;
+    SynchronizedTicks ticks;
     std::vector<Wait> waits;     // of each child
     std::vector<double> limits;  // of a pool: of each member
   };
@@ -63,14 +64,15 @@ class ConsolePlain final : public Observer {
   void tell_fault(const Fault& fault);
   void tell_leaf(Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
-  void tell_waits(Ticker& ticker, Watched& node);
+  void tell_waits(const Moment& moment, Watched& node);
   void tell_wait(Watched& node, std::size_t child, const SynchronizedTick& tick);
   std::string waiting(const Watched& node, std::size_t child, const SynchronizedTick& tick) const;
-  void tell_end_of_wait(Ticker& ticker, Watched& node, std::size_t child);
+  void tell_end_of_wait(const Moment& moment, Watched& node, std::size_t child);
   void tell(NodeIndex node, std::string_view what);
 
   const Tree& tree_;
   const Shape shape_;
+  LiveMoments moments_;
   Outlet& out_;
   RealTime real_time_;
   LineBudget budget_{kBurst};

@@ -7,11 +7,11 @@
 #include <map>
 
 #include "base/core/diagnostics.h"
+#include "base/core/resource_set.h"
+#include "base/core/synchronization.h"
 #include "base/core/utf8.h"
 #include "base/core/wording.h"
 #include "base/terminal/text_line.h"
-#include "engine/resources.h"
-#include "engine/synchronized.h"
 #include "judge/summary/summary.h"
 #include "show/view/lines_below.h"
 #include "show/view/progress_bar.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/resources.h"
+#include "base/core/resource_set.h"
 #include "engine/synchronized.h"
 
 namespace lockstep::host {

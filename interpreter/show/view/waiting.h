@@ -12,7 +12,7 @@ namespace lockstep::host {
 // A synchronized node in one tick, of a tree that runs or of a recording.
 struct WaitedAt {
   Synchronization synchronization = Synchronization::None;
-  double limit = 0;                       // that counted: engine/synchronized.h
+  double limit = 0;                       // that counted: base/core/synchronization.h
   std::span<const double> progress = {};  // of each child, as the node used it
   std::function<std::string(std::size_t child)> name_of;
   std::string group = {};  // the name of a barrier beside the tree
@@ -26,7 +26,7 @@ std::string waiting_text(const WaitedAt& node, std::size_t child);
 struct OwnedFrom {
   std::span<const std::string> resources = {};
   std::size_t members = 0;
-  std::function<double(std::size_t child)> limit;  // of the member: engine/resources.h
+  std::function<double(std::size_t child)> limit;  // of the member: base/core/resource_set.h
   std::function<std::string(std::size_t child)> name_of;
 };
 

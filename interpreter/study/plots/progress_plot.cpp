@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/core/diagnostics.h"
+#include "base/core/synchronization.h"
 #include "base/core/wording.h"
-#include "engine/synchronized.h"
 #include "study/plots/gnuplot.h"
 #include "study/plots/plot_style.h"
 #include "study/plots/templates.h"

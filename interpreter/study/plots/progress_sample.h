@@ -11,7 +11,7 @@ struct ProgressSample {
   double time = 0;                 // seconds
   bool begins = false;             // a new activation of the node: no line leads here
   double least = 0;                // of all children
-  double limit = 0;                // that counted: engine/synchronized.h
+  double limit = 0;                // that counted: base/core/synchronization.h
   std::vector<double> progress;    // of each child that is drawn
   std::vector<double> held_until;  // of each: from `time` on; not later than it when not held
 };

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/synchronized.h"
-#include "record/use/recorded_probe.h"
+#include "judge/measure/synchronized_ticks.h"
+#include "record/read/recorded_moments.h"
 #include "study/plots/plot_style.h"
 #include "study/plots/progress_plot.h"
 
@@ -15,8 +15,8 @@ constexpr std::size_t kFewestColumns = 16;
 // Samples for a column. Those that are read are thinned when they are twice as many as stay.
 constexpr std::size_t kKeptPerColumn = 2 * kMostPerColumn;
 
-std::vector<std::string> drawn_children(const RecordedProbe& probe) {
-  std::vector<std::string> names = probe.names();
+std::vector<std::string> drawn_children(const Shape& shape, NodeIndex node) {
+  std::vector<std::string> names = child_names(shape, node);
   names.resize(std::min(names.size(), kPlotStyles));
   return names;
 }
@@ -33,20 +33,20 @@ std::size_t columns_for(PlotSize size, std::size_t plots, std::size_t children) 
 class Collector {
  public:
   Collector(const RecordingHeader& header, NodeIndex node, std::size_t plots, PlotSize size)
-      : probe_(header, node), period_(period_of(header)) {
+      : ticks_(header, node), period_(period_of(header)) {
     plot_.index = node;
     plot_.node = header.nodes[node];
-    plot_.children = drawn_children(probe_);
-    plot_.all_children = probe_.children().size();
+    plot_.children = drawn_children(header, node);
+    plot_.all_children = ticks_.children().size();
     columns_ = columns_for(size, plots, plot_.children.size());
   }
 
-  void after_tick(const RecordedTick& recorded) {
-    const SynchronizedTick tick = probe_.read(recorded);
-    if (tick.ticked) add(recorded.time, tick);
+  void after_tick(const Moment& moment) {
+    const SynchronizedTick tick = ticks_.read(moment);
+    if (tick.ticked) add(to_seconds(moment.time), tick);
     running_ = tick.status == Status::Running;
     // The last tick of an activation has no later sample that shows its result.
-    if (tick.ticked && !running_) add_end(recorded, tick);
+    if (tick.ticked && !running_) add_end(moment, tick);
   }
 
   ProgressPlot plot() && {
@@ -78,16 +78,16 @@ class Collector {
     }
   }
 
-  void add_end(const RecordedTick& recorded, const SynchronizedTick& tick) {
-    const double time = to_seconds(from_seconds(recorded.time) + period_);
+  void add_end(const Moment& moment, const SynchronizedTick& tick) {
+    const double time = to_seconds(moment.time + period_);
     hold_until(time);
     ProgressSample end = plot_.samples.back();
     end.time = time;
     end.begins = false;
     std::ranges::fill(end.held_until, time);
     end.least = 1;
-    for (std::size_t child = 0; child < probe_.children().size(); ++child) {
-      const bool succeeded = recorded.nodes[probe_.children()[child]].status == Status::Success;
+    for (std::size_t child = 0; child < ticks_.children().size(); ++child) {
+      const bool succeeded = moment.status(ticks_.children()[child]) == Status::Success;
       const double progress = succeeded ? 1.0 : tick.used[child];
       end.least = std::min(end.least, progress);
       if (child < drawn()) end.progress[child] = progress;
@@ -101,7 +101,7 @@ class Collector {
     if (plot_.samples.size() >= kKeptPerColumn * columns_) thin(plot_.samples, columns_);
   }
 
-  RecordedProbe probe_;
+  SynchronizedTicks ticks_;
   Nanoseconds period_;
   ProgressPlot plot_;
   std::size_t columns_ = 0;
@@ -117,8 +117,10 @@ std::vector<ProgressPlot> progress_plots(RecordingReader& reader, std::span<cons
   for (const NodeIndex node : nodes) {
     collectors.emplace_back(reader.header(), node, nodes.size(), size);
   }
+  RecordedMoments moments(reader.header());
   while (const auto tick = reader.next()) {
-    for (Collector& collector : collectors) collector.after_tick(*tick);
+    const Moment& moment = moments.read(*tick);
+    for (Collector& collector : collectors) collector.after_tick(moment);
   }
   std::vector<ProgressPlot> plots;
   for (Collector& collector : collectors) plots.push_back(std::move(collector).plot());

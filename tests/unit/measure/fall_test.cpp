@@ -2,8 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "judge/measure/synchronized_measure.h"
+#include "judge/measure/synchronized_ticks.h"
 #include "support/scripted_run.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 namespace {
@@ -18,12 +19,13 @@ std::string text(const std::optional<FallWatch::Fall>& fall) {
 // 10 Hz.
 std::string falls(std::string_view tree, std::string_view leaves, NodeIndex node = 0) {
   test::ScriptedRun run(tree, leaves);
-  SynchronizedProbe probe(run.tree(), node);
+  LiveMoments moments(run.tree());
+  SynchronizedTicks ticks(shape_of(run.tree()), node);
   FallWatch watch(run.tree().nodes[node].children);
   for (int tick = 0; tick < 12; ++tick) {
     const auto now = std::chrono::milliseconds(100) * tick;
     run.tick(now);
-    watch.after_tick(probe.read(run.ticker(), now));
+    watch.after_tick(ticks.read(moments.after_tick(run.ticker(), 0, now)));
   }
   return text(watch.while_ticked()) + " " + text(watch.while_held()) + " " +
          text(watch.rise_while_held());

@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "judge/measure/live_ticks.h"
 #include "judge/measure/measure_spec.h"
 #include "support/generated_file.h"
 #include "support/scripted_run.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 namespace {
@@ -22,15 +22,15 @@ double measured(const char* text, std::string_view tree, std::string_view leaves
   Measuring measuring(shape_of(run.tree()), {&*spec, 1});
   INFO(measuring.error());
   REQUIRE_FALSE(measuring.columns().empty());
-  LiveTicks ticks(run.tree(), measuring);
+  LiveMoments moments(run.tree(), measuring.asked());
   EndView end{.rate = 10, .real_time = false};
   for (Status status = Status::Running; status == Status::Running && end.ticks < most;
        ++end.ticks) {
     REQUIRE(end.ticks < 99);
     const Nanoseconds now = std::chrono::milliseconds(100) * end.ticks;
-    ticks.before_tick(run.ticker());
+    moments.before_tick(run.ticker());
     status = run.tick(now);
-    measuring.after_tick(ticks.read(run.ticker(), end.ticks, now));
+    measuring.after_tick(moments.after_tick(run.ticker(), end.ticks, now));
     end.succeeded = status == Status::Success;
   }
   return measuring.value(0, end);
@@ -189,10 +189,13 @@ TEST_CASE("a tick in which a member is not reached ends its wait") {
 
 TEST_CASE("nobody knows whether a member waited in a tick that a recording has lost") {
   const MeasureSpec spec = parse_measure("waits:a").value();
-  const auto wait = spec.measure->make(spec, {});
-  const ResourceTick refused{.ticked = true, .limit = -1};
+  const auto wait = spec.measure->make(spec, {.nodes = {0}});
+  const double refused = -1;
+  const double* const limits[] = {&refused};
+  const std::uint32_t reached[] = {1};
   for (const std::uint64_t tick : {0, 1, 3, 4, 5, 8}) {
-    wait->after_tick({.tick = tick, .users = {&refused, 1}});
+    const Moment moment{.tick = tick, .reached = reached, .number = 1, .limits = limits};
+    wait->after_tick({.moment = &moment});
   }
   CHECK(wait->value({}) == 3);
   wait->reset();
@@ -308,8 +311,9 @@ TEST_CASE("an entry is measured when it is a number") {
     if (!measuring.error().empty()) return measuring.error();
     CHECK(measuring.columns()[0].node == "Main");
     CHECK(std::isnan(measuring.value(0, {})));  // no tick
-    for (const double number : {7.0, measuring.entries()[0] == 1 ? INFINITY : 3.0}) {
-      measuring.after_tick({.entries = {&number, 1}});
+    for (const double number : {7., 3.}) {
+      const Entry entries[] = {{.value = static_cast<std::int64_t>(number)}, {.value = INFINITY}};
+      measuring.after_tick({.entries = entries});
     }
     const double value = measuring.value(0, {});
     return std::isnan(value) ? std::string("none") : std::to_string(value);

@@ -45,8 +45,20 @@ TEST_CASE("a target is reached when the progress is at it, or on both sides") {
 
 TEST_CASE("the predictability of a run, tick by tick") {
   Predictability it(0, 0.6, 2);
+  struct NodeTick {
+    bool ticked;
+    Status status;
+    double progress;
+  };
   const auto after_tick = [&](std::uint64_t tick, const NodeTick& node) {
-    it.after_tick({.tick = tick, .nodes = {&node, 1}});
+    const auto activity = static_cast<Activity>(node.status);
+    const std::uint32_t reached = node.ticked ? 1 : 0;
+    const Moment moment{.tick = tick,
+                        .activity = {&activity, 1},
+                        .reached = {&reached, 1},
+                        .number = 1,
+                        .progress = {&node.progress, 1}};
+    it.after_tick({.moment = &moment});
   };
   const auto value = [&] { return it.value({}); };
   after_tick(0, {.ticked = false, .status = Status::Idle, .progress = 0});

@@ -4,6 +4,7 @@
 
 #include "engine/synchronized.h"
 #include "support/scripted_run.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 namespace {
@@ -16,14 +17,13 @@ constexpr Nanoseconds kPeriod = std::chrono::milliseconds(100);
 struct Measured {
   Measured(std::string_view tree, std::string_view leaves, std::size_t place = 0)
       : run(tree, leaves),
-        probe(run.tree(), synchronized_nodes(run.tree()).at(place)),
-        measure(probe.children().size(), probe.guards(),
-                synchronization(run.tree().nodes[probe.node()]),
-                run.tree().is_group(probe.node())) {
+        moments(run.tree()),
+        measure(std::move(measured_nodes(shape_of(run.tree())).at(place).measure)),
+        parallel(shape_of(run.tree()), synchronized_nodes(run.tree()).at(place)) {
     Nanoseconds now{0};
     for (Status status = Status::Running; status == Status::Running && ticks < 100; ++ticks) {
       status = run.tick(now);
-      measure.after_tick(probe.read(run.ticker(), now));
+      measure.after_tick(parallel.read(moments.after_tick(run.ticker(), 0, now)));
       now += kPeriod;
     }
     measure.run_ended(now);
@@ -32,8 +32,9 @@ struct Measured {
   std::uint64_t held_ticks(std::size_t child) const { return measure.held()[child].ticks(); }
 
   ScriptedRun run;
-  SynchronizedProbe probe;
+  LiveMoments moments;
   SynchronizedMeasure measure;
+  SynchronizedTicks parallel;
   int ticks = 0;
 };
 
@@ -63,7 +64,7 @@ TEST_CASE("the worked traces, measured") {
     CHECK(measured.ticks == trace.ticks);
     CHECK(measured.measure.distance().sum() == Approx(trace.distance));
     CHECK(measured.measure.distance().samples() == static_cast<std::uint64_t>(trace.ticks));
-    for (std::size_t child = 0; child < measured.probe.children().size(); ++child) {
+    for (std::size_t child = 0; child < measured.parallel.children().size(); ++child) {
       CHECK(measured.held_ticks(child) == trace.held[child]);
       const auto ticks = static_cast<double>(trace.held[child]);
       CHECK(measured.held_seconds(child) == Approx(ticks * 0.1));

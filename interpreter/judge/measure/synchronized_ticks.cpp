@@ -1,0 +1,83 @@
+#include "judge/measure/synchronized_ticks.h"
+
+#include <algorithm>
+
+#include "base/core/resource_set.h"
+
+namespace lockstep::host {
+namespace {
+
+// A pool compares nothing.
+Guards guards_of(const Shape& shape, NodeIndex node) {
+  std::vector<bool> guards;
+  if (shape.nodes[node].synchronization == Synchronization::Resources) return Guards();
+  for (const NodeIndex child : shape.nodes[node].held()) {
+    guards.push_back(shape.nodes[child].is_guard);
+  }
+  return Guards(std::move(guards));
+}
+
+}  // namespace
+
+Guards::Guards(std::vector<bool> guards) {
+  for (std::size_t child = 0; child < guards.size(); ++child) {
+    if (guards[child]) places_.push_back(child);
+  }
+  if (!places_.empty()) others_.resize(guards.size());
+}
+
+std::span<const double> Guards::leave_out(std::span<const double> progress) {
+  if (places_.empty()) return progress;
+  std::ranges::copy(progress, others_.begin());
+  for (const std::size_t guard : places_) others_[guard] = kLeftOut;
+  return others_;
+}
+
+SynchronizedTicks::SynchronizedTicks(const Shape& shape, NodeIndex node, bool with_flags)
+    : node_(node),
+      children_(shape.nodes[node].held()),
+      is_group_(shape.nodes[node].is_group()),
+      is_pool_(shape.nodes[node].synchronization == Synchronization::Resources),
+      compares_(compares_progress(shape.nodes[node].synchronization)),
+      with_flags_(with_flags),
+      held_(children_.size()),
+      guards_(guards_of(shape, node)) {
+  for (const NodeIndex child : shape.nodes[node].members) {
+    members_.push_back(shape.nodes[child].parent.value_or(child));
+  }
+}
+
+void SynchronizedTicks::read_held(const Moment& moment, bool asked) {
+  for (std::size_t child = 0; child < children_.size(); ++child) {
+    const NodeIndex node = children_[child];
+    if (is_pool_) {
+      held_.set(child, moment.ticked(members_[child]) && waits(moment.limit(members_[child])));
+      continue;
+    }
+    const bool asks = !is_group_ ? asked : moment.ticked(members_[child]);
+    held_.set(child, moment.status(node), moment.ticked(node) || !asks, moment.held(node) && asks);
+  }
+}
+
+void SynchronizedTicks::read(const Moment& moment, SynchronizedTick& tick) {
+  const bool asked = asked_children(moment, node_, children_, is_group_);
+  if (with_flags_) read_held(moment, asked);
+  if (!asked) {
+    tick = {.time = moment.time, .status = moment.status(node_)};
+    return;
+  }
+  tick.time = moment.time;
+  tick.ticked = true;
+  tick.status = moment.status(node_);
+  if (compares_) tick.limit = moment.limit(node_);
+  tick.used = moment.used(node_);
+  tick.progress = guards_.leave_out(tick.used);
+  if (!with_flags_) return;
+  for (std::size_t child = 0; child < children_.size(); ++child) {
+    held_.set_succeeded(child, moment.has_succeeded(children_[child]));
+  }
+  tick.held = held_.held();
+  tick.succeeded = held_.succeeded();
+}
+
+}  // namespace lockstep::host

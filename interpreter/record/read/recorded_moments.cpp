@@ -1,0 +1,137 @@
+#include "record/read/recorded_moments.h"
+
+#include <algorithm>
+
+namespace lockstep::host {
+namespace {
+
+// Until law 2, a recording names no children.
+constexpr std::uint64_t kNamesChildren = 3;
+
+// The nodes around each member of a group, below the node that has all members. Nodes are in
+// pre-order, so of two nodes the later one is never above the other.
+std::vector<std::vector<NodeIndex>> nodes_around(const Shape& shape,
+                                                 const std::vector<NodeIndex>& members) {
+  const auto parent = [&](NodeIndex node) { return shape.nodes[node].parent.value_or(0); };
+  std::vector<std::vector<NodeIndex>> all;
+  NodeIndex ancestor = members.empty() ? 0 : members.front();
+  for (NodeIndex other : members) {
+    while (other != ancestor)
+      (other > ancestor ? other : ancestor) = parent(std::max(other, ancestor));
+  }
+  for (const NodeIndex member : members) {
+    auto& around = all.emplace_back();
+    for (NodeIndex node = parent(member); node > ancestor; node = parent(node)) {
+      around.push_back(node);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+RecordedMoments::RecordedMoments(const RecordingHeader& header)
+    : activity_(header.nodes.size()),
+      reached_(header.nodes.size()),
+      progress_(header.nodes.size()),
+      limit_(header.nodes.size()),
+      uses_(header.nodes.size()),
+      texts_(header.entries.size()),
+      names_children_(header.law >= kNamesChildren) {
+  for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+    limits_.push_back(&limit_[node]);
+    const ShapeNode& it = header.nodes[node];
+    if (it.latches || it.synchronization != Synchronization::None) add(header, node);
+  }
+  for (const Keeper& it : keepers_) uses_[it.node] = it.used;
+  moment_ = {.activity = activity_,
+             .reached = reached_,
+             .number = 1,
+             .progress = progress_,
+             .limits = limits_,
+             .uses = uses_,
+             .texts = texts_};
+}
+
+void RecordedMoments::add(const RecordingHeader& header, NodeIndex node) {
+  const ShapeNode& it = header.nodes[node];
+  Keeper& keeper =
+      keepers_.emplace_back(Keeper{.node = node,
+                                   .is_plain = it.synchronization == Synchronization::None,
+                                   .ignores_idle = it.ignores_idle,
+                                   .children = it.held()});
+  for (const NodeIndex child : it.members) {
+    keeper.members.push_back(header.nodes[child].parent.value_or(0));
+  }
+  for (const NodeIndex child : keeper.children) {
+    keeper.latched.push_back(!header.nodes[child].is_guard);
+  }
+  keeper.around = nodes_around(header, keeper.members);
+  keeper.used.resize(keeper.children.size());
+}
+
+const Moment& RecordedMoments::read(const RecordedTick& tick) {
+  for (Keeper& keeper : keepers_) read_used(keeper, tick);
+  for (NodeIndex node = 0; node < tick.nodes.size(); ++node) {
+    const RecordedState& state = tick.nodes[node];
+    activity_[node] = state.state().activity();
+    reached_[node] = state.ticked ? 1 : 0;
+    progress_[node] = state.progress;
+    limit_[node] = state.limit;
+  }
+  for (const RecordedEntry& entry : tick.entries) {
+    texts_[entry.entry].text = entry.value;
+    ++texts_[entry.entry].writes;
+  }
+  read_ended(tick);
+  moment_.tick = tick.tick;
+  moment_.time = from_seconds(tick.time);
+  moment_.ended = ended_;
+  moment_.within = tick.moments;
+  return moment_;
+}
+
+// Of a recording that does not name the children that have succeeded, all are taken to have.
+void RecordedMoments::read_ended(const RecordedTick& tick) {
+  ended_.assign(tick.succeeded.begin(), tick.succeeded.end());
+  if (names_children_ || ended_.empty()) return;
+  for (const Keeper& keeper : keepers_) {
+    if (std::ranges::find(tick.succeeded, keeper.node) == tick.succeeded.end()) continue;
+    ended_.insert(ended_.end(), keeper.children.begin(), keeper.children.end());
+  }
+}
+
+// The columns are still those of the tick before.
+void RecordedMoments::read_used(Keeper& keeper, const RecordedTick& tick) {
+  for (std::size_t child = 0; child < keeper.children.size(); ++child) {
+    const NodeIndex node = keeper.children[child];
+    const RecordedState& state = tick.nodes[node];
+    double& used = keeper.used[child];
+    used = keeper.is_plain ? in_plain_parallel(keeper, child, state) : state.progress;
+    if (is_left_out(keeper, child)) used = kLeftOut;
+  }
+}
+
+// A parallel that does not synchronize is judged by what was there before its tick, and none of its
+// children has progress when it starts again. A child that it does not tick again counts as 1.
+double RecordedMoments::in_plain_parallel(const Keeper& keeper, std::size_t child,
+                                          const RecordedState& state) const {
+  if (moment_.status(keeper.node) != Status::Running) return 0;
+  const bool has_failed = moment_.status(keeper.children[child]) == Status::Failure;
+  return has_failed && keeper.latched[child] && !state.ticked ? 1 : state.progress;
+}
+
+// True for a child that was skipped in the last tick, or is in what was; in some groups also for a
+// member that did not run, and had not succeeded, when the tick began.
+bool RecordedMoments::is_left_out(const Keeper& keeper, std::size_t child) const {
+  const bool is_group = !keeper.members.empty();
+  const bool runs = moment_.status(keeper.node) == Status::Running;
+  const Status last = moment_.status(is_group ? keeper.members[child] : keeper.children[child]);
+  if (runs && last == Status::Skipped) return true;
+  if (!is_group || keeper.used[child] != 0) return false;
+  const auto was_skipped = [&](NodeIndex node) { return moment_.status(node) == Status::Skipped; };
+  if (runs && std::ranges::any_of(keeper.around[child], was_skipped)) return true;
+  return keeper.ignores_idle && (!runs || last == Status::Idle);
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,51 @@
+// The Moments of a recording: each is what trace/live_moments.h gave when that tick was recorded.
+#pragma once
+
+#include <vector>
+
+#include "record/recording.h"
+#include "trace/moment.h"
+
+namespace lockstep::host {
+
+class RecordedMoments {
+ public:
+  explicit RecordedMoments(const RecordingHeader& header);
+  RecordedMoments(const RecordedMoments&) = delete;
+  RecordedMoments& operator=(const RecordedMoments&) = delete;
+
+  // Of the next tick. Valid until the next call.
+  const Moment& read(const RecordedTick& tick);
+
+ private:
+  // What a node holds, and the progress of that as the node used it.
+  struct Keeper {
+    NodeIndex node = 0;
+    bool is_plain = false;  // a parallel that compares no progress
+    bool ignores_idle = false;
+    std::vector<NodeIndex> children = {};
+    std::vector<NodeIndex> members = {};              // of a group: the parents of the children
+    std::vector<std::vector<NodeIndex>> around = {};  // each member, below what has all members
+    std::vector<bool> latched = {};  // of each child: it is not ticked again once it has completed
+    std::vector<double> used = {};
+  };
+  void add(const RecordingHeader& header, NodeIndex node);
+  void read_used(Keeper& keeper, const RecordedTick& tick);
+  double in_plain_parallel(const Keeper& keeper, std::size_t child,
+                           const RecordedState& state) const;
+  bool is_left_out(const Keeper& keeper, std::size_t child) const;
+  void read_ended(const RecordedTick& tick);
+
+  std::vector<Activity> activity_;  // after the last tick that was read
+  std::vector<std::uint32_t> reached_;
+  std::vector<double> progress_, limit_;
+  std::vector<const double*> limits_;
+  std::vector<std::span<const double>> uses_;
+  std::vector<Keeper> keepers_;
+  std::vector<NodeIndex> ended_;
+  std::vector<EntryText> texts_;
+  bool names_children_;  // that have succeeded
+  Moment moment_;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,95 @@
+#include "trace/live_moments.h"
+
+#include "engine/blackboard.h"
+#include "engine/resources.h"
+#include "engine/ticker.h"
+
+namespace lockstep::host {
+
+LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
+    : tree_(tree),
+      progress_(asked.progress.empty() ? 0 : tree.nodes.size()),
+      limits_(tree.nodes.size()),
+      uses_(tree.nodes.size()),
+      asks_progress_(!asked.progress.empty()),
+      asks_within_(asked.within) {
+  for (const NodeIndex node : asked.progress) asked_.push_back({.node = node});
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    const Synchronization kind = synchronization(tree.nodes[node]);
+    if (compares_progress(kind)) {
+      const auto children = children_of(tree, node);
+      for (Asked& it : asked_) {
+        const auto child = std::ranges::find(children, it.node);
+        if (child == children.end()) continue;
+        it = {it.node, node, static_cast<std::size_t>(child - children.begin()), true};
+      }
+    } else if (kind != Synchronization::None || tree.labels[node].type->latches) {
+      Plain& it = plain_.emplace_back(Plain{.node = node, .children = children_of(tree, node)});
+      it.is_asked = std::ranges::find(asked.parallels, node) != asked.parallels.end();
+      it.progress.resize(it.children.size());
+      asks_progress_ |= it.is_asked;
+    }
+  }
+  for (const Plain& it : plain_) uses_[it.node] = it.progress;
+  moment_.progress = progress_;
+  moment_.limits = limits_;
+  moment_.uses = uses_;
+}
+
+void LiveMoments::ask(Ticker& ticker) {
+  if (asks_within_) ticker.keep_moments();
+  if (!asks_progress_) return;
+  ticker.share_progress();
+  for (const Asked& it : asked_) progress_[it.node] = ticker.progress(it.node);
+  // A node that does not run will start again: none of its children has progress then. Else as in
+  // the snapshot of a synchronized node: a child that was skipped is left out, and one that has
+  // failed for good counts as 1.
+  for (Plain& it : plain_) {
+    if (!it.is_asked) continue;
+    const bool runs = ticker.status(it.node) == Status::Running;
+    for (std::size_t child = 0; child < it.progress.size(); ++child) {
+      it.progress[child] = runs ? snapshot_of(ticker, it.children[child]) : 0;
+    }
+  }
+}
+
+// The states of nodes stay where they are for the whole life of a ticker.
+void LiveMoments::bind(Ticker& ticker) {
+  bound_ = ticker.run_state().bytes.data();
+  const auto point_to_limit = [&](NodeIndex node) {
+    limits_[node] = &ticker.state<SynchronizedState>(node).limit;
+  };
+  for (const NodeIndex node : synchronized_nodes(tree_)) {
+    point_to_limit(node);
+    if (compares_progress(synchronization(tree_.nodes[node]))) {
+      uses_[node] = child_progress(ticker, node);
+    }
+  }
+  for_each_resource_user(tree_, point_to_limit);
+}
+
+// The numbers that a synchronized node has used replace those from before its tick.
+void LiveMoments::take_used(Ticker& ticker) {
+  for (const Asked& it : asked_) {
+    if (!it.is_kept || !asked_children(ticker, it.keeper)) continue;
+    const double used = uses_[it.keeper][it.child];
+    progress_[it.node] = is_left_out(used) ? 0 : used;  // as in recordings
+  }
+}
+
+const Moment& LiveMoments::after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+  const RunState& state = ticker.run_state();
+  if (state.bytes.data() != bound_) bind(ticker);
+  if (!asked_.empty()) take_used(ticker);
+  moment_.tick = tick;
+  moment_.time = time;
+  moment_.activity = state.activity;
+  moment_.reached = state.last_tick;
+  moment_.number = state.tick_number;
+  moment_.ended = state.ended;
+  moment_.within = ticker.moments();
+  moment_.entries = ticker.blackboard().entries;
+  return moment_;
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,59 @@
+// The Moments of a run that a Ticker makes: spans over what the engine has, and what is asked for
+// besides. Does not allocate after the first tick.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "trace/moment.h"
+
+namespace lockstep::host {
+
+class Ticker;
+struct Tree;
+
+class LiveMoments {
+ public:
+  // The tree must outlive this.
+  explicit LiveMoments(const Tree& tree, const AskedOfRun& asked = {});
+  LiveMoments(const LiveMoments&) = delete;
+  LiveMoments& operator=(const LiveMoments&) = delete;
+
+  // Needed only if something is asked for.
+  void before_tick(Ticker& ticker) {
+    if (asks_progress_ || asks_within_) ask(ticker);
+  }
+  // Valid until the next call, and until the next tick.
+  const Moment& after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
+
+ private:
+  // A node that is asked for its progress, and who may have used it.
+  struct Asked {
+    NodeIndex node = 0;
+    NodeIndex keeper = 0;
+    std::size_t child = 0;  // its number there
+    bool is_kept = false;
+  };
+  // A parallel that does not compare the progress of its children, or a pool: it keeps none.
+  struct Plain {
+    NodeIndex node = 0;
+    bool is_asked = false;
+    std::vector<NodeIndex> children = {};
+    std::vector<double> progress = {};
+  };
+  void ask(Ticker& ticker);
+  void bind(Ticker& ticker);
+  void take_used(Ticker& ticker);
+
+  const Tree& tree_;
+  std::vector<Asked> asked_;
+  std::vector<Plain> plain_;
+  std::vector<double> progress_;
+  std::vector<const double*> limits_;
+  std::vector<std::span<const double>> uses_;
+  const void* bound_ = nullptr;  // where the engine keeps what these point to
+  bool asks_progress_, asks_within_;
+  Moment moment_;
+};
+
+}  // namespace lockstep::host

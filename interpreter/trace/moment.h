@@ -1,0 +1,82 @@
+// A run after a tick, as columns over the nodes of its Shape: all that measures see of it, and
+// whoever else watches, judges or draws it. Two make Moments: LiveMoments (trace/live_moments.h) of
+// a run, without a copy, and RecordedMoments (record/read/recorded_moments.h) of the lines of a
+// recording. What is written over Moments is written once for both.
+//
+// Example: a ParallelAbsolute with the barrier 0.5 holds its child b. Then limit() of the parallel
+// is 0.5, used() of it 0.2 and 0.5, held(b) is true and ticked(b) is false.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/blackboard/entry.h"
+#include "base/core/clock.h"
+#include "base/core/synchronization.h"
+#include "engine/moments.h"
+#include "engine/run_state.h"
+
+namespace lockstep::host {
+
+// An entry as a recording shows it.
+struct EntryText {
+  std::optional<std::string> text = {};  // its value; none: too long to be shown, or there is none
+  std::uint32_t writes = 0;              // how often it was written, as Entry::writes
+};
+
+struct Moment {
+  std::uint64_t tick = 0;  // the first is 0
+  Nanoseconds time{0};     // when it began, since the run began
+
+  std::span<const Activity> activity = {};      // by node, and so are the next ones
+  std::span<const std::uint32_t> reached = {};  // the number of the last tick that reached it
+  std::uint32_t number = 0;                     // of this tick, as `reached` counts; 0: none yet
+  // Before the tick, as its parent used it; 0 for what was left out. Only of nodes that are asked
+  // for it. Without such nodes there is no column.
+  std::span<const double> progress = {};
+  std::span<const double* const> limits = {};          // null: the node has none
+  std::span<const std::span<const double>> uses = {};  // empty: it compares no progress
+  // That have succeeded in the tick, and were ended later in it.
+  std::span<const NodeIndex> ended = {};
+  MomentsView within = {};  // what happened within the tick
+
+  // By entry of the Shape; the one of a run, the other of a recording.
+  std::span<const Entry> entries = {};
+  std::span<const EntryText> texts = {};
+
+  Status status(NodeIndex node) const { return status_of(activity[node]); }
+  bool held(NodeIndex node) const { return activity[node] == Activity::Paused; }
+  bool ticked(NodeIndex node) const { return number != 0 && reached[node] == number; }
+  NodeState state(NodeIndex node) const { return NodeState::of(activity[node], ticked(node)); }
+  // Also where an ancestor has ended it since.
+  bool has_succeeded(NodeIndex node) const {
+    return status(node) == Status::Success || std::ranges::find(ended, node) != ended.end();
+  }
+  // Of a synchronized node in the last tick that reached it, and of a node that uses resources:
+  // base/core/synchronization.h, base/core/resource_set.h.
+  double limit(NodeIndex node) const { return *limits[node]; }
+  // The progress of each child of a parallel, or of what a group holds, as the node used it in the
+  // last tick in which it asked them; kLeftOut for one that was left out.
+  std::span<const double> used(NodeIndex node) const { return uses[node]; }
+};
+
+// What the engine does not keep by itself: whoever makes Moments of a run is told who looks at it.
+struct AskedOfRun {
+  std::vector<NodeIndex> progress = {};   // Moment::progress of these
+  std::vector<NodeIndex> parallels = {};  // Moment::used of these, also if they compare nothing
+  bool within = false;                    // Moment::within
+};
+
+// Whether a parallel, or a node beside the tree, asked its children in the tick. A tick in which a
+// script of the parallel decided, or in which its `while` halted it, does not count.
+inline bool asked_children(const Moment& moment, NodeIndex node,
+                           std::span<const NodeIndex> children, bool is_group) {
+  if (!moment.ticked(node) || is_group) return moment.ticked(node);
+  return std::ranges::any_of(children, [&](NodeIndex child) { return moment.ticked(child); });
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,186 @@
+// The two producers of Moments agree: on random trees of both languages, the Moments of a run are
+// those that are read from its recording. So what is computed from Moments, such as measures and
+// the verdicts of properties, is the same of both.
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "base/core/resource_set.h"
+#include "property/btcpp_tree.h"
+#include "property/random_tree.h"
+#include "record/read/recorded_moments.h"
+#include "record/read/recording_reader.h"
+#include "record/write/recorder.h"
+#include "trace/live_moments.h"
+#include "trace/shape.h"
+#include "unit/recording/watched_run.h"
+
+namespace lockstep::host::test {
+namespace {
+
+constexpr int kProducerTrees = 1500;
+
+// What a Moment says of a node; of its children only if the node has asked them.
+struct Seen {
+  NodeState state = {};
+  double progress = 0, limit = 0;
+  bool has_succeeded = false;
+  std::vector<double> used = {};
+
+  std::string text() const {
+    std::ostringstream text;
+    text << to_string(state.status()) << (state.ticked() ? " ticked" : "")
+         << (state.held() ? " held" : "") << " at " << progress << " limit " << limit
+         << (has_succeeded ? " has succeeded" : "") << " used";
+    for (const double it : used) text << ' ' << it;
+    return text.str();
+  }
+};
+
+struct SeenTick {
+  std::uint64_t tick = 0;
+  Nanoseconds time{0};
+  std::vector<Seen> nodes = {};
+  std::vector<std::vector<NodeState>> within = {};
+  std::vector<std::optional<std::string>> entries = {};
+};
+
+bool is_measured(const ShapeNode& node) {
+  return node.latches || node.synchronization != Synchronization::None;
+}
+
+std::optional<std::string> text_of(const Entry& entry) {
+  return entry.has_value() ? std::optional(to_text(entry.value)) : std::nullopt;
+}
+
+SeenTick seen_in(const Moment& moment, const Shape& shape) {
+  SeenTick seen{.tick = moment.tick, .time = moment.time};
+  const std::vector<bool> users = resource_users(shape);
+  std::vector<bool> is_compared(shape.nodes.size());
+  for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+    const ShapeNode& it = shape.nodes[node];
+    Seen& now = seen.nodes.emplace_back(
+        Seen{.state = moment.state(node), .progress = moment.progress[node]});
+    if (users[node]) now.limit = moment.limit(node);
+    if (!is_measured(it)) continue;
+    is_compared[node] = it.synchronization != Synchronization::None;
+    for (const NodeIndex child : it.held()) is_compared[child] = true;
+    if (!asked_children(moment, node, it.held(), it.is_group())) continue;
+    if (compares_progress(it.synchronization)) now.limit = moment.limit(node);
+    if (it.synchronization == Synchronization::Resources) continue;  // it compares nothing
+    now.used.assign(moment.used(node).begin(), moment.used(node).end());
+  }
+  for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+    seen.nodes[node].has_succeeded = is_compared[node] && moment.has_succeeded(node);
+  }
+  std::vector<NodeState> column;
+  moment.within.each(column, [&](std::span<const NodeState> states, const TickMoment&, bool) {
+    seen.within.emplace_back(states.begin(), states.end());
+  });
+  for (const Entry& it : moment.entries) seen.entries.push_back(text_of(it));
+  for (const EntryText& it : moment.texts) seen.entries.push_back(it.text);
+  return seen;
+}
+
+// Copies each Moment of a run, as somebody sees it who asks for everything.
+class MomentWitness final : public Observer {
+ public:
+  MomentWitness(const Tree& tree, const Shape& shape)
+      : shape_(shape), moments_(tree, everything(shape)) {}
+
+  void before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) override {
+    moments_.before_tick(ticker);
+  }
+  void after_tick(Ticker& ticker, const TickReport& report) override {
+    seen.push_back(seen_in(moments_.after_tick(ticker, report.tick, report.time), shape_));
+  }
+  std::vector<SeenTick> seen;
+
+ private:
+  static AskedOfRun everything(const Shape& shape) {
+    AskedOfRun asked{.within = true};
+    asked.progress.resize(shape.nodes.size());
+    std::iota(asked.progress.begin(), asked.progress.end(), NodeIndex{0});
+    asked.parallels = asked.progress;
+    return asked;
+  }
+  const Shape& shape_;
+  LiveMoments moments_;
+};
+
+struct SeenCounts {
+  std::size_t ticks = 0, within = 0, used = 0, left_out = 0, succeeded = 0, waiting = 0;
+};
+
+void compare(const Seen& run, const Seen& recording, SeenCounts& counts) {
+  CHECK(run.text() == recording.text());
+  counts.used += run.used.size();
+  for (const double it : run.used) counts.left_out += is_left_out(it) ? 1 : 0;
+  counts.succeeded += run.has_succeeded && run.state.status() == Status::Idle ? 1 : 0;
+  counts.waiting += waits(run.limit) ? 1 : 0;
+}
+
+void compare(WatchedRun& run, std::uint64_t ticks, SeenCounts& counts) {
+  const Shape shape = shape_of(run.run.tree());
+  const TemporaryPath file;
+  Recorder recorder(run.run.tree(),
+                    {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
+  MomentWitness witness(run.run.tree(), shape);
+  run.watch({&recorder, &witness}, ticks);
+
+  std::istringstream text(file.text());
+  RecordingReader reader(text, "run.jsonl");
+  RecordedMoments moments(reader.header());
+  std::size_t at = 0;
+  while (const auto tick = reader.next()) {
+    REQUIRE(at < witness.seen.size());
+    const SeenTick& live = witness.seen[at++];
+    const SeenTick read = seen_in(moments.read(*tick), reader.header());
+    INFO("tick " << live.tick);
+    CHECK(read.tick == live.tick);
+    CHECK(read.time == live.time);
+    CHECK(read.within == live.within);
+    CHECK(read.entries == live.entries);
+    for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+      INFO(shape.nodes[node].path);
+      compare(live.nodes[node], read.nodes[node], counts);
+    }
+    ++counts.ticks;
+    counts.within += live.within.empty() ? 0 : 1;
+  }
+  CHECK(reader.error() == "");
+  CHECK(at == witness.seen.size());
+}
+
+}  // namespace
+
+TEST_CASE("the Moments of a run of a random tree are those of its recording") {
+  SeenCounts counts;
+  for (std::uint64_t seed = 0; seed < kProducerTrees; ++seed) {
+    const Trial trial = random_trial(seed);
+    INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
+    WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
+    compare(run, static_cast<std::uint64_t>(trial.ticks), counts);
+  }
+  CHECK(counts.ticks > 10'000);
+  CHECK(counts.within > 100);
+  CHECK(counts.used > 10'000);
+  CHECK(counts.left_out > 100);
+  CHECK(counts.succeeded > 100);
+  CHECK(counts.waiting > 100);
+}
+
+// Their ticks have several moments where a child completes at once.
+TEST_CASE("the Moments of a run of a random tree for BehaviorTree.CPP are those of its recording") {
+  SeenCounts counts;
+  for (std::uint64_t seed = 1; seed <= kProducerTrees; ++seed) {
+    const law::Document document = law::random_document(seed);
+    INFO("seed " << seed << "\n" << law::to_xml(document) << "\n" << law::leaves_text(document));
+    WatchedRun run(law::tree_of(document), law::leaves_text(document));
+    compare(run, 12, counts);
+  }
+  CHECK(counts.ticks > 10'000);
+  CHECK(counts.within > 500);
+}
+
+}  // namespace lockstep::host::test
