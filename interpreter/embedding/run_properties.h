@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "base/core/problem.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
+#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host::embedding {
@@ -39,7 +40,8 @@ class RunProperties final : public Observer {
   const Tree& tree_;
   std::vector<Property> properties_;
   std::optional<PropertyChecks> checks_;
-  std::optional<LiveProperties> live_;
+  std::optional<PropertySteps> steps_;
+  std::optional<LiveMoments> moments_;
   bool is_over_ = false;
   std::vector<std::string> violations_;
 };

@@ -42,15 +42,20 @@ std::string_view result_text(const RunEnd& end) {
 }
 
 Judge::Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties)
-    : rehearsal_(rehearsal), tree_(tree), checks_(std::move(properties)), live_(tree, checks_) {}
+    : rehearsal_(rehearsal),
+      tree_(tree),
+      checks_(std::move(properties)),
+      steps_(checks_),
+      moments_(tree, steps_.asked()) {}
 
 void Judge::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  live_.before_tick(ticker);
+  moments_.before_tick(ticker);
 }
 
 void Judge::after_tick(Ticker& ticker, const TickReport& report) {
   ticks_ = report.tick + 1;
-  for (const std::size_t it : live_.after_tick(ticker, report.tick)) {
+  const Moment& moment = moments_.after_tick(ticker, report.tick, report.time);
+  for (const std::size_t it : steps_.after_tick(moment)) {
     tell_violated(it, fmt::format("in tick {}", report.tick), ticker);
   }
   running_.clear();

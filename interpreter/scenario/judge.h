@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "scenario/performance.h"
+#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -36,7 +37,8 @@ class Judge final : public Observer {
   const Rehearsal& rehearsal_;
   const Tree& tree_;
   PropertyChecks checks_;
-  LiveProperties live_;
+  PropertySteps steps_;
+  LiveMoments moments_;
   std::uint64_t ticks_ = 0;
   std::vector<std::string> decided_;  // the path to what decided
   std::vector<std::string> running_;  // leaves, at the end

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/compile.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 
 namespace lockstep::host {
 namespace {

@@ -6,8 +6,9 @@
 #include <stdexcept>
 
 #include "base/core/random.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "run/run.h"
+#include "trace/live_moments.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {
@@ -41,13 +42,14 @@ class PlainRun {
         ticker_(tree, leaves_.slots(), board_),
         places_(places_of(properties, tree)),
         checks_(at(places_, properties)),
-        live_(tree, checks_) {}
+        steps_(checks_),
+        moments_(tree, steps_.asked()) {}
 
   Status tick(Nanoseconds now, std::uint64_t number) {
     answers_.asked.clear();
     leaves_.begin_tick();
     ticker_.set_now(now);
-    live_.before_tick(ticker_);
+    moments_.before_tick(ticker_);
     Status status = ticker_.tick_root();
     for (int more = 1; status == Status::Running && !ticker_.faulted(); ++more) {
       const auto asks = ticker_.take_request();
@@ -58,7 +60,7 @@ class PlainRun {
         status = ticker_.tick_root_again();
       }
     }
-    note(live_.after_tick(ticker_, number));
+    note(steps_.after_tick(moments_.after_tick(ticker_, number, now)));
     if (status != Status::Running || ticker_.faulted()) note(checks_.end(RunIsOver::ByItself));
     leaves_.fold();
     return status;
@@ -94,7 +96,8 @@ class PlainRun {
   Ticker ticker_;
   const std::vector<std::size_t> places_;  // of the properties that are checked
   PropertyChecks checks_;
-  LiveProperties live_;
+  PropertySteps steps_;
+  LiveMoments moments_;
   std::vector<std::size_t> violated_;
 };
 

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include "base/system/output_file.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "record/write/recorder.h"
 #include "run/deadlines.h"
 #include "run/loop.h"
+#include "trace/live_moments.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {
@@ -38,13 +39,14 @@ class Confirmation final : public Observer {
       : finding_(finding),
         tracer_(tracer),
         checks_(property_of(tree, finding, properties)),
-        live_(tree, checks_) {}
+        steps_(checks_),
+        moments_(tree, steps_.asked()) {}
 
   void before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) override {
-    live_.before_tick(ticker);
+    moments_.before_tick(ticker);
   }
   void after_tick(Ticker& ticker, const TickReport& report) override {
-    live_.after_tick(ticker, report.tick);
+    steps_.after_tick(moments_.after_tick(ticker, report.tick, report.time));
     if (!wrong_.empty() || ticks_ == finding_.run.size()) return;
     const Status status = tracer_.tick(finding_.run[ticks_++]);
     std::string wrong = difference(ticker, tracer_.ticker());
@@ -72,7 +74,8 @@ class Confirmation final : public Observer {
   const Finding& finding_;
   Tracer& tracer_;
   PropertyChecks checks_;
-  LiveProperties live_;
+  PropertySteps steps_;
+  LiveMoments moments_;
   std::size_t ticks_ = 0;
   std::string wrong_;
 };

@@ -2,36 +2,32 @@
 
 #include <algorithm>
 
-#include "engine/blackboard.h"
-#include "engine/synchronized.h"
-#include "judge/measure/live_properties.h"
-#include "judge/measure/synchronized_measure.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::byte kDecided{1};
 
+// The search keeps the moments within ticks anyway.
+AskedOfRun asked_by(std::span<const Property> properties) {
+  AskedOfRun asked;
+  for (const Property& it : properties) {
+    for (std::size_t place = 0; place < it.nodes().size(); ++place) {
+      if (it.needs_progress(place)) asked.progress.push_back(it.nodes()[place]);
+    }
+  }
+  return asked;
+}
+
 }  // namespace
 
 PropertyWatch::PropertyWatch(const Tree& tree, std::span<const Property> properties)
-    : first_fact_(tree.slots.size()) {
+    : first_fact_(tree.slots.size()), moments_(tree, asked_by(properties)) {
   for (const Property& it : properties) {
     parts_.push_back({&it, state_size_, std::vector<SeenNode>(it.nodes().size()),
                       std::make_unique<bool[]>(it.comparisons().size())});
     state_size_ += 1 + it.comparisons().size() + it.state_size();
-  }
-  for (const NodeIndex keeper : synchronized_nodes(tree)) {
-    if (!compares_progress(synchronization(tree.nodes[keeper]))) continue;
-    const auto children = children_of(tree, keeper);
-    for (std::size_t part = 0; part < parts_.size(); ++part) {
-      const auto nodes = parts_[part].property->nodes();
-      for (std::size_t place = 0; place < nodes.size(); ++place) {
-        const auto child = std::ranges::find(children, nodes[place]);
-        if (child == children.end() || !parts_[part].property->needs_progress(place)) continue;
-        used_.push_back({part, place, keeper, static_cast<std::size_t>(child - children.begin())});
-      }
-    }
   }
 }
 
@@ -46,18 +42,7 @@ void PropertyWatch::begin(std::byte* state) const {
   }
 }
 
-void PropertyWatch::before_tick(Ticker& ticker) {
-  for (Part& part : parts_) {
-    const auto nodes = part.property->nodes();
-    for (std::size_t place = 0; place < nodes.size(); ++place) {
-      if (part.property->needs_progress(place)) {
-        part.seen[place].progress = ticker.progress(nodes[place]);
-      }
-    }
-  }
-}
-
-void PropertyWatch::compare(Part& part, std::byte* compared, Ticker& ticker,
+void PropertyWatch::compare(Part& part, std::byte* compared, const Moment& moment,
                             std::span<const FactState> facts) {
   const auto comparisons = part.property->comparisons();
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
@@ -68,7 +53,7 @@ void PropertyWatch::compare(Part& part, std::byte* compared, Ticker& ticker,
                              : comparisons[i].holds_for(Value(fact == FactState::True), room_);
       continue;
     }
-    const Value& value = ticker.blackboard().entries[comparisons[i].entry].value();
+    const Value& value = moment.entries[comparisons[i].entry].value();
     if (!std::holds_alternative<NoValue>(value)) {
       compared[i] = static_cast<std::byte>(comparisons[i].holds_for(value, room_));
     }
@@ -79,19 +64,15 @@ void PropertyWatch::compare(Part& part, std::byte* compared, Ticker& ticker,
 void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts,
                                End end) {
   violated_.clear();
-  for (const Used& it : used_) {
-    if (!asked_children(ticker, it.keeper)) continue;
-    const double used = child_progress(ticker, it.keeper)[it.child];
-    parts_[it.part].seen[it.place].progress = is_left_out(used) ? 0 : used;
-  }
+  const Moment& moment = moments_.after_tick(ticker, 0, {});
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     std::byte* const decided = state + part.first_byte;
     if (*decided == kDecided) continue;
     const std::size_t count = part.property->comparisons().size();
     std::byte* const own = decided + 1 + count;
-    compare(part, decided + 1, ticker, facts);
-    PropertyVerdict verdict = step(part, own, ticker, end);
+    compare(part, decided + 1, moment, facts);
+    PropertyVerdict verdict = step(part, own, moment, end != End::OfRound);
     if (verdict == PropertyVerdict::Open && end == End::OfRun) verdict = part.property->at_end(own);
     if (verdict == PropertyVerdict::Open) continue;
     if (verdict == PropertyVerdict::Violated) violated_.push_back(i);
@@ -100,34 +81,32 @@ void PropertyWatch::after_tick(std::byte* state, Ticker& ticker, std::span<const
   }
 }
 
-PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, Ticker& ticker, End end) {
+PropertyVerdict PropertyWatch::step(Part& part, std::byte* own, const Moment& moment,
+                                    bool ends_tick) {
   const Property& property = *part.property;
+  const auto nodes = property.nodes();
+  for (std::size_t place = 0; place < nodes.size(); ++place) {
+    if (property.needs_progress(place)) part.seen[place].progress = moment.progress[nodes[place]];
+  }
   const std::span<const bool> compared(part.compared.get(), property.comparisons().size());
   auto verdict = PropertyVerdict::Open;
-  const auto see = [&](auto state_of, TickPart of_tick) {
+  steps_.each(moment, nodes, part.seen, [&](TickPart of_tick) {
     if (verdict != PropertyVerdict::Open) return;
-    const auto nodes = property.nodes();
-    for (std::size_t place = 0; place < nodes.size(); ++place) {
-      see_node(part.seen[place], state_of(nodes[place]), of_tick.is_first);
-    }
-    verdict = property.step(own, {.nodes = part.seen, .comparisons = compared}, of_tick);
-  };
-  const MomentsView moments = ticker.moments();
-  const bool ends = end != End::OfRound;
-  moments.each_part(moment_, [&](std::span<const NodeState> states, bool is_first, bool is_last) {
-    see([&](NodeIndex node) { return states[node]; },
-        {.is_first = is_first, .is_last = is_last && ends});
+    verdict =
+        property.step(own, {.nodes = part.seen, .comparisons = compared},
+                      {.is_first = of_tick.is_first, .is_last = of_tick.is_last && ends_tick});
   });
-  if (moments.empty()) {
-    see([&](NodeIndex node) { return ticker.node_state(node); }, {.is_last = ends});
-  }
   return verdict;
 }
 
 bool PropertyWatch::knows_rounds() const {
-  return used_.empty() && std::ranges::all_of(parts_, [](const Part& part) {
-           return part.property->comparisons().empty();
-         });
+  return std::ranges::all_of(parts_, [](const Part& part) {
+    if (!part.property->comparisons().empty()) return false;
+    for (std::size_t place = 0; place < part.seen.size(); ++place) {
+      if (part.property->needs_progress(place)) return false;
+    }
+    return true;
+  });
 }
 
 bool PropertyWatch::owes(const std::byte* state, std::size_t property) const {

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/ticker.h"
+#include "judge/measure/property_steps.h"
 #include "language/property/property.h"
 #include "leaves/model_leaf.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 
@@ -30,7 +31,7 @@ class PropertyWatch {
   bool empty() const { return parts_.empty(); }
   std::size_t state_size() const { return state_size_; }
   void begin(std::byte* state) const;
-  void before_tick(Ticker& ticker);
+  void before_tick(Ticker& ticker) { moments_.before_tick(ticker); }
   // After a tick, before its state is folded.
   void after_tick(std::byte* state, Ticker& ticker, std::span<const FactState> facts, End end);
   // In place of it: the tick violates nothing that was not violated before.
@@ -53,22 +54,17 @@ class PropertyWatch {
     std::vector<SeenNode> seen;
     std::unique_ptr<bool[]> compared;
   };
-  // A node whose progress is used by a synchronized node, which keeps what it has used.
-  struct Used {
-    std::size_t part, place;
-    NodeIndex keeper;
-    std::size_t child;
-  };
 
-  void compare(Part& part, std::byte* compared, Ticker& ticker, std::span<const FactState> facts);
-  PropertyVerdict step(Part& part, std::byte* own, Ticker& ticker, End end);
+  void compare(Part& part, std::byte* compared, const Moment& moment,
+               std::span<const FactState> facts);
+  PropertyVerdict step(Part& part, std::byte* own, const Moment& moment, bool ends_tick);
 
   const std::size_t first_fact_;  // of what is compared, behind the entries
   std::vector<Part> parts_;
-  std::vector<Used> used_;
   std::size_t state_size_ = 0;
   std::vector<std::size_t> violated_;
-  std::vector<NodeState> moment_;
+  LiveMoments moments_;
+  MomentSteps steps_;
   std::string room_;
 };
 

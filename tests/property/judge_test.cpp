@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
 #include "property/judge.h"

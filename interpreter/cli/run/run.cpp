@@ -23,7 +23,7 @@
 #include "cli/run/service_notice.h"
 #include "cli/run/view.h"
 #include "cli/run/watchers.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "judge/summary/property_observer.h"
 #include "judge/summary/repeated_halts.h"
 #include "judge/summary/standstills.h"

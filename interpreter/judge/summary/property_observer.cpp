@@ -9,14 +9,18 @@
 namespace lockstep::host {
 
 PropertyObserver::PropertyObserver(const Tree& tree, std::vector<Property> properties, Tell tell)
-    : checks_(std::move(properties)), live_(tree, checks_), tell_(std::move(tell)) {}
+    : checks_(std::move(properties)),
+      steps_(checks_),
+      moments_(tree, steps_.asked()),
+      tell_(std::move(tell)) {}
 
 void PropertyObserver::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  live_.before_tick(ticker);
+  moments_.before_tick(ticker);
 }
 
 void PropertyObserver::after_tick(Ticker& ticker, const TickReport& report) {
-  for (const std::size_t i : live_.after_tick(ticker, report.tick)) {
+  const Moment& moment = moments_.after_tick(ticker, report.tick, report.time);
+  for (const std::size_t i : steps_.after_tick(moment)) {
     tell_(checks_.all()[i],
           fmt::format("in tick {}, at {:.3f} s", report.tick, to_seconds(report.time)));
   }

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "judge/summary/summary.h"
+#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -29,7 +30,8 @@ class PropertyObserver final : public Observer {
 
  private:
   PropertyChecks checks_;
-  LiveProperties live_;
+  PropertySteps steps_;
+  LiveMoments moments_;
   Tell tell_;
 };
 

@@ -1,5 +1,5 @@
 // Checks properties against one sequence of ticks. Whoever has the ticks fills in what they look
-// at, and then lets it step: judge/measure/live_properties.h, record/use/recorded_properties.h.
+// at, and then lets it step: judge/measure/property_steps.h.
 #pragma once
 
 #include <cstddef>

@@ -2,41 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <vector>
-
 #include "base/core/diagnostics.h"
 #include "base/json/json.h"
 #include "base/terminal/text_table.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
+#include "record/read/recorded_moments.h"
 
 namespace lockstep::host {
 namespace {
-
-void step(const RecordedTick& tick, PropertyChecks& checks, std::vector<NodeState>& moment) {
-  const auto seen = checks.seen();
-  for (std::size_t place = 0; place < seen.size(); ++place) {
-    const RecordedState& state = tick.nodes[checks.nodes()[place]];
-    seen[place] = {state.status, state.ticked, state.held, state.progress};
-  }
-  const auto comparisons = checks.comparisons();
-  for (const RecordedEntry& entry : tick.entries) {
-    for (std::size_t i = 0; i < comparisons.size(); ++i) {
-      if (comparisons[i].entry != entry.entry) continue;
-      checks.compared()[i] = entry.value ? comparisons[i].holds_for_text(*entry.value)
-                                         : comparisons[i].holds_without_value();
-    }
-  }
-  if (tick.moments.empty()) {
-    checks.step(tick.tick);
-    return;
-  }
-  tick.moments.each_part(moment, [&](std::span<const NodeState> states, bool first, bool last) {
-    for (std::size_t place = 0; place < seen.size(); ++place) {
-      see_node(seen[place], states[checks.nodes()[place]], first);
-    }
-    checks.step(tick.tick, {.is_first = first, .is_last = last});
-  });
-}
 
 RunIsOver how_it_ended(const std::optional<RecordedEnd>& end) {
   const bool by_itself = end && (end->reason == "completed" || end->reason == "fault");
@@ -47,11 +20,12 @@ RunIsOver how_it_ended(const std::optional<RecordedEnd>& end) {
 
 void check_recording(RecordingReader& reader, PropertyChecks& checks) {
   std::uint64_t next = 0;
-  std::vector<NodeState> moment;
+  RecordedMoments moments(reader.header());
+  PropertySteps steps(checks);
   while (const auto tick = reader.next()) {
     if (tick->tick != next) checks.give_up();
     next = tick->tick + 1;
-    step(*tick, checks, moment);
+    steps.after_tick(moments.read(*tick));
   }
   if (!reader.gaps().empty()) checks.give_up();
   checks.end(how_it_ended(reader.end()));

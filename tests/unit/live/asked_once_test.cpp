@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "judge/measure/live_properties.h"
 #include "judge/measure/measure_spec.h"
+#include "judge/measure/property_steps.h"
 #include "judge/summary/property_observer.h"
 #include "judge/summary/statistics.h"
 #include "record/json_lines.h"

@@ -12,7 +12,7 @@
 #include "cli/properties.h"
 #include "cli/tools/log/log.h"
 #include "cli/tools/log/recorded_tree.h"
-#include "judge/measure/live_properties.h"
+#include "judge/measure/property_steps.h"
 #include "leaves/leaf_file.h"
 #include "leaves/models.h"
 #include "record/use/recorded_properties.h"
