@@ -28,19 +28,13 @@ void RunProperties::add(std::span<const Property> properties) {
 void RunProperties::begin_again() {
   checks_.emplace(properties_);
   steps_.emplace(*checks_);
-  moments_.emplace(tree_, steps_->asked());
   is_over_ = false;
   violations_.clear();
 }
 
-void RunProperties::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  if (!is_over_) moments_->before_tick(ticker);
-}
-
 void RunProperties::after_tick(Ticker& ticker, const TickReport& report) {
   if (is_over_) return;
-  const Moment& moment = moments_->after_tick(ticker, report.tick, report.time);
-  for (const std::size_t i : steps_->after_tick(moment)) {
+  for (const std::size_t i : steps_->after_tick(*report.moment)) {
     violations_.push_back(fmt::format("{}: violated in tick {}, at {:.3f} s",
                                       checks_->all()[i].name(), report.tick,
                                       to_seconds(report.time)));

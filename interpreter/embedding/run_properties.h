@@ -10,7 +10,6 @@
 
 #include "base/core/problem.h"
 #include "judge/measure/property_steps.h"
-#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host::embedding {
@@ -30,7 +29,7 @@ class RunProperties final : public Observer {
   // A text for each property that is violated, in the order in which that was found.
   std::span<const std::string> violations() const { return violations_; }
 
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  AskedOfRun asked() const override { return steps_ ? steps_->asked() : AskedOfRun(); }
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
@@ -41,7 +40,6 @@ class RunProperties final : public Observer {
   std::vector<Property> properties_;
   std::optional<PropertyChecks> checks_;
   std::optional<PropertySteps> steps_;
-  std::optional<LiveMoments> moments_;
   bool is_over_ = false;
   std::vector<std::string> violations_;
 };

@@ -36,8 +36,9 @@ Result<std::string> RunWatchers::monitor(const std::string& address) {
 void RunWatchers::show_groot(std::unique_ptr<Observer> groot, Ticker& ticker) {
   std::erase(observers_, groot_.get());
   groot_ = std::move(groot);
+  if (groot_ != nullptr) observers_.push_back(groot_.get());
+  if (all_) all_.emplace(tree_, observers_);
   if (groot_ == nullptr) return;
-  observers_.push_back(groot_.get());
   if (is_begun_ || ticker.tick_number() != 0) groot_->run_started(ticker, start_);
   is_begun_ = is_begun_ || ticker.tick_number() != 0;
 }
@@ -49,20 +50,21 @@ void RunWatchers::log(std::string_view who, std::string_view level, std::string_
 }
 
 void RunWatchers::before_tick(Ticker& ticker, Nanoseconds time) {
-  if (!std::exchange(is_begun_, true)) {
-    for (Observer* const it : observers_) it->run_started(ticker, start_);
-  }
-  for (Observer* const it : observers_) it->before_tick(ticker, ticker.tick_number(), time);
+  if (!all_) all_.emplace(tree_, observers_);
+  if (!std::exchange(is_begun_, true)) all_->run_started(ticker, start_);
+  all_->before_tick(ticker, ticker.tick_number(), time);
 }
 
 void RunWatchers::after_tick(Ticker& ticker, const TickReport& report) {
   status_ = report.status;
-  for (Observer* const it : observers_) it->after_tick(ticker, report);
+  all_->after_tick(ticker, report);
 }
 
 void RunWatchers::halted(Ticker& ticker, Nanoseconds time) {
   if (!is_begun_ || groot_ == nullptr) return;
-  groot_->after_tick(ticker, {.tick = ticker.tick_number(), .time = time, .status = Status::Idle});
+  Observer* const groot = groot_.get();
+  Observers(tree_, {&groot, 1})
+      .after_tick(ticker, {.tick = ticker.tick_number(), .time = time, .status = Status::Idle});
 }
 
 void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
@@ -80,6 +82,7 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
     }
     for (Observer* const it : observers_) it->run_ended(ticker, end);
   }
+  all_.reset();
   observers_.clear();
   groot_.reset();
   const Lock lock(mutex_);

@@ -15,7 +15,7 @@
 #include "record/live/run_packets.h"
 #include "record/write/recorder.h"
 #include "show/web/monitor.h"
-#include "trace/observer.h"
+#include "trace/observers.h"
 
 namespace lockstep::host::embedding {
 
@@ -57,6 +57,7 @@ class RunWatchers {
   bool is_begun_ = false;
   Status status_ = Status::Idle;  // of the root, after the last tick
   std::vector<Observer*> observers_;
+  std::optional<Observers> all_;  // from the first tick on
   std::unique_ptr<Observer> groot_;
   Mutex mutex_;  // of these two, for threads that log
   std::optional<Recorder> recorder_;

@@ -29,7 +29,6 @@ GrootPublisher::~GrootPublisher() {
 }
 
 void GrootPublisher::run_started(Ticker& ticker, const RunStart& start) {
-  statuses_.run_started(ticker, start);
   snapshots_.run_started(ticker, start);
   thread_.start([this] { serve(); });
 }

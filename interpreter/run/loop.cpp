@@ -11,6 +11,7 @@
 #include "run/pace.h"
 #include "run/run_control.h"
 #include "run/stall_fail.h"
+#include "trace/observers.h"
 
 namespace lockstep::host {
 namespace {
@@ -24,7 +25,7 @@ class Loop {
       : run_(run),
         clock_(clock),
         options_(options),
-        observers_(observers),
+        observers_(run.ticker().tree(), observers),
         deadlines_(options.rate),
         is_real_(clock.is_real()),
         begun_(clock.now()),
@@ -32,7 +33,7 @@ class Loop {
         wake_up_(is_real_ ? run.wake_up() : nullptr) {}
 
   RunEnd run() {
-    observe([&](Observer& it) { it.run_started(run_.ticker(), {run_.period(), is_real_}); });
+    observe([&](Observers& it) { it.run_started(run_.ticker(), {run_.period(), is_real_}); });
     if (run_.fault() == nullptr) {  // of a leaf that could not be created
       while (may_tick() && (options_.control == nullptr || is_admitted()) && tick() &&
              meet_next()) {
@@ -41,7 +42,7 @@ class Loop {
     }
     // On the virtual clock the last tick, too, lasts until the next one would begin.
     end_.time = is_real_ ? clock_.now() - start_ : deadlines_.at(end_.ticks);
-    observe([&](Observer& it) { it.standing(run_.ticker()); });
+    observe([&](Observers& it) { it.standing(run_.ticker()); });
     run_.halt();
     end_.budget = run_.end_budget();
     if (end_.budget != nullptr) end_.budget->begin();
@@ -49,7 +50,7 @@ class Loop {
       end_.reason = StopReason::Fault;
       end_.fault = *run_.fault();
     }
-    observe([&](Observer& it) { it.run_ended(run_.ticker(), end_); });
+    observe([&](Observers& it) { it.run_ended(run_.ticker(), end_); });
     return end_;
   }
 
@@ -58,7 +59,7 @@ class Loop {
   template <class Tell>
   void observe(Tell tell) {
     const InEngine scope(run_.blackboard().lock.get());
-    for (Observer* observer : observers_) tell(*observer);
+    tell(observers_);
   }
 
   bool may_tick() {
@@ -101,7 +102,7 @@ class Loop {
   // and the nodes that count time lose nothing, and no deadline is missed.
   bool stand() {
     const Nanoseconds time = deadlines_.at(deadline_);
-    observe([&](Observer& it) { it.standing(run_.ticker()); });
+    observe([&](Observers& it) { it.standing(run_.ticker()); });
     if (is_real_) {  // there, leaves go on by themselves
       run_.set_now(time);
       run_.ticker().pause(0);
@@ -149,7 +150,7 @@ class Loop {
     if (wake_up_ != nullptr) wakes_ = wake_up_->wakes();
     Ticker& ticker = run_.ticker();
     run_.set_now(now);
-    observe([&](Observer& it) { it.before_tick(ticker, end_.ticks, now); });
+    observe([&](Observers& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
     end_.status = run_.tick();
     if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
@@ -159,7 +160,7 @@ class Loop {
     if (!ticker.tolerated().empty()) [[unlikely]]
       faults = ticker.take_tolerated();
     const TickReport report{end_.ticks, now, end_.status, skipped_before_, faults, late};
-    observe([&](Observer& it) { it.after_tick(ticker, report); });
+    observe([&](Observers& it) { it.after_tick(ticker, report); });
     if (options_.control != nullptr) options_.control->count_tick(ticker);
     ++end_.ticks;
     end_.last = now;
@@ -227,7 +228,7 @@ class Loop {
   Run& run_;
   Clock& clock_;
   const LoopOptions& options_;
-  std::span<Observer* const> observers_;
+  Observers observers_;
   const Deadlines deadlines_;
   const bool is_real_;
   const Nanoseconds begun_;

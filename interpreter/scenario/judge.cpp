@@ -13,6 +13,7 @@
 #include "judge/measure/measure_spec.h"
 #include "language/property/nearly.h"
 #include "study/run_measures.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 namespace {
@@ -42,29 +43,23 @@ std::string_view result_text(const RunEnd& end) {
 }
 
 Judge::Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties)
-    : rehearsal_(rehearsal),
-      tree_(tree),
-      checks_(std::move(properties)),
-      steps_(checks_),
-      moments_(tree, steps_.asked()) {}
-
-void Judge::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  moments_.before_tick(ticker);
-}
+    : rehearsal_(rehearsal), tree_(tree), checks_(std::move(properties)), steps_(checks_) {}
 
 void Judge::after_tick(Ticker& ticker, const TickReport& report) {
   ticks_ = report.tick + 1;
-  const Moment& moment = moments_.after_tick(ticker, report.tick, report.time);
+  const Moment& moment = *report.moment;
   for (const std::size_t it : steps_.after_tick(moment)) {
     tell_violated(it, fmt::format("in tick {}", report.tick), ticker);
   }
   running_.clear();
   if (has_ended(report.status)) {
-    for (const DecidingNode& it : deciding_path(ticker)) decided_.push_back(tree_.path(it.node));
+    for (const DecidingNode& it : deciding_path(shape_of(tree_), moment)) {
+      decided_.push_back(tree_.path(it.node));
+    }
   } else if (report.tick + 1 >= rehearsal_.scenario->max_ticks.value_or(kMostScenarioTicks)) {
     for (const LeafNode& leaf : tree_.leaves) {
-      if (ticker.status(leaf.node) != Status::Running) continue;
-      running_.push_back(tree_.path(leaf.node) + (ticker.held(leaf.node) ? " (held)" : ""));
+      if (moment.status(leaf.node) != Status::Running) continue;
+      running_.push_back(tree_.path(leaf.node) + (moment.held(leaf.node) ? " (held)" : ""));
     }
   }
 }

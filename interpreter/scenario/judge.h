@@ -6,7 +6,6 @@
 
 #include "judge/measure/property_steps.h"
 #include "scenario/performance.h"
-#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -18,7 +17,7 @@ class Judge final : public Observer {
   // All must outlive this.
   Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties);
 
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  AskedOfRun asked() const override { return steps_.asked(); }
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void standing(Ticker& ticker) override;
 
@@ -38,7 +37,6 @@ class Judge final : public Observer {
   const Tree& tree_;
   PropertyChecks checks_;
   PropertySteps steps_;
-  LiveMoments moments_;
   std::uint64_t ticks_ = 0;
   std::vector<std::string> decided_;  // the path to what decided
   std::vector<std::string> running_;  // leaves, at the end

@@ -8,7 +8,6 @@
 #include "base/core/any_value.h"
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
-#include "judge/measure/live_ticks.h"
 #include "judge/measure/measure_spec.h"
 #include "judge/measure/measuring.h"
 #include "language/document/reporter.h"

@@ -6,7 +6,7 @@
 
 namespace lockstep::host {
 RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate)
-    : measuring_(shape_of(tree), measures), moments_(tree, measuring_.asked()), rate_(rate) {
+    : measuring_(shape_of(tree), measures), rate_(rate) {
   for (const auto& [spec, node] : measuring_.columns()) {
     columns_.push_back({to_text(*spec), node});
     if (!spec->measure->has_gap) continue;
@@ -21,12 +21,8 @@ void RunMeasures::run_started(Ticker&, const RunStart&) {
   std::ranges::fill(values_, kNoValue);
 }
 
-void RunMeasures::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  before_tick(ticker);
-}
-
-void RunMeasures::after_tick(Ticker& ticker, const TickReport& report) {
-  after_tick(ticker, report.tick, report.time);
+void RunMeasures::after_tick(Ticker&, const TickReport& report) {
+  after_tick(*report.moment);
 }
 
 void RunMeasures::run_ended(Ticker&, const RunEnd& end) {

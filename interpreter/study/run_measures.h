@@ -8,7 +8,6 @@
 
 #include "judge/measure/measuring.h"
 #include "study/plan.h"
-#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -25,20 +24,18 @@ class RunMeasures final : public Observer {
   std::span<const double> values() const { return values_; }
 
   // What an observer does with a tick, for an owner that knows this one.
-  void before_tick(Ticker& ticker) { moments_.before_tick(ticker); }
-  void after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
-    measuring_.after_tick(moments_.after_tick(ticker, tick, time));
-    last_ = time;
+  void after_tick(const Moment& moment) {
+    measuring_.after_tick(moment);
+    last_ = moment.time;
   }
 
+  AskedOfRun asked() const override { return measuring_.asked(); }
   void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
  private:
   Measuring measuring_;
-  LiveMoments moments_;
   double rate_;
   Nanoseconds last_{0};  // tick of the run
   std::vector<StudyColumn> columns_;

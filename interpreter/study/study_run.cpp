@@ -10,7 +10,8 @@ StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,
       deadlines_(cell.rate),
       max_ticks_(max_ticks),
       stop_signal_(stop_signal),
-      measures_(cell.tree, measures, cell.rate) {}
+      measures_(cell.tree, measures, cell.rate),
+      moments_(cell.tree, measures_.asked()) {}
 
 RunEnd StudyRun::run(std::uint64_t seed) {
   begin(seed);
@@ -63,12 +64,12 @@ bool StudyRun::tick(RunEnd& end) {
   run_->set_now(end.last);
   {
     const InEngine scope(lock);
-    measures_.before_tick(ticker);
+    moments_.before_tick(ticker);
   }
   end.status = run_->tick();
   {
     const InEngine scope(lock);
-    measures_.after_tick(ticker, end.ticks, end.last);
+    measures_.after_tick(moments_.after_tick(ticker, end.ticks, end.last));
   }
   ++end.ticks;
   return !ticker.faulted() && !has_ended(end.status);

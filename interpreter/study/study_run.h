@@ -7,6 +7,7 @@
 #include "run/deadlines.h"
 #include "run/run.h"
 #include "study/run_measures.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 
@@ -42,6 +43,7 @@ class StudyRun {
   int (*const stop_signal_)();
   LeafWatch watch_{LeafWatchOptions{}};  // names the leaf that crashed; times nothing
   RunMeasures measures_;
+  LiveMoments moments_;
   std::optional<Run> run_;
 };
 

@@ -1,5 +1,5 @@
-// Observes a run: the loop calls it, on the tick thread, around each tick. An observer only reads
-// and never changes the run. It does long work in a separate thread.
+// Observes a run: the loop calls it (trace/observers.h), on the tick thread, around each tick. An
+// observer only reads and never changes the run. It does long work in a separate thread.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "base/core/end_budget.h"
 #include "base/core/status.h"
 #include "engine/ticker.h"
+#include "trace/moment.h"
 
 namespace lockstep::host {
 
@@ -25,6 +26,8 @@ struct TickReport {
   std::uint64_t skipped = 0;           // deadlines that were skipped because this tick was late
   std::span<const Fault> faults = {};  // of leaves, since the last report; the run goes on
   Nanoseconds late{0};                 // it began so long after its deadline; 0 on a virtual clock
+  // The run after the tick. Its columns are those of the run: after the last halt they show that.
+  const Moment* moment = nullptr;
 };
 
 enum class StopReason : std::uint8_t {
@@ -78,6 +81,8 @@ struct RunEnd {
 class Observer {
  public:
   virtual ~Observer() = default;
+  // What its Moments must have. Called before the run.
+  virtual AskedOfRun asked() const { return {}; }
   virtual void run_started(Ticker&, const RunStart&) {}
   virtual void before_tick(Ticker&, std::uint64_t /*tick*/, Nanoseconds /*time*/) {}
   virtual void after_tick(Ticker&, const TickReport&) {}

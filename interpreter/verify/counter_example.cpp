@@ -7,7 +7,6 @@
 #include "record/write/recorder.h"
 #include "run/deadlines.h"
 #include "run/loop.h"
-#include "trace/live_moments.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {
@@ -39,14 +38,11 @@ class Confirmation final : public Observer {
       : finding_(finding),
         tracer_(tracer),
         checks_(property_of(tree, finding, properties)),
-        steps_(checks_),
-        moments_(tree, steps_.asked()) {}
+        steps_(checks_) {}
 
-  void before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) override {
-    moments_.before_tick(ticker);
-  }
+  AskedOfRun asked() const override { return steps_.asked(); }
   void after_tick(Ticker& ticker, const TickReport& report) override {
-    steps_.after_tick(moments_.after_tick(ticker, report.tick, report.time));
+    steps_.after_tick(*report.moment);
     if (!wrong_.empty() || ticks_ == finding_.run.size()) return;
     const Status status = tracer_.tick(finding_.run[ticks_++]);
     std::string wrong = difference(ticker, tracer_.ticker());
@@ -75,7 +71,6 @@ class Confirmation final : public Observer {
   Tracer& tracer_;
   PropertyChecks checks_;
   PropertySteps steps_;
-  LiveMoments moments_;
   std::size_t ticks_ = 0;
   std::string wrong_;
 };

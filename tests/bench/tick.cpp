@@ -15,6 +15,7 @@
 #include "run/run.h"
 #include "show/view/console_live.h"
 #include "show/web/monitor.h"
+#include "trace/observers.h"
 
 namespace {
 
@@ -217,25 +218,24 @@ BENCHMARK(halts_one_leaf)->Apply(activity);
 // is not counted.
 class Observed {
  public:
-  Observed(const Tree& tree, Observer* observer) : run_(tree, {}), observer_(observer) {
-    if (observer_ != nullptr) observer_->run_started(run_.ticker(), {});
+  Observed(const Tree& tree, Observer* observer)
+      : run_(tree, {}), observers_(tree, {&observer, observer == nullptr ? 0u : 1u}) {
+    observers_.run_started(run_.ticker(), {});
   }
   void tick() {
     report_.time += std::chrono::milliseconds(1);
     run_.set_now(report_.time);
-    if (observer_ != nullptr) observer_->before_tick(run_.ticker(), report_.tick, report_.time);
+    observers_.before_tick(run_.ticker(), report_.tick, report_.time);
     report_.status = run_.tick(report_.time);
-    if (observer_ != nullptr) observer_->after_tick(run_.ticker(), report_);
+    observers_.after_tick(run_.ticker(), report_);
     ++report_.tick;
   }
   // The last line of a recording is one that a run waits for.
-  void end() {
-    if (observer_ != nullptr) observer_->run_ended(run_.ticker(), {});
-  }
+  void end() { observers_.run_ended(run_.ticker(), {}); }
 
  private:
   Run run_;
-  Observer* observer_;
+  Observers observers_;
   TickReport report_;
 };
 

@@ -32,6 +32,7 @@
 #include "study/run_measures.h"
 #include "support/compiled.h"
 #include "support/paths.h"
+#include "trace/observers.h"
 
 namespace {
 thread_local bool t_counting = false;
@@ -136,29 +137,32 @@ class WatchedRun {
   explicit WatchedRun(const Tree& tree, Observer* observer = nullptr)
       : watch_({.budget = std::chrono::seconds(1)}),
         statistics_(tree),
-        observer_(observer),
-        run_(tree, {.watch = &watch_}) {
-    if (observer_ != nullptr) observer_->run_started(run_.ticker(), {});
+        run_(tree, {.watch = &watch_}),
+        observers_(tree, with_statistics(observer)) {
+    observers_.run_started(run_.ticker(), {});
   }
 
   void tick(std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i, ++tick_) {
       const Nanoseconds now = deadline_of(tick_, 100);
       run_.set_now(now);
-      if (observer_ != nullptr) observer_->before_tick(run_.ticker(), tick_, now);
-      const TickReport report{tick_, now, run_.tick(now)};
-      statistics_.after_tick(run_.ticker(), report);
-      if (observer_ != nullptr) observer_->after_tick(run_.ticker(), report);
+      observers_.before_tick(run_.ticker(), tick_, now);
+      observers_.after_tick(run_.ticker(), {tick_, now, run_.tick(now)});
     }
   }
   const Fault* fault() const { return run_.fault(); }
   Status status() { return run_.ticker().status(0); }
 
  private:
+  std::vector<Observer*> with_statistics(Observer* other) {
+    if (other == nullptr) return {&statistics_};
+    return {&statistics_, other};
+  }
+
   LeafWatch watch_;
   Statistics statistics_;
-  Observer* observer_;
   Run run_;
+  Observers observers_;
   std::uint64_t tick_ = 0;
 };
 
@@ -368,13 +372,15 @@ TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
   RunEnd end;
   end.ticks = 1000;
   std::uint64_t tick = 0;
+  Observer* const measuring = &measured;
+  Observers observers(tree.tree(), {&measuring, 1});
   const auto make_run = [&] {
     measured.run_started(run.ticker(), {});
     for (const std::uint64_t last = tick + 1000; tick < last; ++tick) {
       const Nanoseconds now = deadline_of(tick, 100);
       run.set_now(now);
-      measured.before_tick(run.ticker(), tick, now);
-      measured.after_tick(run.ticker(), {tick, now, run.tick(now)});
+      observers.before_tick(run.ticker(), tick, now);
+      observers.after_tick(run.ticker(), {tick, now, run.tick(now)});
     }
     measured.run_ended(run.ticker(), end);
   };

@@ -11,6 +11,7 @@
 #include "require.h"
 #include "run/loading/plugins.h"
 #include "run/run.h"
+#include "trace/observers.h"
 #include "tree/resolve.h"
 
 namespace fuzz_groot_target {
@@ -34,8 +35,7 @@ class Answered {
     if (control_.is_paused()) return;
     run_.set_now(now_ += std::chrono::milliseconds(10));
     const Status status = run_.tick(now_);
-    statuses_.after_tick(run_.ticker(), {.tick = ticks_, .time = now_, .status = status});
-    snapshots_.after_tick(run_.ticker(), {.tick = ticks_++, .time = now_, .status = status});
+    observers_.after_tick(run_.ticker(), {.tick = ticks_++, .time = now_, .status = status});
     control_.count_tick(run_.ticker());
     control_.report_standing(control_.is_paused());
   }
@@ -66,6 +66,8 @@ class Answered {
   RunControl control_;
   StatusFeed statuses_{tree_};
   SnapshotFeed snapshots_{tree_};
+  Observer* const both_[2] = {&statuses_, &snapshots_};
+  Observers observers_{tree_, both_};
   GrootAnswers answers_{tree_, shown_, statuses_, snapshots_, &control_};
   Nanoseconds now_{0};
   std::uint64_t ticks_ = 0;

@@ -11,7 +11,6 @@
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_reader.h"
 #include "record/write/recorder.h"
-#include "trace/live_moments.h"
 #include "trace/shape.h"
 #include "unit/recording/watched_run.h"
 
@@ -85,27 +84,22 @@ SeenTick seen_in(const Moment& moment, const Shape& shape) {
 // Copies each Moment of a run, as somebody sees it who asks for everything.
 class MomentWitness final : public Observer {
  public:
-  MomentWitness(const Tree& tree, const Shape& shape)
-      : shape_(shape), moments_(tree, everything(shape)) {}
+  explicit MomentWitness(const Shape& shape) : shape_(shape) {}
 
-  void before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) override {
-    moments_.before_tick(ticker);
-  }
-  void after_tick(Ticker& ticker, const TickReport& report) override {
-    seen.push_back(seen_in(moments_.after_tick(ticker, report.tick, report.time), shape_));
-  }
-  std::vector<SeenTick> seen;
-
- private:
-  static AskedOfRun everything(const Shape& shape) {
+  AskedOfRun asked() const override {
     AskedOfRun asked{.within = true};
-    asked.progress.resize(shape.nodes.size());
+    asked.progress.resize(shape_.nodes.size());
     std::iota(asked.progress.begin(), asked.progress.end(), NodeIndex{0});
     asked.parallels = asked.progress;
     return asked;
   }
+  void after_tick(Ticker&, const TickReport& report) override {
+    seen.push_back(seen_in(*report.moment, shape_));
+  }
+  std::vector<SeenTick> seen;
+
+ private:
   const Shape& shape_;
-  LiveMoments moments_;
 };
 
 struct SeenCounts {
@@ -125,7 +119,7 @@ void compare(WatchedRun& run, std::uint64_t ticks, SeenCounts& counts) {
   const TemporaryPath file;
   Recorder recorder(run.run.tree(),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-  MomentWitness witness(run.run.tree(), shape);
+  MomentWitness witness(shape);
   run.watch({&recorder, &witness}, ticks);
 
   std::istringstream text(file.text());

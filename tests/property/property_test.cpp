@@ -102,8 +102,7 @@ void check_verdicts(WatchedRun& run, std::uint64_t ticks, std::uint64_t seed, Ve
   Recorder recorder(run.run.tree(),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   std::size_t told = 0;
-  PropertyObserver watch(run.run.tree(), properties,
-                         [&told](const Property&, const std::string&) { ++told; });
+  PropertyObserver watch(properties, [&told](const Property&, const std::string&) { ++told; });
   run.watch({&watch, &recorder}, ticks);
   Summary live;
   watch.add_to(live);

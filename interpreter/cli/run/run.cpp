@@ -254,7 +254,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
   void watch_properties(std::vector<Property> properties) {
-    properties_.emplace(tree_, std::move(properties), [this](const Property& it, const auto& when) {
+    properties_.emplace(std::move(properties), [this](const Property& it, const auto& when) {
       const std::string who = it.has_name() ? fmt::format("property {}", it.name()) : "property";
       const std::string text = fmt::format("violated {}: {}", when, it.text());
       log(who, text);

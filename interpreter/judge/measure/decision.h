@@ -3,16 +3,13 @@
 // child, or inverts it.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "base/core/status.h"
-#include "engine/run_state.h"
+#include "trace/moment.h"
 #include "trace/shape.h"
 
 namespace lockstep::host {
-
-class Ticker;
 
 struct DecidingNode {
   NodeIndex node = 0;
@@ -22,7 +19,6 @@ struct DecidingNode {
 };
 
 // From the root down, after the last tick of a run.
-std::vector<DecidingNode> deciding_path(const Shape& shape, std::span<const NodeState> nodes);
-std::vector<DecidingNode> deciding_path(const Ticker& ticker);
+std::vector<DecidingNode> deciding_path(const Shape& shape, const Moment& moment);
 
 }  // namespace lockstep::host

@@ -8,19 +8,11 @@
 
 namespace lockstep::host {
 
-PropertyObserver::PropertyObserver(const Tree& tree, std::vector<Property> properties, Tell tell)
-    : checks_(std::move(properties)),
-      steps_(checks_),
-      moments_(tree, steps_.asked()),
-      tell_(std::move(tell)) {}
+PropertyObserver::PropertyObserver(std::vector<Property> properties, Tell tell)
+    : checks_(std::move(properties)), steps_(checks_), tell_(std::move(tell)) {}
 
-void PropertyObserver::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  moments_.before_tick(ticker);
-}
-
-void PropertyObserver::after_tick(Ticker& ticker, const TickReport& report) {
-  const Moment& moment = moments_.after_tick(ticker, report.tick, report.time);
-  for (const std::size_t i : steps_.after_tick(moment)) {
+void PropertyObserver::after_tick(Ticker&, const TickReport& report) {
+  for (const std::size_t i : steps_.after_tick(*report.moment)) {
     tell_(checks_.all()[i],
           fmt::format("in tick {}, at {:.3f} s", report.tick, to_seconds(report.time)));
   }

@@ -9,7 +9,6 @@
 
 #include "judge/measure/property_steps.h"
 #include "judge/summary/summary.h"
-#include "trace/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -19,9 +18,9 @@ class PropertyObserver final : public Observer {
   // On the tick thread, in the tick that shows it or at the end of the run: the property, and when
   // it was violated.
   using Tell = std::function<void(const Property& property, const std::string& when)>;
-  PropertyObserver(const Tree& tree, std::vector<Property> properties, Tell tell);
+  PropertyObserver(std::vector<Property> properties, Tell tell);
 
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  AskedOfRun asked() const override { return steps_.asked(); }
   void after_tick(Ticker& ticker, const TickReport& report) override;
   void run_ended(Ticker& ticker, const RunEnd& end) override;
 
@@ -31,7 +30,6 @@ class PropertyObserver final : public Observer {
  private:
   PropertyChecks checks_;
   PropertySteps steps_;
-  LiveMoments moments_;
   Tell tell_;
 };
 

@@ -10,20 +10,19 @@
 namespace lockstep::host {
 
 Statistics::Statistics(const Tree& tree)
-    : tree_(tree), shape_(shape_of(tree)), moments_(tree), nodes_(measured_nodes(shape_)) {}
+    : tree_(tree), shape_(shape_of(tree)), nodes_(measured_nodes(shape_)) {}
 
 void Statistics::run_started(Ticker&, const RunStart& start) {
   real_time_ = start.real_time;
 }
 
-void Statistics::after_tick(Ticker& ticker, const TickReport& report) {
+void Statistics::after_tick(Ticker&, const TickReport& report) {
   if (report.tick > 0) periods_.record(report.time - last_start_);
   last_start_ = report.time;
   lateness_.record(report.late);
-  const Moment& moment = moments_.after_tick(ticker, report.tick, report.time);
-  for (MeasuredNode& node : nodes_) node.after_tick(moment);
+  for (MeasuredNode& node : nodes_) node.after_tick(*report.moment);
   for (const Fault& fault : report.faults) note(fault, report.tick);
-  if (report.status == Status::Failure) why_failed_ = deciding_path(ticker);
+  if (report.status == Status::Failure) why_failed_ = deciding_path(shape_, *report.moment);
 }
 
 void Statistics::note(const Fault& fault, std::uint64_t tick) {

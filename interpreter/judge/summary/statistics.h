@@ -9,7 +9,6 @@
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/capped_notes.h"
 #include "judge/summary/summary.h"
-#include "trace/live_moments.h"
 #include "trace/observer.h"
 #include "trace/shape.h"
 
@@ -33,7 +32,6 @@ class Statistics final : public Observer {
 
   const Tree& tree_;
   const Shape shape_;
-  LiveMoments moments_;
   std::vector<MeasuredNode> nodes_;
   Histogram periods_;
   Histogram lateness_{Histogram::kCoarse};

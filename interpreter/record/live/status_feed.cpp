@@ -21,15 +21,12 @@ StatusFeed::StatusFeed(const Tree& tree)
       changes_(tree.nodes.size()),
       ring_(room_for_statuses(tree)) {}
 
-void StatusFeed::run_started(Ticker& ticker, const RunStart&) {
-  ticker.keep_moments();
-}
-
-void StatusFeed::after_tick(Ticker& ticker, const TickReport& report) {
-  ticker.moments().each(moment_, [&](std::span<const NodeState> states, const TickMoment&, bool) {
+void StatusFeed::after_tick(Ticker&, const TickReport& report) {
+  const Moment& moment = *report.moment;
+  moment.within.each(moment_, [&](std::span<const NodeState> states, const TickMoment&, bool) {
     pass_on([&](NodeIndex node) { return states[node].activity(); }, report);
   });
-  pass_on([&](NodeIndex node) { return ticker.activity(node); }, report);
+  pass_on([&](NodeIndex node) { return moment.activity[node]; }, report);
 }
 
 template <class ActivityOf>

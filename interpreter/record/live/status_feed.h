@@ -14,7 +14,7 @@ class StatusFeed final : public Observer {
  public:
   explicit StatusFeed(const Tree& tree);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
+  AskedOfRun asked() const override { return {.within = true}; }
   void after_tick(Ticker& ticker, const TickReport& report) override;
 
   // For one other thread: visits the changes since the last call, in order, as whole ticks.

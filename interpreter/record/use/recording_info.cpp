@@ -31,7 +31,7 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
 }
 
 // The nodes, and how the last tick has left them, in the words of the path that decided.
-void write_tree(const RecordingHeader& header, const RecordedTick* last, std::string& out) {
+void write_tree(const RecordingHeader& header, const Moment* last, std::string& out) {
   constexpr std::size_t kDeepest = 20;  // what is deeper stands below that
   out += last == nullptr ? "  the tree:\n" : fmt::format("  the tree after tick {}:\n", last->tick);
   for (NodeIndex index = 0; index < header.nodes.size(); ++index) {
@@ -40,7 +40,7 @@ void write_tree(const RecordingHeader& header, const RecordedTick* last, std::st
     out +=
         fmt::format("{:{}}{}", "", 4 + 2 * std::min(node.depth, kDeepest), printable(node.segment));
     if (node.segment != kind) out += fmt::format(" ({})", printable(kind));
-    if (last != nullptr) out += fmt::format(": {}", to_string(last->nodes[index].status));
+    if (last != nullptr) out += fmt::format(": {}", to_string(last->status(index)));
     out += '\n';
   }
 }
@@ -69,15 +69,13 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
 }
 
 // Nothing when the last tick is lost: what comes before it does not say.
-std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const RecordedTick& last) {
+std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const Moment& last) {
   const RecordingHeader& header = reader.header();
   const auto& end = reader.end();
   const bool failed = end && end->result == to_string(RunResult::Failure);
   if (!failed || last.tick + 1 != end->ticks) return {};
-  std::vector<NodeState> nodes;
-  for (const RecordedState& it : last.nodes) nodes.push_back(it.state());
   std::vector<DecidingSummary> path;
-  for (const DecidingNode& node : deciding_path(header, nodes)) {
+  for (const DecidingNode& node : deciding_path(header, last)) {
     const ShapeNode& it = header.nodes[node.node];
     path.push_back(summarize(node, it.path, it.kind));
   }
@@ -103,24 +101,23 @@ std::string info_text(RecordingReader& reader, bool color) {
   RecordedMoments moments(header);
   std::vector<MeasuredNode> nodes = measured_nodes(header);
   std::uint64_t ticks = 0, faults = 0;
-  RecordedTick last;
+  const Moment* last = nullptr;
   while (const auto tick = reader.next()) {
     if (ticks++ == 0 && tick->tick > 0) {
       for (MeasuredNode& node : nodes) node.measure.join();
     }
     faults += tick->faults.size();
-    last = *tick;
-    const Moment& moment = moments.read(last);
-    for (MeasuredNode& node : nodes) node.after_tick(moment);
+    last = &moments.read(*tick);
+    for (MeasuredNode& node : nodes) node.after_tick(*last);
   }
   if (!reader.error().empty()) return {};
   std::string out;
-  const double period = ticks > 0 ? to_seconds(period_of(header)) : 0;
-  const double time = reader.end() ? reader.end()->time : last.time + period;
+  const Nanoseconds ended = last != nullptr ? last->time + period_of(header) : Nanoseconds(0);
+  const double time = reader.end() ? reader.end()->time : to_seconds(ended);
   write_header(header, out, color);
-  write_tree(header, ticks > 0 ? &last : nullptr, out);
+  write_tree(header, last, out);
   write_end(reader, ticks, time, out, color);
-  if (ticks > 0) write_text(why_failed(reader, last), out, color);
+  if (last != nullptr) write_text(why_failed(reader, *last), out, color);
   write_warnings(reader, faults, out, color);
   std::vector<SynchronizedSummary> reached;
   std::vector<std::string> notes;

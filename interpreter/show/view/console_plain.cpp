@@ -15,7 +15,7 @@
 namespace lockstep::host {
 
 ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
-    : tree_(tree), shape_(shape_of(tree)), moments_(tree), out_(out), real_time_(real_time) {
+    : tree_(tree), shape_(shape_of(tree)), out_(out), real_time_(real_time) {
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     if (tree.nodes[node].children == 0) leaves_.push_back({.node = node});
   }
@@ -36,9 +36,13 @@ void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
   time_ = time;
 }
 
-void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
+void ConsolePlain::after_tick(Ticker&, const TickReport& report) {
   for (const Fault& fault : report.faults) tell_fault(fault);
-  const Moment& moment = moments_.after_tick(ticker, report.tick, time_);
+  moment_ = report.moment;
+  tell_moment(*moment_);
+}
+
+void ConsolePlain::tell_moment(const Moment& moment) {
   for (Watched& node : nodes_) tell_waits(moment, node);
   for (Leaf& leaf : leaves_) {
     tell_leaf(leaf, moment.status(leaf.node), moment.ticked(leaf.node));
@@ -46,9 +50,8 @@ void ConsolePlain::after_tick(Ticker& ticker, const TickReport& report) {
 }
 
 void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
-  TickReport halts;
-  halts.faults = ticker.tolerated();
-  after_tick(ticker, halts);
+  for (const Fault& fault : ticker.tolerated()) tell_fault(fault);
+  if (moment_ != nullptr) tell_moment(*moment_);  // what was halted
   tell_left_out();
   if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
   // The message of the command says which fault it is.

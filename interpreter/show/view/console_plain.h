@@ -12,7 +12,6 @@
 #include "base/terminal/outlet.h"
 #include "judge/measure/synchronized_ticks.h"
 #include "show/view/line_budget.h"
-#include "trace/live_moments.h"
 #include "trace/observer.h"
 #include "trace/shape.h"
 
@@ -62,6 +61,7 @@ class ConsolePlain final : public Observer {
   bool may_print();
   void tell_left_out();
   void tell_fault(const Fault& fault);
+  void tell_moment(const Moment& moment);
   void tell_leaf(Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
   void tell_waits(const Moment& moment, Watched& node);
@@ -72,14 +72,14 @@ class ConsolePlain final : public Observer {
 
   const Tree& tree_;
   const Shape shape_;
-  LiveMoments moments_;
   Outlet& out_;
   RealTime real_time_;
   LineBudget budget_{kBurst};
   LineBudget fault_budget_{kBurstOfFaults};
   std::vector<Leaf> leaves_;
   std::vector<Watched> nodes_;
-  std::uint64_t short_waits_ = 0;  // that were not reported
+  const Moment* moment_ = nullptr;  // of the last tick
+  std::uint64_t short_waits_ = 0;   // that were not reported
   std::atomic<std::uint64_t> tick_{0};
   std::atomic<Nanoseconds> time_{Nanoseconds(0)};
 };

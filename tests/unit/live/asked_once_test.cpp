@@ -42,7 +42,7 @@ Counted count(const std::string& tree, const std::string& leaves, std::uint64_t 
   SnapshotFeed snapshots(compiled);
   auto property = Property::parse("never a.progress > 0.9", property_names(shape_of(compiled)));
   REQUIRE(property);
-  PropertyObserver properties(compiled, {*property}, [](const Property&, std::string) {});
+  PropertyObserver properties({*property}, [](const Property&, std::string) {});
   Statistics statistics(compiled);
   const auto spec = parse_measure("predictability:a@.5");
   REQUIRE(spec);

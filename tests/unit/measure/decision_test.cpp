@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "support/scripted_run.h"
+#include "trace/live_moments.h"
 
 namespace lockstep::host {
 namespace {
@@ -15,7 +16,9 @@ std::string decided(std::string_view tree, std::string_view leaves) {
     run.tick(std::chrono::milliseconds(100) * tick);
   }
   std::string text;
-  for (const DecidingNode& node : deciding_path(run.ticker())) {
+  LiveMoments moments(run.tree());
+  const Moment& moment = moments.after_tick(run.ticker(), 0, {});
+  for (const DecidingNode& node : deciding_path(shape_of(run.tree()), moment)) {
     if (!text.empty()) text += " > ";
     text += std::string(run.tree().labels[node.node].name) + ": ";
     text += to_string(node.status);

@@ -8,28 +8,30 @@
 
 namespace lockstep::host::test {
 
-RunEnd WatchedRun::watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks) {
+RunEnd WatchedRun::watch(std::initializer_list<Observer*> who, std::uint64_t max_ticks) {
   Ticker& ticker = run.ticker();
-  for (Observer* observer : observers) observer->run_started(ticker, start);
+  Observers observers(run.tree(), {who.begin(), who.size()});
+  observers.run_started(ticker, start);
   RunEnd end;
   end.reason = StopReason::MaxTicks;
   while (end.ticks < max_ticks && end.reason == StopReason::MaxTicks) {
     const std::uint64_t tick = end.ticks++;
     const Nanoseconds now = start.period * static_cast<std::int64_t>(tick);
-    for (Observer* observer : observers) observer->before_tick(ticker, tick, now);
+    ticker.set_now(now);
+    observers.before_tick(ticker, tick, now);
     end.status = run.tick_root(now);
     end.time = now;
     const TickReport report{
         .tick = tick, .time = now, .status = end.status, .skipped = 0, .faults = faults[tick]};
-    for (Observer* observer : observers) observer->after_tick(ticker, report);
+    observers.after_tick(ticker, report);
     if (is_complete(end.status)) end.reason = StopReason::Completed;
     if (ticker.fault() != nullptr) end.reason = StopReason::Fault;
   }
-  for (Observer* observer : observers) observer->standing(ticker);
+  observers.standing(ticker);
   ticker.halt_all();
   if (ticker.fault() != nullptr) end.fault = *ticker.fault();
   end.worst = worst;
-  for (Observer* observer : observers) observer->run_ended(ticker, end);
+  observers.run_ended(ticker, end);
   return end;
 }
 

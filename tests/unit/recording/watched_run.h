@@ -9,7 +9,7 @@
 
 #include "base/terminal/outlet.h"
 #include "support/scripted_run.h"
-#include "trace/observer.h"
+#include "trace/observers.h"
 
 namespace lockstep::host::test {
 
@@ -18,7 +18,7 @@ struct WatchedRun {
   WatchedRun(Tree tree, std::string_view leaves) : run(std::move(tree), leaves) {}
 
   // Ticks until the root completes or a leaf faults, at most `max_ticks` times.
-  RunEnd watch(std::initializer_list<Observer*> observers, std::uint64_t max_ticks = 1000);
+  RunEnd watch(std::initializer_list<Observer*> who, std::uint64_t max_ticks = 1000);
 
   ScriptedRun run;
   // What the observers are told of, besides what the leaves do.

@@ -13,7 +13,6 @@
 #include "cli/outputs.h"
 #include "cli/tools/log/log.h"
 #include "judge/measure/measure_spec.h"
-#include "record/use/recorded_probe.h"
 #include "run/stop_signals.h"
 #include "study/plots/gnuplot.h"
 #include "study/plots/progress_plot.h"
