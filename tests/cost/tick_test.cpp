@@ -359,13 +359,14 @@ TEST_CASE("an action that reports its progress late allocates nothing after its 
 TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
   const TickingTree tree(kMeasuredTree);
   std::vector<MeasureSpec> measures;
-  for (const char* text :
-       {"progress-distance[2:5]", "progress-distance-mean", "progress-distance-seconds", "spread",
-        "step-length", "held:b", "held-by:b:a", "pauses:b", "waits:c", "fairness:pool", "duration",
-        "ticks", "success", "predictability:b@0.5", "entry:seconds"}) {
-    measures.push_back(parse_measure(text).value());
+  // By MeasureOf.
+  constexpr const char* kArguments[] = {"", "", ":b", ":b:a", ":c", ":pool", ":b", ":seconds"};
+  for (const Measure* it : all_measures()) {
+    const std::string text = std::string(it->name) + kArguments[static_cast<std::size_t>(it->of)];
+    const auto spec = parse_measure(text);
+    measures.push_back(spec ? *spec : parse_measure(text + "@0.5").value());
   }
-  REQUIRE(measures.size() == all_measures().size());
+  measures.push_back(parse_measure("progress-distance[2:5]").value());
   RunMeasures measured(tree.tree(), measures, 100);
   REQUIRE(measured.error() == "");
   Run run(tree.tree(), {});
