@@ -57,6 +57,8 @@ struct RecordedTick {
   std::uint64_t tick = 0;
   double time = 0;  // seconds
   std::span<const RecordedState> nodes;
+  // That the line names: all others are as after the tick before. May have one more than once.
+  std::span<const NodeIndex> changed = {};
   // Synchronized nodes, and children of parallels, that an ancestor has ended since.
   std::span<const NodeIndex> succeeded = {};
   MomentsView moments = {};

@@ -72,7 +72,7 @@ void RecordedMoments::add(const RecordingHeader& header, NodeIndex node) {
 
 const Moment& RecordedMoments::read(const RecordedTick& tick) {
   for (Keeper& keeper : keepers_) read_used(keeper, tick);
-  for (NodeIndex node = 0; node < tick.nodes.size(); ++node) {
+  for (const NodeIndex node : tick.changed) {
     const RecordedState& state = tick.nodes[node];
     activity_[node] = state.state().activity();
     reached_[node] = state.ticked ? 1 : 0;

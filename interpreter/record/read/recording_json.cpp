@@ -74,7 +74,8 @@ void read_tuple(JsonValue value, std::size_t count, const char* why, Take take) 
   if (place != count) throw JsonError(why);
 }
 
-void apply(JsonValue change, std::vector<RecordedState>& states) {
+// Each of these gives the node that has changed.
+NodeIndex apply(JsonValue change, std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's change is not [index, status, progress, ticked, held]";
   NodeIndex node = 0;
   RecordedState state;
@@ -100,9 +101,10 @@ void apply(JsonValue change, std::vector<RecordedState>& states) {
   state.limit = states[node].limit;
   state.round = states[node].round;
   states[node] = state;
+  return node;
 }
 
-void apply_round(JsonValue change, std::vector<RecordedState>& states) {
+NodeIndex apply_round(JsonValue change, std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's round is not [index, number, of]";
   std::uint64_t fields[3] = {};
   NodeIndex node = 0;
@@ -111,6 +113,7 @@ void apply_round(JsonValue change, std::vector<RecordedState>& states) {
     return place == 0 || (item.get(fields[place]) && fields[place] <= INT64_MAX);
   });
   states[node].round = {static_cast<std::int64_t>(fields[1]), static_cast<std::int64_t>(fields[2])};
+  return node;
 }
 
 // The limit of a UseResources is a set of resources, negative when it waits for them.
@@ -121,8 +124,8 @@ bool is_limit(double limit, bool is_set) {
 }
 
 // Null: no barrier is left.
-void apply_limit(JsonValue change, const std::vector<bool>& users,
-                 std::vector<RecordedState>& states) {
+NodeIndex apply_limit(JsonValue change, const std::vector<bool>& users,
+                      std::vector<RecordedState>& states) {
   constexpr char kNone[] = "a node's limit is not [index, number in [0, 1] or null]";
   constexpr char kNoSet[] = "the limit of a UseResources is not [index, set of resources]";
   NodeIndex node = 0;
@@ -138,6 +141,7 @@ void apply_limit(JsonValue change, const std::vector<bool>& users,
     return true;
   });
   states[node].limit = limit;
+  return node;
 }
 
 MomentChange moment_node_from(JsonValue value, std::size_t nodes) {
@@ -337,6 +341,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   std::optional<std::uint64_t> tick;
   std::optional<double> time;
   bool has_nodes = false, is_whole = false;
+  changed_.clear();
   faults_.clear();
   whole_.clear();
   succeeded_.clear();
@@ -348,13 +353,14 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   logs_.clear();
   const auto read_nodes = [&](JsonValue value) {
     has_nodes = true;
-    value.each_item([&](JsonValue change) { apply(change, states); });
+    value.each_item([&](JsonValue change) { changed_.push_back(apply(change, states)); });
   };
   const auto read_limits = [&](JsonValue value) {
-    value.each_item([&](JsonValue change) { apply_limit(change, users_, states); });
+    value.each_item(
+        [&](JsonValue change) { changed_.push_back(apply_limit(change, users_, states)); });
   };
   const auto read_rounds = [&](JsonValue value) {
-    value.each_item([&](JsonValue change) { apply_round(change, states); });
+    value.each_item([&](JsonValue change) { changed_.push_back(apply_round(change, states)); });
   };
   const auto read_faults = [&](JsonValue value) {
     faults_.reserve(value.count_items());
@@ -436,6 +442,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   RecordedTick result{.tick = *tick,
                       .time = *time,
                       .nodes = states,
+                      .changed = changed_,
                       .succeeded = succeeded_,
                       .moments = moments(states),
                       .faults = faults_,

@@ -33,6 +33,7 @@ class RecordingJson {
   MomentsView moments(const std::vector<RecordedState>& states);
 
   JsonReader json_;
+  std::vector<NodeIndex> changed_;
   std::vector<NodeIndex> succeeded_;
   std::vector<NodeState> first_moment_;
   std::vector<TickMoment> moments_;
