@@ -10,9 +10,8 @@
 
 #include "base/core/clock.h"
 #include "base/core/status.h"
-#include "engine/moments.h"
-#include "engine/node_kind.h"
 #include "record/header_and_end.h"
+#include "trace/moment.h"
 
 namespace lockstep::host {
 

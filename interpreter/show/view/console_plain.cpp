@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "base/core/diagnostics.h"
-#include "engine/resources.h"
-#include "engine/synchronized.h"
 #include "judge/summary/statistics.h"
 #include "judge/summary/summary.h"
 #include "show/view/waiting.h"
@@ -16,18 +14,20 @@ namespace lockstep::host {
 
 ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
     : tree_(tree), shape_(shape_of(tree)), out_(out), real_time_(real_time) {
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    if (tree.nodes[node].children == 0) leaves_.push_back({.node = node});
+  for (NodeIndex node = 0; node < shape_.nodes.size(); ++node) {
+    if (shape_.nodes[node].held().empty()) leaves_.push_back({.node = node});
   }
   for (const NodeIndex node : synchronized_nodes(shape_)) {
-    const std::size_t children = shape_.nodes[node].held().size();
+    const ShapeNode& it = shape_.nodes[node];
+    const std::size_t children = it.held().size();
+    const bool is_pool = it.synchronization == Synchronization::Resources;
     nodes_.push_back({SynchronizedTicks(shape_, node), std::vector<Wait>(children),
-                      std::vector<double>(is_pool(tree, node) ? children : 0)});
+                      std::vector<double>(is_pool ? children : 0)});
   }
 }
 
 void ConsolePlain::run_started(Ticker&, const RunStart& start) {
-  print(fmt::format("run of {} starts, {:.6g} Hz{}", tree_.id, 1.0 / to_seconds(start.period),
+  print(fmt::format("run of {} starts, {:.6g} Hz{}", shape_.id, 1.0 / to_seconds(start.period),
                     start.real_time ? "" : ", virtual clock"));
 }
 
@@ -79,7 +79,7 @@ void ConsolePlain::tell_fault(const Fault& fault) {
   if (!fault_budget_.take(real_time_())) return;
   print(fault.in_last_halt ? fault_text(tree_, fault)
                            : fmt::format("{}: failed: {}; counted as Failure",
-                                         tree_.path(fault.node), fault.message));
+                                         shape_.nodes[fault.node].path, fault.message));
 }
 
 void ConsolePlain::tell_leaf(Leaf& leaf, Status now, bool ticked) {
@@ -144,21 +144,21 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
 
 std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
                                   const SynchronizedTick& tick) const {
-  const NodeIndex self = node.ticks.node();
-  const std::vector<std::string> names = child_names(shape_, self);
+  const ShapeNode& self = shape_.nodes[node.ticks.node()];
+  const std::vector<std::string> names = child_names(shape_, node.ticks.node());
   const auto name_of = [&](std::size_t number) { return names[number]; };
-  if (is_pool(tree_, self)) {
-    return ownership_text({.resources = tree_.group(self).resources,
+  if (self.synchronization == Synchronization::Resources) {
+    return ownership_text({.resources = self.resources,
                            .members = node.limits.size(),
                            .limit = [&](std::size_t number) { return node.limits[number]; },
                            .name_of = name_of},
                           child);
   }
-  return waiting_text({.synchronization = synchronization(tree_.nodes[self]),
+  return waiting_text({.synchronization = self.synchronization,
                        .limit = tick.limit,
                        .progress = tick.used,
                        .name_of = name_of,
-                       .group = tree_.is_group(self) ? tree_.segment(self) : ""},
+                       .group = self.is_group() ? self.segment : ""},
                       child);
 }
 
@@ -174,7 +174,7 @@ void ConsolePlain::tell_end_of_wait(const Moment& moment, Watched& node, std::si
 }
 
 void ConsolePlain::tell(NodeIndex node, std::string_view what) {
-  if (may_print()) print(fmt::format("{}: {}", tree_.path(node), what));
+  if (may_print()) print(fmt::format("{}: {}", shape_.nodes[node].path, what));
 }
 
 }  // namespace lockstep::host
