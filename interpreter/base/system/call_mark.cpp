@@ -1,5 +1,7 @@
 #include "base/system/call_mark.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <map>
 #include <mutex>
@@ -39,12 +41,12 @@ const CallSite::Origin& CallSite::origin_of(const Words& words) {
 }
 
 const CallSite& CallSite::of(const Words& words) {
-  struct Kept {
+  struct KnownSite {
     std::string shown;
     CallSite site;
   };
   static auto& mutex = *new std::mutex;
-  static auto& sites = *new std::map<std::pair<const Origin*, std::string>, Kept>;
+  static auto& sites = *new std::map<std::pair<const Origin*, std::string>, KnownSite>;
   const Origin& origin = origin_of(words);
   const std::lock_guard lock(mutex);
   const auto [it, is_new] = sites.try_emplace({&origin, std::string(words.path)});
@@ -57,8 +59,8 @@ const CallSite& CallSite::of(const Words& words) {
 
 std::string CallSite::text() const {
   if (is_plugin()) return "";
-  const std::string id = origin->id.empty() ? "" : origin->id + " ";
-  return "'" + std::string(shown) + "' (" + id + "of plugin '" + origin->plugin + "')";
+  return fmt::format("'{}' ({}{}of plugin '{}')", shown, origin->id, origin->id.empty() ? "" : " ",
+                     origin->plugin);
 }
 
 // Between two calls there is a moment without one, in which the site changes. So what was read
