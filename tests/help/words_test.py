@@ -14,6 +14,7 @@ DONE = [
     "docs/btcpp.md",
     "docs/editors.md",
     "docs/embedding.md",
+    "docs/expressions.md",
     "docs/from-behaviortree-cpp.md",
     "docs/glossary.md",
     "docs/guards.md",
