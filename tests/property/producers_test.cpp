@@ -49,7 +49,7 @@ bool is_measured(const ShapeNode& node) {
 }
 
 std::optional<std::string> text_of(const Entry& entry) {
-  return entry.has_value() ? std::optional(to_text(entry.value)) : std::nullopt;
+  return entry.has_value() ? std::optional(to_text(entry.value())) : std::nullopt;
 }
 
 SeenMoment seen_in(const Moment& moment, const Shape& shape) {

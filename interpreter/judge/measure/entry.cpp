@@ -25,7 +25,7 @@ class EntryAtEnd final : public Accumulator {
   void after_tick(const TickView& view) override {
     const Moment& moment = *view.moment;
     if (moment.texts.empty()) {
-      number_ = number_of(moment.entries[entry_].value);
+      number_ = number_of(moment.entries[entry_].value());
     } else {
       const auto& text = moment.texts[entry_].text;
       number_ = text ? number_in(*text) : kNoValue;

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "judge/measure/measure_spec.h"
 #include "support/generated_file.h"
@@ -312,7 +313,9 @@ TEST_CASE("an entry is measured when it is a number") {
     CHECK(measuring.columns()[0].node == "Main");
     CHECK(std::isnan(measuring.value(0, {})));  // no tick
     for (const double number : {7., 3.}) {
-      const Entry entries[] = {{.value = static_cast<std::int64_t>(number)}, {.value = INFINITY}};
+      Entry entries[2];
+      entries[0].assign(Value(static_cast<std::int64_t>(number)));
+      entries[1].assign(Value(std::numeric_limits<double>::infinity()));
       measuring.after_tick({.entries = entries});
     }
     const double value = measuring.value(0, {});
