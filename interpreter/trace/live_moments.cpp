@@ -55,7 +55,10 @@ void LiveMoments::ask(Ticker& ticker) {
 
 // The states of nodes stay where they are for the whole life of a ticker.
 void LiveMoments::bind(Ticker& ticker) {
-  bound_ = ticker.run_state().bytes.data();
+  const RunState& state = ticker.run_state();
+  bound_ = state.bytes.data();
+  moment_.activity = state.activity;
+  moment_.reached = state.last_tick;
   const auto point_to_limit = [&](NodeIndex node) {
     limits_[node] = &ticker.state<SynchronizedState>(node).limit;
   };
@@ -79,15 +82,16 @@ void LiveMoments::take_used(Ticker& ticker) {
 
 const Moment& LiveMoments::after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
   const RunState& state = ticker.run_state();
-  if (state.bytes.data() != bound_) bind(ticker);
+  const bool is_bound =
+      moment_.activity.data() == state.activity.data() && bound_ == state.bytes.data();
+  if (!is_bound) [[unlikely]]
+    bind(ticker);
   if (!asked_.empty()) take_used(ticker);
   moment_.tick = tick;
   moment_.time = time;
-  moment_.activity = state.activity;
-  moment_.reached = state.last_tick;
   moment_.number = state.tick_number;
   moment_.ended = state.ended;
-  moment_.within = ticker.moments();
+  if (asks_within_) moment_.within = ticker.moments();
   moment_.entries = ticker.blackboard().entries;
   return moment_;
 }

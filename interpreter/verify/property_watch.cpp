@@ -9,9 +9,8 @@ namespace {
 
 constexpr std::byte kDecided{1};
 
-// The search keeps the moments within ticks anyway.
 AskedOfRun asked_by(std::span<const Property> properties) {
-  AskedOfRun asked;
+  AskedOfRun asked{.within = true};
   for (const Property& it : properties) {
     for (std::size_t place = 0; place < it.nodes().size(); ++place) {
       if (it.needs_progress(place)) asked.progress.push_back(it.nodes()[place]);
