@@ -298,7 +298,7 @@ class Walk {
     if (name == "true") return 1.0;
     if (name == "false") return 0.0;
     const auto word = enums_.find(name);
-    return word != enums_.end() ? Value(word->second) : loaded(existing(name).value);
+    return word != enums_.end() ? Value(word->second) : loaded(existing(name).value());
   }
 
   // In a script, true and false are whole numbers.

@@ -66,7 +66,7 @@ TEST_CASE("a port writes an entry, which gets its type or converts the value") {
     INFO(row.what);
     Entry entry = row.before;
     CHECK(write_entry(entry, row.type, nullptr, row.value) == row.after.has_value());
-    CHECK(entry.value() == row.after.value_or(row.before.value));
+    CHECK(entry.value() == row.after.value_or(row.before.value()));
     CHECK(entry.writes() == (row.after ? 1 : 0));
     CHECK(entry.is_present);
     CHECK(entry.typing == row.typing);
