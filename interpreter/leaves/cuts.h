@@ -1,5 +1,5 @@
 // Where the progress of a leaf matters: what the nodes above compare it with, taken down through
-// the progress that each of them computes (docs/language.md).
+// the progress that each of them computes (docs/nodes-and-attributes.md).
 #pragma once
 
 #include <map>

@@ -118,7 +118,8 @@ constexpr Field kHeaderFields[] = {
      &RecordingHeader::file},
     {"version", "Text", kAlways, "the version of lockstep", &RecordingHeader::version},
     {"law", "Whole", kMaybe,
-     "the [version of the law](language.md#versions-of-the-law) that the run followed; 1 when it "
+     "the [version of the law](nodes-and-attributes.md#versions-of-the-semantics) that the run "
+     "followed; 1 when it "
      "is absent",
      &RecordingHeader::law},
     {"rate_hz", "Real", kAlways, "ticks per second", &RecordingHeader::rate_hz},

@@ -19,7 +19,7 @@ WHOLE = {"schema/lockstep.xsd", "schema/leaves.xsd", "schema/scenarios.xsd", "do
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ports.h",
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/nodes.h"}
 TABLES = {"docs/recording.md": r"<!-- lines: .* -->", "docs/studies.md": r"\| Measure \| Of \| Meaning \|",
-          "docs/language.md": r"\| There \| Here \| \|"}
+          "docs/nodes-and-attributes.md": r"\| There \| Here \| \|"}
 NOT_COUNTED = {"CHANGELOG.md"}
 
 
@@ -28,9 +28,9 @@ def git(*words):
 
 
 def text_of(commit, name):
-    "The lines of the file, in a commit or as it lies there."
+    "The lines of the file, in a commit or as it lies there; none before the commit that adds it."
     if commit:
-        return git("show", f"{commit}:{name}").splitlines()
+        return git("show", f"{commit}:{name}").splitlines() if git("ls-tree", commit, name) else []
     with open(name, encoding="utf-8") as file:
         return file.read().splitlines()
 

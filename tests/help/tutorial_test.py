@@ -20,7 +20,8 @@ place = WORK
 SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
 if os.path.basename(PAGE) in ("README.md", "guards.md"):  # whose commands run in a clone
     os.symlink(os.path.join(SOURCE, "trees"), WORK + "/trees")
-LEAST = {"tutorial.md": 16, "recipes.md": 10, "guards.md": 18, "from-behaviortree-cpp.md": 12}  # commands, so that a page is not skipped unseen
+LEAST = {"tutorial.md": 16, "recipes.md": 10, "guards.md": 18, "from-behaviortree-cpp.md": 12,
+         "language.md": 9, "deadlocks.md": 4}  # commands, so that a page is not skipped unseen
 QUIET = ("cmake ", "cd ")  # what they print is not ours
 
 
@@ -53,8 +54,8 @@ commands = 0
 def play(block):
     global commands
     marker, language, body = block.group(1) or "", block.group(2), block.group(3)
-    if marker.startswith("<!-- file "):
-        with open(os.path.join(place, marker.split()[2]), "w", encoding="utf-8") as file:
+    if named := re.search("<!-- file ([^ ]+) -->", marker):
+        with open(os.path.join(place, named[1]), "w", encoding="utf-8") as file:
             file.write(body)
     if language != "console":
         assert marker or language not in ("sh", "bash"), "a block of commands is not run, and does not say so"
@@ -69,7 +70,7 @@ def play(block):
     return text + "```\n"
 
 
-written = re.sub(r"(<!-- [^\n]* -->\n)?```(\w+)\n(.*?)```\n", play, page, flags=re.S)
+written = re.sub(r"((?:<!-- [^\n]* -->\n)*)```(\w+)\n(.*?)```\n", play, page, flags=re.S)
 if PAGE.endswith("README.md"):
     for command in re.findall(r"^\| .* \| `(lockstep [^`]*)` \|", page, re.M):
         commands += 1

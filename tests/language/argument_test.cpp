@@ -1,4 +1,4 @@
-// docs/language.md: "Load-time arguments".
+// docs/nodes-and-attributes.md: "Load-time arguments".
 #include <catch2/catch.hpp>
 
 #include "language/pipeline.h"

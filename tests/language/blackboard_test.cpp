@@ -1,4 +1,4 @@
-// docs/language.md: "The blackboard".
+// docs/nodes-and-attributes.md: "Entries" to "Scopes and remapping".
 #include <catch2/catch.hpp>
 
 #include "language/pipeline.h"

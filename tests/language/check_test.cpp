@@ -1,4 +1,4 @@
-// docs/language.md: "What is checked" and "Limits".
+// docs/nodes-and-attributes.md: "What check reports" and "Limits".
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -125,10 +125,12 @@ TEST_CASE("nodes of other libraries: what to write instead") {
   };
   constexpr Row kRows[] = {
       {R"(<RetryUntilSuccessful num_attempts="5"><AlwaysSuccess/></RetryUntilSuccessful>)",
-       "write <Retry attempts=\"5\">; one attempt in each tick; for ever: a <Repeat> between two "
+       "write <Retry attempts=\"5\">; one attempt in each tick; without a limit: a <Repeat> "
+       "between two "
        "<Inverter>"},
       {R"(<RetryUntilSuccessful name="r" num_attempts="-1"><AlwaysSuccess/></RetryUntilSuccessful>)",
-       "write <Retry attempts=\"…\">; one attempt in each tick; for ever: a <Repeat> between two "
+       "write <Retry attempts=\"…\">; one attempt in each tick; without a limit: a <Repeat> "
+       "between two "
        "<Inverter>"},
       {R"(<Sleep msec="1500"/>)", "write <Wait seconds=\"1.5\">"},
       {R"(<Sleep msec="{pause}"/>)", "write <Wait seconds=\"…\">"},

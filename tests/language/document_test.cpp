@@ -1,4 +1,4 @@
-// docs/language.md: "The file" and "Nodes".
+// docs/nodes-and-attributes.md: "The file" to "Nodes in a file".
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// docs/language.md: nodes that hold each other in a circle. Each tree is checked and run: those
+// docs/deadlocks.md: nodes that hold each other in a circle. Each tree is checked and run: those
 // that are warned of stand still, the others end.
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// docs/language.md itself: its examples load, its traces are what a run does, its tables are
-// complete, its links lead somewhere.
+// The pages of the language themselves: their examples load, their traces are what a run does,
+// their tables are complete, their links lead somewhere.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,10 +29,14 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr const char* kPage = "docs/language.md";
+constexpr const char* kReference = "docs/nodes-and-attributes.md";
+constexpr const char* kPages[] = {"docs/language.md", kReference, "docs/deadlocks.md"};
 
-std::string read_page() {
-  return project_file(kPage);
+// All pages, one behind the other.
+std::string read_pages() {
+  std::string text;
+  for (const char* page : kPages) text += project_file(page);
+  return text;
 }
 
 struct Example {
@@ -69,7 +73,7 @@ std::vector<Example> examples(const std::string& page) {
 }
 
 Example example_of(std::string_view tree) {
-  for (Example& example : examples(read_page())) {
+  for (Example& example : examples(read_pages())) {
     if (example.xml.find(fmt::format("ID=\"{}\"", tree)) != std::string::npos) return example;
   }
   FAIL("no example " << tree);
@@ -102,8 +106,8 @@ std::string trace(std::string_view tree, Limit limit) {
   return rows;
 }
 
-TEST_CASE("the examples of the page load, and the wrong ones are reported as it says") {
-  const std::string page = read_page();
+TEST_CASE("the examples of the pages load, and the wrong ones are reported as they say") {
+  const std::string page = read_pages();
   const auto all = examples(page);
   CHECK(all.size() > 10);
   for (const Example& example : all) {
@@ -121,7 +125,7 @@ TEST_CASE("the examples of the page load, and the wrong ones are reported as it 
 }
 
 TEST_CASE("the worked traces of the page are what a run does") {
-  const std::string page = read_page();
+  const std::string page = read_pages();
   const std::string absolute = trace("A1", [](double m) { return m < 0.5 - 1e-9 ? 0.5 : 1.0; });
   CHECK(std::ranges::count(absolute, '\n') == 10);
   CHECK(page.find("|\n" + absolute + "\n") != std::string::npos);
@@ -151,11 +155,11 @@ TEST_CASE("the trace of the resources on the page is what a run does") {
     rows += "\n";
   }
   CHECK(std::ranges::count(rows, '\n') == 6);
-  CHECK(read_page().find("|\n" + rows + "\n") != std::string::npos);
+  CHECK(read_pages().find("|\n" + rows + "\n") != std::string::npos);
 }
 
-TEST_CASE("the page names every built-in node and parameter, and every limit") {
-  const std::string page = read_page();
+TEST_CASE("the reference names every built-in node and parameter, and every limit") {
+  const std::string page = project_file(kReference);
   const auto names = [&](std::string_view text) {
     INFO(text);
     CHECK(page.find(text) != std::string::npos);
@@ -191,7 +195,7 @@ std::vector<std::string> hinted_names(const btcpp::NodePair& pair) {
 std::string foreign_row(const btcpp::NodePair& pair, const std::vector<std::string>& names) {
   const auto note = [](btcpp::Conversions conversion) -> std::string_view {
     if (conversion == btcpp::Conversions::Milliseconds) return " (not milliseconds)";
-    return conversion == btcpp::Conversions::Rounds ? " (left out = for ever)" : "";
+    return conversion == btcpp::Conversions::Rounds ? " (left out = indefinitely)" : "";
   };
   std::vector<std::string> theirs, ours;
   for (const auto& attributes : {pair.attributes, pair.words}) {
@@ -208,7 +212,7 @@ std::string foreign_row(const btcpp::NodePair& pair, const std::vector<std::stri
                      std::regex_replace(std::string(pair.remark), tag, "`$1`"));
 }
 
-// The table of docs/language.md, from that of the hints.
+// The table of the reference, from that of the hints.
 std::string foreign_table() {
   const auto same = [](const btcpp::NodePair& a, const btcpp::NodePair& b) {
     return a.ours == b.ours && a.remark == b.remark && a.in_ours.value == b.in_ours.value &&
@@ -236,11 +240,11 @@ std::string foreign_table() {
 }
 
 TEST_CASE("what is generated: what to write instead of the nodes of other libraries") {
-  const std::string page = read_page();
+  const std::string page = project_file(kReference);
   constexpr std::string_view kHead = "\n| There | Here | |\n";
   const auto at = page.find(kHead);
   REQUIRE(at != std::string::npos);
-  check_generated(kPage, page.substr(0, at + 1) + foreign_table());
+  check_generated(kReference, page.substr(0, at + 1) + foreign_table());
 }
 
 TEST_CASE("no node and no parameter of ours is taken for one of another library") {
@@ -412,8 +416,7 @@ inline constexpr BuiltinPort kBuiltinPorts[] = {{
           nodes, ports));
 }
 
-TEST_CASE("links inside the page lead to its headings") {
-  const std::string page = read_page();
+void check_links(const std::string& page) {
   std::vector<std::string> anchors;
   std::istringstream lines(page);
   for (std::string line; std::getline(lines, line);) {
@@ -432,6 +435,10 @@ TEST_CASE("links inside the page lead to its headings") {
     INFO((*it)[1].str());
     CHECK(std::ranges::find(anchors, (*it)[1].str()) != anchors.end());
   }
+}
+
+TEST_CASE("links inside a page lead to its headings") {
+  for (const char* page : kPages) check_links(project_file(page));
 }
 
 }  // namespace

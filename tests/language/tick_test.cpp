@@ -1,4 +1,4 @@
-// docs/language.md: what its sections from "Ticks" to "Progress" say of documents. The laws of the
+// docs/nodes-and-attributes.md: what its sections on nodes and progress say of documents. The laws of the
 // nodes themselves are in tests/nodes.
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-// docs/language.md: what `check` says of members that may wait for ever, beside circles of
+// docs/deadlocks.md: what `check` says of members that may wait for ever, beside circles of
 // barriers.
 #include <fmt/format.h>
 

@@ -70,7 +70,7 @@ double ReferenceBarrier::counted(std::size_t place) {
   return it.status == Status::Failure ? 0 : idle();
 }
 
-// Until it runs, "or what is around it begins again" (docs/language.md): then the others wait for
+// Until it runs, "or what is around it begins again" (docs/nodes-and-attributes.md): then the others wait for
 // it as for any idle member.
 bool ReferenceBarrier::is_left_out(std::size_t place) const {
   const Way& nodes = way(place);

@@ -60,7 +60,7 @@ constexpr Difference kWaits[] = {
      When::FirstIsSkipped}};
 
 constexpr std::string_view kOneEach =
-    "one attempt in each tick; for ever: a <Repeat> between two <Inverter>";
+    "one attempt in each tick; without a limit: a <Repeat> between two <Inverter>";
 constexpr std::string_view kFirstResult = "after that it returns the first result";
 constexpr std::string_view kAgain = "after a Failure it begins with the first child";
 constexpr std::string_view kCaseList = "its cases are one list: cases=\"dock;drive\"";

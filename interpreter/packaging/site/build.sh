@@ -12,7 +12,7 @@ cp -r docs/. "$pages/"
 cp trees/*.xml "$pages/trees/"
 cp schema/*.json schema/*.xsd "$pages/schema/"
 cp -r plugins/sdk/lockstep/leaf.h plugins/sdk/lockstep/ext "$pages/plugins/sdk/lockstep/"
-sed -i -E 's,\]\(\.\./,](,g; s,\[([a-z_]+)\.md\]\(,[\1](,g' "$pages"/*.md
+sed -i -E 's,\]\(\.\./,](,g; s,\[([a-z_-]+)\.md\]\(,[\1](,g' "$pages"/*.md
 cp interpreter/packaging/site/mkdocs.yml build/mkdocs.yml
 printf 'docs_dir: site-pages\nsite_dir: site\n' >>build/mkdocs.yml
 
