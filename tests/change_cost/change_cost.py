@@ -30,7 +30,7 @@ def git(*words):
 def text_of(commit, name):
     "The lines of the file, in a commit or as it lies there; none before the commit that adds it."
     if commit:
-        return git("show", f"{commit}:{name}").splitlines() if git("ls-tree", commit, name) else []
+        return git("show", f"{commit}:{name}").splitlines() if git("ls-tree", "--full-tree", commit, name) else []
     with open(name, encoding="utf-8") as file:
         return file.read().splitlines()
 
