@@ -29,6 +29,7 @@ DONE = [
     "docs/programs.md",
     "docs/properties.md",
     "docs/recipes.md",
+    "docs/ros2.md",
     "docs/testing.md",
     "docs/tutorial.md",
     "trees/README.md",
