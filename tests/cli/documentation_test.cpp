@@ -29,6 +29,7 @@ std::string help_of(const std::string& command) {
   std::vector<std::string> words = {"help"};
   std::istringstream in(command);
   for (std::string word; in >> word;) words.push_back(word);
+  if (command == "run") words = {"run", "--help-all"};  // `help run` has the usual options only
   return text = run_lockstep(words).out;
 }
 
