@@ -30,6 +30,7 @@ DONE = [
     "docs/properties.md",
     "docs/recipes.md",
     "docs/ros2.md",
+    "docs/security.md",
     "docs/testing.md",
     "docs/tutorial.md",
     "trees/README.md",
