@@ -33,6 +33,7 @@ DONE = [
     "docs/security.md",
     "docs/testing.md",
     "docs/tutorial.md",
+    "docs/verify.md",
     "trees/README.md",
 ]
 
