@@ -34,6 +34,7 @@ DONE = [
     "docs/testing.md",
     "docs/tutorial.md",
     "docs/verify.md",
+    "docs/versions.md",
     "trees/README.md",
 ]
 
