@@ -21,6 +21,7 @@ DONE = [
     "docs/guards.md",
     "docs/index.md",
     "docs/language.md",
+    "docs/language_server.md",
     "docs/monitor.md",
     "docs/new.md",
     "docs/nodes-and-attributes.md",
