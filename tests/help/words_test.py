@@ -12,6 +12,7 @@ DONE = [
     "README.md",
     "docs/authoring.md",
     "docs/btcpp.md",
+    "docs/cli.md",
     "docs/deadlocks.md",
     "docs/editors.md",
     "docs/embedding.md",
