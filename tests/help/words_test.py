@@ -31,6 +31,7 @@ DONE = [
     "docs/programs.md",
     "docs/properties.md",
     "docs/recipes.md",
+    "docs/reliability.md",
     "docs/ros2.md",
     "docs/security.md",
     "docs/testing.md",
