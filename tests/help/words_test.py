@@ -32,6 +32,7 @@ DONE = [
     "docs/properties.md",
     "docs/recipes.md",
     "docs/reliability.md",
+    "docs/roadmap.md",
     "docs/ros2.md",
     "docs/security.md",
     "docs/testing.md",
