@@ -23,6 +23,7 @@ DONE = [
     "docs/index.md",
     "docs/language.md",
     "docs/language_server.md",
+    "docs/late_progress.md",
     "docs/monitor.md",
     "docs/new.md",
     "docs/nodes-and-attributes.md",
