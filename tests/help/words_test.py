@@ -36,6 +36,7 @@ DONE = [
     "docs/roadmap.md",
     "docs/ros2.md",
     "docs/security.md",
+    "docs/studies.md",
     "docs/testing.md",
     "docs/tutorial.md",
     "docs/verify.md",

@@ -46,7 +46,7 @@ extern const Measure kFairness{
     .axis = "fairness index",
     .doc =
         "Jain's fairness index of the ticks in which each of the N members of POOL owned its "
-        "resources: 1 for equal shares, 1/N when one had all; no value when nobody owned anything",
+        "resources: 1 for equal parts, 1/N if one member had all; no value if no member owned any",
     .make = make_accumulator<Fairness>,
     .is_possible = [](double value, const MeasureSpec&, const MeasuredRun&) {
       return value > 0 && value <= 1;

@@ -36,10 +36,9 @@ extern const Measure kDuration{
     .axis = "duration",
     .unit = "s",
     .doc =
-        "seconds: ticks / rate; on a real clock until the end of the run, or, of a recording that "
-        "is "
-        "cut, until a period after the start of the last tick; for a run that `--max-ticks` cut, "
-        "until then",
+        "seconds: ticks / rate; on a real clock: until the end of the run; for a truncated "
+        "recording: until a period after the start of the last tick; for a run that `--max-ticks` "
+        "ended: until then",
     .make = make_accumulator<AtEnd<duration_of>>,
     .is_possible = [](double value, const MeasureSpec&, const MeasuredRun& run) {
       return value == static_cast<double>(run.ticks) / run.rate;
@@ -57,7 +56,7 @@ extern const Measure kTicks{
 extern const Measure kSuccess{
     .name = "success",
     .axis = "success",
-    .doc = "1 when the root succeeded, else 0",
+    .doc = "1 if the root succeeded, otherwise 0",
     .make = make_accumulator<AtEnd<success_of>>,
     .is_possible = [](double value, const MeasureSpec&, const MeasuredRun& run) {
       return value == (run.succeeded ? 1 : 0);
