@@ -28,6 +28,7 @@ DONE = [
     "docs/new.md",
     "docs/nodes-and-attributes.md",
     "docs/packages.md",
+    "docs/performance.md",
     "docs/plugins.md",
     "docs/programs.md",
     "docs/properties.md",
