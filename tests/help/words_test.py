@@ -37,6 +37,7 @@ DONE = [
     "docs/roadmap.md",
     "docs/ros2.md",
     "docs/security.md",
+    "docs/sequel.md",
     "docs/studies.md",
     "docs/testing.md",
     "docs/tutorial.md",
