@@ -33,6 +33,7 @@ DONE = [
     "docs/programs.md",
     "docs/properties.md",
     "docs/recipes.md",
+    "docs/recording.md",
     "docs/reliability.md",
     "docs/roadmap.md",
     "docs/ros2.md",
@@ -80,7 +81,8 @@ EXCEPTIONS += [("docs/btcpp.md", "does not ask again after a halt", "the name of
 
 
 def prose(page):
-    """(line number, text) of each paragraph, row and item, without code, links and comments."""
+    """(line number, text) of each paragraph, row and item, without code, links and comments, and without what `./dev generate`
+    writes between comments: its words are those of its source."""
     with open(os.path.join(SOURCES, page), encoding="utf-8") as text:
         lines = text.read().splitlines()
     paragraph, begins, code = [], 0, False
@@ -88,6 +90,8 @@ def prose(page):
         if line.lstrip().startswith("```"):
             code = not code
             line = ""
+        elif re.match(r"<!-- /?lines\b", line):
+            code = not line.startswith("<!-- /")
         elif code:
             continue
         starts = not line.strip() or re.match(r"\s*([-*|#]|\d+\.|<!--|!\[)", line)
