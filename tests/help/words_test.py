@@ -9,6 +9,7 @@ import sys
 SOURCES = sys.argv[1]
 
 DONE = [
+    "CONTRIBUTING.md",
     "README.md",
     "docs/authoring.md",
     "docs/btcpp.md",
