@@ -11,6 +11,7 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
       progress_(asked.progress.empty() ? 0 : tree.nodes.size()),
       limits_(tree.nodes.size()),
       uses_(tree.nodes.size()),
+      synchronized_(synchronized_nodes(tree)),
       asks_progress_(!asked.progress.empty()),
       asks_within_(asked.within) {
   for (const NodeIndex node : asked.progress) asked_.push_back({.node = node});
@@ -62,7 +63,7 @@ void LiveMoments::bind(Ticker& ticker) {
   const auto point_to_limit = [&](NodeIndex node) {
     limits_[node] = &ticker.state<SynchronizedState>(node).limit;
   };
-  for (const NodeIndex node : synchronized_nodes(tree_)) {
+  for (const NodeIndex node : synchronized_) {
     point_to_limit(node);
     if (compares_progress(synchronization(tree_.nodes[node]))) {
       uses_[node] = child_progress(ticker, node);

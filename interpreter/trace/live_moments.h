@@ -51,6 +51,7 @@ class LiveMoments {
   std::vector<double> progress_;
   std::vector<const double*> limits_;
   std::vector<std::span<const double>> uses_;
+  const std::vector<NodeIndex> synchronized_;
   const void* bound_ = nullptr;  // where the engine keeps what these point to
   bool asks_progress_, asks_within_;
   Moment moment_;

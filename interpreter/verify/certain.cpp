@@ -3,101 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <set>
 
 #include "base/core/language.h"
 #include "base/core/wording.h"
 #include "engine/writers.h"
 #include "language/expression/expression.h"
-#include "language/expression/program.h"
 
 namespace lockstep::host {
 namespace {
-
-// Nodes with a script that reads an entry before anything has written it.
-class UnsetReads {
- public:
-  explicit UnsetReads(const Tree& tree) : tree_(tree) {}
-
-  // "its while reads 'k', which has no value yet: 'later' writes it, which comes after"; "": none.
-  std::string why(NodeIndex node) const {
-    const auto read = find(node);
-    if (!read) return "";
-    return fmt::format("{} reads '{}', which has no value yet: '{}' writes it, which comes after",
-                       read->what, brief(tree_.slots[read->slot].name),
-                       tree_.labels[std::ranges::min(writers_[read->slot])].name);
-  }
-
-  // The node begins with the reading, whatever its scripts find.
-  bool begins(NodeIndex node) const {
-    const auto read = find(node);
-    return read && read->is_first;
-  }
-
- private:
-  struct Read {
-    std::string what;
-    std::uint32_t slot;
-    bool is_first;
-  };
-
-  std::optional<Read> find(NodeIndex node) const {
-    bool is_first = true;
-    for (const HookedNode& it : tree_.hooked) {
-      if (it.node != node) continue;
-      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
-        const std::string what = fmt::format("its {}", attribute_of(hook, *tree_.rules));
-        if (auto read = find(it.script(hook), node, what, is_first)) return read;
-        is_first = is_first && it.script(hook) == HookedNode::kNoScript;
-      }
-    }
-    return find(own_script(node), node, "it", is_first);
-  }
-
-  std::optional<Read> find(std::uint32_t number, NodeIndex node, std::string_view what,
-                           bool is_first) const {
-    if (number >= tree_.scripts.size() || tree_.scripts[number].code == nullptr) return {};
-    const Script& script = tree_.scripts[number];
-    for (std::uint32_t i = 0; i < script.slots.size(); ++i) {
-      const std::uint32_t slot = script.slots[i];
-      const std::vector<NodeIndex>& who = writers_[slot];
-      const bool is_unset = std::holds_alternative<NoValue>(tree_.slots[slot].initial) &&
-                            !who.empty() && std::ranges::min(who) > node;
-      if (!script.code->uses()[i].is_read || !is_unset) continue;
-      return Read{std::string(what), slot, is_first && is_always_read(*script.code, i)};
-    }
-    return {};
-  }
-
-  // Nothing before it decides whether it is.
-  static bool is_always_read(const Expression& script, std::uint32_t name) {
-    using enum Operation;
-    for (const Instruction& it : script.program().code) {
-      const bool loads =
-          it.operation == Load || it.operation == LoadCopy || it.operation == LoadToCompare;
-      if (loads && it.argument == name) return true;
-      if (it.operation == CompareNext || it.operation == JumpIfZero || it.operation == Jump)
-        return false;
-    }
-    return false;
-  }
-
-  std::uint32_t own_script(NodeIndex node) const {
-    const NodeType& type = *tree_.labels[node].type;
-    const auto it = std::ranges::find(type.parameters, true, &Parameter::is_script);
-    if (type.leaf != nullptr || type.mock != nullptr || type.reads_ports ||
-        it == type.parameters.end()) {
-      return HookedNode::kNoScript;
-    }
-    const auto at = static_cast<std::uint32_t>(it - type.parameters.begin());
-    return static_cast<std::uint32_t>(tree_.cells[tree_.nodes[node].params + at].integer);
-  }
-
-  const Tree& tree_;
-  const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
-};
 
 class Certainties {
  public:
@@ -111,10 +25,6 @@ class Certainties {
 
   std::vector<Advice> find() {
     look_for_dead_nodes();
-    for (const auto& [node, fault] : found_.faults) {
-      if (!told_.contains(node) && unset_.begins(node) && !does_anything(node))
-        add_unset_read(node);
-    }
     if (std::ranges::none_of(found_.results, [](const auto& it) { return it.has_value(); }) &&
         found_.faults.empty()) {
       add_endless();
@@ -141,35 +51,66 @@ class Certainties {
     }
   }
 
-  // But fail, as a fault is counted.
-  bool does_anything(NodeIndex node) const {
-    return std::ranges::any_of(std::array{Status::Running, Status::Success, Status::Skipped},
-                               [&](Status it) { return found_.coverage.has_been(node, it); });
-  }
-
-  void add_unset_read(NodeIndex node) {
-    const std::string why = unset_.why(node);
-    if (why.empty()) return;
-    certainties_.push_back({node, Severity::Warning,
-                            fmt::format("'{}' faults in its first tick", tree_.labels[node].name),
-                            why});
-  }
-
   // The child before it decides, or keeps all behind it from their ticks, as one does that reads
   // what is not there yet.
-  std::string why_dead(NodeIndex node) {
+  std::string why_dead(NodeIndex node) const {
     const NodeIndex parent = tree_.labels[node].parent;
     const Status goes_on = tree_.labels[parent].type->goes_on_after;
     NodeIndex before = 0;
-    for (NodeIndex at = parent + 1; at < node; at = tree_.nodes[at].end) before = at;
+    for (NodeIndex at = parent + 1; at < node; at = tree_.nodes[at].end) {
+      before = at;
+      if (goes_on != Status::Idle || !found_.faults.contains(at)) continue;
+      const std::string why = why_unset(at);  // no child of a parallel decides, but a fault ends all
+      if (!why.empty()) return fmt::format("'{}' before it faults: {}", tree_.labels[at].name, why);
+    }
     if (before == 0 || goes_on == Status::Idle || found_.coverage.has_been(before, goes_on)) {
       return "";
     }
-    const std::string why = found_.faults.contains(before) ? unset_.why(before) : "";
-    if (!why.empty()) told_.insert(before);
+    const std::string why = found_.faults.contains(before) ? why_unset(before) : "";
     return fmt::format("'{}' before it never {}{}{}", tree_.labels[before].name,
                        goes_on == Status::Success ? "succeeds" : "fails", why.empty() ? "" : ": ",
                        why);
+  }
+
+  // "its while reads 'k', which has no value yet: 'later' writes it, which comes after it"
+  std::string why_unset(NodeIndex node) const {
+    std::string why = why_unset(own_script(node), node, "it");
+    for (const HookedNode& it : tree_.hooked) {
+      if (it.node != node) continue;
+      for (const Hook hook : {Hook::FailureIf, Hook::SuccessIf, Hook::SkipIf, Hook::While}) {
+        if (!why.empty()) return why;
+        why = why_unset(it.script(hook), node,
+                        fmt::format("its {}", attribute_of(hook, *tree_.rules)));
+      }
+    }
+    return why;
+  }
+
+  std::string why_unset(std::uint32_t number, NodeIndex node, std::string_view what) const {
+    if (number >= tree_.scripts.size() || tree_.scripts[number].code == nullptr) return "";
+    const Script& script = tree_.scripts[number];
+    for (std::size_t i = 0; i < script.slots.size(); ++i) {
+      const Slot& slot = tree_.slots[script.slots[i]];
+      const std::vector<NodeIndex>& who = writers_[script.slots[i]];
+      const bool is_read = script.code->uses()[i].is_read;
+      const bool is_unset = std::holds_alternative<NoValue>(slot.initial) && !who.empty() &&
+                            std::ranges::min(who) > node;
+      if (!is_read || !is_unset) continue;
+      return fmt::format("{} reads '{}', which has no value yet: '{}' writes it, which comes after",
+                         what, brief(slot.name), tree_.labels[std::ranges::min(who)].name);
+    }
+    return "";
+  }
+
+  std::uint32_t own_script(NodeIndex node) const {
+    const NodeType& type = *tree_.labels[node].type;
+    const auto it = std::ranges::find(type.parameters, true, &Parameter::is_script);
+    if (type.leaf != nullptr || type.mock != nullptr || type.reads_ports ||
+        it == type.parameters.end()) {
+      return HookedNode::kNoScript;
+    }
+    const auto at = static_cast<std::uint32_t>(it - type.parameters.begin());
+    return static_cast<std::uint32_t>(tree_.cells[tree_.nodes[node].params + at].integer);
   }
 
   void add_endless() {
@@ -196,8 +137,7 @@ class Certainties {
   const std::span<const Place> places_;
   const SearchResult& found_;
   const Graph& graph_;
-  const UnsetReads unset_{tree_};
-  std::set<NodeIndex> told_;  // that they read what is unset
+  const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
   std::string why_it_stands_;
   std::vector<Advice> certainties_;
 };

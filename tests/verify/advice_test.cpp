@@ -44,9 +44,10 @@ constexpr Row kRows[] = {
    "Sequence(Check[code=k<2] Script[code=k:=1])",
    "'Script' can never run, whatever the leaves do: 'Check' before it never succeeds: it reads 'k', which has no "
    "value yet: 'Script' writes it, which comes after\n"},
-  {"also where nothing is dead",
+  {"in a parallel, whose other children a fault ends too",
    "Parallel(a[while=k<2] Script[code=k:=1])",
-   "'a' faults in its first tick: its while reads 'k', which has no value yet: 'Script' writes it, which comes after\n"},
+   "'Script' can never run, whatever the leaves do: 'a' before it faults: its while reads 'k', which has no value "
+   "yet: 'Script' writes it, which comes after\n"},
   {"a node before it writes the entry", "Sequence[memory=true](Script[code=k:=1] a[while=k<2])", ""},
   {"an endless tree", "Repeat(ForceSuccess(a))", "this tree never ends, whatever its leaves do\n"},
 };

@@ -24,7 +24,7 @@ struct ConvertOptions {
 // All that `check` finds without plugins.
 Diagnostics checked(const std::string& name, const std::string& text) {
   LoadOptions options;
-  options.unknown = MissingNodes::AreNoted;
+  options.unknown = MissingNodes::AreMocked;
   options.may_lack_main = true;
   Diagnostics found;
   const auto project = load_project_text(name, text, options, found);
@@ -38,7 +38,8 @@ Diagnostics checked(const std::string& name, const std::string& text) {
 void check_result(const Document& document, const std::string& result, Diagnostics& diagnostics) {
   const std::string& name = document.source()->path();
   if (checked(name, std::string(document.source()->text())).has_errors()) return;
-  for (const Diagnostic& it : checked(name, result).all()) {
+  const Diagnostics found = checked(name, result);
+  for (const Diagnostic& it : found.all()) {
     if (it.severity != Severity::Error || it.location.file != name) continue;
     diagnostics.warning(
         {name}, fmt::format("line {} of the result has an error: {}", it.location.line, it.message),

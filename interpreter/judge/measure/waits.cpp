@@ -13,7 +13,10 @@ class LongestWait final : public Accumulator {
  public:
   explicit LongestWait(const MeasureTarget& target) : node_(target.nodes[0]) {}
 
-  void reset() override { *this = LongestWait({.nodes = {node_}}); }
+  void reset() override {
+    reached_ = false;
+    next_ = now_ = longest_ = 0;
+  }
 
   void after_tick(const TickView& view) override {
     const Moment& moment = *view.moment;

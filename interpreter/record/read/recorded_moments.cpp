@@ -38,10 +38,15 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
       uses_(header.nodes.size()),
       texts_(header.entries.size()),
       names_children_(header.law >= kNamesChildren) {
+  const auto keeps = [](const ShapeNode& it) {
+    return it.latches || it.synchronization != Synchronization::None;
+  };
+  // A recording is as large as it is: no room that doubles.
+  limits_.reserve(header.nodes.size());
+  keepers_.reserve(static_cast<std::size_t>(std::ranges::count_if(header.nodes, keeps)));
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
     limits_.push_back(&limit_[node]);
-    const ShapeNode& it = header.nodes[node];
-    if (it.latches || it.synchronization != Synchronization::None) add(header, node);
+    if (keeps(header.nodes[node])) add(header, node);
   }
   for (const Keeper& it : keepers_) uses_[it.node] = it.used;
   moment_ = {.activity = activity_,

@@ -55,7 +55,9 @@ std::optional<std::string> read_string(const LooseFixture& fixture) {
 
 TEST_CASE("a leaf reads what an entry of another type has, converted") {
   LooseFixture fixture;
-  for (std::size_t i = 0; i < 4; ++i) CHECK(fixture.entry(i).writes() == 1);  // the start value
+  for (std::size_t i = 0; i < 4; ++i) {  // a start value counts as a write
+    CHECK(fixture.entry(i).writes() == (fixture.entry(i).has_value() ? 1 : 0));
+  }
   fixture.entry(0).assign(std::string("12abc"));
   CHECK(read_int(fixture) == 12);
   fixture.entry(0).assign(3.0);
