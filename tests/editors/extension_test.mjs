@@ -57,7 +57,7 @@ test("each setting that is read is in package.json, and each there is read", () 
 });
 
 test("the options that it gives to lockstep exist", () => {
-  const help = (command) => execFileSync(LOCKSTEP, ["help", ...command], { encoding: "utf8" });
+  const help = (command) => execFileSync(LOCKSTEP, [...command, command[0] === "run" ? "--help-all" : "--help"], { encoding: "utf8" });
   const options = { run: ["--clock", "--view", "--record", "--monitor", "--monitor-open", "--tree", "--arg", "--plugin", "--plugin-path"],
     test: ["--filter", "--plugin", "--plugin-path"], verify: ["--tree", "--arg", "--plugin", "--plugin-path"], "log page": ["--out"] };
   for (const [command, list] of Object.entries(options)) {

@@ -191,6 +191,24 @@ Result<std::string> sub_tree_for(const ProjectTexts& texts, ElementAt node, std:
   return sub_tree + "/>";
 }
 
+// Whether a property or an expectation names the node, whose name goes with it.
+bool is_named_beside(const ProjectTexts& texts, std::string_view name) {
+  constexpr std::string_view kLetters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  const auto is_letter = [&](std::string_view text, std::size_t at) {
+    return at < text.size() && kLetters.find(text[at]) != std::string_view::npos;
+  };
+  bool is_named = false;
+  texts.for_each_element([&](ElementAt at) {
+    const std::string_view tag = texts.document(at.document).elements()[at.element].tag;
+    if (tag != "property" && tag != "expect") return;
+    const std::string_view text = texts.value(at, "");
+    for (auto i = text.find(name); i != std::string_view::npos; i = text.find(name, i + 1))
+      is_named |= !is_letter(text, i - 1) && !is_letter(text, i + name.size());
+  });
+  return is_named;
+}
+
 }  // namespace
 
 Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node,
@@ -237,6 +255,11 @@ Result<ProjectEdit> inline_subtree(const ProjectTexts& texts, ElementAt sub_tree
   const Element& tree = texts.document(inner->document).elements()[inner->element];
   if (tree.end == inner->element + 1) {
     return problem(fmt::format("the tree '{}' has no node", brief(id)));
+  }
+  const std::string_view name = texts.value(sub_tree, "name");
+  if (is_named_beside(texts, name.empty() ? id : name)) {
+    return problem(fmt::format("a property names '{}'", brief(name.empty() ? id : name)),
+                   "let it name a node inside of it first");
   }
   if (auto wrong = names_at_run_time(texts)) return tl::unexpected(std::move(*wrong));
   if (auto wrong = unknown_uses(texts, *inner)) return tl::unexpected(std::move(*wrong));
