@@ -21,7 +21,7 @@ struct ConvertOptions {
   std::string to;
 };
 
-// All that `check` finds without plugins.
+// All that `check --mock` finds without plugins.
 Diagnostics checked(const std::string& name, const std::string& text) {
   LoadOptions options;
   options.unknown = MissingNodes::AreMocked;
