@@ -57,7 +57,7 @@ CLI::Validator one_of(const std::vector<std::string>& words, FormerWord former) 
   const auto check = [words, former](std::string& text) -> std::string {
     if (std::ranges::find(words, text) != words.end()) return "";
     if (text == former.word && !text.empty()) {
-      return fmt::format("there is no '{}' any more: {}", text, former.instead);
+      return fmt::format("'{}' is no longer written: {}", text, former.instead);
     }
     const std::vector<std::string_view> candidates(words.begin(), words.end());
     const std::string near = did_you_mean(text, candidates);

@@ -28,8 +28,9 @@ Program::Program(const std::vector<std::string>& words, Options options)
       "Print the version and exit");
   verbose->needs(version);
   app_->footer(
-      "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage or a file "
-      "that cannot be used, 3 invalid tree, 4 plugin refused, 5 leaf fault, 6 a plugin crashed or "
+      "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage, or a "
+      "file of an option that cannot be used, 3 a tree that is invalid or cannot be read, 4 plugin "
+      "refused, 5 leaf fault, 6 a plugin crashed or "
       "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
       "has those that it uses.\n\n"
       "Example: lockstep run trees/door_pulling.xml\n\n"

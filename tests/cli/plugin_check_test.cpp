@@ -161,7 +161,7 @@ for line in sys.stdin:
 }
 
 TEST_CASE("plugin check: what is no plugin, and an option for programs") {
-  CHECK(contains(check_plugin("/nowhere/x.so").err, "'/nowhere/x.so' is no plugin"));
+  CHECK(contains(check_plugin("/nowhere/x.so").err, "there is no file '/nowhere/x.so'"));
   CHECK(check_plugin("/nowhere/x.so").code == 2);
   const TemporaryDirectory directory;
   const Outcome text = check_plugin(directory.file("x.so", "no ELF"));

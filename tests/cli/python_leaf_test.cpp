@@ -222,7 +222,7 @@ TEST_CASE("leaves that were saved before the program has changed are named") {
   const Outcome run = leaves.run_tree(nodes);
   CHECK(run.code == 0);
   CHECK(contains(run.err, "has other leaves than"));
-  CHECK(contains(run.err, "let 'lockstep plugin check --save' write it again"));
+  CHECK(contains(run.err, "let 'lockstep plugin check --list --save "));
   const auto check = [&](bool runs) {
     std::vector<std::string> words = {"check", leaves.directory.path("tree.xml"), "--plugin-path",
                                       leaves.directory.path("")};

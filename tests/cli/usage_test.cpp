@@ -75,11 +75,11 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
        "--format: 'xml' is not one of text, json, github",
        "see `lockstep check --help`"},
       {{"check", "--format", "sarif", "t.xml"},
-       "--format: there is no 'sarif' any more: github annotates the files in a workflow, and json "
+       "--format: 'sarif' is no longer written: github annotates the files in a workflow, and json "
        "is for others",
        "see `lockstep check --help`"},
       {{"verify", "--format", "sarif", "t.xml"},
-       "--format: there is no 'sarif' any more: junit is for a workflow, and json for other "
+       "--format: 'sarif' is no longer written: junit is for a workflow, and json for other "
        "programs",
        "see `lockstep verify --help`"},
       {{"log"}, "`lockstep log` needs a command", "commands: 'csv', "},

@@ -82,6 +82,10 @@ std::string find_object(const PluginCheckOptions& options) {
 }
 
 int refuse_file(const PluginCheckOptions& options) {
+  if (options.file.find('/') != std::string::npos && !std::filesystem::exists(options.file)) {
+    print_error(fmt::format("there is no file '{}'", printable(options.file)));
+    return kExitUsage;
+  }
   print_error(fmt::format("'{}' is no plugin", printable(options.file)),
               "give a shared object, or an executable file, with chmod +x and #! in the first line "
               "of a script; or the name of one in a directory of --plugin-path or "

@@ -227,18 +227,20 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
   if (!opened) {
     return refuse(request.origin, std::move(opened.error()), diagnostics, request.where);
   }
+  const std::string write_again =
+      fmt::format("let 'lockstep plugin check --list --save {}' write it again", request.origin);
   if ((*opened)->is_file_stale()) {
     diagnostics.warning(request.where,
                         fmt::format("plugin '{}' has other leaves than '{}' says",
                                     request.expected_name, leaves_file_of(request.origin)),
-                        "let 'lockstep plugin check --save' write it again");
+                        write_again);
   }
   if ((*opened)->is_file_older()) {
     diagnostics.note(request.where,
                      fmt::format("'{}' is older than the program: plugin '{}' may have "
                                  "other leaves now",
                                  leaves_file_of(request.origin), request.expected_name),
-                     "give --run-programs, or let 'lockstep plugin check --save' write it again");
+                     "give --run-programs, or " + write_again);
   }
   return accept(*std::move(opened), request, diagnostics);
 }

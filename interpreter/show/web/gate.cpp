@@ -44,8 +44,9 @@ std::optional<WebAnswer> Gate::refuse(const WebRequest& request) const {
   }
   const bool is_open = token_.empty() || (request.path == "/" && request.method == "GET");
   if (!is_open && !is_token(token_, request.token.value_or(""))) {
-    return refusal(403,
-                   {"the token is missing or wrong", "it is in the link that lockstep printed"});
+    return refusal(403, {"the token is missing or wrong",
+                         "it is in the link that lockstep printed; a program sends it as the "
+                         "header X-Lockstep-Token"});
   }
   return std::nullopt;
 }

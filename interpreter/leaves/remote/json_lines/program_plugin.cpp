@@ -30,10 +30,11 @@ Result<std::string> ProgramPlugin::first_line() {
   if (!options_.run_programs) {
     is_file_older_ = is_older_than_program(path_);
     if (written) return *std::move(written);
-    return problem("is a program, which this command does not run: its leaves are not known",
-                   fmt::format("give --run-programs, or let 'lockstep plugin check --save' write "
-                               "them to '{}'",
-                               leaves_file_of(path_)));
+    return problem(
+        "is a program, which this command does not run: its leaves are not known",
+        fmt::format("give --run-programs, or let 'lockstep plugin check --list --save {}' "
+                    "write them to '{}'",
+                    path_, leaves_file_of(path_)));
   }
   const Lock lock(mutex_);
   first_ = std::make_unique<Conversation>(options_);
@@ -75,9 +76,10 @@ Result<std::string> ProgramPlugin::read_answer(std::string_view request) const {
   if (auto answer = read_description(path_, request)) return *std::move(answer);
   return problem(
       "is not run by this command, and its file does not have this element",
-      fmt::format("give --run-programs, or let 'lockstep plugin check --save --tree TREE' "
-                  "write it to '{}'",
-                  leaves_file_of(path_)));
+      fmt::format(
+          "give --run-programs, or let 'lockstep plugin check --list --save --tree TREE {}' "
+          "write it to '{}'",
+          path_, leaves_file_of(path_)));
 }
 
 std::string ProgramPlugin::descriptions() {
