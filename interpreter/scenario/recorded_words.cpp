@@ -53,6 +53,23 @@ class WordMaker {
     }
   }
 
+  // The fault that has ended the run: "Main/arm: fails as a program". No tick names it, and its
+  // node is recorded as running.
+  void take_fault(std::string_view fault) {
+    for (Leaf& it : leaves_) {
+      const std::string& path = header_.nodes[it.node].path;
+      if (!fault.starts_with(path + ": ") || it.words->empty() || !it.before.ticked) continue;
+      LeafWord& last = it.words->back();
+      if (last.status != Status::Running) continue;
+      // One that has scripts may never have been called: they fault again, if it was that.
+      if (has_script(tree_, it.leaf->node)) {
+        it.words->pop_back();
+      } else {
+        last.kind = LeafWord::Kind::Fault;
+      }
+    }
+  }
+
   void finish() {
     std::erase_if(words_.leaves, [](const auto& it) { return it.second.empty(); });
   }
@@ -185,9 +202,12 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
       maker.add(*tick);
       ticks = tick->tick + 1;
     }
+    if (reader.end()) {
+      words.result = reader.end()->result;
+      maker.take_fault(reader.end()->fault);
+    }
     maker.finish();
     words.ticks = ticks;
-    if (reader.end()) words.result = reader.end()->result;
   }
   words.outcome = reader.outcome();
   return words;

@@ -61,7 +61,8 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
   text += fmt::format("  <scenario name=\"{}\"", escaped(about.name));
   if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
   const bool is_cut = words.result.empty() || words.result == "stopped";
-  if (is_cut && words.ticks) text += fmt::format(" max-ticks=\"{}\"", *words.ticks);
+  if (is_cut && words.ticks)
+    text += fmt::format(" max-ticks=\"{}\"", std::max<std::uint64_t>(*words.ticks, 1));
   text += ">\n";
   for (const auto& [name, value] : words.arguments) {
     text += fmt::format("    <arg name=\"{}\" value=\"{}\"/>\n", name, escaped(value));

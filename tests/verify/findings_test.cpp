@@ -64,6 +64,11 @@ constexpr Row kRows[] = {
    "never-ticked/Main/Fallback/Sequence"},
   {"a fault that the leaf file allows", "Sequence[memory=true](a b)",
    R"(<leaf path="*/b" result="success;fault"/>)", "fault/Main/Sequence/b"},
+  {"also below a node that goes on after a failure", "Fallback[memory=true](a b)",
+   R"(<leaf path="*/a" result="failure" ticks="1"/><leaf path="*/b" result="fault" ticks="2"/>)",
+   "fault/Main/Fallback/b"},
+  {"also in the first tick", "Fallback(a b)", R"(<leaf path="*" result="fault" ticks="1"/>)",
+   "fault/Main/Fallback/a, never-ticked/Main/Fallback/b"},
 };
 // clang-format on
 
