@@ -169,11 +169,11 @@ TEST_CASE("docs/testing.md: the first scenario and its failure are as printed th
                                    read_file(LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml")));
   std::string scenario = block("```xml", "## The first scenario");
   const auto play = [&] {
-    static_cast<void>(directory.file("trees/door_pulling.test.xml", scenario));
-    const Outcome it = shell("lockstep test trees/door_pulling.test.xml", directory);
+    static_cast<void>(directory.file("trees/arm_slips.test.xml", scenario));
+    const Outcome it = shell("lockstep test trees/arm_slips.test.xml", directory);
     return std::regex_replace(it.out, std::regex(", [0-9.]+ s\n"), ", 0.00 s\n");
   };
-  CHECK("$ lockstep test trees/door_pulling.test.xml\n" + play() ==
+  CHECK("$ lockstep test trees/arm_slips.test.xml\n" + play() ==
         block("```\n$ lockstep test", "## The first scenario"));
   scenario.replace(scenario.find("failure"), 7, "success");
   CHECK(play() == block("```", "Now expect `success`"));
