@@ -68,7 +68,7 @@ constexpr Row kRows[] = {
    R"(<leaf path="*/a" result="failure" ticks="1"/><leaf path="*/b" result="fault" ticks="2"/>)",
    "fault/Main/Fallback/b"},
   {"also in the first tick", "Fallback(a b)", R"(<leaf path="*" result="fault" ticks="1"/>)",
-   "fault/Main/Fallback/a, never-ticked/Main/Fallback/b"},
+   "never-ticked/Main/Fallback/b, fault/Main/Fallback/a"},
 };
 // clang-format on
 
