@@ -36,6 +36,7 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
       progress_(header.nodes.size()),
       limit_(header.nodes.size()),
       uses_(header.nodes.size()),
+      is_guard_(header.nodes.size()),
       texts_(header.entries.size()),
       names_children_(header.law >= kNamesChildren) {
   const auto keeps = [](const ShapeNode& it) {
@@ -46,6 +47,7 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
   keepers_.reserve(static_cast<std::size_t>(std::ranges::count_if(header.nodes, keeps)));
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
     limits_.push_back(&limit_[node]);
+    is_guard_[node] = header.nodes[node].is_guard;
     if (keeps(header.nodes[node])) add(header, node);
   }
   for (const Keeper& it : keepers_) uses_[it.node] = it.used;
@@ -67,9 +69,6 @@ void RecordedMoments::add(const RecordingHeader& header, NodeIndex node) {
                                    .children = it.held()});
   for (const NodeIndex child : it.members) {
     keeper.members.push_back(header.nodes[child].parent.value_or(0));
-  }
-  for (const NodeIndex child : keeper.children) {
-    keeper.latched.push_back(!header.nodes[child].is_guard);
   }
   keeper.around = nodes_around(header, keeper.members);
   keeper.used.resize(keeper.children.size());
@@ -123,7 +122,7 @@ double RecordedMoments::in_plain_parallel(const Keeper& keeper, std::size_t chil
                                           const RecordedState& state) const {
   if (moment_.status(keeper.node) != Status::Running) return 0;
   const bool has_failed = moment_.status(keeper.children[child]) == Status::Failure;
-  return has_failed && keeper.latched[child] && !state.ticked ? 1 : state.progress;
+  return has_failed && !is_guard_[keeper.children[child]] && !state.ticked ? 1 : state.progress;
 }
 
 // True for a child that was skipped in the last tick, or is in what was; in some groups also for a

@@ -26,7 +26,6 @@ class RecordedMoments {
     std::vector<NodeIndex> children = {};
     std::vector<NodeIndex> members = {};              // of a group: the parents of the children
     std::vector<std::vector<NodeIndex>> around = {};  // each member, below what has all members
-    std::vector<bool> latched = {};  // of each child: it is not ticked again once it has completed
     std::vector<double> used = {};
   };
   void add(const RecordingHeader& header, NodeIndex node);
@@ -41,6 +40,7 @@ class RecordedMoments {
   std::vector<double> progress_, limit_;
   std::vector<const double*> limits_;
   std::vector<std::span<const double>> uses_;
+  std::vector<bool> is_guard_;  // it is ticked again after it has completed
   std::vector<Keeper> keepers_;
   std::vector<NodeIndex> ended_;
   std::vector<EntryText> texts_;
