@@ -33,7 +33,7 @@ class CutFinder {
       : tree_(tree), entries_(entries), compared_(compared), cuts_(tree.nodes.size()) {}
 
   std::vector<Cuts> find() {
-    add_compared(0, cuts_[0]);
+    add_compared(0);
     for (NodeIndex node = 1; node < tree_.nodes[0].end; ++node) {
       take_down(tree_.labels[node].parent, node);
     }
@@ -50,11 +50,8 @@ class CutFinder {
     pull(above, parent, node, here);
     const Synchronization way = synchronization(tree_.nodes[parent]);
     if (compares_progress(way) && !tree_.is_group(parent)) add_own(parent, here);
-    if (const Member* member = barrier_member(tree_, parent)) {
-      add_own(member->group, here);
-      add_compared(member->group, here);  // its progress is that of a member
-    }
-    add_compared(node, here);
+    if (const Member* member = barrier_member(tree_, parent)) add_own(member->group, here);
+    add_compared(node);
     if (here.at.size() + here.behind.size() > kMostCuts) here.is_unknown = true;
     if (!here.is_unknown) return;
     here.at.clear();
@@ -98,9 +95,9 @@ class CutFinder {
     }
   }
 
-  void add_compared(NodeIndex node, Cuts& into) {
+  void add_compared(NodeIndex node) {
     for (const Observed::Progress& it : compared_) {
-      if (it.node == node) add_list(std::span(&it.constant, 1), true, into);
+      if (it.node == node) add_list(std::span(&it.constant, 1), true, cuts_[node]);
     }
   }
 

@@ -12,17 +12,6 @@ namespace {
 
 constexpr std::size_t kMostMemory = std::size_t{1} << 30u;  // bytes
 
-Observed observed_by(const std::vector<Property>& properties) {
-  Observed observed;
-  for (const Property& property : properties) {
-    for (const ProgressComparison& it : property.progress_comparisons()) {
-      observed.progress.push_back({it.node, it.constant});
-    }
-    for (const EntryComparison& it : property.comparisons()) observed.entries.push_back(it.entry);
-  }
-  return observed;
-}
-
 // The place of the property that it is about, if it is one of the scenario.
 Place place_of(const Finding& finding, const Rehearsal& rehearsal) {
   for (const PreparedProperty& it : rehearsal.properties) {
@@ -58,7 +47,8 @@ std::vector<Surprise> verify_scenario(const Rehearsal& rehearsal, const Stage& s
   for (const PreparedProperty& it : rehearsal.properties) properties.push_back(it.property);
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems = not_verifiable(tree);
-  const LeafModels models = make_models(tree, file, diagnostics, problems, observed_by(properties));
+  const Observed observed = observed_by(tree, properties, problems);
+  const LeafModels models = make_models(tree, file, diagnostics, problems, observed);
   std::vector<Surprise> surprises;
   for (const NodeProblem& it : problems) {
     surprises.push_back({place,

@@ -78,4 +78,23 @@ std::vector<NodeProblem> not_verifiable(const Tree& tree) {
   return Unknowns(tree).find();
 }
 
+// A barrier keeps the progress of the tick before, which is no part of a state: no node reads it.
+Observed observed_by(const Tree& tree, std::span<const Property> properties,
+                     std::vector<NodeProblem>& problems) {
+  Observed observed;
+  for (const Property& property : properties) {
+    for (const ProgressComparison& it : property.progress_comparisons()) {
+      observed.progress.push_back({it.node, it.constant});
+      if (tree.is_group(it.node)) {
+        problems.push_back({it.node, "a property compares the progress of a barrier",
+                            "compare the progress of its members instead"});
+      }
+    }
+    for (const EntryComparison& it : property.comparisons()) {
+      if (it.entry < tree.slots.size()) observed.entries.push_back(it.entry);  // else a fact
+    }
+  }
+  return observed;
+}
+
 }  // namespace lockstep::host

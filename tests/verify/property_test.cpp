@@ -37,8 +37,6 @@ const Row kRows[] = {
   {"a.running leads to a.done within 1 ticks", "a", R"(<leaf path="*" ticks="1..3"/>)", "2"},
   // Behind 0 is another place than at 0, and between a constant and a barrier one than at the barrier.
   {"never a.progress > 0", "Inverter(a)", "", "2"},
-  {"never g.progress > 0.25", "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=1]",
-   "", "2"},
   {"never not (Inverter.progress == 0)", "Inverter(a)", "", "2"},
   {"never Inverter.progress > 0.5 and b.held", "Inverter(ParallelAbsolute[barriers=.75](a b))", "", "2"},
   {"never Repeat.progress > 0.5 and b.held", "Repeat[times=2](ParallelAbsolute[barriers=.5](a b))", "", "3"},

@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "judge/measure/property_steps.h"
 #include "support/tree_text.h"
+#include "trace/shape.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -26,6 +28,20 @@ TEST_CASE("a leaf that may write any entry is refused where the tree reads entri
   CHECK(problems[0].message.ends_with("may write any entry, and the tree reads some"));
   CHECK(with_opening_leaf("Sequence(b a)").empty());
   CHECK(not_verifiable(tree_from_text("Sequence(Script[code=n:=0] a)")).empty());
+}
+
+TEST_CASE("the progress of a barrier is no part of a state, so no property compares it") {
+  const Tree tree = tree_from_text(
+      "Parallel(SyncProgress[barrier=g](a) SyncProgress[barrier=g](b)) barrier[name=g barriers=1]");
+  const auto problems_of = [&](std::string_view text) {
+    const std::vector<Property> properties = {
+        Property::parse(text, property_names(shape_of(tree))).value()};
+    std::vector<NodeProblem> problems;
+    CHECK(observed_by(tree, properties, problems).progress.size() == 1);
+    return problems.size();
+  };
+  CHECK(problems_of("never g.progress > 0.25") == 1);
+  CHECK(problems_of("never a.progress > 0.25") == 0);
 }
 
 }  // namespace lockstep::host::test

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "verify/property_watch.h"
+#include "verify/verifiable.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -29,16 +30,11 @@ std::vector<Property> properties_of(const Tree& tree, std::string_view rows,
 
 LeafModels models_of(const Tree& tree, std::string_view rows,
                      const std::vector<Property>& properties) {
-  Observed observed;
-  for (const Property& property : properties) {
-    for (const ProgressComparison& it : property.progress_comparisons()) {
-      observed.progress.push_back({it.node, it.constant});
-    }
-  }
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems;
   const auto file = file_of(rows, diagnostics);
-  LeafModels models = make_models(tree, file.get(), diagnostics, problems, observed);
+  LeafModels models =
+      make_models(tree, file.get(), diagnostics, problems, observed_by(tree, properties, problems));
   if (diagnostics.has_errors()) throw std::invalid_argument(diagnostics.all()[0].message);
   if (!problems.empty()) throw std::invalid_argument(problems[0].message);
   return models;

@@ -129,9 +129,9 @@ class VerifyCommand {
     if (!properties) return kExitUsage;
     properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
-    const LeafModels models =
-        make_models(runnable.tree, file->get(), diagnostics_, problems, observed(runnable.tree),
-                    Declared::Counts, given_outputs());
+    const Observed observed = observed_by(runnable.tree, properties_, problems);
+    const LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems,
+                                          observed, Declared::Counts, given_outputs());
     places.report(problems, diagnostics_);
     if (diagnostics_.has_errors()) return refuse();
     print_diagnostics(diagnostics_, Severity::Warning);
@@ -151,20 +151,6 @@ class VerifyCommand {
     print_diagnostics(diagnostics_, Severity::Note);
     code_ = exit_code_of(loaded.error());
     return loaded;
-  }
-
-  // The entries and progress that the properties compare.
-  Observed observed(const Tree& tree) const {
-    Observed observed;
-    for (const Property& property : properties_) {
-      for (const ProgressComparison& it : property.progress_comparisons()) {
-        observed.progress.push_back({it.node, it.constant});
-      }
-      for (const EntryComparison& it : property.comparisons()) {
-        if (it.entry < tree.slots.size()) observed.entries.push_back(it.entry);
-      }
-    }
-    return observed;
   }
 
   // Of --mock-output, which loading has checked.
