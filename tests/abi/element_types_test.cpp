@@ -112,7 +112,8 @@ TEST_CASE("a command that runs no programs says so at an element whose ports one
         Strings{
             "2:1: 'Hull' cannot be described: its program is not run by this command, and its file "
             "does not have this element | give --run-programs, or let 'lockstep plugin check "
-            "--save --tree TREE' write it to '" LOCKSTEP_SOURCE_DIR
+            "--list --save --tree TREE " LOCKSTEP_SOURCE_DIR
+            "/tests/programs/hulls.py' write it to '" LOCKSTEP_SOURCE_DIR
             "/tests/programs/hulls.leaves.json'"});
 }
 
