@@ -147,7 +147,8 @@ void put_hints(const Crash& crash, SignalText& text) {
   }
   if (crash.sender != 0) return;
   constexpr const char* kForAuthor =
-      "  hint: the author of the plugin needs the backtrace; addr2line -Cfe FILE.so OFFSET names the line\n";
+      "  hint: the author of the plugin needs the backtrace; addr2line -Cfe FILE.so OFFSET names "
+      "the line\n";
   if (crash.is_isolated) {
     text << kForAuthor;
     return;

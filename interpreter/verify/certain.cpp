@@ -60,7 +60,8 @@ class Certainties {
     for (NodeIndex at = parent + 1; at < node; at = tree_.nodes[at].end) {
       before = at;
       if (goes_on != Status::Idle || !found_.faults.contains(at)) continue;
-      const std::string why = why_unset(at);  // no child of a parallel decides, but a fault ends all
+      const std::string why =
+          why_unset(at);  // no child of a parallel decides, but a fault ends all
       if (!why.empty()) return fmt::format("'{}' before it faults: {}", tree_.labels[at].name, why);
     }
     if (before == 0 || goes_on == Status::Idle || found_.coverage.has_been(before, goes_on)) {

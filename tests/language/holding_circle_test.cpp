@@ -219,11 +219,10 @@ TEST_CASE("held nodes: the hint says what comes before whom in a Sequence") {
   Pipeline pipeline(document(kRows[4]));
   pipeline.advise();
   REQUIRE(pipeline.diagnostics().all().size() == 1);
-  CHECK(
-      pipeline.diagnostics().all().front().hint ==
-      "'r' holds 's' at 0.61 until 'g1' comes, which is at 0.5; 'g' holds 'g1' at 0.5 until 'g2' "
-      "comes, which does not run and comes after 'h2'; 'h' holds 'h2' at 0.5 until 'h1' comes, "
-      "which is at 0.22 and is inside of 's'");
+  CHECK(pipeline.diagnostics().all().front().hint ==
+        "'r' holds 's' at 0.61 until 'g1' comes, which is at 0.5; 'g' holds 'g1' at 0.5 until 'g2' "
+        "comes, which does not run and comes after 'h2'; 'h' holds 'h2' at 0.5 until 'h1' comes, "
+        "which is at 0.22 and is inside of 's'");
 }
 
 TEST_CASE("held nodes: an action without progress is at no barrier before it succeeds") {

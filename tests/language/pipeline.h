@@ -15,8 +15,8 @@
 
 namespace lockstep::host::test {
 
-// A claim of the pages of the language. A text that is not a whole document stands in one, in line 2, as
-// the tree 'T'. `options`: "tree=Main arg.speed=1 set.key=x".
+// A claim of the pages of the language. A text that is not a whole document stands in one, in line
+// 2, as the tree 'T'. `options`: "tree=Main arg.speed=1 set.key=x".
 struct ClaimRow {
   std::string_view claim;
   std::string_view xml;

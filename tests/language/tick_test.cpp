@@ -1,5 +1,5 @@
-// docs/nodes-and-attributes.md: what its sections on nodes and progress say of documents. The laws of the
-// nodes themselves are in tests/nodes.
+// docs/nodes-and-attributes.md: what its sections on nodes and progress say of documents. The laws
+// of the nodes themselves are in tests/nodes.
 #include <catch2/catch.hpp>
 
 #include "language/pipeline.h"

@@ -70,8 +70,8 @@ double ReferenceBarrier::counted(std::size_t place) {
   return it.status == Status::Failure ? 0 : idle();
 }
 
-// Until it runs, "or what is around it begins again" (docs/nodes-and-attributes.md): then the others wait for
-// it as for any idle member.
+// Until it runs, "or what is around it begins again" (docs/nodes-and-attributes.md): then the
+// others wait for it as for any idle member.
 bool ReferenceBarrier::is_left_out(std::size_t place) const {
   const Way& nodes = way(place);
   const auto below_ancestor = nodes.begin() + static_cast<std::ptrdiff_t>(ancestor_depth()) + 1;

@@ -58,7 +58,7 @@ constexpr std::optional<Hook> hook_named(std::string_view attribute, const Langu
   return std::nullopt;
 }
 
-// The version of what trees mean: docs/nodes-and-attributes.md has what each has changed. Recordings name it.
+// The version of what trees mean: docs/nodes-and-attributes.md lists them. Recordings name it.
 inline constexpr std::uint64_t kLawVersion = 3;
 
 }  // namespace lockstep::host

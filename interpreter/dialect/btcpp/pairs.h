@@ -1,5 +1,5 @@
 // The built-in nodes of BehaviorTree.CPP, and some of Nav2, beside those of our language. This is
-// the one table of how both are called: `convert`, Groot2, hints and docs/nodes-and-attributes.md come from it.
+// the one table of how both are called, for `convert`, Groot2, hints, nodes-and-attributes.md.
 #pragma once
 
 #include <cstdint>

@@ -334,8 +334,9 @@ std::function<int()> define_verify(CLI::App& app) {
   app.add_flag("--compact", options->compact,
                "Keep a hash of 64 bits in place of each state: less memory, and no proof, since a "
                "state may be missed, with a probability that the verdict says");
-  app.add_flag("!--no-symmetry", options->symmetry,
-               "Count states that differ only in which equal child does what, each for itself");
+  app.add_flag_callback(
+      "--no-symmetry", [options] { options->symmetry = false; },
+      "Count states that differ only in which equal child does what, each for itself");
   app.add_flag("--json", options->json, "The same as --format json");
   add_mock_option(app, options->load);
   add_load_options(app, options->load);
