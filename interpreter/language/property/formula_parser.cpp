@@ -204,6 +204,11 @@ void FormulaParser::entry_term() {
                         keys.empty() ? "there are no entries" : suggest(key.text, keys, "entries"),
                         key.offset};
   }
+  // Two SubTrees of one name, in different nodes.
+  if (const auto count = std::ranges::count(keys, key.text); count > 1) {
+    throw PropertyError{fmt::format("'{}' is the key of {} entries", brief(key.text), count),
+                        "give the SubTrees different names", key.offset};
+  }
   EntryComparison comparison;
   comparison.entry = static_cast<std::uint32_t>(found - keys.begin());
   if (token().kind != Kind::Relation) expected("a relation: == != < <= >= >");

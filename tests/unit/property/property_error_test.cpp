@@ -16,7 +16,11 @@ struct Row {
 PropertyNames names() {
   return {
       .paths = {"Main", "Main/left", "Main/left/arm", "Main/right", "Main/right/arm", "Main/base"},
-      .entries = {{"place", "string", true}, {"count", "int", true}, {"on", "bool", true}}};
+      .entries = {{"place", "string", true},
+                  {"count", "int", true},
+                  {"on", "bool", true},
+                  {"S/x", "int", true},
+                  {"S/x", "int", true}}};
 }
 
 }  // namespace
@@ -26,6 +30,7 @@ TEST_CASE("each mistake in a property is reported at its column") {
       {"", 1, "expected what holds in a tick instead of the end", ""},
       {"never", 6, "expected what holds in a tick instead of the end", ""},
       {"never bse.running", 7, "no node 'bse'", "did you mean 'base'?"},
+      {"never {S/x} == 1", 7, "'S/x' is the key of 2 entries", "give the SubTrees different names"},
       {"never left/amr.running", 7, "no node 'left/amr'", "did you mean 'left/arm'?"},
       {"never arm.running", 7, "'arm' is the end of 2 paths",
        "write more of the one that is meant: 'left/arm', 'right/arm'"},
