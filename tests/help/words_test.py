@@ -11,6 +11,7 @@ SOURCES = sys.argv[1]
 DONE = [
     "CONTRIBUTING.md",
     "README.md",
+    "docs/architecture.md",
     "docs/authoring.md",
     "docs/btcpp.md",
     "docs/cli.md",
