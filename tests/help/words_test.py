@@ -40,6 +40,7 @@ DONE = [
     "docs/new.md",
     "docs/nodes-and-attributes.md",
     "docs/packages.md",
+    "docs/paper.md",
     "docs/performance.md",
     "docs/plugins.md",
     "docs/programs.md",
