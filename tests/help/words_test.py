@@ -11,6 +11,8 @@ SOURCES = sys.argv[1]
 DONE = [
     "CONTRIBUTING.md",
     "README.md",
+    "SECURITY.md",
+    "SUPPORT.md",
     "docs/architecture.md",
     "docs/authoring.md",
     "docs/btcpp.md",
