@@ -59,6 +59,7 @@ DONE = [
     "docs/tutorial.md",
     "docs/verify.md",
     "docs/versions.md",
+    "schema/editors/vscode/README.md",
     "trees/README.md",
 ]
 
