@@ -75,6 +75,8 @@ REFUSED = {  # what is refused: what to write
     r"\b(it|that|this|which) is no\b(?! longer)": "is not a",
     r"\b(taken?|takes|took) \w+ for an?\b": "treats as",
     r"\blikewise\b|, too\b": "leave it out",
+    r"(?:(?<=[.?!:] )|^(?:[-*] |\d+\. )?)so\b(?! (are|do|does|far|that)\b)": "Therefore, or leave it out",
+    r"(?:(?<=[.?!] )|^(?:[-*] |\d+\. )?)of (a|an|all|both|each|every|one|the|these|those|two)\b": "For, or the subject first",
     r"\bstandstills?\b|\bstands? still\b": "stall",
     r"\bcircles?\b": "deadlock, circular wait",
     r"\blaws?\b": "semantics, semantics version",
