@@ -686,7 +686,7 @@ print(tree.tick(), hits > 9, ticks > 9, signal.getsignal(signal.SIGINT) is signa
             return done.stderr.splitlines()[-1]
         if not pathlib.Path(lockstep.__file__).parents[2].joinpath("bin").exists():
             self.assertIn("liblockstep-runtime.so is not found: set the variable LOCKSTEP_LIBRARY to its path", ask())
-        self.assertIn("LOCKSTEP_LIBRARY is '/nowhere', which is no file", ask(LOCKSTEP_LIBRARY="/nowhere"))
+        self.assertIn("LOCKSTEP_LIBRARY is '/nowhere', which is not a file", ask(LOCKSTEP_LIBRARY="/nowhere"))
 
 
 if __name__ == "__main__":

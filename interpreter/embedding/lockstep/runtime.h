@@ -3,7 +3,7 @@
  * which wraps it; docs/embedding.md is the manual.
  *
  * Compatibility. This interface only grows: a program that was built with an older header of the
- * same major goes on working. Every struct begins with its size, which the program sets; members
+ * same major continues to work. Every struct begins with its size, which the program sets; members
  * beyond it are neither read nor written.
  *
  * Threads. A project belongs to one thread until it has been loaded. After that it does not change
@@ -20,7 +20,7 @@
  * signal handlers, changes malloc or ends the process. No exception comes out of it.
  *
  * Strings that are passed in are copied. Strings that come out belong to lockstep; each function
- * says how long they are valid. All text is UTF-8 and ends in a NUL: what is passed in and is not
+ * names how long they are valid. All text is UTF-8 and ends in a NUL: what is passed in and is not
  * UTF-8 is refused, but for the names of files, which are what the system has, and the text of a
  * tree, whose encoding is among its diagnostics. A reason in lockstep_last_error() has 2 KB at
  * most.
@@ -57,7 +57,7 @@ LOCKSTEP_EXPORT void lockstep_project_free(lockstep_project* project);
 /* A directory in which plugins are searched; LOCKSTEP_PLUGIN_PATH is searched after those. */
 LOCKSTEP_EXPORT bool lockstep_project_add_plugin_path(lockstep_project* project,
                                                       const char* directory);
-/* A plugin that no tree asks for: a file, or a name to search for. */
+/* A plugin that no tree names: a file, or a name to search for. */
 LOCKSTEP_EXPORT bool lockstep_project_add_plugin(lockstep_project* project, const char* plugin);
 /* Leaves that are in the program. The table, and all that it points to, stays valid and unchanged
  * as long as the project and its runs. */
@@ -71,20 +71,20 @@ LOCKSTEP_EXPORT bool lockstep_project_set_value(lockstep_project* project, const
                                                 const char* value);
 /* Which <BehaviorTree>; without it main_tree_to_execute, or the only one. */
 LOCKSTEP_EXPORT bool lockstep_project_set_main_tree(lockstep_project* project, const char* id);
-/* Runs every plugin in a separate process, not only those for which the tree asks it. Leaves that
- * are in the program stay there. */
+/* Runs every plugin in a separate process, not only those for which the tree has isolate. Leaves
+ * that are in the program stay there. */
 LOCKSTEP_EXPORT bool lockstep_project_isolate_all(lockstep_project* project);
 /* The program uses entries by their names, at any time and in any thread, also those
  * that no node of the tree names: lockstep_run_board. Each tick locks the entries then. With
  * has_outside, {@key} in a tree for BehaviorTree.CPP is the entry "@key" of the main board, which
- * the program exchanges with a board outside; else it is the entry "key". */
+ * the program exchanges with a board outside; otherwise it is the entry "key". */
 LOCKSTEP_EXPORT bool lockstep_project_open_entries(lockstep_project* project, bool has_outside);
 
 /* Keeps what lockstep_run_groot2 shows of the tree. */
 LOCKSTEP_EXPORT bool lockstep_project_show_groot2(lockstep_project* project);
 
 /* For tests of trees: all leaves of plugins, also of such as are not there, play
- * scripts. No plugin is called. A leaf without a script runs for ever; a condition without one
+ * scripts. No plugin is called. A leaf without a script runs indefinitely; a condition without one
  * fails. */
 LOCKSTEP_EXPORT bool lockstep_project_play_leaves(lockstep_project* project);
 /* After loading: what a leaf does in runs that are made or restarted from then on, tick
@@ -151,8 +151,8 @@ typedef struct lockstep_entry {
 LOCKSTEP_EXPORT uint32_t lockstep_project_entry_count(const lockstep_project* project);
 LOCKSTEP_EXPORT bool lockstep_project_entry(const lockstep_project* project, uint32_t index,
                                             lockstep_entry* entry);
-/* The index of the entry with this key, a search among all of them. It is the handle of
- * the entry in all runs of this project, as long as one of them lives, and in any thread. */
+/* The index of the entry with this key, a search among all entries. It is the handle of
+ * the entry in all runs of this project, as long as one of these runs lives, and in any thread. */
 LOCKSTEP_EXPORT bool lockstep_project_find_entry(const lockstep_project* project, const char* key,
                                                  uint32_t* index);
 
@@ -164,7 +164,7 @@ typedef struct lockstep_run lockstep_run;
 /* What a fault of a leaf (it throws, returns a wrong status, …) does. */
 enum {
   LOCKSTEP_ON_FAULT_STOP = 0, /* the run ends */
-  LOCKSTEP_ON_FAULT_FAIL = 1  /* the leaf fails, and the run goes on */
+  LOCKSTEP_ON_FAULT_FAIL = 1  /* the leaf fails, and the run continues */
 };
 
 typedef struct lockstep_run_options {
@@ -175,8 +175,8 @@ typedef struct lockstep_run_options {
   /* The times of ticks are not real: a tick waits for the threads of leaves, which sleep in the
    * run's time. The loop on the virtual clock needs it. */
   bool virtual_time;
-  /* A line that a leaf logs; from any thread. Also what the run has to say of a leaf:
-   * that it reported a progress outside [0, 1], or that it failed and the run goes on. */
+  /* A line that a leaf logs; from any thread. Also what the run reports about a leaf:
+   * that it reported a progress outside [0, 1], or that it failed and the run continues. */
   void (*log)(void* user, const char* who, lockstep_log_level level, const char* message);
   void* user; /* also of what follows */
   /* Called before leaves are created, also by a restart: may give entries their first
@@ -190,8 +190,8 @@ typedef struct lockstep_run_options {
   double tick_budget;
   /* In seconds, 0: none. `hang` is reported once for a call of a leaf that lasts longer
    * and has not returned: which leaf ("'Main/arm' (Reach of plugin 'arm')"), in which function, for
-   * how long. It is called in another thread, and must not call the run; the call goes on. A thread
-   * that has ticked does not end before another one ticks, or the run is freed. */
+   * how long. It is called in another thread, and must not call the run; the call continues. A
+   * thread that has ticked does not end before another one ticks, or the run is freed. */
   double hang_limit;
   void (*hang)(void* user, const char* who, const char* function, double seconds);
 } lockstep_run_options;
@@ -205,14 +205,14 @@ LOCKSTEP_EXPORT void lockstep_run_free(lockstep_run* run);
 LOCKSTEP_EXPORT bool lockstep_run_restart(lockstep_run* run, uint64_t seed);
 
 /* One tick of the tree. `seconds` is the time since the run began, which must not decrease; time
- * stands still within a tick. Returns LOCKSTEP_RUNNING also after a fault, when nothing is ticked
- * any more: ask lockstep_run_fault. And it does when nothing was ticked, since the time is before
+ * stays the same within a tick. Returns LOCKSTEP_RUNNING also after a fault, when nothing is ticked
+ * any more: see lockstep_run_fault. And it does when nothing was ticked, since the time is before
  * that of the last tick (a recording that begins again), negative or no number: then
- * lockstep_last_error is not "". A loop asks both after each tick. After Success or Failure the
+ * lockstep_last_error is not "". A loop checks both after each tick. After Success or Failure the
  * next tick begins the tree again.
  */
 LOCKSTEP_EXPORT lockstep_status lockstep_run_tick(lockstep_run* run, double seconds);
-/* The same, but the root is ticked exactly once, also when a node asks for another tick
+/* The same, but the root is ticked exactly once, also when a node requests another tick
  * at once. */
 LOCKSTEP_EXPORT lockstep_status lockstep_run_tick_once(lockstep_run* run, double seconds);
 /* Halts every leaf that runs, in the order of the tree. Refused, with lockstep_last_error, in what
@@ -223,7 +223,7 @@ LOCKSTEP_EXPORT void lockstep_run_halt(lockstep_run* run);
  * `node` may be NULL. Valid until the next call for this run. */
 LOCKSTEP_EXPORT const char* lockstep_run_fault(lockstep_run* run, uint32_t* node);
 
-/* After a fault, halts what runs. The run goes on: the next tick begins the tree, with
+/* After a fault, halts what runs. The run continues: the next tick begins the tree, with
  * the entries and the leaves as they are. The fault is reported with what leaves log, and so is in
  * a recording. False: a leaf could not be created; only lockstep_run_restart is of use then. */
 LOCKSTEP_EXPORT bool lockstep_run_recover(lockstep_run* run);
@@ -236,7 +236,7 @@ typedef struct lockstep_node_state {
   bool ticked;     /* in the last tick */
 } lockstep_node_state;
 
-/* Progress is asked from the leaves. */
+/* Progress is read from the leaves. */
 LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
                                        lockstep_node_state* state);
 
@@ -331,7 +331,7 @@ typedef void (*lockstep_observe)(void* user, lockstep_run* run, uint64_t tick, d
                                  lockstep_status status);
 LOCKSTEP_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
 
-/* Who else watches the run, as a run of the command `lockstep run`. Each before the
+/* What else watches the run, as in the command `lockstep run`. Each before the
  * first tick, until lockstep_run_restart, lockstep_run_free or the end of a loop. All long work is
  * done in other threads; the time of the ticks is that of the program.
  *
@@ -397,9 +397,9 @@ LOCKSTEP_EXPORT void lockstep_script_free(lockstep_script* script);
 LOCKSTEP_EXPORT uint32_t lockstep_script_name_count(const lockstep_script* script);
 LOCKSTEP_EXPORT const char* lockstep_script_name(const lockstep_script* script, uint32_t index);
 /* Runs it. `values` has one for each name, `declared` 0 where there is no such entry. After the run
- * they are what the script has made of them, valid until its next call; `writes` is how often it
- * has written each. `result` is the value of the last statement; may be NULL. False after an error:
- * what was assigned before it stays. */
+ * they are what the script has made of them, valid until its next call; `writes` is the number of
+ * times it has written each. `result` is the value of the last statement; may be NULL. False after
+ * an error: what was assigned before it stays. */
 LOCKSTEP_EXPORT bool lockstep_script_run(lockstep_script* script, lockstep_entry_value* values,
                                          lockstep_entry_value* result);
 
@@ -423,7 +423,7 @@ typedef struct lockstep_loop_options {
   uint64_t max_ticks;   /* 0: any number */
   double timeout;       /* seconds; 0: none */
   bool virtual_clock;   /* time jumps to the next tick: as fast as possible, the same every time */
-  bool (*stop)(void* user); /* asked before each tick; true: stop. May be NULL */
+  bool (*stop)(void* user); /* called before each tick; true: stop. May be NULL */
   void* user;
 } lockstep_loop_options;
 
@@ -436,7 +436,7 @@ typedef struct lockstep_loop_result {
   double seconds;
 } lockstep_loop_result;
 
-/* Ticks a new or restarted run once every tick_period until it completes or has to stop, and halts
+/* Ticks a new or restarted run once every tick_period until it completes or must stop, and halts
  * it. The thread sleeps in between. `options` and `result` may be NULL. False: an argument is
  * wrong. On the virtual clock max_ticks 0 is a million. */
 LOCKSTEP_EXPORT bool lockstep_run_loop(lockstep_run* run, const lockstep_loop_options* options,

@@ -1,5 +1,5 @@
 // lockstep/runtime.hpp: lockstep inside a C++ program, C++17. Header only, over the C interface of
-// lockstep/runtime.h, so a program goes on working with later versions of the library. Link
+// lockstep/runtime.h, so a program continues to work with later versions of the library. Link
 // lockstep::runtime. docs/embedding.md is the manual. In a few lines:
 //
 //   lockstep::runtime::Project project;
@@ -266,17 +266,17 @@ class Project {
 struct RunSettings {
   std::uint64_t seed = 0;      // of the leaves' random numbers
   double tick_period = 0.01;   // what leaves see as such, and the period of the loop, in seconds
-  bool fail_on_fault = false;  // a fault of a leaf is its Failure, and the run goes on
+  bool fail_on_fault = false;  // a fault of a leaf is its Failure, and the run continues
   // The times of ticks are not real: a tick waits for threaded leaves, whose sleeps are in the
   // run's time. For the loop with virtual_clock.
   bool virtual_time = false;
-  // A line that a leaf logs; from any thread. Also what the run has to say of a leaf: that it
-  // reported a progress outside [0, 1], or that it failed and the run goes on.
+  // A line that a leaf logs; from any thread. Also what the run reports about a leaf: that it
+  // reported a progress outside [0, 1], or that it failed and the run continues.
   std::function<void(const std::string& who, LogLevel level, const std::string& message)> log = {};
   // In seconds; 0: none. A call of a leaf that takes longer is reported with what leaves log.
   double tick_budget = 0;
   // In seconds; 0: none. A call of a leaf that lasts longer and has not returned is reported once,
-  // in another thread; it goes on.
+  // in another thread; it continues.
   double hang_limit = 0;
   std::function<void(const std::string& who, const std::string& function, double seconds)> hang =
       {};
@@ -296,7 +296,7 @@ struct LoopSettings {
   std::uint64_t max_ticks = 0;  // 0: any number; on the virtual clock a million
   double timeout = 0;           // seconds; 0: none
   Overrun overrun = Overrun::Skip;
-  std::function<bool()> stop = {};  // asked before each tick; true: stop
+  std::function<bool()> stop = {};  // called before each tick; true: stop
 };
 
 struct LoopResult {
@@ -342,14 +342,14 @@ class Run {
 
   // One tick, `seconds` after the run began. Throws an Error after a fault of a leaf, with the path
   // of the leaf, when everything that runs has been halted; and when nothing was ticked, since the
-  // time is before that of the last tick, negative or no number: then the run may go on.
+  // time is before that of the last tick, negative or no number: then the run may continue.
   Status tick(double seconds) {
     const auto status = static_cast<Status>(lockstep_run_tick(it_.get(), seconds));
     throw_refusal();
     throw_failures();
     return status;
   }
-  // The same, but the root is ticked exactly once, also when a node asks for another tick at once.
+  // The same, but the root is ticked exactly once, also when a node requests another tick at once.
   Status tick_once(double seconds) {
     const auto status = static_cast<Status>(lockstep_run_tick_once(it_.get(), seconds));
     throw_refusal();
@@ -400,7 +400,7 @@ class Run {
   void recover() { detail::require(lockstep_run_recover(it_.get())); }
   // Begins again, as a new run with this seed would.
   void restart(std::uint64_t seed) { detail::require(lockstep_run_restart(it_.get(), seed)); }
-  // Ticks at the run's period until the tree completes or has to stop.
+  // Ticks at the run's period until the tree completes or must stop.
   LoopResult loop(const LoopSettings& settings = {}) {
     auto options = detail::sized<lockstep_loop_options>();
     options.virtual_clock = settings.virtual_clock;

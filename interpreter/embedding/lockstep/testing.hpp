@@ -1,6 +1,6 @@
 // lockstep/testing.hpp: tests of trees in C++17, for Catch2, GoogleTest or any other framework.
 // Header only, over lockstep/runtime.hpp; link lockstep::runtime. docs/testing.md is the manual. A
-// tree is loaded without its plugins, and each of its leaves does what the test says:
+// tree is loaded without its plugins, and each of its leaves does what the test declares:
 //
 //   TEST_CASE("the arm slips") {
 //     lockstep::testing::TreeTest tree("door.xml");
@@ -32,14 +32,14 @@ struct Settings {
   double rate = 10;                       // Hz
   std::vector<NamedText> arguments = {};  // of <arg>
   std::vector<NamedText> values = {};     // start values of entries, written as in XML
-  std::string main_tree = {};             // which <BehaviorTree>; "": as the file says
+  std::string main_tree = {};             // which <BehaviorTree>; "": that of the file
   std::vector<std::string> plugin_paths = {};
   std::uint64_t seed = 0;
 };
 
 class TreeTest {
  public:
-  // The properties of the tree file are checked, too.
+  // The properties of the tree file are also checked.
   explicit TreeTest(const std::string& file, const Settings& settings = {}) : settings_(settings) {
     prepare();
     project_.load_file(file);
@@ -148,7 +148,7 @@ class TreeTest {
     }
   }
 
-  // The run, which is made when it is asked for first.
+  // The run, which is made at its first use.
   runtime::Run& begun() {
     if (run_) return *run_;
     runtime::RunSettings settings;
@@ -183,7 +183,7 @@ class TreeTest {
       }
       found = it;
     }
-    play_path(found.empty() ? path : found);  // which says what there is
+    play_path(found.empty() ? path : found);  // which lists the paths
   }
   std::uint32_t find(const std::string& path) const {
     const runtime::NodeInfo* found = nullptr;

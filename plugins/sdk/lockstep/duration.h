@@ -8,7 +8,7 @@
 namespace lockstep {
 inline namespace sdk1 {
 
-// A hundred years: what is to wait longer, or without end, waits so long, on every clock.
+// A hundred years: a longer or endless wait lasts this long, on every clock.
 constexpr std::chrono::hours kLongestWait{24 * 365 * 100};
 
 // Nothing where the duration is negative, or not a number.

@@ -4,7 +4,7 @@
  * This header is C99, C11 and C++; C++ authors want lockstep/leaf.hpp, which wraps it.
  *
  * A leaf needs what stands first. What few need has a header each in lockstep/ext/, which this one
- * includes. The marks [load], [run] and [any] say which thread calls a function. They, and the
+ * includes. The marks [load], [run] and [any] name the thread that calls a function. They, and the
  * rules of compatibility, memory and exceptions, stand at the end.
  */
 #ifndef LOCKSTEP_LEAF_H
@@ -80,11 +80,11 @@ typedef struct lockstep_port {
    * port is read (get returns false, and the leaf has an error), and in set. */
   const char* choices; /* of a string: the words that it may be, "soft;firm"; NULL for any text */
   double min, max;     /* of numbers, also in lists; both 0 for any, HUGE_VAL for no upper end */
-  const lockstep_object_type* object; /* of a LOCKSTEP_OBJECT, which has no default; else NULL */
+  const lockstep_object_type* object; /* of a LOCKSTEP_OBJECT, which has no default; or NULL */
   uint64_t flags;                     /* LOCKSTEP_OPTIONAL, …: below */
 } lockstep_port;
 
-/* Who is calling: one leaf of one run, or one run (in create_run). Given by the host at create or
+/* The caller: one leaf of one run, or one run (in create_run). Given by the host at create or
  * create_run and valid until destroy or destroy_run returns. Opaque. */
 typedef struct lockstep_caller lockstep_caller;
 
@@ -120,7 +120,7 @@ typedef struct lockstep_leaf_type {
   void (*pause)(void* leaf);
   /* [run] (optional) Ticks come again. */
   void (*resume)(void* leaf);
-  /* [run] (optional) How much of the activation is done, in [0, 1]. Asked only while running,
+  /* [run] (optional) How much of the activation is done, in [0, 1]. Called only while running,
    * also while paused. Outside [0, 1] is clamped, with a warning; NaN is a fault. It may fall. Of a
    * control node or decorator without this function: the least of its children that run. */
   double (*progress)(void* leaf);
@@ -151,7 +151,7 @@ typedef struct lockstep_plugin {
   const lockstep_leaf_type* const* leaf_types; /* leaf_type_count pointers, none NULL */
 
   /* [load] (optional) Before the first leaf; false refuses to work, with the reason that set_error
-   * was told. The caller is the plugin itself: it has no ports, no time and no random numbers, its
+   * received. The caller is the plugin itself: it has no ports, no time and no random numbers, its
    * log is not shown, and it is valid until init returns. Not called again unless deinit came in
    * between. Listing the descriptors (`lockstep nodes`, `lockstep check`) does not call it. */
   bool (*init)(const lockstep_host* host, const lockstep_caller* caller);
@@ -203,13 +203,13 @@ struct lockstep_host {
   const char* version; /* of the host, "1.2.3" */
 
   /* [run] Ports, by their index in the leaf type. get returns false and leaves *value unchanged
-   * when the port has no value now (no default and an entry nobody wrote yet, an output), when
-   * the index or the type is wrong, or when the caller is a run. A string or list that get hands
-   * out belongs to the host and is valid until the next call that sets a port, or until the leaf
-   * function returns, whichever is first; a string ends in a NUL that *length does not count. set
-   * copies; it returns false and changes nothing when the port is an input, not bound to an entry,
-   * or of another type, when a number is not finite, or when there is no memory. No get or set
-   * locks; what allocates is a string or list that grows. */
+   * when the port has no value now (no default and an entry that was not written yet, an output),
+   * when the index or the type is wrong, or when the caller is a run. A string or list that get
+   * hands out belongs to the host and is valid until the next call that sets a port, or until the
+   * leaf function returns, whichever is first; a string ends in a NUL that *length does not count.
+   * set copies; it returns false and changes nothing when the port is an input, not bound to an
+   * entry, or of another type, when a number is not finite, or when there is no memory. No get or
+   * set locks; what allocates is a string or list that grows. */
   bool (*get_bool)(const lockstep_caller* caller, uint32_t port, bool* value);
   bool (*get_int)(const lockstep_caller* caller, uint32_t port, int64_t* value);
   bool (*get_double)(const lockstep_caller* caller, uint32_t port, double* value);
@@ -224,7 +224,7 @@ struct lockstep_host {
   bool (*set_double_list)(const lockstep_caller* caller, uint32_t port, const double* values,
                           size_t count);
 
-  /* [run] Says that the caller has failed as a program, not as an action: the run ends in order
+  /* [run] Reports that the caller has failed as a program, not as an action: the run ends in order
    * with `message` as the reason. To be called inside a function of the leaf, which then returns
    * as usual; its result does not count. The first message of a call is kept: its first 500 bytes
    * are copied, the rest is counted. */
@@ -240,7 +240,7 @@ struct lockstep_host {
   uint64_t (*random_bits)(const lockstep_caller* caller);
   double (*random)(const lockstep_caller* caller);
 
-  /* [any] A line for the person who runs the tree. Not a way to report a failure. */
+  /* [any] A line for the person that runs the tree. Not a way to report a failure. */
   void (*log)(const lockstep_caller* caller, lockstep_log_level level, const char* message);
 
   /* [any] A table of functions beyond this one, or NULL when the host does not know the id. */
@@ -265,9 +265,9 @@ struct lockstep_host {
   bool (*get_object)(const lockstep_caller* caller, uint32_t port, void** object);
   bool (*set_object)(const lockstep_caller* caller, uint32_t port, void* object);
 
-  /* [run] Since 1.5 (struct_size says whether it is there). In place of set_error, where the caller
-   * needs the value of a port that has none: the host says why, "port 'goal' has no value: nothing
-   * has written the entry '{goal}'". */
+  /* [run] Since 1.5 (check struct_size). In place of set_error, where the caller
+   * needs the value of a port that has none: the host reports why, "port 'goal' has no value:
+   * nothing has written the entry '{goal}'". */
   void (*set_empty_port)(const lockstep_caller* caller, uint32_t port);
 };
 
@@ -294,7 +294,7 @@ enum {
   /* The tree may leave the port out though it has no default: it has no value then. */
   LOCKSTEP_OPTIONAL = 1,
   /* default_value is "{key}", the entry that the port is bound to where the tree leaves it out;
-   * "{=}" is the entry of the port's name. An output may have such a default, too. */
+   * "{=}" is the entry of the port's name. An output may also have such a default. */
   LOCKSTEP_DEFAULT_ENTRY = 2,
   /* The tree gives it a constant, never an entry. lockstep_leaf_type::describe sees it. */
   LOCKSTEP_FIXED = 4
@@ -318,7 +318,7 @@ enum {
  *
  * Memory. Descriptors and every string in them belong to the plugin and stay valid and unchanged
  * until the end of the process. A string passed to a function belongs to the caller and is valid
- * during the call, unless said otherwise. Neither side frees what the other allocated.
+ * during the call, unless documented otherwise. Neither side frees what the other allocated.
  *
  * Exceptions must not cross: a C++ plugin catches its own. (The host catches what it can.)
  */

@@ -1,5 +1,5 @@
 /* The types of values of leaf.h whose functions differ in their names only, as a table for C and
- * C++: what reads and writes ports or entries of each of them is written once.
+ * C++: the code that reads and writes ports or entries is written once for all types.
  *
  *   #define ROW(TYPE, of_type, Item) …
  *   LOCKSTEP_PLAIN_TYPES(ROW)
@@ -22,7 +22,7 @@
   ROW(INT, int, int64_t)          \
   ROW(DOUBLE, double, double)
 
-/* A list of them. */
+/* A list of such values. */
 #define LOCKSTEP_LIST_TYPES(ROW)        \
   ROW(DOUBLE_LIST, double_list, double) \
   ROW(INT_LIST, int_list, int64_t)      \

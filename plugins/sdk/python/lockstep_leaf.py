@@ -42,7 +42,7 @@ class Skipped:
 
 
 class Port:
-    """The default of a port, and what else is to be known about it:
+    """The default of a port, and its other facts:
     `force: float = Port(10.0, unit="N", min=0, doc="how hard")`."""
 
     def __init__(self, default=None, *, unit="", doc="", min=None, max=None, choices=None,
@@ -52,7 +52,7 @@ class Port:
 
 
 class Refused(Exception):
-    "Why an element has no ports; `port` is the fixed port whose text is to blame. To be raised by `describe`."
+    "Why an element has no ports; `port` is the fixed port whose text is wrong. Raised by `describe`."
 
     def __init__(self, message, port="", hint=""):
         super().__init__(message)
@@ -84,13 +84,13 @@ def _plain(value):
     return str(value)
 
 
-# What a leaf has beside its ports.
+# What a leaf has in addition to its ports.
 _TAKEN = {"behavior", "clock", "describe", "halt", "log", "more_ports", "name", "now", "path", "pause",
           "period", "progress", "random", "real_time", "resume", "start", "tick"}
 
 
 class _Attribute:
-    "A port of a class: what its leaves read is what lockstep said last."
+    "A port of a class: what its leaves read is what lockstep sent last."
 
     def __init__(self, name, annotation, default):
         directed = annotation if isinstance(annotation, _Directed) else _Directed("input", annotation)
@@ -133,10 +133,10 @@ class _Attribute:
 class _Leaf:
     _kind = ""
     real_time = False  # it works in real time, whether ticks come or not
-    more_ports = ()  # names that an element may have beside these: ["goal.*"]; `describe` says which
-    behavior = {}  # what it does, for `lockstep verify`, in the words of a leaf file: {"ticks": "2..40"}
+    more_ports = ()  # names that an element may have in addition to these: ["goal.*"]; `describe` returns them
+    behavior = {}  # what it does, for `lockstep verify`, in the words of a leaf model: {"ticks": "2..40"}
 
-    # What lockstep says: of the run, and of this tick.
+    # What lockstep sends: about the run, and of this tick.
     name = path = clock = ""
     period = now = 0.0
 
@@ -174,7 +174,7 @@ class _Leaf:
 
     @classmethod
     def _described(cls, fixed):
-        "The ports that an element with these constants has beside those of the class, by their names."
+        "The ports that an element with these constants has in addition to those of the class, by their names."
         if not cls.more_ports:
             return {}
         return {name: _Attribute(name, *(it if isinstance(it, tuple) else (it, None)))
@@ -239,7 +239,7 @@ def _progress(leaf):
 
 
 def _new(cls, number, seed, fixed={}, **facts):
-    "A leaf whose __init__ is still to be called: it may use what lockstep has said."
+    "A leaf whose __init__ is still to be called: it may use what lockstep has sent."
     leaf = cls.__new__(cls)
     leaf._own_ports = cls._ports | cls._described(fixed)
     leaf._number, leaf._values, leaf._set, leaf._has_ports, leaf._has_started = number, {}, {}, False, False
@@ -362,7 +362,7 @@ def say(**what):
 
 
 def serve(version="", doc=""):
-    "Speaks to lockstep until it has nothing more to say. At the end of the author's file."
+    "Speaks to lockstep until it ends the conversation. At the end of the author's file."
     global _out, _is_served
     _is_served = True
     caller = sys._getframe(1)
@@ -388,7 +388,7 @@ _by_hand = _is_served = False
 def _remind():
     "Of what is forgotten easily; a file that uses the package lockstep ticks its leaves itself."
     is_program = any(cls.__module__ == "__main__" for cls in _classes.values()) and not hasattr(sys, "ps1")
-    is_program = is_program and not hasattr(sys, "last_type")  # what has ended in an exception has said so
+    is_program = is_program and not hasattr(sys, "last_type")  # an exception that ended it was reported
     if is_program and not _is_served and "lockstep" not in sys.modules:
         print("lockstep_leaf: this file has leaves, but does not call serve() at its end", file=sys.stderr)
 

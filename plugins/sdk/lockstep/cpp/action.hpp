@@ -101,7 +101,7 @@ class ProgressAction : public Action<PortsOfLeaf> {
 
  protected:
   static constexpr bool kKeepsProgress = true;
-  // Asked once, when the leaf was made. False: lockstep calls progress(), which the leaf overrides.
+  // Read once, when the leaf was made. False: lockstep calls progress(), which the leaf overrides.
   virtual bool keeps_progress() const { return true; }
   // In [0, 1], as progress() of an Action. In the thread that ticks the tree.
   void set_progress(double progress) { progress_ = progress; }

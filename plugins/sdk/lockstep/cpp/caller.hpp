@@ -1,4 +1,4 @@
-// A leaf or a run may ask its host for these: time, random numbers, log lines. Also the boundary
+// A leaf or a run may get these from its host: time, random numbers, log lines. Also the boundary
 // that turns C++ exceptions into leaf errors. Included by lockstep/leaf.hpp.
 #pragma once
 
@@ -125,8 +125,8 @@ class Services {
   double now() const { return host().now(caller_.id); }
   // Seconds between two ticks.
   double tick_period() const { return host().tick_period(caller_.id); }
-  // The number of the tick that goes on. The next tick has the next number, also if it is late and
-  // some were left out for it. An older host does not tell: the periods since the run began.
+  // The number of the current tick. The next tick has the next number, also if it is late and
+  // some were left out for it. An older host does not report it: the periods since the run began.
   std::uint64_t tick_number() const {
     const auto* const ticks = host_extension<lockstep_ticks>(LOCKSTEP_TICKS);
     if (ticks != nullptr) return ticks->number(caller_.id);
@@ -150,7 +150,7 @@ class Services {
   double random() { return host().random(caller_.id); }
   double uniform(double low, double high) { return low + (high - low) * random(); }
 
-  // A line for the person who runs the tree; from any thread. To report that the leaf is broken,
+  // A line for the person that runs the tree; from any thread. To report that the leaf is broken,
   // throw.
   void log(LogLevel level, const std::string& message) const {
     caller_.host->log(caller_.id, static_cast<lockstep_log_level>(level), message.c_str());
@@ -163,8 +163,9 @@ class Services {
     return static_cast<const Table*>(caller_.host->get_extension(id));
   }
 
-  // The tree is ticked at once, by who waits for its next period; from any thread. In a class with
-  // `static constexpr bool kWakes = true`. An older host ticks when the period is over.
+  // The tree is ticked at once, by the program that waits for its next period; from any thread. In
+  // a class with `static constexpr bool kWakes = true`. An older host ticks when the period is
+  // over.
   void wake() const {
     constexpr std::size_t kSize = offsetof(lockstep_place, wake) + sizeof(lockstep_place::wake);
     const auto* const place = host_extension<lockstep_place>(LOCKSTEP_PLACE);

@@ -1,5 +1,5 @@
-// Ports by pattern: a class says which names its elements may have beside its ports, and describes
-// one element. Included by lockstep/leaf.hpp.
+// Ports by pattern: a class defines which names its elements may have in addition to its ports, and
+// describes one element. Included by lockstep/leaf.hpp.
 //
 //   static constexpr const char* more_ports = "goal.*;result.*";
 //   static void describe(lockstep::Element& element) {
@@ -232,7 +232,7 @@ struct Describing {
     throw std::logic_error("the plugin is not ready");
   }
 
-  // For ever: leaves and hosts point to them.
+  // They are never freed: leaves and hosts point to them.
   static const lockstep_leaf_type* type_of(const lockstep_leaf_type& base, Texts fixed,
                                            void (*give_ports)(Element&)) {
     using Key = std::pair<const lockstep_leaf_type*, Texts>;

@@ -34,8 +34,8 @@ namespace detail {
 class Port;
 struct PortsAccess;
 
-// A mistake in a port is found in a constant. The structs of the leaves say the same, and there is
-// one for each leaf.
+// A mistake in a port is found in a constant. The structs of the leaves have the same mistake, and
+// there is one for each leaf.
 constexpr bool is_for_constant() {
   return __builtin_is_constant_evaluated();
 }
@@ -111,9 +111,9 @@ class Port {
     return *owner_->port_caller_;
   }
   std::uint32_t index() const { return index_; }
-  // The value, if it is a constant that the host has told; else null.
+  // The value, if it is a constant that the host has given; otherwise null.
   const void* constant() const { return constant_; }
-  // The tree binds it to no entry, as the host has told.
+  // The tree binds it to no entry, as the host has reported.
   bool is_dropped() const { return is_dropped_; }
 
  private:
@@ -223,7 +223,7 @@ class ReadablePort : public Port {
   // The value, the default until the entry is written; a std::runtime_error when there is none.
   T get() const { return from_view<T>(view()); }
 
-  // Nothing if there is no value: no default, and bound to an entry that nobody has written yet.
+  // Nothing if there is no value: no default, and bound to an entry that has not been written yet.
   std::optional<T> try_get() const {
     if (const View* const known = constant_view()) return from_view<T>(*known);
     View value{};
@@ -238,7 +238,7 @@ class ReadablePort : public Port {
     return known != nullptr ? *known : view_of_now();
   }
 
-  // The tree gives a number or a bool that stays the same. An older host does not tell.
+  // The tree gives a number or a bool that stays the same. An older host does not report it.
   bool is_constant() const { return constant() != nullptr; }
 
  protected:

@@ -81,7 +81,7 @@ class Number {
   constexpr operator double() const {  // NOLINT: in either case
     return is_int_ ? static_cast<double>(whole_) : number_;
   }
-  // Exactly, if it is an int; else without what comes after the point.
+  // Exactly, if it is an int; otherwise without what comes after the point.
   constexpr std::int64_t to_int() const {
     return is_int_ ? whole_ : static_cast<std::int64_t>(number_);
   }

@@ -156,7 +156,7 @@ constexpr bool may_be_within(std::string_view text, double min, double max) {
   return number >= min && number <= max;
 }
 
-// The place of `word` in "soft;firm"; as many as there are words if it is none of them.
+// The place of `word` in "soft;firm"; the number of words if it is not among them.
 constexpr std::size_t index_of(std::string_view word, std::string_view words) {
   for (std::size_t index = 0;; ++index) {
     const auto end = words.find(';');
@@ -198,7 +198,7 @@ constexpr bool is_bool(std::string_view text) {
          text == "False" || text == "FALSE" || text == "0";
 }
 
-// Items of which `is_item` is true, separated by ; or , or blanks.
+// Items of which `is_item` is true, separated by ; or , or whitespace.
 constexpr bool is_list(std::string_view text, bool (*is_item)(std::string_view)) {
   constexpr std::string_view kSeparators = ";, \t\r\n";
   while (true) {

@@ -33,7 +33,7 @@ class Token {
     return locked([this] { return pause_; });
   }
 
-  // Returns at once when not paused, else when resumed or halted. False: halted, return now.
+  // Returns at once when not paused, otherwise when resumed or halted. False: halted, return now.
   bool wait_while_paused() {
     if (worker_ != nullptr) {
       const double forever = std::numeric_limits<double>::infinity();
@@ -60,8 +60,8 @@ class Token {
     return !changed_.wait_for(lock, time, [this] { return stop_; });
   }
 
-  // On the virtual clock the thread waits here for the next tick; else it goes on at once. For work
-  // that asks again and again whether it is to stop, and does not sleep by the token.
+  // On the virtual clock the thread waits here for the next tick; otherwise it continues at once.
+  // For work that checks again and again whether it must stop, and does not sleep by the token.
   void yield() {
     if (worker_ != nullptr) workers_->wait(worker_, workers_->now(worker_) + 1e-9);
   }
@@ -98,7 +98,7 @@ class Token {
   bool stop_ = false;
   bool pause_ = false;
   std::atomic<double> progress_{0};
-  // The activation's, on the virtual clock; else null.
+  // The activation's, on the virtual clock; otherwise null.
   const lockstep_workers* workers_ = nullptr;
   lockstep_worker* worker_ = nullptr;
 };

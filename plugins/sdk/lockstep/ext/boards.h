@@ -10,13 +10,13 @@ extern "C" {
 
 /* The entries of a run by their names, for code that has no port for them. Found with
  * get_extension(LOCKSTEP_BOARDS). A board is a tree's: of the main tree, index 0, and of each use
- * of a SubTree. It is valid as long as somebody has it, and its run may be over: then it has no
+ * of a SubTree. It is valid until its last user releases it. If its run is over, it has no
  * entries and takes none.
  *
- * Any thread may call these functions at any time. Between lock and unlock the thread has the
- * entries for itself, and as often as it likes; while leaves do their work nobody has them, so a
- * tick waits for whoever does. What read gives is valid until unlock, and each other function locks
- * for its own time only. */
+ * Any thread may call these functions at any time. Between lock and unlock only this thread
+ * uses the entries; it may lock again within. While leaves do their work no other thread has the
+ * lock, so a tick waits for a thread that has it. What read gives is valid until unlock, and each
+ * other function locks for its own time only. */
 typedef struct lockstep_board lockstep_board;
 
 typedef struct lockstep_entry_value {

@@ -19,7 +19,7 @@ extern "C" {
  *
  * The host keeps the rest in order. When the node completes, children that still run are halted.
  * When the node is halted or paused, so are its children, before its own function is called; with
- * LOCKSTEP_HALTS_CHILDREN, after its halt. A child that runs and is not ticked goes on by itself,
+ * LOCKSTEP_HALTS_CHILDREN, after its halt. A child that runs and is not ticked continues by itself,
  * unless it was paused or halted. */
 typedef struct lockstep_children {
   uint32_t struct_size;
@@ -37,8 +37,8 @@ typedef struct lockstep_children {
   /* [run] In [0, 1]: 1 after success, 0 when it failed or is idle. */
   double (*progress)(const lockstep_caller* caller, uint32_t child);
   /* [run] Ticks a child that may have completed before, as tick does; but one that has completed
-   * does not begin again: it is told by start_unreset
-   * (optional) in place of start, and goes on from its last result. An action that takes time
+   * does not begin again: it receives start_unreset
+   * (optional) in place of start, and continues from its last result. An action that takes time
    * and has no start_unreset is not ticked; it gives the same result. */
   lockstep_status (*tick_unreset)(const lockstep_caller* caller, uint32_t child);
 } lockstep_children;

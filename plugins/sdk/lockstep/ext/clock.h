@@ -14,10 +14,10 @@ extern "C" {
 typedef struct lockstep_clock {
   uint32_t struct_size; /* sizeof(lockstep_clock) as the plugin knew it */
   const char* name;     /* the NAME of --clock: "ros" */
-  /* [load] After init, before the run: it begins to listen. False: *why says what is wrong. */
+  /* [load] After init, before the run: it begins to listen. False: *why is the reason. */
   bool (*open)(const char** why);
   /* [any] Nanoseconds, from where the clock likes; negative while it has no time. It may stand, and
-   * it may jump, also back: a run goes on from the last time then. */
+   * it may jump, also back: a run then continues from the last time. */
   int64_t (*now)(void);
 } lockstep_clock;
 

@@ -28,7 +28,7 @@ struct lockstep_fixed {
  * the host has set all to NULL, and struct_size. */
 struct lockstep_refusal {
   uint32_t struct_size;
-  const char* port;    /* whose text is to blame; NULL: the element as a whole */
+  const char* port;    /* whose text is wrong; NULL: the element as a whole */
   const char* message; /* lower case, names in single quotes, no full stop */
   const char* hint;    /* what to do; NULL for none */
 };

@@ -10,10 +10,10 @@ extern "C" {
 
 /* A type of objects that ports carry by reference. What is carried does not change. Two
  * types of one name are one, also of different plugins: each may get what the other has made, so
- * the name says how the object looks in memory. Declare each type once in a plugin. */
+ * the name stands for the layout of the object in memory. Declare each type once in a plugin. */
 struct lockstep_object_type {
   uint32_t struct_size; /* sizeof(lockstep_object_type) as the plugin knew it */
-  const char* name;     /* "nav.Path": up to 100 letters, digits and '._:/-'; inside also blanks and
+  const char* name;     /* "nav.Path": up to 100 letters, digits and '._:/-'; inside also spaces and
                            '<>,*&()[]', as in the name of a C++ type */
 
   /* [any] One reference more; one less, and with the last the end of the object. A reference that a
@@ -31,14 +31,14 @@ struct lockstep_object_type {
 
   /* [any] (optional, both or none) For plugins in separate processes, which exchange bytes. Writes
    * at most `size` bytes and returns how many the whole object has, at most 64 MiB; SIZE_MAX when
-   * it cannot tell. */
+   * it does not know it. */
   size_t (*to_bytes)(const void* object, void* bytes, size_t size);
   /* A new object with one reference, or NULL when the bytes are none. Another process has written
    * them, which may run another version of the plugin: check them. */
   void* (*from_bytes)(const void* bytes, size_t length);
 
   /* [any] (optional) Why the last from_text of this thread returned NULL, in a sentence; NULL when
-   * there is no more to say. Valid until the next from_text. */
+   * there is no more text. Valid until the next from_text. */
   const char* (*why_no_object)(void);
 
   /* (optional) Whether an input of this type may be bound to an entry of the type of

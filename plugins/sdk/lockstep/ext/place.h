@@ -44,12 +44,12 @@ typedef struct lockstep_place {
   /* [run] Removes the entry of a port that was opened, if it belongs to the node's own tree. */
   void (*unset)(const lockstep_caller* caller, uint32_t port);
 
-  /* [run] In tick: where the tree is in a language whose nodes ask for it, it is ticked once more
+  /* [run] In tick: where the tree is in a language whose nodes request it, it is ticked once more
    * in this period if its root runs then. */
   void (*ask_for_tick)(const lockstep_caller* caller);
 
-  /* [any] The tree is ticked at once, by who
-   * waits for its next period, or right after the tick that goes on. Only for a type with
+  /* [any] The tree is ticked at once, by the program that
+   * waits for its next period, or right after the current tick. Only for a type with
    * LOCKSTEP_WAKES. Nothing happens on the virtual clock, where a period takes no time, and in a
    * separate process. It never waits. */
   void (*wake)(const lockstep_caller* caller);

@@ -12,7 +12,7 @@ extern "C" {
 
 typedef struct lockstep_ticks {
   uint32_t struct_size; /* sizeof(lockstep_ticks) as the host knew it */
-  /* [run] The number of the tick that goes on. The next one has the next number, also if it is late
+  /* [run] The number of the current tick. The next one has the next number, also if it is late
    * and some were left out for it. In a separate process: the whole periods since the run began. */
   uint64_t (*number)(const lockstep_caller* caller);
 } lockstep_ticks;

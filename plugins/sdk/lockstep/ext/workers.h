@@ -23,7 +23,7 @@ typedef struct lockstep_workers {
   /* [run] A new worker of the leaf. NULL when the run is not on the virtual clock, where threads
    * work in real time, as they like; and after an error. Valid until finish returns. */
   lockstep_worker* (*begin)(const lockstep_caller* caller);
-  /* [run] Gives the worker turns until it has ended. Each worker is to be finished. */
+  /* [run] Gives the worker turns until it has ended. Each worker must be finished. */
   void (*finish)(lockstep_worker* worker);
 
   /* The next four: by the thread that is the worker. */
@@ -34,7 +34,7 @@ typedef struct lockstep_workers {
   bool (*wait)(lockstep_worker* worker, double until);
   /* Its last call. */
   void (*end)(lockstep_worker* worker);
-  /* Seconds since the run began; stands still within a turn. */
+  /* Seconds since the run began; stays the same within a turn. */
   double (*now)(lockstep_worker* worker);
 
   /* [any] Ends the wait, at its next turn. */

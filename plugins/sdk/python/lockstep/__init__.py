@@ -6,8 +6,8 @@
     table = lockstep.read("run.jsonl")              # a row for each tick and active node
     runs = lockstep.study("trees/paper/example5.xml", runs=100, grid={"barrier_count": [0, 5]})
 
-Tables are pandas.DataFrame where pandas is installed, else lists of dicts. The program lockstep is
-found by the variable LOCKSTEP, beside this package, or in PATH. docs/programs.md has the leaves.
+Tables are pandas.DataFrame where pandas is installed, otherwise lists of dicts. The program lockstep is
+found by the variable LOCKSTEP, next to this package, or in PATH. docs/programs.md has the leaves.
 """
 import csv
 import io

@@ -2,7 +2,7 @@
 
 
 class Error(Exception):
-    """What lockstep says when a tree is wrong (`code` 3), a plugin is refused (4) or a leaf has a fault (5):
+    """What lockstep reports when a tree is wrong (`code` 3), a plugin is refused (4) or a leaf has a fault (5):
     the exit codes of the program. A closed tree, and one that is in use, have code 2.
 
     Of trees in this process, `diagnostics` has what is wrong with a tree, and `node` is the path of the leaf

@@ -22,7 +22,7 @@ making = threading.local()
 
 
 class _Ports:
-    "The values that a leaf reads: what it has set in this tick, else what the host has."
+    "The values that a leaf reads: what it has set in this tick, otherwise what the host has."
 
     def __init__(self, leaf, host, caller, ports, state):
         self.leaf, self.host, self.caller, self.ports, self.state = leaf, host, caller, ports, state
@@ -36,7 +36,7 @@ class _Ports:
         return type_.read(self.host.getters[type_.name], self.caller, index)
 
     def __setitem__(self, name, value):
-        pass  # _Attribute keeps it in _set, too
+        pass  # _Attribute also keeps it in _set
 
 
 class _Host:
@@ -148,7 +148,7 @@ class _Class:
 
     def destroy(self, number):
         leaf = self.leaves.pop(number, None)
-        if leaf is not None:  # which somebody may have kept
+        if leaf is not None:  # which the program may have kept
             leaf._values, leaf._caller = {}, None
 
     # Of Ctrl-C: an exception may come out of any line of the author's, and of none outside of try.

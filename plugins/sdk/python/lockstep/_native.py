@@ -281,6 +281,6 @@ OBJECT, NUMBER, ANY = 9, 100, 101
 
 
 def function_name(type_, text="string"):
-    "The part of a function's name that says the type: double_list."
+    "The part of a function's name that names the type: double_list."
     *is_list, item = type_.name.split(" of ")
     return (text if item == "string" else item) + ("_list" if is_list else "")

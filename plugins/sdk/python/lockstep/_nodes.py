@@ -19,7 +19,7 @@ class Node:
     id = property(lambda self: self._fact.id, doc="the tag: MoveArm")
     status = property(lambda self: native.STATUSES[self._state().status],
                       doc="idle, running, success, failure or skipped")
-    progress = property(lambda self: self._state().progress, doc="from 0 to 1; its leaves are asked")
+    progress = property(lambda self: self._state().progress, doc="from 0 to 1; read from its leaves")
     held = property(lambda self: self._state().held, doc="a synchronized node withholds its ticks")
     ticked = property(lambda self: self._state().ticked, doc="it was, in the last tick")
 
@@ -117,7 +117,7 @@ def _read_entry(library, handle, index):
 
 
 def _type_for(value, number, name):
-    "Of a value that is to be written; None: as a text."
+    "Of a value to write; None: as a text."
     if isinstance(value, str) or number == native.OBJECT:
         if isinstance(value, str):
             return None

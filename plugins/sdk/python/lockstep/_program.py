@@ -27,7 +27,7 @@ def library():
     given = os.environ.get("LOCKSTEP_LIBRARY")
     if given:
         if not os.path.isfile(given):
-            raise FileNotFoundError(f"LOCKSTEP_LIBRARY is '{given}', which is no file: set it to the path of {_LIBRARY}")
+            raise FileNotFoundError(f"LOCKSTEP_LIBRARY is '{given}', which is not a file: set it to the path of {_LIBRARY}")
         return given
     for directory in _directories():
         found = sorted(directory.glob(_LIBRARY + "*"))
@@ -41,7 +41,7 @@ def library():
 
 
 def _directories():
-    "Beside the program in a build directory, else in lib, lib64 or lib/x86_64-linux-gnu of its installation."
+    "Next to the program in a build directory, otherwise in lib, lib64 or lib/x86_64-linux-gnu of its installation."
     try:
         binary = pathlib.Path(program()).resolve().parent
     except FileNotFoundError:

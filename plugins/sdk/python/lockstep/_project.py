@@ -26,7 +26,7 @@ def log(who, level, text):
 
 
 class _Held:
-    "The project of the library, until nobody has it: a thread may be making a tree of it while another closes it."
+    "The project of the library, until it has no user: a thread may be making a tree of it while another closes it."
 
     def __init__(self, library, leaves):
         self.handle = library.project_new()

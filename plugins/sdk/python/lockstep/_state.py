@@ -8,7 +8,7 @@ from . import _native as native
 
 
 def free(function, handle, process, state=None):
-    "When nobody has it any more, or at the end. The child of a fork leaves it to its parent."
+    "When it has no user any more, or at the end. The child of a fork leaves it to its parent."
     if os.getpid() != process:
         return
     if state is None:
@@ -30,7 +30,7 @@ class State:
     def __init__(self, log, clock):
         self.log, self.clock = log, clock
         self.guard = threading.Lock()  # of user
-        self.user = None               # who uses the tree
+        self.user = None               # the user of the tree
         self.thread = None      # that is in a call
         self.observers = []
         self.observes = False   # observers are being called

@@ -21,10 +21,10 @@ class Tree:
 
     `tree` is a file or a Project; the other keywords of a Project may be given with a file. `clock` is "virtual", on
     which ticks come as fast as they can and a leaf sees times that are `period` apart, or "wall". `on_fault` is
-    "stop" or "fail": the leaf fails, and the tree goes on. `log(path, level, text)` gets what leaves log; without it
+    "stop" or "fail": the leaf fails, and the tree continues. `log(path, level, text)` gets what leaves log; without it
     the logger "lockstep" of logging does.
 
-    In seconds, 0 for none: a call of a leaf that takes longer than `tick_budget` is told to `log`, at most once a second;
+    In seconds, 0 for none: a call of a leaf that takes longer than `tick_budget` is reported to `log`, at most once a second;
     one that lasts longer than `hang_limit` and has not returned, once to `on_hang(who, function, seconds)`, from another
     thread, or to `log` without it."""
 
@@ -172,7 +172,7 @@ class Tree:
         return observe
 
     def close(self):
-        "Halts what runs and ends the leaves. Without it that happens when nobody has the tree any more."
+        "Halts what runs and ends the leaves. Without it that happens when the tree has no user any more."
         if self._handle is not None:
             self._using(self._forget_handle)
             self._finalizer()
@@ -216,7 +216,7 @@ class Tree:
         return read(self._handle) if self._is_observed() else self._using(read)
 
     def _ask(self, index, answer):
-        "For the state of a node. Leaves are asked for their progress, and may have a fault."
+        "For the state of a node. The progress is read from the leaves, and may have a fault."
         if self._is_observed():
             self._library.run_node(self._handle, index, answer)
         else:
@@ -240,7 +240,7 @@ class Tree:
         return result
 
     def _call_or_refuse(self, handle, function, *arguments):
-        "Of what has no result that says so: in a child of a fork, the tree is its parent's."
+        "Of what has no result for it: in a child of a fork, the tree is its parent's."
         result = self._call(handle, function, *arguments)
         why = self._library.why()
         if why:
@@ -267,7 +267,7 @@ class Tree:
 
 
 def _hang(on_hang, log):
-    "What the library calls. An exception ends here: nobody waits for the call."
+    "What the library calls. An exception ends here: no caller waits for the call."
     def told(_, who, function, seconds):
         who, function = native.text_of(who), native.text_of(function)
         if on_hang is not None:

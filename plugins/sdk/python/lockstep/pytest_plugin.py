@@ -1,5 +1,5 @@
-"""For pytest: each scenario in a NAME.test.xml is a test. pip installs it with the package; without pip, say
-`pytest -p lockstep.pytest_plugin`. `lockstep test` plays the scenarios of a file at once, when the first is asked for."""
+"""For pytest: each scenario in a NAME.test.xml is a test. pip installs it with the package; without pip, write
+`pytest -p lockstep.pytest_plugin`. `lockstep test` plays the scenarios of a file at once, when the first one runs."""
 import json
 import os
 import subprocess
