@@ -61,7 +61,8 @@ void ask(NodeContext& context, NodeIndex node) {
 
 bool keeps(NodeContext& context, NodeIndex node) {
   const bool may_keep = context.parameter(node, kKeep).boolean;
-  return may_keep && context.status(node + 1) == Status::Running;
+  return may_keep && context.status(node + 1) == Status::Running &&
+         context.state<ResourceUse>(node).owned != 0;
 }
 
 void keep(NodeContext& context, NodeIndex node) {

@@ -58,7 +58,8 @@ inline bool has_asked(const NodeContext& context, const ResourceUse& use) {
 
 // Decides for this tick whether a member gets its resources: those that no other member owns.
 void ask(NodeContext& context, NodeIndex member);
-// A child that runs keeps its set until it completes or is halted, if its member says so.
+// A child that runs keeps its set until it completes or is halted, if its member says so. A
+// SyncProgress that waits to begin runs without a set.
 bool keeps(NodeContext& context, NodeIndex member);
 // Decides so.
 void keep(NodeContext& context, NodeIndex member);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/leaf_loop.h"
+#include "engine/nodes/barrier_list.h"
 
 namespace lockstep::host {
 namespace {
@@ -70,7 +71,8 @@ const Member* barrier_member(const Tree& tree, NodeIndex node) {
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node) {
   if (!is_constant(tree, node, Synchronization::Absolute)) return std::nullopt;
   const Cell& cell = cell_of(tree, node, holding(tree, node).barriers);
-  return std::span(tree.numbers).subspan(cell.list.first, cell.list.count);
+  const auto list = std::span(tree.numbers).subspan(cell.list.first, cell.list.count);
+  return absolute::begins_at_zero(list) ? list.subspan(1) : list;
 }
 
 std::uint32_t entry_of_barriers(const Tree& tree, NodeIndex node) {

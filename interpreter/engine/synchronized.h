@@ -84,6 +84,11 @@ const Member* barrier_member(const Tree& tree, NodeIndex node);
 // Whether a member of a barrier beside the tree is held in this tick.
 bool is_held_at_barrier(NodeContext& context, NodeIndex member);
 
+// At a barrier at 0 a member runs while its child has not begun.
+constexpr bool waits_to_begin(Status member, Status child) {
+  return member == Status::Running && child == Status::Idle;
+}
+
 // The words of two parameters of barriers, by their places: at_barrier="tick", idle="ignore".
 inline constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
 inline constexpr std::int64_t kTicksAtBarrier = 1;

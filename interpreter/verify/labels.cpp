@@ -160,6 +160,10 @@ bool Labeller::is_held(const Stepper& stepper, const Holdable& it) const {
     return ticker.ticked(it.child - 1) && waits(limit(ticker, it.child - 1));
   }
   if (ticker.held(it.child)) return true;
+  if (tree_.is_group(it.holder) &&
+      waits_to_begin(ticker.status(it.child - 1), ticker.status(it.child))) {
+    return true;
+  }
   const bool is_halted = ticker.status(it.child) == Status::Idle && !ticker.ticked(it.child) &&
                          status_of(stepper.before().run.activity[it.child]) == Status::Running;
   if (!is_halted) return false;

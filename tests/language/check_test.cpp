@@ -222,8 +222,9 @@ TEST_CASE("parameters of the parallel nodes") {
       {"no barrier twice",
        R"(<ParallelAbsolute barriers="0.5;0.5"><AlwaysSuccess/></ParallelAbsolute>)",
        "2:29 error: barrier 0.5 is given twice"},
-      {"no barrier at 0", R"(<ParallelAbsolute barriers="0"><AlwaysSuccess/></ParallelAbsolute>)",
-       "2:29 error: 0 is outside the range of 'barriers'"},
+      {"no barrier below 0",
+       R"(<ParallelAbsolute barriers="-1"><AlwaysSuccess/></ParallelAbsolute>)",
+       "2:29 error: -1 is outside the range of 'barriers'"},
       {"a barrier at 1, and none at all, are legal",
        R"(<Parallel><ParallelAbsolute barriers="1"><AlwaysSuccess/></ParallelAbsolute>
           <ParallelAbsolute barriers=""><AlwaysSuccess/></ParallelAbsolute>

@@ -134,7 +134,7 @@ TEST_CASE("entry parameter: a value that the node cannot take is a fault that sa
       "write '0.2;0.5'");
   CHECK(refused("ParallelAbsolute[barriers={it}](a b)", "a=R b=R", List{0.5, 1.2}) ==
         "Test/ParallelAbsolute: 1.2 is outside the range of 'barriers': 'barriers' is '0.5;1.2', "
-        "from the entry '{it}'; it must be more than 0, at most 1");
+        "from the entry '{it}'; it must be from 0 to 1");
   CHECK(refused("Parallel[success_count={it}](a b)", "a=R b=R", std::int64_t{3}) ==
         "Test/Parallel: 'success_count' is more than the 2 children of the node: 'success_count' "
         "is '3', from the entry '{it}'; give at most 2");

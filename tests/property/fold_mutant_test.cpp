@@ -176,6 +176,8 @@ TEST_CASE("a fold that forgets too much or nothing, or what is read, is seen for
   // A Rate that is held, and asked again after that before its time is over, is rare.
   mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Repeat(Rate[seconds=.5](b)))"),
                   "a+.1 b=R.6R.6S..."});
+  mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Timeout[seconds=.4](b))"),
+                  "a+.1 b=R.6R.6R.6S..."});
   for (std::uint64_t seed = 0; seed < kMost && !mutants.are_dead(); ++seed) {
     for (const Trial& trial : {random_trial(seed), random_group_trial(seed)}) {
       const auto tree = tree_of(trial).tree;

@@ -87,11 +87,11 @@ EntryWrite GroupGenerator::write(int tick, const std::string& entry) {
   if (entry == "w") {
     text = pick(std::array{"wait", "tick"});
   } else if (entry == "b") {
-    text = pick(std::array{"0.5", "0.25;0.5;0.75", "0.1;0.9", "1", "0.3;0.6;1"});
+    text = pick(std::array{"0.5", "0.25;0.5;0.75", "0.1;0.9", "1", "0.3;0.6;1", "0", "0;0.5"});
   } else {
     text = pick(std::array{"A", "B", "A;B", "B;C", "A;B;C"});
   }
-  return {tick, entry, is_wrong ? "0" : text};
+  return {tick, entry, is_wrong ? "-1" : text};
 }
 
 // Most of these begin the tree below them again, so that a barrier does, too.

@@ -22,11 +22,10 @@ std::vector<double> numbers_in(const std::string& list) {
   return numbers;
 }
 
-// In (0, 1], rising, none twice.
+// In [0, 1], rising, none twice.
 bool are_barriers(const std::vector<double>& list) {
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const double before = i == 0 ? 0 : list[i - 1];
-    if (list[i] <= before || list[i] > 1) return false;
+    if (list[i] < 0 || list[i] > 1 || (i > 0 && list[i] <= list[i - 1])) return false;
   }
   return true;
 }

@@ -28,6 +28,8 @@ class ProgressLimit {
   struct BadEntry {};
 
   bool holds(double progress, double least) const;
+  // A barrier at 0.
+  bool begins_together() const { return !delta_ && !barriers_.empty() && barriers_[0] == 0; }
 
  private:
   std::optional<double> next_barrier(double least) const;

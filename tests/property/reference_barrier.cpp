@@ -46,6 +46,7 @@ void ReferenceBarrier::before_tick() {
   } else {
     note_wrong_limit();
   }
+  if (begins_together()) hold_beginners();
   status = all_succeeded() ? Status::Success : Status::Running;
 }
 
@@ -165,11 +166,39 @@ void ReferenceBarrier::hold(std::size_t place, const ProgressLimit& limit) {
   if (members_[place].is_held) note_held(place);
 }
 
+// While no member runs, a limit that cannot be read holds nobody.
+bool ReferenceBarrier::begins_together() const {
+  try {
+    return ProgressLimit(plan, world.entries).begins_together();
+  } catch (const ProgressLimit::BadEntry&) {
+    return false;
+  }
+}
+
+// "A member whose child has not begun is held, unless at the start of the tick all members have
+// been reached: they run (held or not), have passed (e = 1), or are left out"
+void ReferenceBarrier::hold_beginners() {
+  for (std::size_t place = 0; place < count(); ++place) {
+    if (!member(place).runs() && snapshot[place] == 0) return hold_all_that_have_not_begun();
+  }
+  note("all members begin");
+}
+
+void ReferenceBarrier::hold_all_that_have_not_begun() {
+  for (std::size_t place = 0; place < count(); ++place) {
+    ReferenceNode& it = member(place);
+    if (is_guard(it.plan) || members_[place].has_succeeded || it.child().runs()) continue;
+    members_[place].is_held = true;
+    if (it.runs()) note("a member waits to begin");
+  }
+}
+
 // A tick begins its activation, if that has not begun.
 void ReferenceBarrier::reach(const ReferenceNode& member) {
   last_tick = world.tick;
   Member& it = members_[place_of(member)];
   if (it.has_failed && !member.runs()) note("a failed member comes back");
+  if (it.has_failed && it.is_held) note("a failed member waits to begin again");
   it.was_begun = true;
 }
 

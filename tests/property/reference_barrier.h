@@ -42,6 +42,9 @@ class ReferenceBarrier : public ReferenceGroup {
   ProgressLimit limit() const;
   bool somebody_runs() const;
   void hold(std::size_t place, const ProgressLimit& limit);
+  bool begins_together() const;
+  void hold_beginners();
+  void hold_all_that_have_not_begun();
   bool all_succeeded() const;
 
   // The cases that came up.

@@ -39,6 +39,7 @@ Plan across(const Plan& parallel) {
   Plan barrier{.kind = "barrier", .name = "g"};
   barrier.has_barriers = parallel.has_barriers;
   barrier.barriers = parallel.barriers;
+  std::erase(barrier.barriers, 0);  // its members would begin together
   barrier.barrier_count = parallel.barrier_count;
   barrier.tick_at_barrier = parallel.tick_at_barrier;
   barrier.delta = parallel.delta;

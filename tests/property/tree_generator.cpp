@@ -160,6 +160,7 @@ void TreeGenerator::barriers(Plan& plan) {
     return;
   }
   plan.has_barriers = true;
+  if (one_in(3)) plan.barriers.push_back(0);
   for (const double value : kFractions) {
     if (one_in(4)) plan.barriers.push_back(value);
   }

@@ -153,6 +153,22 @@ void hold(NodeContext& context, NodeIndex self, double held_from) {
   }
 }
 
+// The barrier at 0: no member begins until all have been reached, so they begin in one tick. A
+// member that is not reached counts as 0 and does not run.
+void hold_beginners(NodeContext& context, NodeIndex self) {
+  const auto members = context.tree().members_of(self);
+  const auto progress = context.child_states<double>(self);
+  const bool all_reached = std::ranges::all_of(members, [&](const Member& it) {
+    return context.status(it.node) == Status::Running || progress[it.number] != 0.0;
+  });
+  if (all_reached) return;
+  for (const Member& it : members) {
+    MemberState& own = member_state(context, self, it.number);
+    const bool has_begun = context.status(it.node + 1) == Status::Running;
+    own.held |= !own.succeeded && !context.is_guard(it.node) && !has_begun;
+  }
+}
+
 // Finds the limit of this tick, and who is held.
 void set_limit(NodeContext& context, NodeIndex self, double least) {
   auto& state = context.state<BarrierState>(self).synchronized;
@@ -165,6 +181,7 @@ void set_limit(NodeContext& context, NodeIndex self, double least) {
     limit = absolute::current_barrier(barriers, least, state.place);
     const bool ticks = context.parameter(self, absolute::kAtBarrier).integer == kTicksAtBarrier;
     hold(context, self, absolute::held_from(limit, ticks));
+    if (absolute::begins_at_zero(barriers)) hold_beginners(context, self);
   }
 }
 

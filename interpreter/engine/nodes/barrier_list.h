@@ -25,7 +25,7 @@ inline constexpr Parameter kBarriersParameter{
     .name = "barriers",
     .type = ValueType::DoubleList,
     .doc = "Progress values at which the children wait for each other, rising: 0.25;0.5;0.75.",
-    .range = {.min = 0, .max = 1, .min_excluded = true}};
+    .range = {.min = 0, .max = 1}};
 inline constexpr Parameter kBarrierCountParameter{
     .name = "barrier_count",
     .type = ValueType::Int,
@@ -92,6 +92,11 @@ inline double current_barrier(std::span<const double> barriers, double least,
   const auto next = std::upper_bound(barriers.begin(), barriers.end(), passed);
   place = static_cast<std::uint32_t>(next - barriers.begin());
   return next == barriers.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+// A barrier at 0 holds no progress. Beside the trees, it holds members that have not begun.
+inline bool begins_at_zero(std::span<const double> barriers) {
+  return !barriers.empty() && barriers.front() == 0.0;
 }
 
 // The least progress that is held at the current barrier.

@@ -1,6 +1,6 @@
 // Which child held another one: the first of those with the least progress, since the limit follows
 // from that.
-#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "engine/synchronized.h"
@@ -20,7 +20,7 @@ class HeldBy final : public Accumulator {
     const SynchronizedTick& tick = view.parallels[place_];
     if (!tick.ticked) return;
     reached_ = true;
-    ticks_ += tick.held[child_] && is_least(tick.used);
+    ticks_ += tick.held[child_] && first_least(tick) == other_;
   }
 
   double value(const EndView&) const override {
@@ -28,10 +28,17 @@ class HeldBy final : public Accumulator {
   }
 
  private:
-  bool is_least(std::span<const double> progress) const {
-    const double least = least_progress(progress) + kProgressEpsilon;
-    const auto first = std::ranges::find_if(progress, [&](double it) { return it <= least; });
-    return first - progress.begin() == static_cast<std::ptrdiff_t>(other_);
+  // Of the others. What waits to begin, at a barrier at 0, is as far as what it waits for.
+  std::size_t first_least(const SynchronizedTick& tick) const {
+    const std::size_t count = tick.used.size();
+    std::size_t first = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i == child_ || is_left_out(tick.used[i])) continue;
+      const double ahead = first == count ? -1 : tick.used[i] - tick.used[first];
+      const bool is_level = std::fabs(ahead) <= kProgressEpsilon;
+      if (is_level ? tick.held[first] && !tick.held[i] : ahead < 0) first = i;
+    }
+    return first;
   }
 
   std::size_t place_, child_, other_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/core/resource_set.h"
+#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {
@@ -55,7 +56,10 @@ void SynchronizedTicks::read_held(const Moment& moment, bool asked) {
       continue;
     }
     const bool asks = !is_group_ ? asked : moment.ticked(members_[child]);
-    held_.set(child, moment.status(node), moment.ticked(node) || !asks, moment.held(node) && asks);
+    const bool is_held =
+        moment.held(node) ||
+        (is_group_ && waits_to_begin(moment.status(members_[child]), moment.status(node)));
+    held_.set(child, moment.status(node), moment.ticked(node) || !asks, is_held && asks);
   }
 }
 

@@ -108,6 +108,15 @@ class WaitSearch {
     const double most = least_progress(progress) + kProgressEpsilon;
     std::vector<NodeIndex> awaited;
     std::size_t number = 0;
+    if (tree_.is_group(at.node) &&
+        waits_to_begin(ticker_.status(at.from), ticker_.status(at.from + 1))) {
+      for_each_named(tree_, at.node, [&](NodeIndex it) {
+        const bool is_reached = ticker_.status(it) == Status::Running;
+        if (progress[number++] == 0 && !is_reached) awaited.push_back(it);
+      });
+      if (!awaited.empty()) return awaited;
+      number = 0;
+    }
     for_each_named(tree_, at.node, [&](NodeIndex it) {
       if (progress[number++] <= most) awaited.push_back(it);
     });

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/core/diagnostics.h"
+#include "engine/synchronized.h"
 #include "judge/summary/statistics.h"
 #include "judge/summary/summary.h"
 #include "show/view/waiting.h"
@@ -121,14 +122,15 @@ void ConsolePlain::tell_waits(const Moment& moment, Watched& node) {
   }
   for (std::size_t child = 0; child < node.waits.size(); ++child) {
     if (tick.held[child] && tick.status == Status::Running) {
-      tell_wait(node, child, tick);
+      tell_wait(moment, node, child, tick);
     } else if (node.waits[child].held) {
       tell_end_of_wait(moment, node, child);
     }
   }
 }
 
-void ConsolePlain::tell_wait(Watched& node, std::size_t child, const SynchronizedTick& tick) {
+void ConsolePlain::tell_wait(const Moment& moment, Watched& node, std::size_t child,
+                             const SynchronizedTick& tick) {
   Wait& wait = node.waits[child];
   if (!wait.held) {
     wait.held = true;
@@ -137,12 +139,12 @@ void ConsolePlain::tell_wait(Watched& node, std::size_t child, const Synchronize
   const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
   if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
   wait.told = true;
-  std::string text = waiting(node, child, tick);
+  std::string text = waiting(moment, node, child, tick);
   if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
   tell(node.ticks.children()[child], text);
 }
 
-std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
+std::string ConsolePlain::waiting(const Moment& moment, const Watched& node, std::size_t child,
                                   const SynchronizedTick& tick) const {
   const ShapeNode& self = shape_.nodes[node.ticks.node()];
   const std::vector<std::string> names = child_names(shape_, node.ticks.node());
@@ -154,12 +156,18 @@ std::string ConsolePlain::waiting(const Watched& node, std::size_t child,
                            .name_of = name_of},
                           child);
   }
-  return waiting_text({.synchronization = self.synchronization,
-                       .limit = tick.limit,
-                       .progress = tick.used,
-                       .name_of = name_of,
-                       .group = self.is_group() ? self.segment : ""},
-                      child);
+  const WaitedAt waited{.synchronization = self.synchronization,
+                        .limit = tick.limit,
+                        .progress = tick.used,
+                        .name_of = name_of,
+                        .group = self.is_group() ? self.segment : ""};
+  const auto status = [&](NodeIndex it) { return moment.status(it); };
+  const auto member = [&](std::size_t number) { return node.ticks.children()[number] - 1; };
+  if (self.is_group() && waits_to_begin(status(member(child)), status(member(child) + 1))) {
+    return beginning_text(
+        waited, [&](std::size_t number) { return status(member(number)) == Status::Running; });
+  }
+  return waiting_text(waited, child);
 }
 
 void ConsolePlain::tell_end_of_wait(const Moment& moment, Watched& node, std::size_t child) {

@@ -65,8 +65,10 @@ class ConsolePlain final : public Observer {
   void tell_leaf(Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
   void tell_waits(const Moment& moment, Watched& node);
-  void tell_wait(Watched& node, std::size_t child, const SynchronizedTick& tick);
-  std::string waiting(const Watched& node, std::size_t child, const SynchronizedTick& tick) const;
+  void tell_wait(const Moment& moment, Watched& node, std::size_t child,
+                 const SynchronizedTick& tick);
+  std::string waiting(const Moment& moment, const Watched& node, std::size_t child,
+                      const SynchronizedTick& tick) const;
   void tell_end_of_wait(const Moment& moment, Watched& node, std::size_t child);
   void tell(NodeIndex node, std::string_view what);
 

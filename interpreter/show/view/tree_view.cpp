@@ -12,6 +12,7 @@
 #include "base/core/utf8.h"
 #include "base/core/wording.h"
 #include "base/terminal/text_line.h"
+#include "engine/synchronized.h"
 #include "judge/summary/summary.h"
 #include "show/view/lines_below.h"
 #include "show/view/progress_bar.h"
@@ -188,13 +189,17 @@ class View {
       return add_ownership(line, self, place);
     }
     // Under a parent that is held itself, the parent says what is waited for.
-    if (snapshot_.nodes[node].activity != Activity::Paused ||
-        snapshot_.nodes[*tree_.nodes[node].parent].activity == Activity::Paused) {
-      return;
-    }
+    const Activity parent = snapshot_.nodes[*tree_.nodes[node].parent].activity;
+    if (parent == Activity::Paused) return;
+    const bool begins =
+        is_beside(self) && waits_to_begin(status(*tree_.nodes[node].parent), status(node));
+    if (!begins && snapshot_.nodes[node].activity != Activity::Paused) return;
     line.add("  ");
-    line.add(waiting(self, counted, place), Style::Warning);
+    line.add(waiting(self, counted, place, begins), Style::Warning);
   }
+
+  Status status(NodeIndex node) const { return status_of(snapshot_.nodes[node].activity); }
+  bool is_beside(NodeIndex node) const { return !tree_.nodes[node].parent && node != 0; }
 
   void add_ownership(TextLine& line, NodeIndex pool, std::size_t place) const {
     const ShapeNode& shape = tree_.nodes[pool];
@@ -212,19 +217,23 @@ class View {
     line.add(text, waits(limit(place)) ? Style::Warning : Style::Plain);
   }
 
-  std::string waiting(NodeIndex node, const std::vector<double>& progress,
-                      std::size_t place) const {
+  std::string waiting(NodeIndex node, const std::vector<double>& progress, std::size_t place,
+                      bool begins) const {
     const ShapeNode& shape = tree_.nodes[node];
-    return waiting_text({.synchronization = shape.synchronization,
-                         .limit = snapshot_.nodes[node].limit,
-                         .progress = progress,
-                         .name_of =
-                             [&](std::size_t child) {
-                               return shape.names.empty() ? tree_.nodes[shape.held()[child]].segment
-                                                          : shape.names[child];
-                             },
-                         .group = shape.parent || node == 0 ? "" : shape.segment},
-                        place);
+    const WaitedAt waited{.synchronization = shape.synchronization,
+                          .limit = snapshot_.nodes[node].limit,
+                          .progress = progress,
+                          .name_of =
+                              [&](std::size_t child) {
+                                return shape.names.empty()
+                                           ? tree_.nodes[shape.held()[child]].segment
+                                           : shape.names[child];
+                              },
+                          .group = is_beside(node) ? shape.segment : ""};
+    if (!begins) return waiting_text(waited, place);
+    return beginning_text(waited, [&](std::size_t child) {
+      return status(*tree_.nodes[shape.held()[child]].parent) == Status::Running;
+    });
   }
 
   // Barriers that an entry gives are not known but for the current one.

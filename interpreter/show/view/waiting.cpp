@@ -12,15 +12,16 @@
 namespace lockstep::host {
 namespace {
 
-// The names of the children with the least progress: "a", "a and b", "a, b and 4 more".
-std::string slowest(const WaitedAt& node, double least) {
+// The names of some children: "a", "a and b", "a, b and 4 more".
+template <class IsNamed>
+std::string listed(const WaitedAt& node, IsNamed is_named) {
   constexpr std::size_t kNamed = 2;
   std::vector<std::string> names;
   std::size_t count = 0;
   for (std::size_t child = 0; child < node.progress.size(); ++child) {
-    if (!(node.progress[child] <= least + kProgressEpsilon)) continue;  // or it is left out
-    if (++count <= kNamed) names.push_back(node.name_of(child));
+    if (is_named(child) && ++count <= kNamed) names.push_back(node.name_of(child));
   }
+  if (count == 0) return "";
   if (count == 1) return names[0];
   if (count == kNamed) return fmt::format("{} and {}", names[0], names[1]);
   return fmt::format("{}, {} and {} more", names[0], names[1], count - kNamed);
@@ -30,7 +31,9 @@ std::string slowest(const WaitedAt& node, double least) {
 
 std::string waiting_text(const WaitedAt& node, std::size_t child) {
   const double least = least_progress(node.progress);
-  const std::string whom = slowest(node, least);
+  const std::string whom = listed(node, [&](std::size_t it) {
+    return node.progress[it] <= least + kProgressEpsilon;  // not one that is left out
+  });
   const std::string of = node.group.empty() ? "" : fmt::format(" of '{}'", node.group);
   if (node.synchronization == Synchronization::Relative) {
     return fmt::format("waits for {}, {:.2f} ahead (delta {}{})", whom,
@@ -38,6 +41,14 @@ std::string waiting_text(const WaitedAt& node, std::size_t child) {
   }
   if (std::isinf(node.limit)) return fmt::format("waits for {}", whom);
   return fmt::format("waits for {} at barrier {:.6g}{}", whom, node.limit, of);
+}
+
+std::string beginning_text(const WaitedAt& node,
+                           const std::function<bool(std::size_t child)>& is_reached) {
+  const std::string whom =
+      listed(node, [&](std::size_t it) { return node.progress[it] == 0 && !is_reached(it); });
+  return fmt::format("waits to begin together with {}, of '{}'",
+                     whom.empty() ? "the other members" : whom, node.group);
 }
 
 std::string ownership_text(const OwnedFrom& pool, std::size_t child) {

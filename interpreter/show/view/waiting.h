@@ -18,6 +18,11 @@ struct WaitedAt {
   std::string group = {};  // the name of a barrier beside the tree
 };
 
+// "waits to begin together with base, of 'lift'": a member at a barrier at 0. `is_reached`: of the
+// member of a number, whether it runs.
+std::string beginning_text(const WaitedAt& node,
+                           const std::function<bool(std::size_t child)>& is_reached);
+
 // "waits for base at barrier 0.5" or "waits for base, 0.12 ahead (delta 0.1)", of a group with "of
 // 'lift'". `child` is the number of the one that is held.
 std::string waiting_text(const WaitedAt& node, std::size_t child);

@@ -11,7 +11,7 @@ namespace lockstep::host {
 void note_unfairness(const Definition& definition, const Reporter& report);
 
 // Notes members that a barrier with idle="ignore" leaves out after a failure, until they begin
-// again.
+// again. Warns of a barrier at 0 there.
 void note_openings(const Definition& definition, const Reporter& report);
 
 }  // namespace lockstep::host

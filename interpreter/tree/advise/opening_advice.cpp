@@ -2,6 +2,8 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "base/core/wording.h"
 #include "tree/advise/group_advice.h"
@@ -18,7 +20,9 @@ class OpeningAdviser {
 
   void advise() const {
     for (const DefinitionGroup& group : definition_.groups) {
-      if (!definition_.waits(group) && !definition_.is_pool(group)) advise(group);
+      if (definition_.waits(group) || definition_.is_pool(group)) continue;
+      advise_beginning(group);
+      advise(group);
     }
   }
 
@@ -27,6 +31,17 @@ class OpeningAdviser {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
+
+  void advise_beginning(const DefinitionGroup& barrier) const {
+    const DefinitionNode& node = at(barrier.node);
+    const Value* value = definition_.constant(node, "barriers");
+    const auto* list = value == nullptr ? nullptr : std::get_if<std::vector<double>>(value);
+    if (list == nullptr || list->empty() || list->front() != 0) return;
+    report_.at(node.place,
+               fmt::format("the members of '{}' do not begin together", brief(node.name)),
+               "its barrier at 0 does not wait for idle members: leave out idle=\"ignore\"",
+               Severity::Warning);
+  }
 
   // A Retry or Repeat begins a member again after its failure, and a node that takes its time comes
   // first. The member is idle then.
