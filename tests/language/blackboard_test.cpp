@@ -258,6 +258,20 @@ TEST_CASE("each SubTree has a scope of its own") {
   }
 }
 
+TEST_CASE("no two entries have the same key") {
+  const Pipeline pipeline(R"(<root lockstep="1" main_tree_to_execute="T"><BehaviorTree ID="T"><Parallel>
+<Sequence><SubTree ID="G" name="grasp"/></Sequence><Sequence><SubTree ID="G" name="grasp"/></Sequence>
+<SubTree ID="H" name="grasp"/><Script code="a := 1"/></Parallel></BehaviorTree>
+<BehaviorTree ID="G"><Sequence><Script code="x := 1"/><Script code="y := 2"/></Sequence></BehaviorTree>
+<BehaviorTree ID="H"><Sequence><Script code="z := 3"/><Script code="x := 7"/><Script code="y := 7"/>
+</Sequence></BehaviorTree></root>)");
+  INFO(pipeline.told());
+  REQUIRE(pipeline.loaded());
+  std::string keys;
+  for (const Slot& slot : pipeline.tree().slots) keys += slot.name + ' ';
+  CHECK(keys == "grasp/x grasp/y grasp#2/x grasp#2/y grasp/z grasp#3/x grasp#3/y a ");
+}
+
 TEST_CASE("remapping: names differ, levels add up, each use is a scope") {
   constexpr ClaimRow kRows[] = {
       {"inner key = outer key",

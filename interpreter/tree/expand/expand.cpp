@@ -90,7 +90,7 @@ class Expander {
                      Scope& outer) {
     const auto tree = trees_.trees.find(subtree.id);
     if (tree == trees_.trees.end()) return;  // reported already
-    Scope scope(outer, std::string(name) + "/", subtree.autoremap);
+    Scope scope(outer, name, subtree.autoremap);
     const auto remappings = std::span(trees_.remappings).subspan(subtree.first, subtree.remappings);
     for (const Remapping& it : remappings) {
       it.is_entry ? scope.remap(it.key, it.value) : scope.set_text(it.key, it.value);

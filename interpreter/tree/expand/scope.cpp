@@ -1,5 +1,7 @@
 #include "tree/expand/scope.h"
 
+#include <fmt/format.h>
+
 namespace lockstep::host {
 
 bool Scope::passes_on(std::string_view key) const {
@@ -22,13 +24,27 @@ Scope::Found Scope::find(std::string_view key) {
     return found;
   }
   const auto entry = static_cast<std::uint32_t>(entries_.size());
-  entries_.push_back({.name = prefix_ + std::string(key),
-                      .initial = {},
-                      .typing = Typing::Any,
-                      .is_present = false});
+  entries_.push_back(
+      {.name = unique_name(key), .initial = {}, .typing = Typing::Any, .is_present = false});
   known_[key] = entry;
   const bool has_text = text != texts_.end();
   return {entry, true, has_text ? text->second : std::string_view(), has_text};
+}
+
+std::string Scope::unique_name(std::string_view key) {
+  auto& names = main().names_;
+  const auto numbered = [](std::string_view name, unsigned number) {
+    return number == 1 ? std::string(name) : fmt::format("{}#{}", name, number);
+  };
+  for (unsigned number = 1;; ++number) {
+    std::string name = outer_ == nullptr ? numbered(key, number)
+                                         : fmt::format("{}/{}", numbered(path_, number_), key);
+    if (names.insert(name).second) return name;
+    // No other SubTree takes this number: "grasp#2/" is the name of no entry.
+    if (outer_ != nullptr) {
+      while (!names.insert(numbered(path_, ++number_) + "/").second) continue;
+    }
+  }
 }
 
 Board Scope::board() const {

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "base/blackboard/board.h"
@@ -21,12 +22,12 @@ class Scope {
   // The scope of the main tree. With a board outside, "@key" is not its "key".
   Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules, bool has_outside)
       : entries_(entries), rules_(rules), has_outside_(has_outside) {}
-  // The scope of a SubTree inside `outer`; `prefix` names it in messages ("grasp/").
-  Scope(Scope& outer, const std::string& prefix, bool autoremap)
+  // The scope of a SubTree inside `outer`.
+  Scope(Scope& outer, std::string_view name, bool autoremap)
       : entries_(outer.entries_),
         rules_(outer.rules_),
         outer_(&outer),
-        prefix_(outer.prefix_ + prefix),
+        path_((outer.path_.empty() ? "" : outer.path_ + "/").append(name)),
         autoremap_(autoremap) {}
 
   // The SubTree attribute inner="{outer_key}".
@@ -59,17 +60,22 @@ class Scope {
   // Whether a key that is neither remapped nor has a start value is one outside.
   bool passes_on(std::string_view key) const;
   Scope& main() { return outer_ == nullptr ? *this : outer_->main(); }
+  // "grasp/force", or "grasp#2/force" if a SubTree of that name elsewhere has that.
+  std::string unique_name(std::string_view key);
 
   std::vector<BlackboardEntry>& entries_;
   const LanguageRules& rules_;
   Scope* outer_ = nullptr;
-  std::string prefix_;
+  std::string path_;  // the names of the SubTrees around: "grasp/hand"
   bool autoremap_ = false;
   bool has_outside_ = false;
   std::map<std::string_view, std::string_view> remapped_;
   std::map<std::string_view, std::string_view> texts_;
   std::map<std::string_view, std::uint32_t> known_;
   std::set<std::string_view> groups_;  // names of groups that were looked up
+  unsigned number_ = 1;                // of those with the same path
+  // Of the main tree: the names of all entries.
+  std::unordered_set<std::string> names_;
 };
 
 }  // namespace lockstep::host
