@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/node_context.h"
+#include "engine/synchronized.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -12,6 +13,15 @@ namespace {
 // Of a node that the tick has reached in an earlier moment, until the tick has ended.
 std::uint32_t earlier(const RunState& state) {
   return ~state.tick_number;
+}
+
+// Whether who holds has decided: a parallel that has asked its children, or a member of a group.
+template <class IsTicked>
+bool decides(const RunView& run, NodeIndex holder, IsTicked is_ticked) {
+  if (!compares_progress(synchronization(run.node(holder)))) return is_ticked(holder);
+  NodeIndex child = holder + 1;
+  while (child != run.end_of(holder) && !is_ticked(child)) child = run.end_of(child);
+  return child != run.end_of(holder);
 }
 
 }  // namespace
@@ -27,6 +37,7 @@ Moments::Moments(NodeContext& context)
       rest_(tree_.nodes.size()) {
   moments_.reserve(kMost);
   changes_.reserve(most_changes(tree_.nodes.size()));
+  open_holds_.reserve(tree_.nodes.size());
 }
 
 void Moments::keep_progress() {
@@ -48,8 +59,15 @@ void Moments::begin_tick(const RunState& state) {
 }
 
 void Moments::next(RunState& state, std::optional<NodeIndex> under) {
-  if (moments_.empty()) ask_progress(true);
+  if (moments_.empty()) {
+    ask_progress(true);
+    open_holds_.clear();
+    for (NodeIndex node = 0; node < now_.size(); ++node) {
+      if (now_[node].held()) open_holds_.push_back(node);
+    }
+  }
   look(state, under);
+  decide_holds(under);
   keep();
   mark(state);
   ask_progress(false);
@@ -69,6 +87,7 @@ void Moments::end_tick(RunState& state) {
   in_tick_ = false;
   if (moments_.empty()) return;
   look(state, std::nullopt);
+  decide_holds(std::nullopt);
   keep();
   unmark(state);
   look(state, std::nullopt);
@@ -101,6 +120,27 @@ void Moments::look(const RunState& state, std::optional<NodeIndex> under) {
     const NodeIndex parent = tree_.labels[*under].parent;
     under = parent == *under ? std::nullopt : std::optional(parent);
   }
+}
+
+bool Moments::is_withheld(NodeIndex held) const {
+  const NodeIndex holder = hold_of(context_, held).holder;
+  return decides(context_, holder, [&](NodeIndex node) { return context_.ticked(node); });
+}
+
+// Whether the tick has come so far. A parallel decides about one child after the other.
+bool Moments::is_decided(NodeIndex held, std::optional<NodeIndex> under) const {
+  const auto [holder, child] = hold_of(context_, held);
+  if (under && holder < *under && *under < context_.end_of(holder)) return child < *under;
+  return decides(context_, holder, [&](NodeIndex node) { return context_.ticked_so_far(node); });
+}
+
+// A hold that ends before its tick decides on it was none in this tick.
+void Moments::decide_holds(std::optional<NodeIndex> under) {
+  std::erase_if(open_holds_, [&](NodeIndex node) {
+    if (now_[node].held()) return is_decided(node, under);
+    for (NodeState* it : {&first_[node], &last_[node]}) *it = it->without_hold();
+    return true;
+  });
 }
 
 // The moment that has just ended.

@@ -3,10 +3,13 @@
 // elsewhere: the state of each node, and which of them were reached. A new moment begins when
 //   - the tree is ticked again in the same period,
 //   - a node ticks a child again that has been ticked in this moment,
-//   - a node that has begun or completed in this moment is halted, or reset with what is around it.
-// In a moment each node is ticked at most once. Example: Retry of Sequence(Reach, Grasped), where
-// Reach completes, Grasped fails and Reach begins again: two moments. In the first one Reach is
-// Success and Grasped Failure, in the second one Reach is Running.
+//   - a node that has begun or completed in this moment, or that this tick withholds its ticks
+//   from,
+//     is halted, or reset with what is around it.
+// In a moment each node is ticked at most once. A node is held in a moment if this tick withholds
+// its ticks from it, also before the tick has come so far. Example: Retry of Sequence(Reach,
+// Grasped), where Reach completes, Grasped fails and Reach begins again: two moments. In the first
+// one Reach is Success and Grasped Failure, in the second one Reach is Running.
 #pragma once
 
 #include <array>
@@ -148,6 +151,8 @@ class Moments {
   bool in_tick() const { return in_tick_; }
   // When this moment began.
   bool was_running(NodeIndex node) const { return now_[node].status() == Status::Running; }
+  // Whether it was decided in this moment that a held node gets no tick.
+  bool is_withheld(NodeIndex held) const;
   // A new moment begins. The node `under`, if there is one, and those above it are in their ticks,
   // so the engine has not stored their statuses yet: they run.
   void next(RunState& state, std::optional<NodeIndex> under);
@@ -163,6 +168,8 @@ class Moments {
   void mark(RunState& state);
   void unmark(RunState& state);
   void look(const RunState& state, std::optional<NodeIndex> under);
+  bool is_decided(NodeIndex held, std::optional<NodeIndex> under) const;
+  void decide_holds(std::optional<NodeIndex> under);
   void keep();
   void count();
   bool add_changes(std::size_t most);
@@ -172,7 +179,8 @@ class Moments {
   NodeContext& context_;
   const Tree& tree_;
   std::vector<NodeState> first_, last_, now_;
-  std::vector<NodeState> counted_;  // the state up to which `totals_` counts
+  std::vector<NodeState> counted_;     // the state up to which `totals_` counts
+  std::vector<NodeIndex> open_holds_;  // of an earlier tick: this one has not decided on them yet
   std::vector<TickMoment> moments_;
   std::vector<MomentChange> changes_;
   std::vector<NodeTotals> totals_, rest_;

@@ -159,8 +159,8 @@ void NodeContext::halt_range(NodeIndex first, NodeIndex last) {
   end_range(first, last);
 }
 
-// What has begun or completed in this moment is told before it is reset. Also what completes in a
-// halt of something else, as the last child of a TryCatch may.
+// What has begun, completed or been held in this moment is told before it is reset. Also what
+// completes in a halt of something else, as the last child of a TryCatch may.
 void NodeContext::halt_range_in_moments(NodeIndex first, NodeIndex last) {
   const bool is_outermost = !moments_->halts_under;
   if (is_outermost) moments_->halts_under = parent_of(first);
@@ -170,9 +170,13 @@ void NodeContext::halt_range_in_moments(NodeIndex first, NodeIndex last) {
 }
 
 void NodeContext::keep_results_until(NodeIndex first, NodeIndex last) {
+  const auto is_new = [&](NodeIndex node) {
+    if (held(node)) return moments_->is_withheld(node);
+    if (!ticked(node) || status(node) == Status::Idle) return false;
+    return status(node) != Status::Running || !moments_->was_running(node);
+  };
   for (NodeIndex node = first; node < last; ++node) {
-    if (!ticked(node) || status(node) == Status::Idle) continue;
-    if (status(node) == Status::Running && moments_->was_running(node)) continue;
+    if (!is_new(node)) continue;
     moments_->next(state_, moments_->halts_under);
     return;
   }

@@ -47,6 +47,9 @@ struct NodeState {
   constexpr Status status() const { return status_of(activity()); }
   constexpr bool ticked() const { return (bits & kTicked) != 0; }
   constexpr bool held() const { return activity() == Activity::Paused; }
+  constexpr NodeState without_hold() const {
+    return held() ? of(Activity::Running, ticked()) : *this;
+  }
 
   friend bool operator==(const NodeState&, const NodeState&) = default;
 };

@@ -54,12 +54,14 @@ double snapshot_of(NodeContext& context, NodeIndex child) {
   return context.progress(child);
 }
 
-// Whatever holds the outermost node decides: what is below it gets no tick without that.
+OutermostHold hold_of(const RunView& run, NodeIndex held) {
+  const auto parent_of = [&](NodeIndex node) { return run.tree().labels[node].parent; };
+  while (run.held(parent_of(held)) && parent_of(held) != held) held = parent_of(held);
+  return {parent_of(held), held};
+}
+
 bool is_held_by_parallel(const RunView& run, NodeIndex node) {
-  const auto& labels = run.tree().labels;
-  if (!run.held(node)) return false;
-  while (run.held(labels[node].parent) && labels[node].parent != node) node = labels[node].parent;
-  return compares_progress(synchronization(run.node(labels[node].parent)));
+  return run.held(node) && compares_progress(synchronization(run.node(hold_of(run, node).holder)));
 }
 
 const Member* barrier_member(const Tree& tree, NodeIndex node) {

@@ -72,6 +72,13 @@ inline bool asked_children(const RunView& run, NodeIndex node) {
   return false;
 }
 
+// Who withholds the ticks of a held node decides about the outermost held node around it: the child
+// of a parallel, or of a member of a group.
+struct OutermostHold {
+  NodeIndex holder, child;
+};
+OutermostHold hold_of(const RunView& run, NodeIndex held);
+
 // The progress of a child as its parallel counts it. One that was skipped in the last tick is left
 // out. Nobody waits for one that has failed and is not ticked again: it counts as 1.
 double snapshot_of(NodeContext& context, NodeIndex child);

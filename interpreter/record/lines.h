@@ -202,8 +202,9 @@ constexpr Field kTickFields[] = {
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "
      "ended in the same tick"},
     {"moments", "Moment[]", kMaybe,
-     "only of a tick in which nodes that had completed were ticked again or reset: {} for each of "
-     "its [moments](#moments), in their order. `times`: how many in a row are equal. `nodes`: "
+     "only of a tick in which nodes that had completed were ticked again or reset, or held nodes "
+     "were halted: {} for each of its [moments](#moments), in their order. `times`: how many in a "
+     "row are equal. `nodes`: "
      "`[index, status, ticked, held]` of each node that differs from the moment after it; in the "
      "last moment, from the state after the tick"},
     {"leaf_progress", "LeafProgress[]", kMaybe,

@@ -131,6 +131,40 @@ TEST_CASE("moments: a property sees each of them, in a run and in its recording"
   CHECK(recorded == live);
 }
 
+// `fast` is ahead of `slow` and held in tick 1. In tick 2 `slow` comes first and completes, with a
+// Fallback in it that is halted.
+TEST_CASE("moments: a node is held in those of a tick that withholds its ticks, and in no others") {
+  const auto run = [](const std::string& slow, const std::string& leaves) {
+    const TemporaryDirectory directory;
+    const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><ParallelRelative name="p" success_count="1" delta="0.1">)" +
+                                                         slow + R"(<Advance name="fast"/>
+</ParallelRelative></BehaviorTree></root>)");
+    const std::string recording = directory.path("run.jsonl");
+    const Outcome it = run_lockstep(
+        {"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none", "--record", recording,
+         "--leaves", directory.file("t.leaves", "@rate 10\n" + leaves), "--property",
+         "never fast.held", "--property", "fast.held at most 1 ticks", "--json"});
+    INFO(it.out << it.err);
+    const json summary = json::parse(it.out);
+    std::vector<json> all;
+    for (const json& each : summary.at("properties")) all.push_back(each.at("tick"));
+    const Outcome held = run_lockstep({"log", "measure", recording, "--measure", "held:fast"});
+    return std::pair(all, held.out.substr(held.out.rfind(' ') + 1));
+  };
+  const auto [resumed, one] = run(
+      R"(<Parallel name="slow" success_count="1"><Wait seconds="0.2"/>
+<Fallback memory="true"><Advance name="a"/><Advance name="b"/></Fallback></Parallel>)",
+      "T/p/slow/Fallback/a = R0.5 R0.95 F\nT/p/slow/Fallback/b = R\nT/p/fast = R0.95\n");
+  CHECK(resumed == std::vector<json>{1, nullptr});
+  CHECK(one == "1\n");
+  // Also in the tick in which the node ends that holds it.
+  const auto [ended, two] =
+      run(R"(<Advance name="slow"/>)", "T/p/slow = R0.1 R0.2 S\nT/p/fast = R0.9\n");
+  CHECK(ended == std::vector<json>{1, 2});
+  CHECK(two == "2\n");
+}
+
 TEST_CASE("moments: a recording has those of a tick that has several, and of no other") {
   const Recorded it(kRetry);
   std::size_t lines = 0;
@@ -178,6 +212,7 @@ TEST_CASE("moments: what has no room is counted without its order") {
   CHECK(failures == 300);
   CHECK(successes == 300);
   CHECK(lines < 300);
+  CHECK(contains(it.log({"scenario"}).err, "more moments than a recording keeps"));
   const Outcome check =
       it.log({"check", "--property", "never even.failure", "--property", "sometimes even.success"});
   CHECK(check.out.find("violated  0") != std::string::npos);
