@@ -2,11 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -14,7 +16,7 @@
 
 #include "base/system/beside.h"
 #include "base/system/descriptors.h"
-#include "base/system/signal_mask.h"
+#include "base/system/mutex.h"
 
 namespace lockstep::host {
 namespace {
@@ -61,6 +63,43 @@ void restore_mode(int file, mode_t mode) {
   struct stat now {};
   if (fstat(file, &now) == 0 && now.st_mode != mode) fchmod(file, mode & 07777u);
 }
+
+// A signal that would end the process does so when this ends, whichever thread it comes to.
+class LaterEnd {
+ public:
+  LaterEnd() {
+    struct sigaction later {};
+    later.sa_handler = [](int number) { g_came[place_of(number)] = true; };
+    later.sa_flags = SA_RESTART;
+    for (const int number : kSignals) {
+      struct sigaction& before = before_[place_of(number)];
+      sigaction(number, nullptr, &before);
+      if (before.sa_handler == SIG_DFL) sigaction(number, &later, nullptr);
+    }
+  }
+  ~LaterEnd() {
+    for (const int number : kSignals) {
+      const struct sigaction& before = before_[place_of(number)];
+      if (before.sa_handler != SIG_DFL) continue;
+      sigaction(number, &before, nullptr);
+      if (g_came[place_of(number)].exchange(false)) raise(number);
+    }
+  }
+  LaterEnd(const LaterEnd&) = delete;
+  LaterEnd& operator=(const LaterEnd&) = delete;
+
+ private:
+  static constexpr std::array kSignals = {SIGINT, SIGQUIT, SIGTERM, SIGHUP};
+  static std::size_t place_of(int number) {
+    return static_cast<std::size_t>(std::ranges::find(kSignals, number) - kSignals.begin());
+  }
+
+  static inline Mutex g_one_at_a_time;
+  static inline std::array<std::atomic<bool>, kSignals.size()> g_came;
+
+  const Lock lock_{g_one_at_a_time};
+  std::array<struct sigaction, kSignals.size()> before_{};
+};
 
 class Replacement {
  public:
@@ -168,7 +207,7 @@ class Replacement {
 
 Result<void> replace_text(const std::string& path, std::string_view expected,
                           std::string_view text) {
-  const SignalMask complete(SIG_BLOCK, signal_set({SIGINT, SIGQUIT, SIGTERM, SIGHUP}));
+  const LaterEnd complete;
   return Replacement(path, expected, text).run();
 }
 

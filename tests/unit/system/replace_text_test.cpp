@@ -2,13 +2,16 @@
 #include "base/system/replace_text.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <sys/xattr.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <thread>
 
 #include "support/program.h"
 
@@ -117,6 +120,40 @@ TEST_CASE("a full disk leaves the old text") {
     CHECK(read_file(it) == "old");
   }
   CHECK(count_files(directory) == 3);
+}
+
+// The thread that replaces the text waits at a pipe, so a signal to the process comes to another.
+TEST_CASE("a signal that ends the process waits, whichever thread it comes to") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.file("t.xml", "old");
+  for (int trial = 0; trial < 50; ++trial) {
+    const std::string text(1u << 20, 'x');
+    const std::string old = read_file(file);
+    const pid_t child = fork();
+    if (child == 0) {
+      signal(SIGTERM, SIG_DFL);
+      std::thread other([] {
+        while (true) pause();
+      });
+      sigset_t all;
+      sigfillset(&all);
+      pthread_sigmask(SIG_BLOCK, &all, nullptr);
+      std::thread killer([] {
+        usleep(200);
+        kill(getpid(), SIGTERM);
+      });
+      for (int i = 0; i < 1'000; ++i) {
+        const std::string next = i % 2 == 0 ? text : "new";
+        if (!replace_text(file, i == 0 ? old : i % 2 == 0 ? "new" : text, next)) _exit(1);
+      }
+      _exit(2);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    INFO("trial " << trial << ", status " << status);
+    CHECK(WIFSIGNALED(status));
+    REQUIRE(count_files(directory) == 1);
+  }
 }
 
 TEST_CASE("what is not a file is not replaced") {
