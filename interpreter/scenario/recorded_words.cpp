@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "engine/writers.h"
@@ -33,17 +34,30 @@ class WordMaker {
     const auto writers_of = writers(tree);
     for (const ShapeEntry& key : header.entries) {
       auto& of_key = writers_.emplace_back();
+      auto& by_script = setters_.emplace_back();
       const auto slot = std::ranges::find(tree.slots, key.key, &Slot::name);
       if (slot == tree.slots.end()) continue;
       for (const NodeIndex node : writers_of[static_cast<std::size_t>(slot - tree.slots.begin())]) {
         const auto at = recorded.find(tree.path(node));
-        if (at != recorded.end()) of_key.push_back(at->second);
+        if (at == recorded.end()) continue;
+        of_key.push_back(at->second);
+        by_script.push_back({at->second, node, is_script(tree, node)});
       }
     }
   }
 
   void add(const RecordedTick& tick) {
     calls_.take(tick);
+    if (!tick.moments.rest.empty()) {
+      note(Lacks::Moments, "tick {} has more moments than a recording keeps: the leaves do less",
+           tick.tick);
+    }
+    if (!tick.faults.empty()) {
+      note(Lacks::Faults,
+           "the run went on after the fault in tick {}, as with '--on-fault fail': "
+           "the scenario ends with it",
+           tick.tick);
+    }
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) {
       if (!entry.value || is_of_tree(tick, entry.entry)) continue;
@@ -80,6 +94,20 @@ class WordMaker {
     const auto& writers = writers_[entry];
     if (tick.tick > 0) return !writers.empty();
     return std::ranges::any_of(writers, [&](NodeIndex it) { return tick.nodes[it].ticked; });
+  }
+
+  enum class Lacks { Moments, Faults, Value };
+
+  // Each once.
+  template <class... Args>
+  void note(Lacks what, fmt::format_string<Args...> text, Args&&... args) {
+    const auto is_new = noted_.insert(what).second;
+    if (is_new) words_.notes.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  static bool is_script(const Tree& tree, NodeIndex node) {
+    const NodeType& type = *tree.labels[node].type;
+    return type.leaf == nullptr && std::ranges::any_of(type.parameters, &Parameter::is_script);
   }
 
   struct Leaf {
@@ -121,7 +149,7 @@ class WordMaker {
   }
 
   // A word for each tick that it got.
-  void add(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls, Leaf& it) const {
+  void add(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls, Leaf& it) {
     const double progress = progress_at(tick, it.node, 0);
     take_progress(progress, it);
     it.before = tick.nodes[it.node];
@@ -137,7 +165,7 @@ class WordMaker {
 
   // `progress`: after it; the next tick may tell better.
   void add_word(const RecordedTick& tick, const Leaf& it, Status status, bool begins,
-                double progress) const {
+                double progress) {
     if (may_be_of_script(tree_, it.leaf->node, status, begins)) return;
     LeafWord word{.status = status};
     if (status == Status::Running) word.progress = progress;
@@ -148,8 +176,20 @@ class WordMaker {
     it.words->push_back(std::move(word));
   }
 
+  // Whether a script of the tree may have written the entry after the leaf.
+  bool is_overwritten(const RecordedTick& tick, std::size_t entry, NodeIndex leaf,
+                      std::uint32_t slot) const {
+    return std::ranges::any_of(setters_[entry], [&](const Setter& it) {
+      const bool is_behind = it.in_tree > leaf;
+      const bool is_around = it.in_tree <= leaf && leaf < tree_.nodes[it.in_tree].end;
+      if (!tick.nodes[it.node].ticked || !(is_behind || is_around)) return false;
+      return (is_behind && it.is_script) ||
+             may_be_set_at_end(tree_, it.in_tree, tick.nodes[it.node].status, slot);
+    });
+  }
+
   // Entries that have changed in a tick of a leaf that may write them.
-  void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) const {
+  void add_writes(const RecordedTick& tick, const Leaf& it, LeafWord& word) {
     for (const RecordedEntry& entry : tick.entries) {
       const ShapeEntry& key = header_.entries[entry.entry];
       const auto& writers = writers_[entry.entry];
@@ -160,6 +200,13 @@ class WordMaker {
         const std::uint32_t slot = tree_.ports[it.leaf->first_port + port].slot;
         if (slot == PortBinding::kUnbound || tree_.slots[slot].name != key.key) continue;
         if (parameters[port].direction == Direction::Input) continue;
+        if (is_overwritten(tick, entry.entry, it.leaf->node, slot)) {
+          note(Lacks::Value,
+               "a script wrote '{}' in tick {} after '{}': what this leaf writes is "
+               "not recorded",
+               key.key, tick.tick, header_.nodes[it.node].path);
+          continue;
+        }
         word.written.emplace_back(parameters[port].name, *entry.value);
       }
     }
@@ -172,6 +219,12 @@ class WordMaker {
   RecordedCalls calls_;
   std::vector<Leaf> leaves_;
   std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
+  struct Setter {
+    NodeIndex node, in_tree;
+    bool is_script;  // as its parameter says, not around its ticks
+  };
+  std::vector<std::vector<Setter>> setters_;  // of each entry
+  std::set<Lacks> noted_;
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ struct RecordedWords : LeafScripts {
     std::uint64_t tick;
   };
   std::vector<Change> changes;
+  std::vector<std::string> notes;  // what the words do not have of the run
 };
 
 // Words write to the ports of leaves in `tree`.

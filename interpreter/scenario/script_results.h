@@ -3,11 +3,23 @@
 #pragma once
 
 #include "engine/tree.h"
+#include "language/expression/expression.h"
 
 namespace lockstep::host {
 
 inline bool has_script(const Tree& tree, NodeIndex node) {
   return !tree.hooks.empty() && tree.hooks[node] != HookedNode::kNoScript;
+}
+
+// Whether a script of the tree assigns to an entry. No script does nothing.
+inline bool assigns(const Tree& tree, std::uint32_t script, std::uint32_t slot) {
+  if (script >= tree.scripts.size() || !tree.scripts[script].code) return false;
+  const auto uses = tree.scripts[script].code->uses();
+  for (std::size_t name = 0; name < uses.size(); ++name) {
+    if (tree.scripts[script].slots[name] == slot && (uses[name].is_assigned || uses[name].is_made))
+      return true;
+  }
+  return false;
 }
 
 // Whether a script around its ticks can have given the node this result; `begins`: it was not
@@ -19,6 +31,18 @@ inline bool may_be_of_script(const Tree& tree, NodeIndex node, Status status, bo
   if (status == Status::Skipped) return has(Hook::While) || (begins && has(Hook::SkipIf));
   if (status == Status::Failure) return begins && has(Hook::FailureIf);
   return status == Status::Success && begins && has(Hook::SuccessIf);
+}
+
+// Whether a script around the ticks of the node that assigns to the entry may have run at the end
+// of a tick with that result.
+inline bool may_be_set_at_end(const Tree& tree, NodeIndex node, Status status, std::uint32_t slot) {
+  if (!has_script(tree, node)) return false;
+  const HookedNode& hooked = tree.hooked[tree.hooks[node]];
+  const auto sets = [&](Hook hook) { return assigns(tree, hooked.script(hook), slot); };
+  const bool is_ended = status == Status::Idle;  // by an ancestor, whatever it did
+  return ((is_ended || status == Status::Success) && sets(Hook::OnSuccess)) ||
+         ((is_ended || status == Status::Failure) && sets(Hook::OnFailure)) ||
+         (is_ended && sets(Hook::OnHalted)) || (status != Status::Running && sets(Hook::Post));
 }
 
 }  // namespace lockstep::host

@@ -110,6 +110,63 @@ TEST_CASE("a result that a script of a leaf gives is no word of the leaf") {
   CHECK(contains(words(R"(while="n == 0")", "0.5"), R"(/a" does="R0.5 S"/>)"));
 }
 
+TEST_CASE("what a scenario does not have of its recording is said in it and on stderr") {
+  const TemporaryDirectory directory;
+  const std::string run = directory.path("run.jsonl");
+  const auto made = [&](const std::string& nodes, std::vector<std::string> more) {
+    const std::string tree = directory.file(
+        "t.xml", R"(<root lockstep="1"><plugin name="motion"/><BehaviorTree ID="T">)" + nodes +
+                     R"(</BehaviorTree><TreeNodesModel><Action ID="Look"><output_port name="seen"
+type="int"/></Action></TreeNodesModel></root>)");
+    more.insert(more.begin(), {"run", tree, "--mock", "--clock", "virtual", "--rate", "1", "--view",
+                               "none", "--mock-output", "seen=3", "--record", run});
+    const Outcome ran = run_lockstep(more);
+    INFO(ran.err);
+    REQUIRE(ran.code < 2);
+    return run_lockstep({"log", "scenario", run});
+  };
+  const std::string after = "a script wrote 'seen' in tick 1 after 'T/Sequence/look'";
+  for (const std::string hook : {R"(on_success="seen := 4")", R"(on_end="seen := 4")", ""}) {
+    const Outcome it = made(
+        "<Sequence memory=\"true\"><Action ID=\"Look\" name=\"look\" seen=\"{seen}\" " + hook +
+            "/><Script code=\"n := 1" + (hook.empty() ? "; seen := n" : "") + "\"/></Sequence>",
+        {});
+    INFO(hook << '\n' << it.out << it.err);
+    CHECK(contains(it.err, after));
+    CHECK(contains(it.out, after));
+    CHECK(!contains(it.out, "seen="));
+  }
+  const Outcome kept = made(R"(<Sequence memory="true"><Action ID="Look" name="look" seen="{seen}"
+on_failure="seen := 4"/><Script code="n := seen"/></Sequence>)",
+                            {});
+  CHECK(kept.err.empty());
+  CHECK(contains(kept.out, "3"));
+  const Outcome faulty = made(
+      R"(<ForceSuccess><Advance name="a" step="0.5"/></ForceSuccess>)",
+      {"--on-fault", "fail", "--leaves", directory.file("t.leaves.xml", R"(<leaves lockstep="1">
+<leaf path="*/a" result="fault"/></leaves>)")});
+  CHECK(contains(faulty.err, "as with '--on-fault fail'"));
+}
+
+TEST_CASE("a recording in parts, and one of the wall clock, are repeated") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml",
+                                          R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><Advance name="a" step="0.001"/></BehaviorTree></root>)");
+  const std::string test = directory.file("t.test.xml", R"(<scenarios lockstep="1" tree="t.xml">
+<scenario name="s" rate="1000"><leaf path="a" from="plugin"/><expect same-as="run.jsonl"/></scenario></scenarios>)");
+  for (const std::string clock : {"virtual", "wall"}) {
+    std::vector<std::string> command = {
+        "run",  tree,     "--clock", clock,      "--rate",
+        "1000", "--view", "none",    "--record", directory.path("run.jsonl")};
+    if (clock == "virtual") command.insert(command.end(), {"--record-rotate", "20kB"});
+    REQUIRE(run_lockstep(command).code == 0);
+    const Outcome it = run_lockstep({"test", test, "--out", directory.path("failed")});
+    INFO(clock << '\n' << it.out << it.err);
+    CHECK(it.code == 0);
+  }
+}
+
 TEST_CASE("an action that keeps its result gets no tick, and each round within a tick is one") {
   for (const std::string nodes :
        {R"(<Repeat num_cycles="2"><WhileDoElse><Advance name="a" step="0.5"/>
