@@ -30,7 +30,11 @@ class CutFinder {
  public:
   CutFinder(const Tree& tree, const BarriersOfEntries& entries,
             std::span<const Observed::Progress> compared)
-      : tree_(tree), entries_(entries), compared_(compared), cuts_(tree.nodes.size()) {}
+      : tree_(tree),
+        entries_(entries),
+        compared_(compared),
+        cuts_(tree.nodes.size()),
+        places_(tree.nodes.size()) {}
 
   std::vector<Cuts> find() {
     add_compared(0);
@@ -47,7 +51,7 @@ class CutFinder {
     Cuts& here = cuts_[node];
     here.deltas = above.deltas;
     here.is_unknown = above.is_unknown;
-    pull(above, parent, node, here);
+    pull(above, parent, here);
     const Synchronization way = synchronization(tree_.nodes[parent]);
     if (compares_progress(way) && !tree_.is_group(parent)) add_own(parent, here);
     if (const Member* member = barrier_member(tree_, parent)) add_own(member->group, here);
@@ -58,9 +62,9 @@ class CutFinder {
     here.behind.clear();
   }
 
-  void pull(const Cuts& above, NodeIndex parent, NodeIndex node, Cuts& here) {
+  void pull(const Cuts& above, NodeIndex parent, Cuts& here) {
     const auto children = static_cast<double>(tree_.nodes[parent].children);
-    const double place = place_of(parent, node);
+    const double place = places_[parent]++;
     switch (tree_.labels[parent].type->progress_share) {
       case ProgressShare::EachChild:
         return add_part(above, children, place, here);
@@ -101,12 +105,6 @@ class CutFinder {
     }
   }
 
-  double place_of(NodeIndex parent, NodeIndex node) const {
-    double place = 0;
-    for (NodeIndex at = parent + 1; at != node; at = tree_.nodes[at].end) ++place;
-    return place;
-  }
-
   double rounds_of(NodeIndex repeat) const {
     return std::max(1.0, static_cast<double>(tree_.cells[tree_.nodes[repeat].params].integer));
   }
@@ -144,6 +142,7 @@ class CutFinder {
   const BarriersOfEntries& entries_;
   const std::span<const Observed::Progress> compared_;
   std::vector<Cuts> cuts_;
+  std::vector<std::uint32_t> places_;  // of the next child of each node
 };
 
 }  // namespace

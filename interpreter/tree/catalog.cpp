@@ -10,8 +10,9 @@ void Catalog::add(const NodeType* type) {
 }
 
 void Catalog::replace(const NodeType* type) {
-  std::erase_if(types_, [&](const NodeType* it) { return it->id == type->id; });
-  by_id_.erase(type->id);
+  if (by_id_.erase(type->id) != 0) {
+    std::erase_if(types_, [&](const NodeType* it) { return it->id == type->id; });
+  }
   add(type);
 }
 

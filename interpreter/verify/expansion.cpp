@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint64_t kTicksBetweenCuts = 1000;
 constexpr std::uint64_t kTicksBetweenLooks = 64;            // at what depends on the machine
+constexpr std::uint64_t kNodesOfTick = 1000;                // a tick of more counts as several
 constexpr std::size_t kLeastRound = std::size_t{1} << 20u;  // bytes
 
 void sort_edges(Chunk& chunk, std::size_t first) {
@@ -127,6 +128,7 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
   const std::size_t first_edge = into.edges.size();
   Chunk::State& at = into.states.emplace_back();
   if (!labeller_.shape().moving_leaves.empty()) at.equals = labels_.add(labeller_.equals(stepper_));
+  const std::uint64_t weight = 1 + stepper_.ticker().tree().nodes.size() / kNodesOfTick;
   std::uint64_t next_cut = kTicksBetweenCuts;
   std::size_t most_edges = first_edge + 10 * kTicksBetweenCuts;
   Step step{state, 0};
@@ -139,9 +141,9 @@ void Expander::for_each_tick(StateId state, std::span<const std::byte> bytes, Ch
       take(step, *status);
     }
     ++step.combination;
-    if (!at.cut && is_over(stepper_.root_ticks())) at.cut = over_;
-    if (at.cut || at.root_ticks < next_cut) continue;
-    next_cut = at.root_ticks + kTicksBetweenCuts;
+    if (!at.cut && is_over(stepper_.root_ticks() * weight)) at.cut = over_;
+    if (at.cut || at.root_ticks * weight < next_cut) continue;
+    next_cut = at.root_ticks * weight + kTicksBetweenCuts;
     if (into.edges.size() > most_edges) {
       sort_edges(into, first_edge);
       most_edges = 2 * into.edges.size() + kTicksBetweenCuts;

@@ -295,6 +295,15 @@ TEST_CASE("a search that has reached a limit makes no further ticks") {
   CHECK(looks < 16);  // those of the first state, in place of 64 states
 }
 
+TEST_CASE("a limit ends a tick of very many leaves after fewer combinations") {
+  std::string leaves = "a";
+  for (int i = 1; i < 5000; ++i) leaves += " a";
+  const Verified it("Parallel(" + leaves + ')', "", {.states = 10, .symmetry = false});
+  CHECK(it.found.end == SearchEnd::States);
+  CHECK(it.found.store.size() > 10);
+  CHECK(it.found.store.size() < 400);
+}
+
 TEST_CASE("hashes in place of states: a property that looks below what has ended") {
   const Verified it("Sequence[memory=true](Fallback(c?) KeepRunningUntilFailure(AlwaysSuccess))",
                     "", {.hash_bits = 64}, 10, {"never Fallback.success and not c.failure"});
