@@ -33,13 +33,19 @@ SearchLimits bound(const Tree& tree, std::uint64_t transitions) {
 }
 constexpr std::uint64_t kOfCertainties = 50'000, kOfDeadlocks = 20'000, kOfRun = 1'000;
 
-// The rate decides what comes first.
-bool has_clocks(const Tree& tree) {
-  return std::ranges::any_of(tree.labels, [](const NodeLabel& label) {
-    return label.type->leaf == nullptr && label.type->mock == nullptr &&
-           std::ranges::any_of(label.type->parameters,
+// The rate decides what comes first, but not in the first tick, nor where no node counts time.
+bool depends_on_rate(const Tree& tree, const SearchResult& found) {
+  const auto counts_time = [&](NodeIndex node) {
+    const NodeType& type = *tree.labels[node].type;
+    return type.leaf == nullptr && type.mock == nullptr &&
+           std::ranges::any_of(type.parameters,
                                [](const Parameter& it) { return !it.unit.empty(); });
-  });
+  };
+  if (found.store.size() == 1) return false;
+  for (NodeIndex node = 0; node < tree.nodes[0].end; ++node) {
+    if (counts_time(node) && found.coverage.was_ticked(node)) return true;
+  }
+  return false;
 }
 
 // Whoever starts the tree may give it other start values.
@@ -154,7 +160,7 @@ class Adviser {
 
   std::vector<Advice> advise(AdviceEffort effort) {
     if (is_too_large() || !not_verifiable(tree_).empty()) return {};
-    if (effort == AdviceEffort::Certain && !has_clocks(tree_)) look_for_certainties();
+    if (effort == AdviceEffort::Certain) look_for_certainties();
     const bool holds = std::ranges::any_of(
         holdable(tree_), [&](const Holdable& it) { return !is_pool(tree_, it.holder); });
     if (holds && !stands_still_) look_for_deadlocks(effort);
@@ -201,7 +207,7 @@ class Adviser {
     const auto models = this->models(Declared::Ignored);
     if (!models || has_start_values(tree_, *models)) return;
     const SearchResult found = search(*models, kOfCertainties, true);
-    if (!found.is_complete()) return;
+    if (!found.is_complete() || depends_on_rate(tree_, found)) return;
     std::string why = "`lockstep verify` shows how";
     const auto deadlocks = host::deadlocks(tree_, *models, kPeriod, found);
     if (!deadlocks.empty()) why = DeadlockText(tree_).explained(deadlocks.front().chain);

@@ -21,7 +21,9 @@ constexpr Row kRows[] = {
   {"of a subtree its root, once", "Sequence(Inverter(AlwaysSuccess) Fallback(a b) c)",
    "'Fallback' can never run, whatever the leaves do: 'Inverter' before it never succeeds\n"
    "'c' can never run, whatever the leaves do: 'Fallback' before it never succeeds\n"},
-  {"a rate decides, so nothing is certain", "Fallback(Timeout[seconds=100](AlwaysSuccess) a)", ""},
+  {"no rate decides in the first tick", "Fallback(Timeout[seconds=100](AlwaysSuccess) a)",
+   "'a' can never run, whatever the leaves do: 'Timeout' before it never fails\n"},
+  {"a rate decides, so nothing is certain", "Fallback(Timeout[seconds=100](Wait[seconds=1]) a)", ""},
   {"what a script has written is known", "Sequence[memory=true](Script[code=n:=1] Check[code=n==2] a)",
    "'a' can never run, whatever the leaves do: 'Check' before it never succeeds\n"},
   {"a circle of barriers that may be, but need not", "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
@@ -48,6 +50,15 @@ constexpr Row kRows[] = {
    "Parallel(a[while=k<2] Script[code=k:=1])",
    "'Script' can never run, whatever the leaves do: 'a' before it faults: its while reads 'k', which has no value "
    "yet: 'Script' writes it, which comes after\n"},
+  {"a while of an entry in front of a node that counts time",
+   "Parallel(Sequence[while=k<2](Wait[seconds=1] a) Script[code=k:=1])",
+   "'Wait' can never run, whatever the leaves do\n"
+   "'a' can never run, whatever the leaves do: 'Wait' before it never succeeds\n"
+   "'Script' can never run, whatever the leaves do: 'Sequence' before it faults: its while reads 'k', which has "
+   "no value yet: 'Script' writes it, which comes after\n"},
+  {"the rate decides which is first",
+   "Parallel(Sequence[memory=true](Wait[seconds=0.3] b[while=k<2]) "
+   "Sequence[memory=true](Wait[seconds=0.2] Script[code=k:=1]))", ""},
   {"a node before it writes the entry", "Sequence[memory=true](Script[code=k:=1] a[while=k<2])", ""},
   {"an endless tree", "Repeat(ForceSuccess(a))", "this tree never ends, whatever its leaves do\n"},
 };
