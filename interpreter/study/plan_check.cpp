@@ -127,12 +127,27 @@ std::optional<double> rate_from(std::string_view text) {
   return rate && *rate >= kLeastRate && *rate <= kMostRate ? rate : std::nullopt;
 }
 
+namespace {
+
+// The same for 0.5, .5 and 0.50. Seeds may be larger than a double tells apart.
+std::string as_number(const std::string& value) {
+  if (const auto number = whole<std::uint64_t>(value)) return std::to_string(*number);
+  const auto number = whole<double>(value);
+  if (!number) return value;
+  return fmt::format("{:.17g}", *number + 0.0);  // -0 is 0
+}
+
+}  // namespace
+
 std::string value_twice(std::span<const GridAxis> together) {
   std::set<std::vector<std::string>> seen;
   for (std::size_t i = 0; i < together.front().values.size(); ++i) {
-    std::vector<std::string> values;
-    for (const GridAxis& axis : together) values.push_back(axis.values[i]);
-    if (!seen.insert(values).second) return joined(values, ":");
+    std::vector<std::string> values, numbers;
+    for (const GridAxis& axis : together) {
+      values.push_back(axis.values[i]);
+      numbers.push_back(as_number(values.back()));
+    }
+    if (!seen.insert(numbers).second) return joined(values, ":");
   }
   return {};
 }

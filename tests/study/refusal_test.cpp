@@ -27,6 +27,8 @@ const std::vector<Refusal> kRefusals{
     {3, {"--runs", "1", "--grid", "noise=0:0.1:0.05,0.2"}, "0:0.1:0.05"},  // a list of two texts
     {2, {"--runs", "1", "--grid", "noise,barrier_count=0:1,1"}, "'1' has 1 of 2 values"},
     {2, {"--runs", "1", "--grid", "noise,barrier_count=0:1:2"}, "'0:1:2' has 3 of 2 values"},
+    {2, {"--runs", "1", "--grid", "noise=0,0.5,.50"}, "the value '.50' is given twice"},
+    {2, {"--runs", "1", "--grid", "noise=0,-0.0"}, "the value '-0.0' is given twice"},
     {2, {"--runs", "1", "--grid", "noise,barrier_count=0:1,0:1"}, "'0:1' is given twice"},
     {2, {"--runs", "1", "--grid", "noise,noise=0:1"}, "--grid noise,noise: a name is given twice"},
     {2, {"--runs", "1", "--grid", "noise,=0:1"}, "expected name=value"},

@@ -174,6 +174,7 @@ TEST_CASE("what is no order is refused with a sentence") {
   CHECK(error("[]") == "expected a JSON object");
   CHECK(error("{}") == "'do' is missing");
   CHECK(error(R"({"do":"fly"})") == "'fly' is not an order");
+  CHECK(error(R"({"do":"step","tick":5})") == "unknown key 'tick'");
   CHECK(error(R"({"do":"step","ticks":0})") == "'ticks' is 0, expected 1 to 1000000000");
   CHECK(error(R"({"do":"break","node":99,"when":"begins"})") == "no node 99, expected 0 to 4");
   CHECK(error(R"({"do":"break","node":0,"when":"barrier"})") ==

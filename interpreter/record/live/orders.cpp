@@ -42,7 +42,22 @@ bool flag_of(JsonValue value) {
   return flag;
 }
 
+// Who misspells a key means something by it.
+void check_keys(std::string& text) {
+  constexpr std::array<std::string_view, 8> kKeys{"do",    "ticks", "factor", "entry",
+                                                  "value", "node",  "when",   "on"};
+  JsonReader().read(text, [&](JsonObject object) {
+    object.each_field([&](std::string_view name, JsonValue value) {
+      if (std::ranges::find(kKeys, name) == kKeys.end()) {
+        throw JsonError(fmt::format("unknown key '{}'", printable(name)));
+      }
+      value.skip();
+    });
+  });
+}
+
 Fields read_fields(std::string& text) {
+  check_keys(text);
   Fields fields;
   JsonReader().read(text, [&](JsonObject object) {
     object.read({{"do", into(fields.what)},

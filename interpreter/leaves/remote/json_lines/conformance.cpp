@@ -232,9 +232,13 @@ class Examiner {
     }
     std::ranges::sort(times);
     const bool is_running = status == LOCKSTEP_RUNNING;
+    const double progress = trial.leaf().progress();
     note(true, fmt::format("'{}' answers {} (median {} us); it is {}, progress {:g}", trial.name(),
                            counted(times.size(), "tick"), times[times.size() / 2].count() / 1000,
-                           is_running ? "running" : "done", trial.leaf().progress()));
+                           is_running ? "running" : "done", progress));
+    if (!(progress >= 0 && progress <= 1)) {
+      note(false, fmt::format("'{}' reported the progress {:g}", trial.name(), progress));
+    }
     if (is_running) trial.leaf().halt();
     return !is_running || passed(trial, "answers halt");
   }
