@@ -47,10 +47,10 @@ const Row kRows[] = {
   {"b.progress >= 0.5 only after b.progress >= 0.2 and b.progress < 0.5", kArms,
    R"(<leaf path="*" finish="full" step="0..1"/>)", "2"},
   // The progress of a node needs the parameters that it has read, also before it reads them again.
-  // In the first moment of a tick it is still held by the tick before.
+  // A hold of the tick before is none of a tick that then reaches the node.
   {"ForceSuccess.held at most 1 ticks", "ParallelAbsolute[failure_count=1 barriers=1](Parallel[success_count=2 "
    "memory=false](a WhileDoElse(Wait[seconds=.1] Wait[seconds=.1]) Rate[seconds=.2](Wait[seconds=.1])) "
-   "ForceSuccess(Wait[seconds=.1]))", "", "3"},
+   "ForceSuccess(Wait[seconds=.1]))", "", "holds"},
   {"never Wait.held", kWaits, R"(<leaf path="*/a" result="success" ticks="3" progress="none"/>)", "holds"},
   {"a.success only after Wait.held", kWaits,
    R"(<leaf path="*/a" result="success" ticks="3" progress="none"/>)", "3"},
