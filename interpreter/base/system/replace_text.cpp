@@ -82,7 +82,7 @@ class LaterEnd {
       const struct sigaction& before = before_[place_of(number)];
       if (before.sa_handler != SIG_DFL) continue;
       sigaction(number, &before, nullptr);
-      if (g_came[place_of(number)].exchange(false)) raise(number);
+      if (g_came[place_of(number)].exchange(false)) kill(getpid(), number);
     }
   }
   LaterEnd(const LaterEnd&) = delete;
