@@ -7,10 +7,13 @@
 
 namespace lockstep::host {
 
-BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names)
+BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names,
+                           Readings& readings)
     : tree_(tree), names_(names) {
   std::size_t entries = 0;
-  for (const Script& script : tree.scripts) entries += script.slots.size();
+  for (const Script& script : tree.scripts) {
+    entries += script.slots.size() + script.readings.size();
+  }
   entries_.reserve(entries);
   scripts_.reserve(tree.scripts.size());
   for (const Script& script : tree.scripts) {
@@ -19,10 +22,12 @@ BoundScripts::BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& na
       bound.source = std::make_unique<FromEntry>(&board.entries[script.slots.front()]);
       continue;
     }
-    bound.entries = {entries_.data() + entries_.size(), script.slots.size()};
+    bound.entries = {entries_.data() + entries_.size(),
+                     script.slots.size() + script.readings.size()};
     bound.comparison = script.code->comparison();
     bound.change = only_change(script.code->program().code);
     for (const std::uint32_t slot : script.slots) entries_.push_back(&board.entries[slot]);
+    for (const std::uint32_t number : script.readings) entries_.push_back(readings.at(number));
     if (bound.comparison != nullptr) bound.compared = &bound.entries.front()->value();
   }
 }
@@ -70,6 +75,10 @@ bool BoundScripts::compile(NodeIndex node, std::uint32_t script) {
   if (!code) {
     return evaluator_.fail("'" + brief(source.text) + "' in '{" + key + "}', column " +
                            std::to_string(code.error().offset + 1) + ": " + code.error().message);
+  }
+  if (!code->readings().empty()) {
+    return evaluator_.fail("'" + shown(code->readings().front()) + "' in the script of '{" + key +
+                           "}': only a script that is written in the tree reads nodes");
   }
   source.code = *std::move(code);
   it.code = &source.code;

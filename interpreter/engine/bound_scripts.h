@@ -11,6 +11,7 @@
 
 #include "engine/blackboard.h"
 #include "engine/named_entries.h"
+#include "engine/readings.h"
 #include "engine/tree.h"
 #include "language/expression/change.h"
 #include "language/expression/evaluator.h"
@@ -21,7 +22,7 @@ namespace lockstep::host {
 class BoundScripts {
  public:
   // All must outlive this, and the entries of `board` stay where they are.
-  BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names);
+  BoundScripts(const Tree& tree, Blackboard& board, NamedEntries& names, Readings& readings);
 
   // Runs a script of a node. False after an error. An empty text does nothing.
   bool run(NodeIndex node, std::uint32_t script) {
@@ -76,7 +77,7 @@ class BoundScripts {
   const Tree& tree_;
   NamedEntries& names_;
   std::vector<Bound> scripts_;   // of each Tree::scripts
-  std::vector<Entry*> entries_;  // theirs, one after another
+  std::vector<Entry*> entries_;  // and readings, theirs, one after another
   Evaluator evaluator_;
   Value value_;  // of the last script
 };

@@ -103,6 +103,7 @@ class Compiler {
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
     add_scripts();
+    tree_.readings = definition_.readings;
     add_hooks();
     add_groups();
     order_groups();
@@ -174,7 +175,7 @@ class Compiler {
 
   void add_scripts() {
     for (const BoundScript& script : definition_.scripts) {
-      tree_.scripts.push_back({script.code, script.entries});
+      tree_.scripts.push_back({script.code, script.entries, script.readings});
     }
   }
 

@@ -10,12 +10,18 @@
 namespace lockstep::host {
 namespace {
 
-// Whether a group looks at a member below the node after it has ended.
+// Whether a group, or a script of the tree, looks at a node below this one after it has ended.
 bool is_looked_into(const Tree& tree, NodeIndex node) {
-  return std::ranges::any_of(tree.members, [&](const Member& member) {
-    const bool is_below = node <= member.node && member.node < tree.nodes[node].end;
-    return is_below && tree.nodes[member.group].kind->reads_ended_members;
-  });
+  const auto is_below = [&](NodeIndex other) {
+    return node <= other && other < tree.nodes[node].end;
+  };
+  return std::ranges::any_of(tree.members,
+                             [&](const Member& member) {
+                               return is_below(member.node) &&
+                                      tree.nodes[member.group].kind->reads_ended_members;
+                             }) ||
+         std::ranges::any_of(tree.readings,
+                             [&](const BoundReading& it) { return is_below(it.node); });
 }
 
 }  // namespace

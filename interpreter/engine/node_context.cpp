@@ -9,6 +9,7 @@
 #include "engine/node_ports.h"
 #include "engine/node_scripts.h"
 #include "engine/node_watch.h"
+#include "engine/readings.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -27,11 +28,13 @@ bool has_no_idle(const Activity* first) {
 struct NodeContext::Beside {
   Beside(NodeContext& context, Blackboard& board, RunState& state, std::size_t leaves)
       : ports(context.tree(), board),
-        scripts(context, context.tree(), board, ports.names()),
+        readings(context.tree()),
+        scripts(context, context.tree(), board, ports.names(), readings),
         groups(context.tree(), state),
         held_leaves(leaves) {}
 
   NodePorts ports;
+  Readings readings;
   NodeScripts scripts;
   Groups groups;
   HeldLeaves held_leaves;
@@ -52,6 +55,7 @@ NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboar
       scripts_(beside_->scripts),
       groups_(beside_->groups),
       held_leaves_(beside_->held_leaves),
+      readings_(beside_->readings),
       policy_(policy),
       watch_(watch),
       timer_(watch != nullptr && watch->is_timed() ? watch : nullptr),

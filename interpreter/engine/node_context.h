@@ -23,6 +23,7 @@ namespace lockstep::host {
 class Groups;
 class HeldLeaves;
 class NodePorts;
+class Readings;
 class NodeScripts;
 class NodeWatch;
 class NodeWatches;
@@ -204,6 +205,7 @@ class NodeContext : public RunView {
   NodeScripts& scripts_;
   Groups& groups_;
   HeldLeaves& held_leaves_;
+  Readings& readings_;
   const FaultPolicy policy_;
   LeafWatch* const watch_;
   LeafWatch* const timer_;  // the same if it times calls, else null

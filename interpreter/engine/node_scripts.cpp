@@ -8,12 +8,12 @@
 namespace lockstep::host {
 
 NodeScripts::NodeScripts(NodeContext& context, const Tree& tree, Blackboard& board,
-                         NamedEntries& names)
+                         NamedEntries& names, Readings& readings)
     : context_(context),
       tree_(tree),
       hooks_(tree.hooks.empty() ? nullptr : tree.hooks.data()),
       hooked_(tree.hooked.data()),
-      scripts_(tree, board, names) {
+      scripts_(tree, board, names, readings) {
   if (tree.has_halt_hooks) halted_.reserve(tree.hooked.size());
 }
 

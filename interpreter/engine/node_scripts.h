@@ -16,7 +16,8 @@ namespace lockstep::host {
 class NodeScripts {
  public:
   // All must outlive this, and the entries of `board` stay where they are.
-  NodeScripts(NodeContext& context, const Tree& tree, Blackboard& board, NamedEntries& names);
+  NodeScripts(NodeContext& context, const Tree& tree, Blackboard& board, NamedEntries& names,
+              Readings& readings);
 
   // --- a script that is a parameter (Parameter::is_script) ---------------------------------------
 

@@ -56,6 +56,12 @@ inline bool has_asked(const NodeContext& context, const ResourceUse& use) {
   return use.asked == context.tick_number();
 }
 
+// Between two ticks: whether a member owned any of these in the last one.
+inline bool owned_in_last_tick(const NodeContext& context, const ResourceUse& use,
+                               ResourceSet any) {
+  return has_asked(context, use) && use.grant == Grant::Owned && (use.owned & any) != 0;
+}
+
 // Decides for this tick whether a member gets its resources: those that no other member owns.
 void ask(NodeContext& context, NodeIndex member);
 // A child that runs keeps its set until it completes or is halted, if its member says so. A

@@ -3,15 +3,33 @@
 #include "engine/groups.h"
 #include "engine/node_scripts.h"
 #include "engine/node_watch.h"
+#include "engine/readings.h"
 
 namespace lockstep::host {
 
 Ticker::Ticker(const Tree& tree, std::span<LeafSlot> leaves, Blackboard& board, FaultPolicy policy,
                LeafWatch* watch)
-    : NodeContext(tree, leaves, board, policy, watch), is_plain_(groups_.empty()) {}
+    : NodeContext(tree, leaves, board, policy, watch),
+      is_plain_(groups_.empty() && readings_.empty()) {
+  if (!readings_.empty()) make_room_for_progress();
+}
+
+// The first call of share_progress allocates, and in ticks nothing must.
+void Ticker::make_room_for_progress() {
+  const bool shares = shares_progress_;
+  share_progress();
+  shares_progress_ = shares;
+}
 
 Status Ticker::tick_root() {
   const InEngine scope(board_.lock.get());
+  if (!is_plain_) [[unlikely]]
+    return tick_root_beside();
+  begin_tick();
+  return end_calls(tick(0));
+}
+
+inline void Ticker::begin_tick() {
   ++state_.tick_number;
   shares_progress_ = false;
   state_.ended.clear();
@@ -19,13 +37,12 @@ Status Ticker::tick_root() {
     held_leaves_.look(*this);
   if (watch_ != nullptr) watch_->begin_tick();
   begin_calls();
-  if (is_plain_) [[likely]]
-    return end_calls(tick(0));
-  return tick_root_beside();
 }
 
 // With what is beside the tree.
 Status Ticker::tick_root_beside() {
+  if (!readings_.empty()) readings_.read(*this);
+  begin_tick();
   if (moments_ != nullptr) moments_->begin_tick(state_);
   const bool has_groups = !groups_.empty();
   if (has_groups) {
@@ -50,9 +67,7 @@ Status Ticker::tick_root_again() {
 void Ticker::keep_moments() {
   if (moments_ != nullptr) return;
   moments_ = std::make_unique<Moments>(*this);
-  const bool shares = shares_progress_;
-  share_progress();  // who watches will ask for it, in ticks that must not allocate
-  shares_progress_ = shares;
+  make_room_for_progress();
   is_plain_ = false;
 }
 

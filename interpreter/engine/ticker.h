@@ -94,6 +94,8 @@ class Ticker : public NodeContext {
   void fold();
 
  private:
+  void make_room_for_progress();
+  void begin_tick();
   Status tick_root_beside();
   void begin_calls();
   Status end_calls(Status result);

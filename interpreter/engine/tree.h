@@ -16,6 +16,7 @@
 #include "base/core/hook.h"
 #include "base/core/language.h"
 #include "engine/node.h"
+#include "language/expression/reading.h"
 #include "language/expression/script_enums.h"
 
 namespace lockstep::host {
@@ -58,6 +59,7 @@ struct BoundNode {
 struct Script {
   std::shared_ptr<const Expression> code;
   std::vector<std::uint32_t> slots;
+  std::vector<std::uint32_t> readings = {};  // of each of Expression::readings(), in Tree::readings
 };
 
 // A node with scripts around its ticks. Its kind in Tree::nodes runs them and ticks like this kind.
@@ -114,6 +116,7 @@ struct Tree {
   std::vector<NodeIndex> children;  // of the control nodes of plugins
   std::vector<BoundNode> bound;
   std::vector<Script> scripts;
+  std::vector<BoundReading> readings;  // before each tick
   std::vector<HookedNode> hooked;
   std::vector<std::uint32_t> hooks;  // of each node, in `hooked`; empty when no node has scripts
   bool has_halt_hooks = false;

@@ -14,6 +14,7 @@
 #include "base/core/wording.h"
 #include "engine/synchronized.h"
 #include "language/document/reporter.h"
+#include "language/expression/reading_uses.h"
 #include "leaves/cuts.h"
 #include "leaves/declared.h"
 
@@ -342,10 +343,24 @@ class ModelMaker {
     });
   }
 
+  std::vector<Observed::Progress> compared_in_scripts() const {
+    std::vector<Observed::Progress> all;
+    for (const Script& it : tree_.scripts) {
+      if (it.readings.empty()) continue;
+      for (const ProgressUse& use : progress_uses(*it.code)) {
+        const NodeIndex node = tree_.readings[it.readings[use.reading]].node;
+        if (use.constant) all.push_back({node, *use.constant});
+      }
+    }
+    return all;
+  }
+
   void find_levels() {
     const BarriersOfEntries barriers = barriers_of_entries();
-    const std::vector<Cuts> cuts = cuts_of(tree_, barriers);
-    const std::vector<Cuts> all_cuts = cuts_of(tree_, barriers, observed_.progress);
+    std::vector<Observed::Progress> compared = compared_in_scripts();
+    const std::vector<Cuts> cuts = cuts_of(tree_, barriers, compared);
+    compared.insert(compared.end(), observed_.progress.begin(), observed_.progress.end());
+    const std::vector<Cuts> all_cuts = cuts_of(tree_, barriers, compared);
     for (std::size_t leaf = 0; leaf < models_.leaves.size(); ++leaf) {
       LeafModel& model = models_.leaves[leaf];
       const bool is_on_grid = ways_[leaf].way && ways_[leaf].way->kind == ProgressWay::Kind::Grid;

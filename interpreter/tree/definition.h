@@ -71,9 +71,11 @@ struct BlackboardEntry {
 // A script, with the entry of each name that it uses.
 struct BoundScript {
   std::shared_ptr<const Expression> code = nullptr;  // null: it is in an entry
+  std::uint32_t inside = 0;                          // the SubTree that it is in; 0: the main tree
   std::vector<std::uint32_t> entries =
       {};            // of each of Expression::names(); or the one that has it
   Place place = {};  // of its attribute
+  std::vector<std::uint32_t> readings = {};  // of each of Expression::readings()
 };
 
 // The scripts of a node, in Definition::scripts; Port::kNone where it has none.
@@ -106,6 +108,7 @@ struct Definition {
   std::vector<DefinitionGroup> groups = {};  // in the order of their nodes
   std::vector<NodeHooks> hooks = {};
   std::vector<BoundScript> scripts = {};
+  std::vector<BoundReading> readings = {};
   std::vector<Board> boards =
       {};                       // if names are looked up at run time; in the order of their nodes
   bool shares_entries = false;  // leaves, or a program, use them by their names at any time

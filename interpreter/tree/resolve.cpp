@@ -10,6 +10,7 @@
 #include "tree/advise/group_advice.h"
 #include "tree/check/references.h"
 #include "tree/expand/groups.h"
+#include "tree/expand/readings.h"
 #include "tree/expand/resources.h"
 #include "tree/expand/unused_trees.h"
 #include "tree/language_reader.h"
@@ -91,6 +92,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   definition.properties = std::move(trees.properties);
   if (rules.checks_unused_trees) check_unused(trees, *main, report);
   resolve_resources(definition, report);
+  resolve_readings(definition, report);
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;

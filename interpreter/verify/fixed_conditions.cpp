@@ -22,6 +22,7 @@ struct Decider {
   std::string how;  // "false for ever: {}"
   std::set<std::uint32_t> slots = {};
   std::string fact = {};
+  std::vector<std::string> readings = {};
   bool is_ticked = false, has_other = false;
 };
 
@@ -100,6 +101,7 @@ class FixedConditions {
     for (std::size_t i = 0; i < script.slots.size(); ++i) {
       if (script.code->uses()[i].is_read) it.slots.insert(script.slots[i]);
     }
+    for (const Reading& reading : script.code->readings()) it.readings.push_back(shown(reading));
   }
 
   void add(Decider it) {
@@ -109,7 +111,7 @@ class FixedConditions {
 
   // ", which reads {posed} (false)"
   std::string what_it_reads(const Decider& it) const {
-    std::vector<std::string> names;
+    std::vector<std::string> names = it.readings;
     if (!it.fact.empty()) names.push_back(fmt::format("the fact '{}'", it.fact));
     for (const std::uint32_t slot : it.slots) {
       const std::string& value = values_.at(slot);

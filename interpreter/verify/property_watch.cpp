@@ -133,14 +133,14 @@ bool names_fact(const Property& property, const Tree& tree) {
 
 std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree) {
   std::vector<bool> found(tree.nodes.size());
-  for (const Property& property : properties) {
-    for (NodeIndex node : property.nodes()) {
-      while (!found[node]) {
-        found[node] = true;
-        node = tree.labels[node].parent;
-      }
+  const auto add = [&](NodeIndex node) {
+    while (!found[node]) {
+      found[node] = true;
+      node = tree.labels[node].parent;
     }
-  }
+  };
+  for (const Property& property : properties) std::ranges::for_each(property.nodes(), add);
+  for (const BoundReading& it : tree.readings) add(it.node);
   return found;
 }
 

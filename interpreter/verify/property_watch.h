@@ -72,7 +72,7 @@ class PropertyWatch {
 PropertyNames names_with_facts(const Tree& tree, std::span<const FactRow> facts);
 bool names_fact(const Property& property, const Tree& tree);
 
-// The nodes whose statuses they look at, with all above them.
+// The nodes whose statuses they or the scripts of the tree look at, with all above them.
 std::vector<bool> nodes_of(std::span<const Property> properties, const Tree& tree);
 
 }  // namespace lockstep::host

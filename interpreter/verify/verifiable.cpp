@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "language/expression/reading_uses.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -52,7 +54,19 @@ class Unknowns {
 
   void look_at_script(NodeIndex node, std::uint32_t script) {
     if (script >= tree_.scripts.size()) return;
-    if (tree_.scripts[script].code == nullptr) add(node, "its script is the text of an entry");
+    const Script& it = tree_.scripts[script];
+    if (it.code == nullptr) return add(node, "its script is the text of an entry");
+    if (it.readings.empty()) return;
+    for (const ProgressUse& use : progress_uses(*it.code)) {
+      const std::string what = shown(it.code->readings()[use.reading]);
+      if (!use.constant) {
+        add(node, fmt::format("its script computes with {}; verify knows progress as far as it is "
+                              "compared with a number",
+                              what));
+      } else if (tree_.is_group(tree_.readings[it.readings[use.reading]].node)) {
+        add(node, fmt::format("its script reads {}, which is a barrier; read its members", what));
+      }
+    }
   }
 
   void look_at_ports(NodeIndex node, std::uint32_t first, std::size_t count) {

@@ -75,14 +75,15 @@ constexpr const char* kTree = R"(
   <barrier name="close" delta="1e-8"/>
   <resources name="hands"/>
   <BehaviorTree ID="Main">
-    <Parallel success_count="13">
+    <Parallel success_count="14">
       <SyncProgress barrier="close"><Sequence memory="true"><SyncProgress barrier="early"><Advance step="1e-9"/></SyncProgress></Sequence></SyncProgress>
       <Sequence memory="true"><Wait seconds="0.5"/><SyncProgress barrier="close"><SubTree ID="Other" barrier="early"/></SyncProgress></Sequence>
       <SubTree ID="Planned" plan="0.3;0.6"/>
       <ParallelAbsolute barriers="0.3;0.6"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
       <ParallelRelative delta="1e-8"><Advance step="1e-9"/><Advance step="9e-9"/></ParallelRelative>
       <Sequence><Advance step="1"/><Fallback><AlwaysFailure/><Advance step="0"/></Fallback></Sequence>
-      <Sequence memory="true"><Advance step="0.5"/><Wait seconds="1e6"/></Sequence>
+      <Sequence memory="true"><Advance step="0.5"/><Wait name="long" seconds="1e6"/></Sequence>
+      <WaitUntil code="progress(long) > 0.5 or status(long) == failure or held(long) or owner(left) == 'a path that is longer than any owner'"/>
       <KeepRunningUntilFailure><Sequence><SubTree ID="Part"/><Inverter><AlwaysFailure/></Inverter></Sequence></KeepRunningUntilFailure>
       <Repeat times="1000000"><Sequence><Advance step="0.5"/><Delay seconds="0.02"><AlwaysSuccess/></Delay></Sequence></Repeat>
       <KeepRunningUntilFailure><ForceSuccess><Timeout seconds="0.03"><Advance step="0"/></Timeout></ForceSuccess></KeepRunningUntilFailure>

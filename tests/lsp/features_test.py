@@ -137,6 +137,7 @@ class Features(Session):
         items = self.complete(HEAD + "<Script code=\"limit = li|\"/>" + TAIL)
         self.assertEqual(self.applied(items["limit"]), HEAD + "<Script code=\"limit = limit\"/>" + TAIL)
         self.assertIn("word", items)
+        self.assertIn("progress()", items)
         self.assertIn("limit", self.here("<Wait seconds=\"1\" skip_if=\"|"))
 
     def test_completion_in_properties(self):
@@ -405,6 +406,10 @@ class Features(Session):
         self.assertEqual(0, len(data) % 5)
         # inner := 1, word := 'grüß' ; limit := 2, ${pace}
         self.assertEqual([0, 3, 1, 0, 3, 2, 0, 3, 1, 4], data[3::5])
+        # A status is no entry, and neither is the node.
+        self.put(HEAD + "<WaitUntil code=\"status(word/limit) == running\"/>" + TAIL)
+        data = self.client.about("textDocument/semanticTokens/full", self.path)["data"]
+        self.assertEqual([0, 3, 1, 0, 3, 2, 0, 3, 1, 5, 3, 2], data[3::5])
 
     def fixes(self, line):
         self.put(HEAD + line + TAIL)

@@ -8,7 +8,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kAgreementTrees = 10000, kGroupTrees = 5000, kRepeatedTrees = 500;
+constexpr std::uint64_t kAgreementTrees = 10000, kGroupTrees = 7000, kRepeatedTrees = 500;
 
 // Which trials: so many, from a first seed.
 struct Seeds {

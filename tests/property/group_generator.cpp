@@ -22,6 +22,7 @@ Trial GroupGenerator::trial() {
   trial.plan = scripts_ ? with_entries(std::move(tree)) : std::move(tree);
   trial.plan.beside = groups_;
   take_out_lonely_members(trial.plan);
+  take_out_unknown_readings(trial.plan);
   draw_times(trial);
   draw_writes(trial);
   return trial;

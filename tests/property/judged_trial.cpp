@@ -82,6 +82,7 @@ class SmallTree : LeafRules {
           {.kind = "resources", .name = name, .increment = one_in(3) ? 0 : 1});
     }
     take_out_lonely_members(trial.plan);
+    take_out_unknown_readings(trial.plan);
     trial.leaves = std::move(leaves_);
     trial.facts = std::move(facts_);
     return trial;
@@ -104,6 +105,9 @@ class SmallTree : LeafRules {
       return {.kind = "condition", .name = leaf(false), .script = "S"};
     }
     if (scripts_ && one_in(2)) {
+      if (one_in(3)) {
+        return {.kind = "WaitUntil", .seconds = one_in(2) ? 0 : seconds(), .code = condition()};
+      }
       return one_in(2) ? Plan{.kind = "Script", .code = assignment()}
                        : Plan{.kind = "Check", .code = condition()};
     }
@@ -202,7 +206,23 @@ class SmallTree : LeafRules {
     return plan;
   }
 
-  std::string condition() { return pick(std::array{"x>0", "x<1", "x==y", "y!=1"}); }
+  std::string condition() {
+    return one_in(2) ? reading() : pick(std::array{"x>0", "x<1", "x==y", "y!=1"});
+  }
+  std::string reading() {
+    const std::string leaf = fmt::format("(a{})", between(0, kMostJudgedLeaves - 1));
+    switch (between(0, 5)) {
+      case 0:
+        return "held" + leaf + pick(std::array{"==true", "==false"});
+      case 1:
+        return pick(std::array{"owner(p/A)==none", "owner(p/B)!=none", "owner(q/A)==none"});
+      case 2:
+      case 3:
+        return "status" + leaf + pick(std::array{"==running", "==success", "!=failure", "==idle"});
+      default:
+        return "progress" + leaf + pick(std::array{">=0.5", "<0.5", "==1", ">0", ">=0.25"});
+    }
+  }
   std::string assignment() { return pick(std::array{"x:=1-x", "x:=0", "x:=1", "y:=x", "y:=1-y"}); }
   void add_hook(Plan& plan) {
     if (one_in(2)) {

@@ -10,6 +10,9 @@ namespace lockstep::host::test {
 
 Plan TreeGenerator::leaf() {
   if (scripts_ && one_in(5)) {
+    if (one_in(3)) {
+      return Plan{.kind = "WaitUntil", .seconds = .1 * between(0, 8), .code = condition()};
+    }
     return one_in(2) ? Plan{.kind = "Script", .code = assignment()}
                      : Plan{.kind = "Check", .code = condition()};
   }

@@ -65,6 +65,12 @@ double MiniScript::difference(const std::string& text) const {
 
 double MiniScript::value(const std::string& text) const {
   if (std::isdigit(static_cast<unsigned char>(text[0])) != 0) return std::stod(text);
+  static const std::map<std::string, double> kWords{{"idle", 0},    {"running", 1}, {"success", 2},
+                                                    {"failure", 3}, {"skipped", 4}, {"none", -1},
+                                                    {"true", 1},    {"false", 0}};
+  if (const auto word = kWords.find(text); word != kWords.end()) return word->second;
+  const auto reading = entries_.readings.find(text);
+  if (reading != entries_.readings.end()) return reading->second;
   const auto entry = entries_.numbers.find(text);
   if (entry == entries_.numbers.end()) throw ReferenceFault{node_};
   return entry->second;

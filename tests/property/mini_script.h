@@ -1,4 +1,5 @@
-// The few forms of scripts in random trees: "x>=y", "x+y", "x:=1-x;y+=2", "r:='A;B'".
+// The few forms of scripts in random trees: "x>=y", "x+y", "x:=1-x;y+=2", "r:='A;B'",
+// "progress(a0)>=0.5", "owner(p/A)==none".
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,7 @@ struct ReferenceFault {
 struct Entries {
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;  // also lists
+  std::map<std::string, double> readings;    // "status(a0)", as it was before this tick
 };
 
 class MiniScript {

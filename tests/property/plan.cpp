@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "engine/node_kind.h"
@@ -61,6 +62,7 @@ class AttributeList {
   void add_others() {
     if (plan_.times >= 0) add(plan_.kind == "Retry" ? "attempts" : "times", plan_.times);
     if (has_parameter("seconds")) add("seconds", plan_.seconds);
+    if (plan_.kind == "WaitUntil" && plan_.seconds > 0) add("timeout", plan_.seconds);
     if (plan_.wall_clock) add("clock", "wall");
     const bool is_switch = plan_.kind == "Switch";
     if (!plan_.code.empty()) add(is_switch ? "on" : "code", plan_.code);
@@ -150,6 +152,50 @@ std::string leaves_text(const Plan& plan) {
     text += leaves;
   }
   return text;
+}
+
+std::vector<std::string> readings_in(const Plan& plan) {
+  std::vector<std::string> scripts{plan.code}, found;
+  for (const auto& [attribute, script] : plan.hooks) scripts.push_back(script);
+  for (const std::string& script : scripts) {
+    const auto close = script.find(')');
+    if (close != std::string::npos) found.push_back(script.substr(0, close + 1));
+  }
+  return found;
+}
+
+namespace {
+
+void collect_readable(const Plan& plan, const GroupNames& names, std::set<std::string>& all) {
+  if (!plan.script.empty()) all.insert(plan.name);
+  const std::string pool = meaning(names, plan.pool);
+  for (const char* name : {"A", "B", "C"}) {
+    if (!pool.empty() && plan.resources.find(name) != std::string::npos &&
+        !plan.from_entries.contains("resources")) {
+      all.insert(pool + "/" + name);
+    }
+  }
+  const GroupNames inside = names_inside(plan, names);
+  for (const Plan& child : plan.children) collect_readable(child, inside, all);
+}
+
+void replace_readings(Plan& plan, const std::set<std::string>& readable) {
+  const auto repair = [&](std::string& script) {
+    const auto open = script.find('('), close = script.find(')');
+    if (close == std::string::npos) return;
+    if (!readable.contains(script.substr(open + 1, close - open - 1))) script = "1>0";
+  };
+  repair(plan.code);
+  for (auto& [attribute, script] : plan.hooks) repair(script);
+  for (Plan& child : plan.children) replace_readings(child, readable);
+}
+
+}  // namespace
+
+void take_out_unknown_readings(Plan& plan) {
+  std::set<std::string> readable;
+  collect_readable(plan, {}, readable);
+  replace_readings(plan, readable);
 }
 
 bool is_guard(const Plan& plan) {

@@ -72,6 +72,11 @@ std::string leaves_text(const Plan& plan);
 // these have for them.
 std::vector<const Plan*> groups_of(const Plan& plan);
 
+// What the scripts of a node read of the run: "progress(a0)", "owner(p/A)".
+std::vector<std::string> readings_in(const Plan& plan);
+// Puts something else in place of those that the tree does not have.
+void take_out_unknown_readings(Plan& plan);
+
 // No action is in it.
 bool is_guard(const Plan& plan);
 

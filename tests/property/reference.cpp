@@ -96,6 +96,34 @@ class Constant : public ReferenceNode {
   double on_progress() override { return 0; }
 };
 
+// "Running until the condition is true, then Success; Failure when the time is over."
+class WaitUntil : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) {
+      waited_ = Nanoseconds(0);
+    } else if (!paused) {
+      waited_ += world.now - counted_until_;
+    }
+    paused = false;
+    counted_until_ = world.now;
+    if (script().holds(plan.code)) return Status::Success;
+    const bool has_limit = plan.seconds > 0;
+    return has_limit && waited_ >= from_seconds(plan.seconds) ? Status::Failure : Status::Running;
+  }
+  void on_pause() override { waited_ += world.now - counted_until_; }
+  double on_progress() override { return 0; }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state.duration(waited_);
+    state.moment(counted_until_);
+  }
+
+ private:
+  Nanoseconds counted_until_{0}, waited_{0};
+};
+
 class Script : public ReferenceNode {  // and Check
  public:
   using ReferenceNode::ReferenceNode;
@@ -501,6 +529,7 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
   }
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
   if (kind == "Script" || kind == "Check") return node<Script>(tree, plan);
+  if (kind == "WaitUntil") return node<WaitUntil>(tree, plan);
   if (kind == "IfThenElse" || kind == "WhileDoElse") return node<Branches>(tree, plan);
   if (kind == "Switch") return node<Switch>(tree, plan);
   if (kind == "Cooldown") return node<Cooldown>(tree, plan);
@@ -524,6 +553,9 @@ Reference::Reference(const Plan& plan, LeafBehavior* behavior) : world_(std::mak
   world_->behavior = behavior;
   world_->nodes = &nodes_;
   root_ = ReferenceNode::make(*this, plan);
+  for (const ReferenceNode* node : nodes_) {
+    for (std::string& text : readings_in(node->plan)) read_.insert(std::move(text));
+  }
   for (const Plan* group : groups_of(plan)) {
     if (group->kind == "barrier") {
       groups_.push_back(std::make_unique<ReferenceBarrier>(*this, *group, *root_));
@@ -554,10 +586,43 @@ void Reference::order_groups() {
 
 Reference::~Reference() = default;
 
+// "The value is that of the start of the tick (the snapshot that synchronized nodes use), 0 of an
+// idle node, 1 after success until its parent begins again."
+bool Reference::read_nodes() {
+  auto& readings = world_->entries.readings;
+  const auto is_read = [&](const std::string& text) { return read_.contains(text); };
+  try {
+    for (ReferenceNode* node : nodes_) {
+      if (node->plan.script.empty()) continue;
+      const std::string of = "(" + node->plan.name + ")";
+      if (is_read("progress" + of)) {
+        readings["progress" + of] = std::round(node->progress() * 1e9) / 1e9;
+      }
+      readings["held" + of] = node->paused ? 1 : 0;
+      readings["status" + of] = static_cast<double>(node->status);
+    }
+  } catch (const ReferenceFault& fault) {
+    world_->fault = fault.node;
+    return false;
+  }
+  for (ReferenceGroup* group : world_->groups) {
+    const auto* pool = dynamic_cast<const ReferencePool*>(group);
+    for (const char* name : {"A", "B", "C"}) {
+      if (pool == nullptr) continue;
+      readings["owner(" + pool->plan.name + "/" + name + ")"] = pool->is_owned(name) ? 1 : -1;
+    }
+  }
+  return true;
+}
+
 Status Reference::tick(Nanoseconds now) {
   world_->now = now;
   ++world_->tick;
   world_->begin_moments();
+  if (!read_nodes()) {
+    halt();
+    return Status::Running;
+  }
   try {
     for (ReferenceGroup* group : world_->groups) group->before_tick();
     const Status status = root_->tick();

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -71,6 +72,8 @@ class Reference {
  private:
   friend class ReferenceNode;
   void order_groups();
+  // What scripts read of the run, before the tick. False after a fault.
+  bool read_nodes();
   void keep(KeptState& state);
   // After a halt, of the nodes that ran: those of children before those of their parents.
   void run_halt_scripts(const ReferenceNode& node, const std::vector<bool>& ran);
@@ -78,6 +81,7 @@ class Reference {
   std::unique_ptr<World> world_;
   std::vector<ReferenceNode*> nodes_;
   std::unique_ptr<ReferenceNode> root_;
+  std::set<std::string> read_;                           // "progress(a0)"
   std::vector<std::unique_ptr<ReferenceGroup>> groups_;  // beside the tree
 };
 

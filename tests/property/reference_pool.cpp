@@ -33,6 +33,13 @@ bool ReferencePool::is_free(const Resources& set) const {
   return std::ranges::none_of(set, [this](const auto& name) { return owned_.contains(name); });
 }
 
+bool ReferencePool::is_owned(const std::string& name) const {
+  for (std::size_t place = 0; place < count(); ++place) {
+    if (dynamic_cast<const UseResources&>(member(place)).owned(name)) return true;
+  }
+  return false;
+}
+
 void ReferencePool::take_back(const Resources& set) {
   for (const std::string& name : set) owned_.erase(name);
 }

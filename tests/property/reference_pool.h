@@ -22,6 +22,7 @@ class ReferencePool : public ReferenceGroup {
   bool is_free(const Resources& set) const;  // in this tick
   void give(const Resources& set) { owned_.insert(set.begin(), set.end()); }
   void take_back(const Resources& set);
+  bool is_owned(const std::string& name) const;  // when a tick begins: by one that still runs
   int increment() const { return plan.increment; }
   // "saturating at 2 N x increment"
   int most_priority() const { return 2 * static_cast<int>(count()) * plan.increment; }
@@ -44,6 +45,10 @@ class UseResources : public ReferenceNode {
   Resources wanted() const;
   bool is_right(const Resources& names) const;
   void ask();
+  // When a tick begins: whether it owned that in the last one.
+  bool owned(const std::string& name) const {
+    return runs() && asked_in_ + 1 == world.tick && is_granted_ && owned_.contains(name);
+  }
   int priority() const { return priority_; }
   // In this tick, and as far as has been asked.
   bool is_granted() const { return asked_in_ == world.tick && is_granted_; }

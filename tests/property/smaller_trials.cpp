@@ -70,6 +70,7 @@ std::vector<Trial> smaller_trials(const Trial& trial) {
   for (Plan& plan : plans) {
     if (gives_entries(trial.plan) && !gives_entries(plan)) continue;
     plan.beside = trial.plan.beside;
+    take_out_unknown_readings(plan);
     trials.push_back(trial);
     trials.back().plan = std::move(plan);
   }

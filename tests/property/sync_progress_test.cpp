@@ -77,7 +77,9 @@ std::vector<double> snapshot(ScriptedRun& run) {
 
 // Whether the two could be compared: a run with a fault asks nobody else after it.
 bool compare(const Trial& trial, const Plan& parallel) {
-  const Plan own = with_entries(parallel), other = with_entries(across(parallel));
+  Plan own = with_entries(parallel), other = with_entries(across(parallel));
+  take_out_unknown_readings(own);
+  take_out_unknown_readings(other);
   ScriptedRun one(tree_text(own), leaves_text(own));
   ScriptedRun two(tree_text(other), leaves_text(other));
   INFO(tree_text(parallel) << ", " << leaves_text(parallel));

@@ -1,5 +1,7 @@
 #include "property/tree_generator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -26,6 +28,7 @@ Trial TreeGenerator::trial() {
   trial.plan = scripts_ ? with_entries(node(1)) : node(1);
   trial.plan.beside = {barrier("g0"), barrier("g1"), pool("p"), pool("q")};
   take_out_lonely_members(trial.plan);
+  take_out_unknown_readings(trial.plan);
   draw_times(trial);
   return trial;
 }
@@ -49,7 +52,26 @@ Plan TreeGenerator::node(int depth) {
   return plan;
 }
 
+// Some read what comes later in the tree, or is nowhere: that is repaired.
+std::string TreeGenerator::reading() {
+  const std::string leaf = fmt::format("(a{})", between(0, static_cast<int>(leaves_) + 1));
+  switch (between(0, 4)) {
+    case 0:
+      return "held" + leaf + pick(std::array{"==true", "==false"});
+    case 1:
+      return fmt::format("owner({}/{}){}none", pick(std::array{"p", "q"}),
+                         pick(std::array{"A", "B", "C"}), pick(std::array{"==", "!="}));
+    case 2:
+      return "status" + leaf + pick(std::array{"==", "!="}) +
+             pick(std::array{"idle", "running", "success", "failure", "skipped"});
+    default:
+      return "progress" + leaf + pick(std::array{">=", "<", ">", "=="}) +
+             fmt::format("{}", one_in(4) ? 0.0 : fraction());
+  }
+}
+
 std::string TreeGenerator::condition() {
+  if (one_in(3)) return reading();
   return pick(std::array{"x>0", "x<2", "x==y", "y!=1", "x>=y", "x<3", "y<4"});
 }
 

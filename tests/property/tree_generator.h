@@ -31,6 +31,7 @@ class TreeGenerator : protected RandomSource {
   Plan leaf();
   Plan scripted(std::string kind);
   void add_hooks(Plan& plan);
+  std::string reading();
   std::string condition();
 
   Plan barrier(std::string name);

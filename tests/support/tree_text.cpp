@@ -9,6 +9,7 @@
 #include "engine/compile.h"
 #include "support/plugin_nodes.h"
 #include "support/scripted_types.h"
+#include "tree/expand/readings.h"
 #include "tree/expand/resources.h"
 #include "tree/types/script_entries.h"
 
@@ -151,6 +152,8 @@ class Builder {
     const Reporter reporter(sources, diagnostics);
     if (rules_.strict_types) declare_entries(definition_, {}, reporter);
     resolve_resources(definition_, reporter);
+    resolve_readings(definition_, reporter);
+    if (reporter.has_errors()) fail("a script reads what is not there");
   }
 
   // "barrier[name=g delta=.1]", behind the tree.

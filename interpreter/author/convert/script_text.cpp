@@ -21,6 +21,7 @@ template <class Replace>
 Converted convert_tokens(std::string_view script, Replace replace) {
   std::string text;
   std::size_t end = 0;
+  TokenReader reader;
   while (true) {
     const std::size_t copied = end;
     end = std::min(script.find_first_not_of(" \t\r\n", end), script.size());
@@ -29,7 +30,7 @@ Converted convert_tokens(std::string_view script, Replace replace) {
       text += script.substr(copied, end - copied);
       continue;
     }
-    const auto token = next_token(script, end);
+    const auto token = reader.next(script, end);
     if (!token) return tl::unexpected(token.error());
     text += script.substr(copied, token->offset - copied);
     if (token->symbol == Symbol::End) return text;

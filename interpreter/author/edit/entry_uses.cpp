@@ -83,8 +83,9 @@ class UseFinder {
   void visit_script(EntryUse use) {
     const std::string script = without_arguments(use.attribute->value);
     use.way = Way::Script;
+    TokenReader reader;
     for (std::size_t offset = 0;;) {
-      const auto token = next_token(script, offset);
+      const auto token = reader.next(script, offset);
       if (!token || token->symbol == Symbol::End) return;
       if (token->symbol != Symbol::Name) continue;
       if (is_word_of_scripts(token->text, texts_.rules(), texts_.catalog())) continue;

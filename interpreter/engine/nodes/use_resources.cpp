@@ -59,12 +59,30 @@ Status tick_child(NodeContext& context, NodeIndex self) {
   return status;
 }
 
-// The priority counts at any time, what it owns while its child keeps it.
+constexpr std::uint32_t kNever = 0xffffffff;
+
+// Whether a script asks who owns a resource of the member's pool.
+bool is_read(NodeContext& context, NodeIndex self) {
+  const NodeIndex pool = context.tree().membership(self).group;
+  return std::ranges::any_of(context.tree().readings, [pool](const BoundReading& it) {
+    return it.what == Reading::What::Owner && it.node == pool;
+  });
+}
+
+// The priority counts at any time, what it owns while its child keeps it or a script reads it.
 void fold_use_resources(NodeContext& context, NodeIndex self) {
   auto& use = context.state<ResourceUse>(self);
   ResourceUse folded{};
   folded.priority = use.priority;
   if (resources::keeps(context, self)) folded.owned = use.owned;
+  const bool runs = context.status(self) == Status::Running;
+  if (runs && is_read(context, self) &&
+      resources::owned_in_last_tick(context, use, ~ResourceSet{0})) {
+    folded.owned = use.owned;
+    folded.grant = Grant::Owned;  // and `asked` is the number that a fold gives the last tick
+  } else {
+    folded.asked = kNever;
+  }
   use = folded;
 }
 

@@ -83,6 +83,7 @@ class ExpressionParser {
   tl::expected<Expression, Expression::Error> parse() {
     if (!advance() || !statements()) return tl::unexpected(std::move(*error_));
     emit(Operation::End);
+    number_readings();
     copy_loaded_texts();
     return std::move(result_);
   }
@@ -101,7 +102,7 @@ class ExpressionParser {
   }
 
   bool advance() {
-    auto token = next_token(script_, next_);
+    auto token = reader_.next(script_, next_);
     if (!token) error_ = std::move(token.error());
     if (!token) return false;
     token_ = *token;
@@ -296,9 +297,12 @@ class ExpressionParser {
       case Symbol::Real:
         return advance() && push(Instruction::of(Operation::Real, token.real));
       case Symbol::Text:
+      case Symbol::Word:
         return advance() && push_text(token.text);
       case Symbol::Name:
         return advance() && name(token, operand);
+      case Symbol::Reading:
+        return advance() && reading(token);
       case Symbol::Open:
         return advance() && brackets(token, operand);
       default:
@@ -343,6 +347,28 @@ class ExpressionParser {
     const std::uint32_t entry = use(token.text);
     if (!assignment(next)) result_.uses_[entry].is_read = true;
     return push(Instruction::of(Operation::Load, entry));
+  }
+
+  bool reading(const Token& token) {
+    auto& all = result_.readings_;
+    const auto same = std::ranges::find_if(
+        all, [&](const Reading& it) { return it.what == token.reading && it.of == token.text; });
+    const auto number = static_cast<std::uint32_t>(same - all.begin());
+    if (same == all.end()) {
+      const auto offset = static_cast<std::size_t>(token.text.data() - script_.data());
+      all.push_back({token.reading, std::string(token.text), offset});
+    }
+    return push(Instruction::of(Operation::Load, kFirstReading + number));
+  }
+
+  // When all names are known.
+  void number_readings() {
+    const auto first = static_cast<std::uint32_t>(result_.names_.size());
+    for (Instruction& it : code()) {
+      const bool loads =
+          it.operation == Operation::Load || it.operation == Operation::LoadToCompare;
+      if (loads && it.argument >= kFirstReading) it.argument += first - kFirstReading;
+    }
   }
 
   std::uint32_t use(std::string_view name) {
@@ -390,11 +416,14 @@ class ExpressionParser {
     }
   }
 
+  static constexpr std::uint32_t kFirstReading = 0x80000000;  // until all names are known
+
   ScriptProgram& program() { return result_.program_; }
   std::vector<Instruction>& code() { return result_.program_.code; }
 
   std::string_view script_;
   Expression::Words words_;
+  TokenReader reader_;
   std::size_t next_ = 0;  // behind token_
   Token token_{.symbol = Symbol::End, .text = {}};
   Expression result_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "language/expression/program.h"
+#include "language/expression/reading.h"
 #include "language/expression/script_enums.h"
 
 namespace lockstep::host {
@@ -42,6 +43,8 @@ class Expression {
   std::span<const std::string> names() const { return names_; }
   // The uses of each of them.
   std::span<const Use> uses() const { return uses_; }
+  // What it reads of the run, each once. In the program they are numbered behind the names.
+  std::span<const Reading> readings() const { return readings_; }
   // The places that fail when they are reached: assignments to something that is not a name.
   std::span<const Error> remarks() const { return remarks_; }
 
@@ -64,6 +67,7 @@ class Expression {
   std::vector<std::uint32_t> offsets_;
   std::vector<std::string> names_;
   std::vector<Use> uses_;
+  std::vector<Reading> readings_;
   std::vector<Error> remarks_;
   std::shared_ptr<const ScriptEnums> enums_;
 };

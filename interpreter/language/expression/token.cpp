@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <utility>
+#include <vector>
 
+#include "base/core/suggest.h"
 #include "base/core/utf8.h"
 #include "base/core/wording.h"
 
@@ -14,6 +16,7 @@ namespace {
 
 using TokenResult = tl::expected<Token, Expression::Error>;
 
+constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kDigits = "0123456789";
 constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
 
@@ -94,7 +97,41 @@ class Lexer {
   TokenResult name() {
     std::size_t length = 1;
     while (length < text_.size() && (is_letter(text_[length]) || is_digit(text_[length]))) ++length;
-    return take(Symbol::Name, length);
+    const auto* const row =
+        std::ranges::find(kReadings, text_.substr(0, length), &ReadingRow::name);
+    const std::size_t open = text_.find_first_not_of(kBlanks, length);
+    const bool is_reading =
+        row != kReadings.end() && text_.substr(std::min(open, text_.size())).starts_with('(');
+    return is_reading ? reading(*row, open) : take(Symbol::Name, length);
+  }
+
+  // progress(arm/lift), progress('Main/reach (left)')
+  TokenResult reading(const ReadingRow& row, std::size_t open) {
+    const bool is_owner = row.what == Reading::What::Owner;
+    std::size_t begin = std::min(text_.find_first_not_of(kBlanks, open + 1), text_.size());
+    const std::string_view first = text_.substr(begin, 1);
+    const bool is_quoted = first == "'" || first == "\"";
+    std::size_t end = text_.find(is_quoted ? first : ")", begin + (is_quoted ? 1 : 0));
+    std::size_t close = end;
+    if (is_quoted && end != std::string_view::npos)
+      close = text_.find_first_not_of(kBlanks, end + 1);
+    if (close == std::string_view::npos || text_[close] != ')') {
+      return fail(
+          fmt::format("')' is missing after '{}('", row.name),
+          fmt::format("write {}({}), or the name in quotes", row.name, is_owner ? "dock" : "arm"));
+    }
+    begin += is_quoted ? 1 : 0;
+    while (!is_quoted && end > begin && kBlanks.find(text_[end - 1]) != std::string_view::npos)
+      --end;
+    if (begin == end) {
+      return fail(fmt::format("'{}()' does not say of what", row.name),
+                  is_owner ? "write a resource: owner(dock)"
+                           : fmt::format("write a node: {}(arm)", row.name));
+    }
+    Token token = take(Symbol::Reading, close + 1);
+    token.text = text_.substr(begin, end - begin);
+    token.reading = row.what;
+    return token;
   }
 
   TokenResult number() {
@@ -185,13 +222,46 @@ class Lexer {
   std::size_t length_ = 0;
 };
 
+// What is compared with a status or an owner without quotes: a word of it, in any case, as trees
+// for BehaviorTree.CPP have RUNNING.
+TokenResult word(const Token& name, Reading::What what) {
+  std::string small(name.text);
+  std::ranges::transform(small, small.begin(), [](char c) {
+    return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  std::vector<std::string_view> words{kNoOwner};
+  if (what == Reading::What::Status) {
+    words.clear();
+    for (const StatusRow& row : kStatuses) words.push_back(row.name);
+  }
+  const auto found = std::ranges::find(words, small);
+  if (found != words.end()) {
+    return Token{.symbol = Symbol::Word, .text = *found, .offset = name.offset};
+  }
+  const bool is_status = what == Reading::What::Status;
+  return tl::unexpected(Expression::Error{
+      fmt::format("'{}' is no {}", brief(name.text), is_status ? "status" : "owner"),
+      is_status ? suggest(name.text, words, "the statuses")
+                : "compare with none, or with the path of a UseResources in quotes",
+      name.offset});
+}
+
 }  // namespace
 
-tl::expected<Token, Expression::Error> next_token(std::string_view script, std::size_t& offset) {
-  offset = std::min(script.find_first_not_of(" \t\n\r", offset), script.size());
+TokenResult TokenReader::next(std::string_view script, std::size_t& offset) {
+  offset = std::min(script.find_first_not_of(kBlanks, offset), script.size());
   Lexer lexer(script, offset);
   auto token = lexer.read();
   offset = lexer.end();
+  if (!token) return token;
+  const auto compared = std::exchange(compared_, std::nullopt);
+  if (compared && token->symbol == Symbol::Name) return word(*token, *compared);
+  const bool compares = token->symbol == Symbol::Equal || token->symbol == Symbol::NotEqual;
+  if (compares) compared_ = read_;
+  read_.reset();
+  const bool has_words =
+      token->reading == Reading::What::Status || token->reading == Reading::What::Owner;
+  if (token->symbol == Symbol::Reading && has_words) read_ = token->reading;
   return token;
 }
 

@@ -17,6 +17,8 @@ enum class Symbol : std::uint8_t {
   Real,
   Text,
   Name,
+  Word,     // running, behind status(arm) ==
+  Reading,  // progress(arm): one token, as what is in the brackets is no expression
   Plus,
   Minus,
   Times,
@@ -50,13 +52,22 @@ enum class Symbol : std::uint8_t {
 
 struct Token {
   Symbol symbol;
-  std::string_view text;   // of a Text, without the quotes
+  std::string_view text;   // of a Text, without the quotes; of a Reading, what is in the brackets
   std::size_t offset = 0;  // in the script
   std::int64_t whole = 0;
   double real = 0;
+  Reading::What reading = {};
 };
 
-// The token at the beginning of script.substr(offset), after blanks; `offset` moves behind it.
-tl::expected<Token, Expression::Error> next_token(std::string_view script, std::size_t& offset);
+// Reads a script token by token.
+class TokenReader {
+ public:
+  // The token at the beginning of script.substr(offset), after blanks; `offset` moves behind it.
+  tl::expected<Token, Expression::Error> next(std::string_view script, std::size_t& offset);
+
+ private:
+  // What is compared with the next token, if it has words of its own: status(arm) == running.
+  std::optional<Reading::What> read_, compared_;
+};
 
 }  // namespace lockstep::host

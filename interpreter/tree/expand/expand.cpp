@@ -112,7 +112,9 @@ class Expander {
     if (trees_.names_at_run_time) {
       definition_.boards.push_back({.parent = outside, .node = place});
     }
+    const std::uint32_t around = std::exchange(inside_, place);
     add(root, place, scope);
+    inside_ = around;
     keep_board(board_, scope);
     board_ = outside;
   }
@@ -250,7 +252,7 @@ class Expander {
   }
 
   std::uint32_t bind_script(const CheckedScript& script, Scope& scope) {
-    BoundScript bound{.code = script.code, .place = script.place};
+    BoundScript bound{.code = script.code, .inside = inside_, .place = script.place};
     for (const std::string& name : script.code->names()) {
       bound.entries.push_back(find(name, scope));
     }
@@ -480,6 +482,7 @@ class Expander {
   std::vector<Hint> hints_;
   std::map<std::uint32_t, Hint> first_hints_;                           // by their entry
   std::set<std::pair<std::string_view, std::string_view>> told_hints_;  // node, port
+  std::uint32_t inside_ = 0;           // the SubTree whose tree is being added
   std::uint32_t board_ = 0;            // of the tree that is being added, when boards are kept
   std::vector<std::uint32_t> shared_;  // of each first checked port: its ports, made already
 };

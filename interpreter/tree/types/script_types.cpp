@@ -90,7 +90,8 @@ class TypeMachine {
       case Operation::Load:
       case Operation::LoadCopy:
       case Operation::LoadToCompare:
-        return stack_.push_back(entries_[it.argument]);
+        if (it.argument < entries_.size()) return stack_.push_back(entries_[it.argument]);
+        return push(row_of(script_.readings()[it.argument - entries_.size()].what).type);
       case Operation::Add:
         return add(it);
       case Operation::Subtract:

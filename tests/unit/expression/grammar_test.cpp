@@ -3,6 +3,7 @@
 #include <string>
 
 #include "language/expression/expression.h"
+#include "language/expression/reading_uses.h"
 #include "support/script_board.h"
 
 using namespace lockstep::host;
@@ -147,6 +148,18 @@ TEST_CASE("what is not a script is refused, with the place and a hint") {
       {"1e999", 0, "1e999 is too large", "numbers go up to about 1.8e308"},
       {"+1", 0, "a value is missing before '+'", value},
       {"a ! b", 4, "", ""},  // two expressions: a, and !b
+      {"progress(arm/lift#2) >= 0.5", 0, "", ""},
+      {"progress ( 'move (left)' )", 0, "", ""},
+      {"progress > 1", 0, "", ""},  // an entry
+      {"status(a) == RUNNING && status(a) != idle || status(a) == status(b)", 0, "", ""},
+      {"owner(dock) == none", 0, "", ""},
+      {"progress()", 0, "'progress()' does not say of what", "write a node: progress(arm)"},
+      {"owner( )", 0, "'owner()' does not say of what", "write a resource: owner(dock)"},
+      {"held(a", 0, "')' is missing after 'held('", "write held(arm), or the name in quotes"},
+      {"held('a)", 0, "')' is missing after 'held('", "write held(arm), or the name in quotes"},
+      {"status(a) == runing", 13, "'runing' is no status", "did you mean 'running'?"},
+      {"owner(a) != nobody", 12, "'nobody' is no owner",
+       "compare with none, or with the path of a UseResources in quotes"},
   };
   for (const Row& row : rows) {
     INFO(row.script);
@@ -201,6 +214,44 @@ TEST_CASE("a script tells the entries that it uses, and how") {
     CHECK(script->uses()[i].offset == rows[i].offset);
   }
   CHECK(script->remarks().empty());
+}
+
+TEST_CASE("a script tells what it reads of the run, each once") {
+  const auto script =
+      Expression::parse("n := progress(b/c) > 0.5 && held( a ) && progress(b/c) < n");
+  REQUIRE(script.has_value());
+  REQUIRE(script->names().size() == 1);
+  REQUIRE(script->readings().size() == 2);
+  CHECK(script->readings()[0].what == Reading::What::Progress);
+  CHECK(script->readings()[0].of == "b/c");
+  CHECK(script->readings()[0].offset == 14);
+  CHECK(shown(script->readings()[1]) == "held(a)");
+}
+
+TEST_CASE("a script tells with which numbers it compares progress") {
+  struct Row {
+    const char* script;
+    std::vector<std::optional<double>> uses;
+  };
+  const Row rows[] = {{"progress(a) >= 0.5", {.5}},
+                      {"1 > progress(a)", {1}},
+                      {"0.2 < progress(a) < 0.7", {.2, .7}},
+                      {"(x ? 0.7 : 0.3) < progress(a)", {std::nullopt}},
+                      {"(x ? progress(a) : 0.3) < 0.5", {std::nullopt}},
+                      {"x ? progress(a) > 0.5 : 1", {.5}},
+                      {"progress(a)", {std::nullopt}},
+                      {"progress(a) - progress(b) > 0.1", {std::nullopt, std::nullopt}},
+                      {"progress(a) > x", {std::nullopt}},
+                      {"x := progress(a)", {std::nullopt}},
+                      {"held(a) && status(a) == running", {}}};
+  for (const Row& row : rows) {
+    INFO(row.script);
+    const auto script = Expression::parse(row.script);
+    REQUIRE(script.has_value());
+    const auto uses = progress_uses(*script);
+    REQUIRE(uses.size() == row.uses.size());
+    for (std::size_t i = 0; i < uses.size(); ++i) CHECK(uses[i].constant == row.uses[i]);
+  }
 }
 
 TEST_CASE("an assignment to what is not a name is a script, but it cannot run") {

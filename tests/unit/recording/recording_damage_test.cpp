@@ -37,16 +37,16 @@ const std::string kRecording =
     "\n";
 
 // What the reader says of a text.
-struct Reading {
+struct Outcome {
   RecordingHeader header;
   std::vector<TimelineTick> ticks;
   RecordingOutcome outcome;
 };
 
-Reading read(const std::string& text) {
+Outcome read(const std::string& text) {
   std::istringstream in(text);
   RecordingReader reader(in, "r");
-  Reading reading;
+  Outcome reading;
   std::uint64_t expected = 0;
   while (const auto tick = reader.next()) {
     take(*tick, tick->tick - expected, reading.ticks.emplace_back());
@@ -130,7 +130,7 @@ Json parse(const std::string& line) {
 }
 
 // Line by line, with a tree of each.
-bool same(const Reading& reading, const std::string& text) {
+bool same(const Outcome& reading, const std::string& text) {
   std::istringstream in(text);
   std::string line;
   std::getline(in, line);
@@ -174,7 +174,7 @@ struct Counts {
 };
 
 void check(const std::string& damaged, std::size_t at, Counts& counts) {
-  const Reading reading = read(damaged);
+  const Outcome reading = read(damaged);
   if (!reading.outcome.error.empty()) {
     ++counts.refused;
     if (is_placed(reading.outcome.error, line_of(damaged, at))) return;
@@ -187,7 +187,7 @@ void check(const std::string& damaged, std::size_t at, Counts& counts) {
 }  // namespace
 
 TEST_CASE("the recording that is damaged below is right") {
-  const Reading reading = read(kRecording);
+  const Outcome reading = read(kRecording);
   CHECK(reading.outcome.error == "");
   CHECK(reading.outcome.cut == "");
   CHECK(reading.ticks.size() == 3);
@@ -242,7 +242,7 @@ TEST_CASE("a recording that lacks a line, or has one twice, is refused") {
 TEST_CASE("what remains of a recording that is cut anywhere is read exactly") {
   for (std::size_t size = kRecording.find('\n'); size < kRecording.size() - 1; ++size) {
     const std::string cut = kRecording.substr(0, size);
-    const Reading reading = read(cut);
+    const Outcome reading = read(cut);
     REQUIRE(reading.outcome.error == "");
     REQUIRE(reading.outcome.cut != "");
     REQUIRE(same(reading, cut));

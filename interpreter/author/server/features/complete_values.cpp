@@ -7,6 +7,7 @@
 
 #include "author/server/features/completion.h"
 #include "author/server/features/entries.h"
+#include "language/expression/reading.h"
 #include "leaves/plugin/open/plugin_path.h"
 #include "leaves/remote/json_lines/leaves_file.h"
 #include "run/loading/plugin_directories.h"
@@ -91,6 +92,9 @@ class ValueItems {
     for (const EntryFacts& it : entries_of(at_.names, tree_around(at_.tree, element_))) {
       const bool is_here = it.places.size() == 1 && it.places.front()->range == replaced_;
       if (!is_here) add_item({std::string(it.name), ItemKind::Variable, it.type_text()});
+    }
+    for (const ReadingRow& row : kReadings) {
+      add_item({fmt::format("{}()", row.name), ItemKind::Function, std::string(row.doc)});
     }
     if (const auto& words = at_.catalog.words()) {
       for (const auto& [word, number] : *words)

@@ -101,8 +101,9 @@ class NameVisitor {
     const Decoded script = decoded(attribute.value);
     it.parameter = nullptr;  // its type is that of the script
     std::optional<Token> before;
+    TokenReader reader;
     for (std::size_t offset = 0;;) {
-      const auto token = next_token(script.text, offset);
+      const auto token = reader.next(script.text, offset);
       const bool is_assigned =
           token && token->symbol >= Symbol::Make && token->symbol <= Symbol::DivideBy;
       if (before) {

@@ -10,8 +10,9 @@
 namespace lockstep::host {
 namespace {
 
-enum class TokenType : int { Variable, Number, String, Operator, Parameter };
-constexpr const char* kTypes[] = {"variable", "number", "string", "operator", "parameter"};
+enum class TokenType : int { Variable, Number, String, Operator, Parameter, Function };
+constexpr const char* kTypes[] = {"variable", "number",    "string",
+                                  "operator", "parameter", "function"};
 
 std::optional<TokenType> type_of(Symbol symbol) {
   switch (symbol) {
@@ -24,7 +25,10 @@ std::optional<TokenType> type_of(Symbol symbol) {
     case Symbol::Real:
       return TokenType::Number;
     case Symbol::Text:
+    case Symbol::Word:
       return TokenType::String;
+    case Symbol::Reading:
+      return TokenType::Function;
     case Symbol::Name:
       return TokenType::Variable;
     default:
@@ -63,8 +67,9 @@ class TokenWriter {
   void add_script(std::string_view value) {
     const Decoded script = decoded(value);
     const std::size_t begin = tree_.offset_of(value);
+    TokenReader reader;
     for (std::size_t offset = 0;;) {
-      const auto token = next_token(script.text, offset);
+      const auto token = reader.next(script.text, offset);
       if (!token || token->symbol == Symbol::End) return;
       // The offset of the token, which is behind blanks, up to where the next one begins.
       if (const auto type = type_of(token->symbol)) {

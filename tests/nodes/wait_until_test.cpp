@@ -1,0 +1,80 @@
+// WaitUntil, and what scripts read of the run.
+#include <catch2/catch.hpp>
+
+#include "support/scripted_run.h"
+#include "support/tick_table.h"
+
+namespace lockstep::host::test {
+namespace {
+
+// clang-format off
+constexpr TickRow kWaitUntilRows[] = {
+//  law
+//    tree  |  leaves, tick by tick  |  expected
+  {"runs until its script is true, then succeeds",
+   "Sequence[memory=true](Script[code=n:=0] Parallel(a[on_success=n:=1] WaitUntil[code=n==1]))",
+   "a=RRS", "R[a] R[a] S[a]"},
+  {"succeeds at once where it is true",
+   "Sequence[memory=true](Script[code=n:=1] WaitUntil[code=n==1] a)", "a=S", "S[a]"},
+  {"fails when its time is over",
+   "WaitUntil[code=1>2 timeout=.2]", "", "R[] R[] F[]"},
+  {"the condition comes before the time",
+   "Sequence[memory=true](Script[code=n:=0] Parallel(a[on_success=n:=1] WaitUntil[code=n==1 timeout=.2]))",
+   "a=RRS", "R[a] R[a] S[a]"},
+  {"begins to count again in a new activation",
+   "Retry[attempts=2](WaitUntil[code=1>2 timeout=.1])", "", "R[] R[] R[] F[]"},
+  {"its time stands still while it is held",
+   "Sequence[memory=true](Script[code=n:=0] ParallelRelative[delta=0](a WaitUntil[code=n==1 timeout=.2]))",
+   "a=R~0,0,0", "R[a] R[a] F[a] halt[a]"},
+  {"a script that fails is its fault",
+   "Sequence(WaitUntil[code=n>1] Script[code=n:=1])", "", "X[]=WaitUntil"},
+};
+
+constexpr TickRow kReadingRows[] = {
+  {"status: begins one tick after the other has succeeded, wherever it stands",
+   "Parallel(Sequence[memory=true](WaitUntil[code=status(a)==success] b) Sequence[memory=true](a c))",
+   "a=RS b=S c=RRR", "R[a] R[a c] R[b c] R[c]"},
+  {"the order in the tree says nothing",
+   "Parallel(Sequence[memory=true](a c) Sequence[memory=true](WaitUntil[code=status(a)==success] b))",
+   "a=RS b=S c=RRR", "R[a] R[a c] R[c b] R[c]"},
+  {"status of what has succeeded stays until its parent begins again",
+   "Repeat[times=2](Sequence[memory=true](a Parallel(b Check[code=status(a)==success])))",
+   "a=RS b=RRS", "R[a] F[a b] halt[b]"},
+  {"a halted node is idle",
+   "Parallel(Fallback(Sequence(c? a) d) WaitUntil[code=status(a)==idle])",
+   "c=SSF a=R d=RS", "R[c a] R[c a] R[c d] halt[a] S[c d]"},
+  {"progress: of an action",
+   "Parallel(a Sequence[memory=true](WaitUntil[code=progress(a)>=0.5] b))",
+   "a+.25 b=S", "R[a] R[a] R[a b] S[a]"},
+  {"progress is 1 after Success and 0 after Failure",
+   "Parallel[success_count=3 failure_count=3](a b Check[code=progress(a)+progress(b)<=1] c)", "a=S b=F c=RS",
+   "R[a b c] S[c]"},
+  {"sums of steps are the number that is meant",
+   "Parallel(a Sequence[memory=true](WaitUntil[code=progress(a)==0.3] b))",
+   "a+.1 b=S", "R[a] R[a] R[a] R[a b] R[a] R[a] R[a] R[a] R[a] S[a]"},
+  {"held: a synchronized node withholds its ticks",
+   "Parallel(ParallelAbsolute[barriers=.5](a b) Sequence[memory=true](WaitUntil[code=held(b)] c))",
+   "a=RRRRS b=R~0,.5,.5,.5 c=S", "R[a b] R[a] pause[b] R[a c] R[a]"},
+  {"owner: none, while nobody that runs has the resource",
+   "Parallel(UseResources[pool=p resources=A](a) Sequence[memory=true](WaitUntil[code=owner(A)!=none] b) "
+   "Sequence[memory=true](WaitUntil[code=owner(A)=='Test/Parallel/UseResources'] c) "
+   "Sequence[memory=true](d WaitUntil[code=owner(A)==none] e)) resources[name=p]",
+   "a=RRRS b=S c=S d=RS e=S", "R[a d] R[a b c d] R[a] R[a] S[e]"},
+  {"the same for all scripts of a tick",
+   "Parallel(Check[code=progress(a)<0.5] a Check[code=progress(a)<0.5])", "a+.5", "R[a] F[a]"},
+  {"a leaf that cannot say its progress is at fault",
+   "Parallel(a Check[code=progress(a)<2])", "a=RR<nan>R", "R[a] R[a] X{halt a}=a"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST_CASE("WaitUntil") {
+  check_rows(kWaitUntilRows);
+}
+
+TEST_CASE("what scripts read of the run") {
+  check_rows(kReadingRows);
+}
+
+}  // namespace lockstep::host::test
