@@ -6,7 +6,28 @@
 #include "support/tick_table.h"
 
 namespace lockstep::host::test {
-namespace {}  // namespace
+namespace {
+
+// clang-format off
+constexpr TickRow kGroups[] = {
+//  law
+//    tree  |  leaves, tick by tick  |  expected
+  {"a barrier holds its members wherever they are",
+   "ParallelAll(Sequence(a SyncProgress[barrier=g](b)) SyncProgress[barrier=g](c)) barrier[name=g barriers=.5]",
+   "a=S b+.25 c+.5", "R[a b c] R[b] pause[c] R[b c] resume[c] S[b]"},
+  {"a pool lets one member tick at a time",
+   "ParallelAll(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A keep=true](b)) resources[name=p]",
+   "a=RS b=RS", "R[a] R[b] pause[a] R[b] S[a] resume[a]"},
+  {"WaitUntil: begins after another one, in the next tick",
+   "ParallelAll(a Sequence(WaitUntil[code=status(a)==SUCCESS] b))", "a=RS b=S", "R[a] R[a] S[b]"},
+};
+// clang-format on
+
+}  // namespace
+
+TEST_CASE("BehaviorTree.CPP: barriers and pools beside the tree, and WaitUntil") {
+  check_rows(kGroups, FaultPolicy::Stop, btcpp::kRules);
+}
 
 TEST_CASE("BehaviorTree.CPP: sequences and fallbacks") {
   check_rows(kSequences, FaultPolicy::Stop, btcpp::kRules);

@@ -11,9 +11,11 @@
 #include "dialect/btcpp/attributes.h"
 #include "dialect/btcpp/rules.h"
 #include "dialect/btcpp/version_3.h"
+#include "tree/check/declared_groups.h"
 #include "tree/check/document_order.h"
 #include "tree/check/element_type.h"
 #include "tree/check/node_check.h"
+#include "tree/check/other_tools.h"
 #include "tree/check/stand_ins.h"
 
 namespace lockstep::host::btcpp {
@@ -31,7 +33,8 @@ class TreeReader {
       : project_(project),
         catalog_(catalog),
         models_(models),
-        report_(project.sources, diagnostics) {}
+        report_(project.sources, diagnostics),
+        groups_(project, report_, trees_) {}
 
   CheckedTrees read() {
     trees_.rules = &kRules;
@@ -69,9 +72,13 @@ class TreeReader {
 
   void read_child(std::uint32_t child) {
     constexpr std::string_view kKnown[] = {"BehaviorTree", "include", "TreeNodesModel", "plugin",
-                                           "arg"};
+                                           "arg",          "barrier", "resources"};
     const std::string_view tag = element(child).tag;
     if (tag == "BehaviorTree") return read_tree(child);
+    const NodeType* const type = catalog_.find(tag);
+    if (type != nullptr && type->category == NodeCategory::Group) {
+      return groups_.check(*document_, child, *type);
+    }
     if (std::ranges::find(kKnown, tag) != std::end(kKnown)) return;
     if (report_.counted_only(Severity::Warning)) return;
     report_.at(element(child).place, fmt::format("'root' ignores the element '{}'", brief(tag)),
@@ -315,7 +322,8 @@ class TreeReader {
     if (const auto gone = hint_for_gone(id); !gone.empty()) return std::string(gone);
     if (is_tree(id))
       return fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
-    std::string hint = did_you_mean(id, catalog_.ids());
+    std::string hint = hint_for_other_tools(id, catalog_);
+    if (hint.empty()) hint = did_you_mean(id, catalog_.ids());
     if (!hint.empty()) return hint;
     return fmt::format("if a plugin provides it, {}, or name it with <plugin name=\"…\"/>",
                        worded("give that with --plugin", "add that to the project"));
@@ -338,6 +346,7 @@ class TreeReader {
   const Models& models_;
   const Reporter report_;
   CheckedTrees trees_;
+  DeclaredGroups groups_;
   CheckedTree tree_;                          // that is being read
   std::map<std::string_view, Place> places_;  // of the trees, by ID
   const Document* document_ = nullptr;

@@ -9,9 +9,11 @@
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "tree/check/attributes.h"
+#include "tree/check/declared_groups.h"
 #include "tree/check/element_type.h"
 #include "tree/check/foreign_hints.h"
 #include "tree/check/node_check.h"
+#include "tree/check/other_tools.h"
 #include "tree/check/stand_ins.h"
 
 namespace lockstep::host {
@@ -44,7 +46,10 @@ std::string element_hint(std::string_view tag) {
 class TreeChecker {
  public:
   TreeChecker(const Project& project, const Catalog& catalog, Diagnostics& diagnostics)
-      : project_(project), catalog_(catalog), report_(project.sources, diagnostics) {}
+      : project_(project),
+        catalog_(catalog),
+        report_(project.sources, diagnostics),
+        groups_(project, report_, trees_) {}
 
   CheckedTrees check() {
     std::size_t elements = 0, attributes = 0;
@@ -79,7 +84,7 @@ class TreeChecker {
         check_tree(child);
       } else if (const NodeType* type = catalog_.find(tag);
                  type != nullptr && type->category == NodeCategory::Group) {
-        check_group(child, *type);
+        groups_.check(*document_, child, *type);
       } else if (tag == "property") {
         check_property(child);
       } else if (!is_read_elsewhere(tag)) {
@@ -122,30 +127,6 @@ class TreeChecker {
     if (!versioned) {
       report_.at(element(0).place, "'root' needs the attribute 'lockstep'",
                  "write <root lockstep=\"1\">: the version of the language");
-    }
-  }
-
-  // A declaration that nodes of the trees name.
-  void check_group(std::uint32_t index, const NodeType& type) {
-    if (element(index).end > index + 1) {
-      report_.at(element(index + 1).place, fmt::format("'{}' cannot contain elements", type.id));
-    }
-    CheckedNode group;
-    group.type = &type;
-    group.place = element(index).place;
-    check_attributes({group.place, attributes(index), false}, report_, group, layouts_, trees_);
-    keep_written({group.place, attributes(index), false}, group, trees_);
-    const Attribute* name = find_attribute(attributes(index), "name");
-    if (name == nullptr) {
-      report_.at(group.place, fmt::format("'{}' needs the attribute 'name'", type.id),
-                 fmt::format("write <{} name=\"…\">: the nodes of the trees refer to it", type.id));
-    } else if (!is_identifier(name->value)) {
-      report_.at_value(name->place,
-                       fmt::format("'{}' is not a name for '{}'", brief(name->value), type.id),
-                       fmt::format("such a name is {}", kIdentifierRule));
-    } else {
-      group.name = name->value;
-      enter_group(group, name->place);
     }
   }
 
@@ -192,17 +173,6 @@ class TreeChecker {
     if (is_new || report_.counted_only(Severity::Error)) return;
     report_.at_value(
         name.place, fmt::format("a property '{}' exists already", brief(name.value)),
-        fmt::format("the first is at {}", to_text(project_.sources.locate(first->second))));
-  }
-
-  void enter_group(const CheckedNode& group, Place name) {
-    const auto [first, is_new] = group_places_.try_emplace(group.name, group.place);
-    if (is_new) {
-      trees_.groups.push_back(group);
-      return;
-    }
-    report_.at_value(
-        name, fmt::format("the name '{}' is declared already", brief(group.name)),
         fmt::format("the first is at {}", to_text(project_.sources.locate(first->second))));
   }
 
@@ -365,6 +335,7 @@ class TreeChecker {
   void unknown(std::uint32_t index, std::string_view id, const Attribute* attribute) const {
     if (report_.counted_only(Severity::Error)) return;
     std::string hint = foreign_node_hint(id, attributes(index));
+    if (hint.empty()) hint = hint_for_other_tools(id, catalog_);
     if (hint.empty()) hint = did_you_mean(id, catalog_.ids());
     if (hint.empty() && trees_.trees.contains(id)) {
       hint = fmt::format("to use the tree '{0}' write <SubTree ID=\"{0}\"/>", brief(id));
@@ -389,7 +360,8 @@ class TreeChecker {
   AttributeLayouts layouts_;
   CheckedTree tree_;                          // that is being checked
   std::map<std::string_view, Place> places_;  // of the trees, by ID
-  std::map<std::string_view, Place> group_places_, property_places_;
+  std::map<std::string_view, Place> property_places_;
+  DeclaredGroups groups_;
   const Document* document_ = nullptr;
   std::span<const Element> elements_;  // of the document
   const NodeType* last_type_ = nullptr;

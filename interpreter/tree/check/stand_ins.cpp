@@ -16,6 +16,7 @@
 #include "base/core/value_types.h"
 #include "base/core/wording.h"
 #include "tree/check/node_check.h"
+#include "tree/check/other_tools.h"
 #include "tree/language_reader.h"
 
 namespace lockstep::host {
@@ -305,7 +306,8 @@ class Builder {
   void tell(std::string_view id, Place place, bool has_model, bool is_guessed) const {
     if (report_.counted_only(Severity::Note)) return;
     std::string hint =
-        has_model ? "the model in the file is used as a hint" : did_you_mean(id, known_ids_);
+        has_model ? "the model in the file is used as a hint" : hint_for_other_tools(id, catalog_);
+    if (hint.empty()) hint = did_you_mean(id, known_ids_);
     if (hint.empty()) {
       hint = "its ports are not known, so they are not checked; --plugin loads a plugin";
     }

@@ -23,10 +23,13 @@ inline constexpr const NodeKind* kKinds[] = {
     &lockstep::host::kInverter, &lockstep::host::kForceSuccess, &lockstep::host::kForceFailure,
     &kRepeat, &kRetryUntilSuccessful, &lockstep::host::kKeepRunningUntilFailure, &kRunOnce, &kDelay,
     &kTimeout, &kPrecondition, &kSkipUnlessUpdated, &kWaitValueUpdate, &kLoopInt, &kLoopBool,
-    &kLoopDouble, &kLoopString, &lockstep::host::kSubTree,
+    &kLoopDouble, &kLoopString, &lockstep::host::kSyncProgress, &lockstep::host::kUseResources,
+    &lockstep::host::kSubTree,
     // Leaves
     &lockstep::host::kAlwaysSuccess, &lockstep::host::kAlwaysFailure, &kSleep,
     &lockstep::host::kScript, &kScriptCondition, &kSetBlackboard, &kUnsetBlackboard,
-    &kWasEntryUpdated};
+    &kWasEntryUpdated, &lockstep::host::kWaitUntil,
+    // Beside the trees
+    &lockstep::host::kBarrier, &lockstep::host::kResources};
 
 }  // namespace lockstep::host::btcpp

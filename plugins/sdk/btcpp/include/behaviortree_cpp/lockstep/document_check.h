@@ -144,8 +144,9 @@ class DocumentCheck {
   }
   // A tag of version 3, or of lockstep alone.
   static bool is_known_otherwise(const std::string& tag) {
-    for (const char* it : {"SequenceStar", "FallbackStar", "RetryUntilSuccesful", "SubTreePlus",
-                           "ParallelAbsolute", "ParallelRelative"}) {
+    for (const char* it :
+         {"SequenceStar", "FallbackStar", "RetryUntilSuccesful", "SubTreePlus", "ParallelAbsolute",
+          "ParallelRelative", "WaitUntil", "SyncProgress", "UseResources"}) {
       if (tag == it) return true;
     }
     return false;
