@@ -281,6 +281,19 @@ TEST_CASE("layers: the rooms are in the order of their floors") {
         1);
 }
 
+// Who watches, judges, records or draws a run has its Moments: trace/.
+TEST_CASE("layers: nine rooms at most see the engine, and none that watches a run") {
+  const Names watch{"trace/", "judge/", "record/", "show/", "study/", "groot/"};
+  std::size_t seeing = 1;  // embedding/, which is no room of this list
+  for (const Room& room : rooms()) {
+    if (std::ranges::count(room.depends, "engine/") == 0) continue;
+    ++seeing;
+    INFO(room.folder);
+    CHECK(!starts_with_any(room.folder, watch));
+  }
+  CHECK(seeing <= 9);
+}
+
 TEST_CASE("layers: a folder includes only the rooms on which it depends") {
   int seen = 0;
   check_all([&](const Include& include) {

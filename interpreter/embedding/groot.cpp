@@ -2,6 +2,7 @@
 
 #include "groot/publisher.h"
 #include "groot/tree.h"
+#include "run/shape_of.h"
 #include "show/web/server_socket.h"
 
 namespace lockstep::host::embedding {
@@ -18,7 +19,7 @@ Result<std::unique_ptr<Observer>> show_groot(const Tree& tree, const GrootTree& 
   if (!sockets) return tl::unexpected(std::move(sockets.error()));
   GrootOptions options{.shown = shown, .control = nullptr, .print = [](const std::string&) {}};
   return std::make_unique<GrootPublisher>(
-      tree, std::move(options),
+      shape_of(tree), std::move(options),
       GrootSockets(std::move(sockets->first.socket), std::move(sockets->second.socket)));
 }
 

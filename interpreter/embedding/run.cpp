@@ -65,7 +65,7 @@ std::optional<Nanoseconds> time_from(double seconds) {
 class Observing final : public Observer {
  public:
   explicit Observing(lockstep_run& run) : run_(run) {}
-  void after_tick(Ticker&, const TickReport& report) override {
+  void after_tick(const Moment&, const TickReport& report) override {
     const InLeaf scope(lock_of(&run_));
     run_.notify(to_seconds(report.time), static_cast<lockstep_status>(report.status),
                 report.faults);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/core/wording.h"
-#include "engine/ticker.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host::embedding {
 
@@ -32,19 +32,19 @@ void RunProperties::begin_again() {
   violations_.clear();
 }
 
-void RunProperties::after_tick(Ticker& ticker, const TickReport& report) {
+void RunProperties::after_tick(const Moment& moment, const TickReport& report) {
   if (is_over_) return;
-  for (const std::size_t i : steps_->after_tick(*report.moment)) {
+  for (const std::size_t i : steps_->after_tick(moment)) {
     violations_.push_back(fmt::format("{}: violated in tick {}, at {:.3f} s",
                                       checks_->all()[i].name(), report.tick,
                                       to_seconds(report.time)));
   }
-  if (report.status != Status::Running || ticker.fault() != nullptr) {
+  if (report.status != Status::Running || moment.live->faulted()) {
     end(RunIsOver::ByItself, report.tick + 1);
   }
 }
 
-void RunProperties::run_ended(Ticker&, const RunEnd& end_of_run) {
+void RunProperties::run_ended(const Moment&, const RunEnd& end_of_run) {
   const bool by_itself =
       end_of_run.reason == StopReason::Completed || end_of_run.reason == StopReason::Fault;
   end(by_itself ? RunIsOver::ByItself : RunIsOver::FromOutside, end_of_run.ticks);

@@ -30,8 +30,8 @@ class RunProperties final : public Observer {
   std::span<const std::string> violations() const { return violations_; }
 
   AskedOfRun asked() const override { return steps_ ? steps_->asked() : AskedOfRun(); }
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
   void end(RunIsOver how, std::uint64_t ticks);

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <utility>
 
+#include "run/shape_of.h"
 #include "show/web/server_socket.h"
 
 namespace lockstep::host::embedding {
@@ -13,7 +14,7 @@ RunWatchers::RunWatchers(const Tree& tree, RunDescription run, RunStart start)
 std::optional<Problem> RunWatchers::record(const std::string& file) {
   if (recorder_) return Problem{"the run is recorded already", "one recording for each run"};
   const Lock lock(mutex_);
-  recorder_.emplace(tree_, RecorderOptions{.path = file, .run = run_});
+  recorder_.emplace(shape_of(tree_), RecorderOptions{.path = file, .run = run_});
   if (recorder_->error().empty()) {
     observers_.push_back(&*recorder_);
     return std::nullopt;
@@ -28,7 +29,7 @@ Result<std::string> RunWatchers::monitor(const std::string& address) {
   auto socket = listen_on(address);
   if (!socket) return tl::unexpected(std::move(socket.error()));
   const Lock lock(mutex_);
-  monitor_.emplace(tree_, MonitorOptions{.run = run_});
+  monitor_.emplace(shape_of(tree_), MonitorOptions{.run = run_});
   observers_.push_back(&*monitor_);
   return monitor_->open(std::move(*socket));
 }
@@ -39,7 +40,9 @@ void RunWatchers::show_groot(std::unique_ptr<Observer> groot, Ticker& ticker) {
   if (groot_ != nullptr) observers_.push_back(groot_.get());
   if (all_) all_.emplace(tree_, observers_);
   if (groot_ == nullptr) return;
-  if (is_begun_ || ticker.tick_number() != 0) groot_->run_started(ticker, start_);
+  if (is_begun_ || ticker.tick_number() != 0) {
+    groot_->run_started(LiveMoments(tree_).now(ticker), start_);
+  }
   is_begun_ = is_begun_ || ticker.tick_number() != 0;
 }
 
@@ -80,7 +83,8 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
       end.reason = StopReason::Signal;
       end.signal = SIGINT;  // as when a person ends it
     }
-    for (Observer* const it : observers_) it->run_ended(ticker, end);
+    LiveMoments moments(tree_);
+    for (Observer* const it : observers_) it->run_ended(moments.now(ticker), end);
   }
   all_.reset();
   observers_.clear();

@@ -14,8 +14,8 @@
 #include "engine/tree.h"
 #include "record/live/run_packets.h"
 #include "record/write/recorder.h"
+#include "run/observers.h"
 #include "show/web/monitor.h"
-#include "trace/observers.h"
 
 namespace lockstep::host::embedding {
 

@@ -7,16 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/node_kind.h"
+#include "trace/faults.h"
 
 namespace lockstep::host {
 
 class NodeContext;
-
-struct WentOn {
-  NodeIndex node = 0;
-  double from = 0, to = 0;  // its progress when it was held, and when that was found
-};
 
 class HeldLeaves {
  public:

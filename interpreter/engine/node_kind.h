@@ -7,19 +7,11 @@
 
 #include "base/core/language.h"
 #include "base/core/node_type.h"
-#include "base/core/status.h"
+#include "trace/node_state.h"
 
 namespace lockstep::host {
 
 class NodeContext;
-using NodeIndex = std::uint32_t;
-
-// The current round of a node that repeats its child, from 1, and the number of rounds; 0: endless.
-struct Round {
-  std::int64_t number = 0, of = 0;
-
-  friend bool operator==(const Round&, const Round&) = default;
-};
 
 // The behavior of a node that has completed and is ticked again though its parent did not reset it.
 enum class Unreset : std::uint8_t {

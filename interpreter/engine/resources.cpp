@@ -28,6 +28,17 @@ void answer(NodeContext& context, const Member& member, ResourceSet wanted, Gran
 
 }  // namespace
 
+bool may_keep(const Tree& tree, NodeIndex member) {
+  if (const BoundNode* bound = bound_of(tree, member)) {
+    return tree.constants[tree.ports[bound->first_port + kKeep].constant] == Value(true);
+  }
+  return cell_of(tree, member, kKeep).boolean;
+}
+
+bool first_wins(const Tree& tree, NodeIndex pool) {
+  return cell_of(tree, pool, kIncrement).integer == 0;
+}
+
 std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter) {
   const auto* list = std::get_if<std::string>(&given.values[parameter]);
   if (list == nullptr) return std::nullopt;

@@ -48,6 +48,11 @@ namespace resources {
 inline constexpr unsigned kIncrement = 0;
 inline constexpr unsigned kResources = 1, kKeep = 2;
 
+// Of the tree: whether a member keeps its set as long as its child runs, and whether those of a
+// pool that wait do not get more urgent.
+bool may_keep(const Tree& tree, NodeIndex member);
+bool first_wins(const Tree& tree, NodeIndex pool);
+
 // Finds the mistake in a list of resources, if one is given.
 std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter);
 

@@ -12,22 +12,20 @@ const HoldingParameters& holding(const Tree& tree, NodeIndex node) {
   return tree.labels[node].type->holding;
 }
 
-// The cell of a parameter that the node has.
-const Cell& cell_of(const Tree& tree, NodeIndex node, unsigned parameter) {
-  return tree.cells[tree.nodes[node].params + parameter];
-}
-
-// Null when all its parameters are constants.
-const BoundNode* bound_of(const Tree& tree, NodeIndex node) {
-  const auto it = std::ranges::lower_bound(tree.bound, node, {}, &BoundNode::node);  // in pre-order
-  return it != tree.bound.end() && it->node == node ? &*it : nullptr;
-}
-
 bool is_constant(const Tree& tree, NodeIndex node, Synchronization wanted) {
   return synchronization(tree.nodes[node]) == wanted && bound_of(tree, node) == nullptr;
 }
 
 }  // namespace
+
+const Cell& cell_of(const Tree& tree, NodeIndex node, unsigned parameter) {
+  return tree.cells[tree.nodes[node].params + parameter];
+}
+
+const BoundNode* bound_of(const Tree& tree, NodeIndex node) {
+  const auto it = std::ranges::lower_bound(tree.bound, node, {}, &BoundNode::node);  // in pre-order
+  return it != tree.bound.end() && it->node == node ? &*it : nullptr;
+}
 
 std::vector<NodeIndex> synchronized_nodes(const Tree& tree) {
   std::vector<NodeIndex> nodes;

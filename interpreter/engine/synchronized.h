@@ -91,16 +91,16 @@ const Member* barrier_member(const Tree& tree, NodeIndex node);
 // Whether a member of a barrier beside the tree is held in this tick.
 bool is_held_at_barrier(NodeContext& context, NodeIndex member);
 
-// At a barrier at 0 a member runs while its child has not begun.
-constexpr bool waits_to_begin(Status member, Status child) {
-  return member == Status::Running && child == Status::Idle;
-}
-
 // The words of two parameters of barriers, by their places: at_barrier="tick", idle="ignore".
 inline constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
 inline constexpr std::int64_t kTicksAtBarrier = 1;
 inline constexpr std::string_view kIdleChoices[] = {"wait", "ignore"};
 inline constexpr std::int64_t kIgnoresIdle = 1;
+
+// The constant of a parameter that the node has, and what binds parameters to entries; null: all
+// are constants.
+const Cell& cell_of(const Tree& tree, NodeIndex node, unsigned parameter);
+const BoundNode* bound_of(const Tree& tree, NodeIndex node);
 
 // The barriers of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for
 // other nodes, and where an entry gives any parameter.

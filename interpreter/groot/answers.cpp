@@ -5,14 +5,14 @@
 
 namespace lockstep::host {
 
-GrootAnswers::GrootAnswers(const Tree& tree, GrootTree shown, StatusFeed& statuses,
+GrootAnswers::GrootAnswers(const Shape& shape, GrootTree shown, StatusFeed& statuses,
                            SnapshotFeed& snapshots, RunControl* control)
     : document_(std::move(shown.document)),
-      boards_(tree, std::move(shown.boards)),
+      boards_(shape, std::move(shown.boards)),
       status_feed_(statuses),
       snapshots_(snapshots),
       statuses_(shown.order),
-      hooks_(tree, control),
+      hooks_(shape.nodes[0].end, control),
       has_control_(control != nullptr) {}
 
 GrootMessage GrootAnswers::answer(const GrootMessage& request) {

@@ -16,7 +16,7 @@ namespace lockstep::host {
 
 class GrootAnswers {
  public:
-  GrootAnswers(const Tree& tree, GrootTree shown, StatusFeed& statuses, SnapshotFeed& snapshots,
+  GrootAnswers(const Shape& shape, GrootTree shown, StatusFeed& statuses, SnapshotFeed& snapshots,
                RunControl* control);
 
   // Whatever the request is.

@@ -6,8 +6,6 @@
 #include <utility>
 #include <variant>
 
-#include "engine/synchronized.h"
-
 namespace lockstep::host {
 namespace {
 
@@ -31,11 +29,11 @@ struct ToJson {
 };
 
 // A value of any type is shown as the number that it looks like, else as a text.
-Json entry_json(const Slot& slot, const EntryState& entry) {
+Json entry_json(const ShapeEntry& its, const EntryState& entry) {
   if (entry.is_long) return "(too long to be shown)";
-  if (slot.type == ValueType::Object) return entry.text;
-  if (slot.typing != Typing::Any && slot.type != ValueType::Number) {
-    const auto value = parse_value(slot.type, entry.text);
+  if (its.value_type == ValueType::Object) return entry.text;
+  if (its.typing != Typing::Any && its.value_type != ValueType::Number) {
+    const auto value = parse_value(its.value_type, entry.text);
     return value ? std::visit(ToJson(), *value) : Json(entry.text);
   }
   if (const auto whole = parse_int(entry.text)) return *whole;
@@ -45,35 +43,35 @@ Json entry_json(const Slot& slot, const EntryState& entry) {
 
 }  // namespace
 
-GrootBoards::GrootBoards(const Tree& tree, std::vector<GrootBoardKeys> boards)
-    : tree_(tree), boards_(std::move(boards)), shown_(boards_.size()) {
+GrootBoards::GrootBoards(Shape shape, std::vector<GrootBoardKeys> boards)
+    : shape_(std::move(shape)), boards_(std::move(boards)), shown_(boards_.size()) {
   for (std::size_t number = 0; number < boards_.size(); ++number) {
     by_name_.emplace(boards_[number].name, number);
     if (number > 0) by_node_.emplace(boards_[number].node, number);
   }
-  for (const NodeIndex node : synchronized_nodes(tree)) {
-    if (compares_progress(synchronization(tree.nodes[node]))) show_synchronized(node);
+  for (const NodeIndex node : synchronized_nodes(shape_)) {
+    if (!shape_.nodes[node].is_pool()) show_synchronized(node);
   }
 }
 
 void GrootBoards::show_synchronized(NodeIndex node) {
-  const bool is_relative = synchronization(tree_.nodes[node]) == Synchronization::Relative;
+  const bool is_relative = shape_.nodes[node].synchronization == Synchronization::Relative;
   show(node, is_relative ? "delta/" : "barrier/", What::Limit);
-  for_each_child(tree_, node, [&](NodeIndex child) {
+  for (const NodeIndex child : shape_.nodes[node].held()) {
     show(child, "progress/", What::Progress);
     show(child, "held/", What::Held);
-  });
+  }
 }
 
 // Under its path within its subtree.
 void GrootBoards::show(NodeIndex node, std::string_view prefix, What what) {
-  std::string path = tree_.segment(node);
+  std::string path = shape_.nodes[node].segment;
   std::size_t board = 0;
-  for (NodeIndex at = node; tree_.labels[at].parent != at && board == 0;) {
-    at = tree_.labels[at].parent;
+  for (NodeIndex at = node; shape_.nodes[at].parent && board == 0;) {
+    at = *shape_.nodes[at].parent;
     const auto found = by_node_.find(at);
     if (found != by_node_.end()) board = found->second;
-    if (board == 0) path.insert(0, tree_.segment(at) + "/");
+    if (board == 0) path.insert(0, shape_.nodes[at].segment + "/");
   }
   shown_[board].push_back({std::string(prefix) + path, node, what});
 }
@@ -94,7 +92,7 @@ Json GrootBoards::board(std::size_t number, const Snapshot& snapshot) const {
   }
   for (const auto& [key, slot] : slots) {
     const EntryState& entry = snapshot.entries[slot];
-    if (entry.changed) json.add(key, entry_json(tree_.slots[slot], entry));
+    if (entry.changed) json.add(key, entry_json(shape_.entries[slot], entry));
   }
   return json.members().empty() ? Json() : json;
 }

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "base/json/json.h"
-#include "engine/tree.h"
 #include "groot/board_keys.h"
 #include "record/live/snapshot.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
 class GrootBoards {
  public:
-  GrootBoards(const Tree& tree, std::vector<GrootBoardKeys> boards);
+  GrootBoards(Shape shape, std::vector<GrootBoardKeys> boards);
   GrootBoards(const GrootBoards&) = delete;
   GrootBoards& operator=(const GrootBoards&) = delete;
 
@@ -37,7 +37,7 @@ class GrootBoards {
   Json shown(const Shown& it, const Snapshot& snapshot) const;
   Json board(std::size_t number, const Snapshot& snapshot) const;
 
-  const Tree& tree_;
+  const Shape shape_;
   std::vector<GrootBoardKeys> boards_;
   std::vector<std::vector<Shown>> shown_;  // of each board
   std::map<std::string_view, std::size_t> by_name_;

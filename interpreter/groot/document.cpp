@@ -11,8 +11,8 @@
 #include "describe/xsd.h"
 #include "dialect/btcpp/pairs.h"
 #include "dialect/btcpp/rules.h"
-#include "engine/node_kind.h"
 #include "groot/statuses.h"
+#include "run/shape_of.h"
 #include "tree/check/node_check.h"
 
 namespace lockstep::host {
@@ -25,9 +25,7 @@ class Writer {
  public:
   Writer(const Definition& definition, std::span<const GrootSubtree> subtrees)
       : definition_(definition), subtrees_(subtrees) {
-    for (const NodeKind* kind : btcpp::kRules.kinds) {
-      theirs_.emplace(kind->type.id, &kind->type);
-    }
+    for (const NodeType* type : built_in_types(btcpp::kRules)) theirs_.emplace(type->id, type);
     for (const GrootSubtree& it : subtrees.subspan(1)) by_node_.emplace(it.node, &it);
   }
 

@@ -48,7 +48,7 @@ Breakpoint breakpoint_of(std::uint64_t uid, std::int64_t position) {
 }  // namespace
 
 std::string GrootHooks::check(const Hook& hook) const {
-  if (hook.key.uid < 1 || hook.key.uid > tree_.nodes[0].end) {
+  if (hook.key.uid < 1 || hook.key.uid > nodes_) {
     return fmt::format("no node has the uid {}", hook.key.uid);
   }
   if (hook.key.position != 0 && hook.key.position != 1) return "'position' is neither 0 nor 1";

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/core/problem.h"
-#include "engine/tree.h"
 #include "run/run_control.h"
+#include "trace/node_state.h"
 
 namespace lockstep::host {
 
@@ -18,8 +18,8 @@ class GrootHooks {
  public:
   static constexpr std::size_t kMost = 100;
 
-  // Null: nobody may pause the run.
-  GrootHooks(const Tree& tree, RunControl* control) : tree_(tree), control_(control) {}
+  // Of so many nodes, without groups. Null: nobody may pause the run.
+  GrootHooks(std::size_t nodes, RunControl* control) : nodes_(nodes), control_(control) {}
 
   // Each takes JSON, and returns what is wrong with it, or "".
   std::string insert(const std::string& one_or_list);
@@ -61,7 +61,7 @@ class GrootHooks {
   bool is_paused_by(const Hook& hook) const;
   void go_on_from(const Hook& hook);
 
-  const Tree& tree_;
+  const std::size_t nodes_;
   RunControl* const control_;
   Hooks hooks_;
   bool is_absent_ = false;

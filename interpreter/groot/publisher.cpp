@@ -16,34 +16,34 @@ constexpr std::chrono::seconds kPresent{1};
 
 }  // namespace
 
-GrootPublisher::GrootPublisher(const Tree& tree, GrootOptions options, GrootSockets sockets)
-    : tree_(tree),
+GrootPublisher::GrootPublisher(Shape shape, GrootOptions options, GrootSockets sockets)
+    : shape_(std::move(shape)),
       print_(std::move(options.print)),
-      statuses_(tree),
-      snapshots_(tree),
-      answers_(tree, std::move(options.shown), statuses_, snapshots_, options.control),
+      statuses_(shape_),
+      snapshots_(shape_),
+      answers_(shape_, std::move(options.shown), statuses_, snapshots_, options.control),
       sockets_(std::move(sockets)) {}
 
 GrootPublisher::~GrootPublisher() {
   stop();
 }
 
-void GrootPublisher::run_started(Ticker& ticker, const RunStart& start) {
-  snapshots_.run_started(ticker, start);
+void GrootPublisher::run_started(const Moment& moment, const RunStart& start) {
+  snapshots_.run_started(moment, start);
   thread_.start([this] { serve(); });
 }
 
-void GrootPublisher::after_tick(Ticker& ticker, const TickReport& report) {
-  statuses_.after_tick(ticker, report);
-  snapshots_.after_tick(ticker, report);
+void GrootPublisher::after_tick(const Moment& moment, const TickReport& report) {
+  statuses_.after_tick(moment, report);
+  snapshots_.after_tick(moment, report);
 }
 
-void GrootPublisher::standing(Ticker& ticker) {
-  snapshots_.standing(ticker);
+void GrootPublisher::standing(const Moment& moment) {
+  snapshots_.standing(moment);
 }
 
-void GrootPublisher::run_ended(Ticker& ticker, const RunEnd& end) {
-  snapshots_.run_ended(ticker, end);
+void GrootPublisher::run_ended(const Moment& moment, const RunEnd& end) {
+  snapshots_.run_ended(moment, end);
   if (end.budget != nullptr) patience_ = end.budget->share(patience_);
   stop();
   if (is_late_ && end.budget != nullptr) end.budget->used_up_by("Groot2");
@@ -100,7 +100,7 @@ void GrootPublisher::watch_hooks() {
   const auto node = is_absent ? hooks.paused_at() : std::nullopt;
   if (!node) return;
   print_(fmt::format("warning: --groot2: the run is paused at '{}', and nobody has asked for {} s",
-                     tree_.path(*node), kAbsent.count()));
+                     shape_.nodes[*node].path, kAbsent.count()));
 }
 
 }  // namespace lockstep::host

@@ -25,13 +25,14 @@ struct GrootOptions {
 
 class GrootPublisher final : public Observer {
  public:
-  GrootPublisher(const Tree& tree, GrootOptions options, GrootSockets sockets);
+  GrootPublisher(Shape shape, GrootOptions options, GrootSockets sockets);
   ~GrootPublisher() override;
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void standing(Ticker& ticker) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  AskedOfRun asked() const override { return statuses_.asked(); }
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void standing(const Moment& moment) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
   void serve();
@@ -40,7 +41,7 @@ class GrootPublisher final : public Observer {
   void watch_hooks();
   void stop();
 
-  const Tree& tree_;
+  const Shape shape_;
   const std::function<void(const std::string& line)> print_;
   StatusFeed statuses_;
   SnapshotFeed snapshots_;

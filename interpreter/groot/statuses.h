@@ -10,7 +10,7 @@
 
 #include "base/core/clock.h"
 #include "base/core/status.h"
-#include "engine/node_kind.h"
+#include "trace/node_state.h"
 
 namespace lockstep::host {
 

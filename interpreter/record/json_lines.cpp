@@ -13,6 +13,7 @@
 
 #include "base/json/json.h"
 #include "record/lines.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {
@@ -313,9 +314,9 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
 
 std::size_t json_lines::most_of_tick_end(std::size_t nodes, std::size_t limits,
                                          std::size_t entries) {
-  const std::size_t moments =
-      kMostOfMoment * Moments::kMost + kMostOfMomentNode * Moments::most_changes(nodes) +
-      kMostOfLeafProgress * Moments::most_progress(nodes) + kUsualTotals * nodes;
+  const MostWithin most = most_within(nodes);
+  const std::size_t moments = kMostOfMoment * most.moments + kMostOfMomentNode * most.changes +
+                              kMostOfLeafProgress * most.progress + kUsualTotals * nodes;
   return 64 + 64 * (limits + entries) + moments;
 }
 

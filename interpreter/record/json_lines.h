@@ -14,10 +14,11 @@
 #include <string_view>
 
 #include "base/core/clock.h"
-#include "engine/ticker.h"
 #include "judge/measure/entry_changes.h"
 #include "record/header_and_end.h"
 #include "record/packet.h"
+#include "trace/faults.h"
+#include "trace/moments_view.h"
 
 namespace lockstep::host {
 

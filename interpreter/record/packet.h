@@ -9,8 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "engine/node_kind.h"
-#include "engine/run_state.h"
+#include "trace/node_state.h"
 
 namespace lockstep::host {
 
@@ -26,7 +25,7 @@ struct NodeChange {
   bool ticked() const { return NodeState{state}.ticked(); }
 };
 
-// The part of a tick's line about the limit of a synchronized node (engine/synchronized.h).
+// The part of a tick's line about the limit of a synchronized node (base/core/synchronization.h).
 struct LimitChange {
   NodeIndex node = 0;
   double limit = 0;

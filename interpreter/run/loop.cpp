@@ -8,10 +8,10 @@
 
 #include "base/system/own_thread.h"
 #include "run/deadlines.h"
+#include "run/observers.h"
 #include "run/pace.h"
 #include "run/run_control.h"
 #include "run/stall_fail.h"
-#include "trace/observers.h"
 
 namespace lockstep::host {
 namespace {

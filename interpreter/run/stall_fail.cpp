@@ -6,6 +6,7 @@
 
 #include "engine/resources.h"
 #include "engine/ticker.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {
@@ -46,7 +47,11 @@ NodeIndex stalled_node(const Tree& tree, const Standstill& standstill) {
 }
 
 StallFail::StallFail(const Tree& tree, Nanoseconds limit, Report report)
-    : tree_(tree), nodes_(tree, limit), report_(std::move(report)) {}
+    : tree_(tree),
+      shape_(shape_of(tree)),
+      moments_(tree),
+      nodes_(shape_, limit),
+      report_(std::move(report)) {}
 
 void StallFail::before_tick(Ticker& ticker, Nanoseconds now) {
   orders_.clear();
@@ -58,7 +63,7 @@ void StallFail::before_tick(Ticker& ticker, Nanoseconds now) {
 
 void StallFail::look(Ticker& ticker, Standing& at, Nanoseconds now) {
   if (comes_on(ticker, at)) return;
-  Standstill found = nodes_.standstill(ticker, at, now);
+  Standstill found = nodes_.standstill(moments_.now(ticker), at, now);
   if (!is_due(found, at.node())) {
     at.next_look = now + nodes_.limit();
     return;
@@ -103,7 +108,7 @@ void StallFail::after_tick(Ticker& ticker, Nanoseconds time) {
   for (const Order& order : orders_) {
     if (ticker.take_failed(order.node)) report_(order.standstill, order.node);
   }
-  nodes_.after_tick(ticker, time);
+  nodes_.after_tick(moments_.after_tick(ticker, 0, time));
 }
 
 }  // namespace lockstep::host

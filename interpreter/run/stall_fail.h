@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "judge/measure/stall.h"
+#include "run/live_moments.h"
 
 namespace lockstep::host {
 
@@ -31,6 +32,8 @@ class StallFail {
   bool comes_on(Ticker& ticker, const Standstill& circle);
 
   const Tree& tree_;
+  const Shape shape_;
+  LiveMoments moments_;
   StandingNodes nodes_;
   std::vector<Order> orders_;  // of this tick
   Report report_;

@@ -16,7 +16,7 @@ class InputWatch final : public Observer, public PlayedLeafWatch {
   // Both must outlive this.
   InputWatch(const Rehearsal& rehearsal, const Tree& tree);
 
-  void before_tick(Ticker&, std::uint64_t tick, Nanoseconds) override { tick_ = tick; }
+  void before_tick(const Moment&, std::uint64_t tick, Nanoseconds) override { tick_ = tick; }
   void begins(const lockstep_caller& caller) override;
 
   // After the end. Of each expectation the first surprise.

@@ -8,12 +8,11 @@
 
 #include "base/core/progress.h"
 #include "base/core/wording.h"
-#include "engine/blackboard.h"
 #include "judge/measure/decision.h"
 #include "judge/measure/measure_spec.h"
 #include "language/property/nearly.h"
+#include "run/shape_of.h"
 #include "study/run_measures.h"
-#include "trace/shape.h"
 
 namespace lockstep::host {
 namespace {
@@ -45,11 +44,10 @@ std::string_view result_text(const RunEnd& end) {
 Judge::Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties)
     : rehearsal_(rehearsal), tree_(tree), checks_(std::move(properties)), steps_(checks_) {}
 
-void Judge::after_tick(Ticker& ticker, const TickReport& report) {
+void Judge::after_tick(const Moment& moment, const TickReport& report) {
   ticks_ = report.tick + 1;
-  const Moment& moment = *report.moment;
   for (const std::size_t it : steps_.after_tick(moment)) {
-    tell_violated(it, fmt::format("in tick {}", report.tick), ticker);
+    tell_violated(it, fmt::format("in tick {}", report.tick), moment);
   }
   running_.clear();
   if (has_ended(report.status)) {
@@ -66,16 +64,16 @@ void Judge::after_tick(Ticker& ticker, const TickReport& report) {
 
 // The end, before what runs is halted. That of a scenario is that of its run, also when a limit has
 // ended it.
-void Judge::standing(Ticker& ticker) {
+void Judge::standing(const Moment& moment) {
   for (const std::size_t it : checks_.end(RunIsOver::ByItself)) {
     tell_violated(it,
                   ticks_ == 0 ? std::string("before the first tick")
                               : fmt::format("at the end, in tick {}", ticks_ - 1),
-                  ticker);
+                  moment);
   }
 }
 
-void Judge::tell_violated(std::size_t property, const std::string& when, const Ticker& ticker) {
+void Judge::tell_violated(std::size_t property, const std::string& when, const Moment& moment) {
   const PreparedProperty& it = rehearsal_.properties[property];
   Surprise surprise{.place = it.of->place,
                     .message = fmt::format("'{}' is violated {}", it.property.text(), when)};
@@ -85,7 +83,7 @@ void Judge::tell_violated(std::size_t property, const std::string& when, const T
                                         to_string(seen[i].status), seen[i].held ? ", held" : ""));
   }
   for (const EntryComparison& comparison : it.property.comparisons()) {
-    const Entry& entry = ticker.blackboard().entries[comparison.entry];
+    const Entry& entry = moment.entries[comparison.entry];
     surprise.more.push_back(fmt::format(
         "{{{}}} is {}", tree_.slots[comparison.entry].name,
         entry.has_value() ? brief(to_text(entry.value())) : std::string("without a value")));

@@ -18,14 +18,14 @@ class Judge final : public Observer {
   Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties);
 
   AskedOfRun asked() const override { return steps_.asked(); }
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void standing(Ticker& ticker) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void standing(const Moment& moment) override;
 
   // After the end; null: nothing is measured.
   std::vector<Surprise> verdict(const RunEnd& end, const RunMeasures* measures);
 
  private:
-  void tell_violated(std::size_t property, const std::string& when, const Ticker& ticker);
+  void tell_violated(std::size_t property, const std::string& when, const Moment& moment);
   void judge_ending(const RunEnd& end);
   void judge_moments(const RunEnd& end);
   void judge_ending(const Expectation& expected, const RunEnd& end);

@@ -24,19 +24,19 @@ NodeCoverage::NodeCoverage(const Tree& tree)
   }
 }
 
-void NodeCoverage::add(std::span<const Activity> before, const Ticker& ticker) {
+void NodeCoverage::add(std::span<const Activity> before, const Moment& moment) {
   before_.clear();
   for (const Activity it : before) before_.push_back(NodeState::of(it, false));
-  const MomentsView moments = ticker.moments();
+  const MomentsView moments = moment.within;
   moments.each(moment_, [this](std::span<const NodeState> now, const TickMoment&, bool) {
     for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) add(node, now[node]);
   });
   for (const NodeTotals& it : moments.rest) add(it);
   for (NodeIndex node = 0; node < tree_.nodes[0].end; ++node) {
-    if (ticker.ticked(node)) ++ticks_[node];
-    if (moments.empty()) add(node, ticker.node_state(node));
+    if (moment.ticked(node)) ++ticks_[node];
+    if (moments.empty()) add(node, moment.state(node));
   }
-  if (!barriers_.empty()) add_barriers(ticker);
+  if (!barriers_.empty()) add_barriers(moment);
 }
 
 void NodeCoverage::add(NodeIndex node, NodeState now) {
@@ -64,12 +64,12 @@ void NodeCoverage::add(const NodeTotals& totals) {
   }
 }
 
-void NodeCoverage::add_barriers(const Ticker& ticker) {
+void NodeCoverage::add_barriers(const Moment& moment) {
   for (auto& [node, waited] : barriers_) {
-    if (!ticker.ticked(node)) continue;
+    if (!moment.ticked(node)) continue;
     bool is_held = false;
-    for_each_child(tree_, node, [&](NodeIndex child) { is_held |= ticker.held(child); });
-    const auto current = waited.find(limit(ticker, node));
+    for_each_child(tree_, node, [&](NodeIndex child) { is_held |= moment.held(child); });
+    const auto current = waited.find(moment.limit(node));
     if (is_held && current != waited.end()) current->second = true;
   }
 }
@@ -86,16 +86,12 @@ void NodeCoverage::add(const NodeCoverage& other) {
   }
 }
 
-void RunCoverage::run_started(Ticker& ticker, const RunStart&) {
-  ticker.keep_moments();
+void RunCoverage::before_tick(const Moment& moment, std::uint64_t, Nanoseconds) {
+  before_.assign(moment.activity.begin(), moment.activity.end());
 }
 
-void RunCoverage::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  before_ = ticker.run_state().activity;
-}
-
-void RunCoverage::after_tick(Ticker& ticker, const TickReport&) {
-  coverage_.add(before_, ticker);
+void RunCoverage::after_tick(const Moment& moment, const TickReport&) {
+  coverage_.add(before_, moment);
 }
 
 }  // namespace lockstep::host

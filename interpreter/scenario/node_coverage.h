@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/ticker.h"
+#include "engine/tree.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -33,8 +33,8 @@ class NodeCoverage {
  public:
   explicit NodeCoverage(const Tree& tree);
 
-  // `before` is the activity of the nodes before a tick; the ticker is after it.
-  void add(std::span<const Activity> before, const Ticker& ticker);
+  // `before` is the activity of the nodes before a tick; the Moment is after it.
+  void add(std::span<const Activity> before, const Moment& moment);
   void add(const NodeCoverage& other);
 
   AspectSet seen(NodeIndex node) const { return seen_[node]; }
@@ -45,7 +45,7 @@ class NodeCoverage {
  private:
   void add(NodeIndex node, NodeState now);
   void add(const NodeTotals& totals);
-  void add_barriers(const Ticker& ticker);
+  void add_barriers(const Moment& moment);
 
   const Tree& tree_;
   std::vector<NodeState> before_, moment_;
@@ -59,9 +59,9 @@ class RunCoverage final : public Observer {
  public:
   explicit RunCoverage(const Tree& tree) : coverage_(tree) {}
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
+  AskedOfRun asked() const override { return {.within = true}; }
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
 
   const NodeCoverage& coverage() const { return coverage_; }
 

@@ -8,6 +8,7 @@
 #include "record/write/recorder.h"
 #include "run/deadlines.h"
 #include "run/loop.h"
+#include "run/shape_of.h"
 #include "scenario/input_watch.h"
 #include "scenario/judge.h"
 #include "scenario/stage_hands.h"
@@ -56,10 +57,10 @@ Performance Performer::perform(const PerformOptions& options) const {
   players_.leaves().set_watch(rehearsal_.inputs.empty() ? nullptr : &inputs);
   Judge judge(rehearsal_, tree, properties_of(rehearsal_));
   std::optional<RunMeasures> measured;
-  if (!measures.empty()) measured.emplace(tree, measures, rehearsal_.rate);
+  if (!measures.empty()) measured.emplace(shape_of(tree), measures, rehearsal_.rate);
   std::optional<Recorder> recorder;
   if (!options.record.empty())
-    recorder.emplace(tree, recorder_options(rehearsal_, players_.stage(), options));
+    recorder.emplace(shape_of(tree), recorder_options(rehearsal_, players_.stage(), options));
   Performance performance;
   if (recorder && !recorder->error().empty()) performance.problem = recorder->error();
 

@@ -3,6 +3,7 @@
 #include "base/core/clock.h"
 #include "engine/synchronized.h"
 #include "leaves/models.h"
+#include "run/live_moments.h"
 #include "verify/chance_runs.h"
 #include "verify/verifiable.h"
 
@@ -30,12 +31,13 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   NodeCoverage coverage(tree);
   Stepper stepper(tree, models, {}, period, found.symmetry, found.rising_answers,
                   found.few_root_ticks);
+  LiveMoments moments(tree, {.within = true});
   for (StateId state = 0; state < found.store.size(); ++state) {
     stepper.load(found.store[state], state == 0);
     const std::vector<Activity> before = stepper.before().run.activity;
     do {
       stepper.tick();
-      coverage.add(before, stepper.ticker());
+      coverage.add(before, moments.after_tick(stepper.ticker(), 0, {}));
     } while (stepper.next());
   }
   return coverage;

@@ -11,6 +11,7 @@
 #include "judge/measure/measure_spec.h"
 #include "judge/measure/measuring.h"
 #include "language/document/reporter.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "engine/compile.h"
 #include "judge/measure/property_steps.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {

@@ -2,7 +2,7 @@
 
 namespace lockstep::host {
 
-void EntryWriter::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
+void EntryWriter::before_tick(const Moment&, std::uint64_t tick, Nanoseconds time) {
   for (std::size_t i = 0; i < changes_.size(); ++i) {
     const PreparedChange& it = changes_[i];
     const bool is_due = it.time ? time >= from_seconds(*it.time) : tick >= it.tick;
@@ -15,7 +15,7 @@ void EntryWriter::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
   }
 }
 
-void LateTicks::after_tick(Ticker&, const TickReport& report) {
+void LateTicks::after_tick(const Moment&, const TickReport& report) {
   for (const LateTick& it : late_) {
     if (it.tick == report.tick) clock_.pass(from_seconds(it.by));
   }

@@ -30,7 +30,7 @@ class EntryWriter final : public Observer {
  public:
   EntryWriter(const Rehearsal& rehearsal, Run& run)
       : changes_(rehearsal.changes), is_done_(changes_.size()), run_(run) {}
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
 
  private:
   const std::vector<PreparedChange>& changes_;
@@ -42,7 +42,7 @@ class EntryWriter final : public Observer {
 class LateTicks final : public Observer {
  public:
   LateTicks(const Scenario& scenario, StageClock& clock) : late_(scenario.late), clock_(clock) {}
-  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
 
  private:
   const std::vector<LateTick>& late_;

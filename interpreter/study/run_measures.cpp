@@ -5,8 +5,8 @@
 #include "judge/measure/measure_spec.h"
 
 namespace lockstep::host {
-RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate)
-    : measuring_(shape_of(tree), measures), rate_(rate) {
+RunMeasures::RunMeasures(const Shape& shape, std::span<const MeasureSpec> measures, double rate)
+    : measuring_(shape, measures), rate_(rate) {
   for (const auto& [spec, node] : measuring_.columns()) {
     columns_.push_back({to_text(*spec), node});
     if (!spec->measure->has_gap) continue;
@@ -16,16 +16,16 @@ RunMeasures::RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures
   values_.resize(columns_.size(), kNoValue);
 }
 
-void RunMeasures::run_started(Ticker&, const RunStart&) {
+void RunMeasures::run_started(const Moment&, const RunStart&) {
   measuring_.reset();
   std::ranges::fill(values_, kNoValue);
 }
 
-void RunMeasures::after_tick(Ticker&, const TickReport& report) {
-  after_tick(*report.moment);
+void RunMeasures::after_tick(const Moment& moment, const TickReport&) {
+  after_tick(moment);
 }
 
-void RunMeasures::run_ended(Ticker&, const RunEnd& end) {
+void RunMeasures::run_ended(const Moment&, const RunEnd& end) {
   const EndView view{.ticks = end.ticks,
                      .last = last_,
                      .rate = rate_,

@@ -16,7 +16,7 @@ class RunMeasures final : public Observer {
  public:
   // `measures` must outlive this. If a measure names something that the tree does not have, error()
   // reports it.
-  RunMeasures(const Tree& tree, std::span<const MeasureSpec> measures, double rate);
+  RunMeasures(const Shape& shape, std::span<const MeasureSpec> measures, double rate);
 
   const std::string& error() const { return measuring_.error(); }
   const std::vector<StudyColumn>& columns() const { return columns_; }
@@ -30,9 +30,9 @@ class RunMeasures final : public Observer {
   }
 
   AskedOfRun asked() const override { return measuring_.asked(); }
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
   Measuring measuring_;

@@ -1,6 +1,7 @@
 #include "study/study_run.h"
 
 #include "base/system/own_thread.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 
@@ -10,7 +11,7 @@ StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,
       deadlines_(cell.rate),
       max_ticks_(max_ticks),
       stop_signal_(stop_signal),
-      measures_(cell.tree, measures, cell.rate),
+      measures_(shape_of(cell.tree), measures, cell.rate),
       moments_(cell.tree, measures_.asked()) {}
 
 RunEnd StudyRun::run(std::uint64_t seed) {
@@ -27,7 +28,7 @@ RunEnd StudyRun::run(std::uint64_t seed) {
     end.fault = *run_->fault();
   }
   const InEngine scope(run_->blackboard().lock.get());
-  measures_.run_ended(run_->ticker(), end);
+  measures_.run_ended(moments_.now(run_->ticker()), end);
   return end;
 }
 
@@ -41,7 +42,7 @@ void StudyRun::begin(std::uint64_t seed) {
                                         .virtual_time = true,
                                         .watch = &watch_});
   }
-  measures_.run_started(run_->ticker(), {run_->period(), false});
+  measures_.run_started(moments_.now(run_->ticker()), {run_->period(), false});
 }
 
 bool StudyRun::may_tick(RunEnd& end) const {

@@ -5,9 +5,9 @@
 #include <span>
 
 #include "run/deadlines.h"
+#include "run/live_moments.h"
 #include "run/run.h"
 #include "study/run_measures.h"
-#include "trace/live_moments.h"
 
 namespace lockstep::host {
 

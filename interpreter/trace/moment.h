@@ -1,5 +1,5 @@
 // A run after a tick, as columns over the nodes of its Shape: all that measures see of it, and
-// whoever else watches, judges or draws it. Two make Moments: LiveMoments (trace/live_moments.h) of
+// whoever else watches, judges or draws it. Two make Moments: LiveMoments (run/live_moments.h) of
 // a run, without a copy, and RecordedMoments (record/read/recorded_moments.h) of the lines of a
 // recording. What is written over Moments is written once for both.
 //
@@ -17,8 +17,8 @@
 #include "base/blackboard/entry.h"
 #include "base/core/clock.h"
 #include "base/core/synchronization.h"
-#include "engine/moments.h"
-#include "engine/run_state.h"
+#include "trace/faults.h"
+#include "trace/moments_view.h"
 
 namespace lockstep::host {
 
@@ -26,6 +26,29 @@ namespace lockstep::host {
 struct EntryText {
   std::optional<std::string> text = {};  // its value; none: too long to be shown, or there is none
   std::uint32_t writes = 0;              // how often it was written, as Entry::writes
+};
+
+// A run that goes on, for what no column has: it is computed when somebody asks.
+class LiveRun {
+ public:
+  // Between two ticks, of any node; before a tick, for the time of that.
+  virtual double progress(NodeIndex node) = 0;
+  // Before a tick: asks each node once at most until then, whoever wants to know.
+  virtual void share_progress() = 0;
+  // Of a running node that repeats its child.
+  virtual Round round(NodeIndex node) = 0;
+  // Whether a member of a barrier beside the tree was held there in the last tick.
+  virtual bool is_held_at_barrier(NodeIndex member) = 0;
+  // A leaf has failed so that the run ends.
+  virtual bool faulted() const = 0;
+  // Faults since the last report, after which the run goes on.
+  virtual std::span<const Fault> tolerated() const = 0;
+  // In this run, one of each leaf.
+  virtual std::span<const OutOfRange> out_of_range() const = 0;
+  virtual std::span<const WentOn> went_on() const = 0;
+
+ protected:
+  ~LiveRun() = default;
 };
 
 struct Moment {
@@ -48,6 +71,8 @@ struct Moment {
   std::span<const Entry> entries = {};
   std::span<const EntryText> texts = {};
 
+  LiveRun* live = nullptr;  // null: of a recording
+
   Status status(NodeIndex node) const { return status_of(activity[node]); }
   bool held(NodeIndex node) const { return activity[node] == Activity::Paused; }
   bool ticked(NodeIndex node) const { return number != 0 && reached[node] == number; }
@@ -69,6 +94,7 @@ struct AskedOfRun {
   std::vector<NodeIndex> progress = {};   // Moment::progress of these
   std::vector<NodeIndex> parallels = {};  // Moment::used of these, also if they compare nothing
   bool within = false;                    // Moment::within
+  bool progress_within = false;           // and MomentsView::progress
 };
 
 // Whether a parallel, or a node beside the tree, asked its children in the tick. A tick in which a

@@ -1,4 +1,4 @@
-// Observes a run: the loop calls it (trace/observers.h), on the tick thread, around each tick. An
+// Observes a run: the loop calls it (run/observers.h), on the tick thread, around each tick. An
 // observer only reads and never changes the run. It does long work in a separate thread.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include "base/core/clock.h"
 #include "base/core/end_budget.h"
 #include "base/core/status.h"
-#include "engine/ticker.h"
+#include "trace/faults.h"
 #include "trace/moment.h"
 
 namespace lockstep::host {
@@ -26,8 +26,6 @@ struct TickReport {
   std::uint64_t skipped = 0;           // deadlines that were skipped because this tick was late
   std::span<const Fault> faults = {};  // of leaves, since the last report; the run goes on
   Nanoseconds late{0};                 // it began so long after its deadline; 0 on a virtual clock
-  // The run after the tick. Its columns are those of the run: after the last halt they show that.
-  const Moment* moment = nullptr;
 };
 
 enum class StopReason : std::uint8_t {
@@ -78,18 +76,20 @@ struct RunEnd {
   }
 };
 
+// A Moment is the run after its last tick, also where it is given before the next one, and after
+// the last halt. Valid during the call.
 class Observer {
  public:
   virtual ~Observer() = default;
   // What its Moments must have. Called before the run.
   virtual AskedOfRun asked() const { return {}; }
-  virtual void run_started(Ticker&, const RunStart&) {}
-  virtual void before_tick(Ticker&, std::uint64_t /*tick*/, Nanoseconds /*time*/) {}
-  virtual void after_tick(Ticker&, const TickReport&) {}
+  virtual void run_started(const Moment&, const RunStart&) {}
+  virtual void before_tick(const Moment&, std::uint64_t /*tick*/, Nanoseconds /*time*/) {}
+  virtual void after_tick(const Moment&, const TickReport&) {}
   // The run stands after a tick: it is paused, or ends. Before leaves are paused or halted.
-  virtual void standing(Ticker&) {}
-  // After every running leaf was halted. Ticker::tolerated() has the faults since the last report.
-  virtual void run_ended(Ticker&, const RunEnd&) {}
+  virtual void standing(const Moment&) {}
+  // After every running leaf was halted. LiveRun::tolerated() has the faults since the last report.
+  virtual void run_ended(const Moment&, const RunEnd&) {}
 };
 
 }  // namespace lockstep::host

@@ -1,20 +1,12 @@
 #include "trace/shape.h"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <set>
 
-#include "base/core/parameter_value.h"
-#include "engine/synchronized.h"
-#include "engine/tree.h"
-
 namespace lockstep::host {
 namespace {
-
-// Whether measures compare the progress of the children.
-bool is_measured(const ShapeNode& node) {
-  return node.latches || compares_progress(node.synchronization);
-}
 
 // The last `segments` of a path; all of it when it has no more.
 std::string_view end_of(std::string_view path, std::size_t segments) {
@@ -34,56 +26,33 @@ std::string without_middle(std::string_view end) {
 
 }  // namespace
 
-Shape shape_of(const Tree& tree) {
-  Shape shape{.id = tree.id};
-  shape.nodes.resize(tree.nodes.size());
-  for (NodeIndex index = 0; index < tree.nodes.size(); ++index) {
-    ShapeNode& node = shape.nodes[index];
-    const NodeLabel& label = tree.labels[index];
-    const bool has_parent = label.parent != index;
-    // Not each path from the root down: those of a deep tree are long.
-    node.path = (has_parent ? shape.nodes[label.parent].path : tree.id) + "/" + tree.segment(index);
-    node.kind = label.type->id;
-    node.name = label.name;
-    if (has_parent) node.parent = label.parent;
-    node.synchronization = synchronization(tree.nodes[index]);
-    if (const auto list = barriers(tree, index)) node.barriers.emplace(list->begin(), list->end());
-    node.delta = delta(tree, index);
-    node.ignores_idle = ignores_idle(tree, index);
-    node.latches = label.type->latches;
-    if (!tree.is_group(index)) continue;
-    node.resources = tree.group(index).resources;
-    for_each_child(tree, index, [&](NodeIndex child) { node.members.push_back(child); });
-  }
-  for (const Slot& slot : tree.slots) {
-    shape.entries.push_back({.key = slot.name,
-                             .type = std::string(type_name(slot.type, slot.object)),
-                             .is_strict = slot.typing == Typing::Strict});
-  }
-  complete(shape);
-  for (const ShapeNode& node : shape.nodes) {
-    if (!is_measured(node)) continue;
-    for (const NodeIndex child : node.held()) {
-      shape.nodes[child].is_guard = tree.nodes[child].is_guard != 0;
-    }
-  }
-  return shape;
-}
-
 void complete(Shape& shape) {
   for (NodeIndex index = 0; index < shape.nodes.size(); ++index) {
     ShapeNode& node = shape.nodes[index];
     node.segment = last_segment(node.path);
+    node.end = index + 1;
     if (!node.parent) continue;
     ShapeNode& parent = shape.nodes[*node.parent];  // comes before it
     node.depth = parent.depth + 1;
     parent.children.push_back(index);
+  }
+  for (NodeIndex index = static_cast<NodeIndex>(shape.nodes.size()); index-- > 0;) {
+    const ShapeNode& node = shape.nodes[index];
+    if (!node.parent) continue;
+    NodeIndex& end = shape.nodes[*node.parent].end;
+    end = std::max(end, node.end);
   }
   for (NodeIndex index = 0; index < shape.nodes.size(); ++index) {
     ShapeNode& node = shape.nodes[index];
     if (node.synchronization == Synchronization::None) continue;
     if (node.is_group()) node.names = child_names(shape, index);
     for (const NodeIndex child : node.held()) shape.nodes[child].keeper = index;
+    for (std::size_t number = 0; number < node.members.size(); ++number) {
+      const auto around = shape.nodes[node.members[number]].parent;
+      if (!around) continue;  // of a recording that is wrong
+      shape.nodes[*around].group = index;
+      shape.nodes[*around].number = number;
+    }
   }
 }
 
@@ -95,15 +64,29 @@ std::vector<NodeIndex> synchronized_nodes(const Shape& shape) {
   return nodes;
 }
 
-std::vector<bool> resource_users(const Shape& shape) {
-  std::vector<bool> users(shape.nodes.size());
+std::vector<NodeIndex> users_of_pools(const Shape& shape) {
+  std::vector<NodeIndex> users;
   for (const ShapeNode& node : shape.nodes) {
-    if (node.synchronization != Synchronization::Resources) continue;
+    if (!node.is_pool()) continue;
     for (const NodeIndex child : node.members) {
-      users[shape.nodes[child].parent.value_or(child)] = true;
+      users.push_back(shape.nodes[child].parent.value_or(child));
     }
   }
   return users;
+}
+
+std::vector<bool> resource_users(const Shape& shape) {
+  std::vector<bool> users(shape.nodes.size());
+  for (const NodeIndex user : users_of_pools(shape)) users[user] = true;
+  return users;
+}
+
+std::vector<NodeIndex> repeating_nodes(const Shape& shape) {
+  std::vector<NodeIndex> nodes;
+  for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+    if (shape.nodes[node].repeats) nodes.push_back(node);
+  }
+  return nodes;
 }
 
 std::vector<std::string> paths_of(const Shape& shape) {

@@ -10,12 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/blackboard/entry.h"
 #include "base/core/node_type.h"
-#include "engine/node_kind.h"
+#include "base/core/value.h"
+#include "trace/node_state.h"
 
 namespace lockstep::host {
-
-struct Tree;
 
 struct ShapeNode {
   std::string path, kind, name;
@@ -29,22 +29,35 @@ struct ShapeNode {
   bool is_guard = false;                // a child of a parallel, or in a member, without an action
   bool latches = false;                 // a parallel, also one that compares no progress
 
+  // Only of a tree that runs (run/shape_of.h). The header of a recording has none of these.
+  const NodeType* type = nullptr;
+  bool repeats = false;               // it begins its child again and again: LiveRun::round
+  bool first_wins = false;            // a pool where who waits does not get more urgent
+  bool keeps_resources = false;       // a user of a pool, as long as its child runs
+  std::vector<NodeIndex> gates = {};  // of it: the members of other groups that withhold its ticks
+
   // These follow from the others: complete.
   std::string segment = {};              // the end of its path
   std::size_t depth = 0;                 // below the root; of a group 0
   std::vector<NodeIndex> children = {};  // a group has none
   std::vector<std::string> names = {};   // of a group: what it calls its members
   std::optional<NodeIndex> keeper = {};  // the last synchronized node that may hold it
+  std::optional<NodeIndex> group = {};   // that it is a member of: the node around what that holds
+  std::size_t number = 0;                // there
+  NodeIndex end = 0;                     // one past the last descendant
 
   bool is_group() const { return !members.empty() || !resources.empty(); }
   // What it ticks, or may hold.
   const std::vector<NodeIndex>& held() const { return is_group() ? members : children; }
+  bool is_pool() const { return synchronization == Synchronization::Resources; }
 };
 
 struct ShapeEntry {
   std::string key, type;                // of the blackboard
   std::vector<NodeIndex> writers = {};  // the nodes that may write it; readers leave it out
-  bool is_strict = false;               // known to hold values of this type only
+  // Of a tree that runs: what it may hold. Not known of a recording.
+  ValueType value_type = ValueType::String;
+  std::optional<Typing> typing = {};
 };
 
 struct Shape {
@@ -53,15 +66,16 @@ struct Shape {
   std::vector<ShapeEntry> entries = {};  // of a tree: one for each slot; else those that are shown
 };
 
-// With all entries.
-Shape shape_of(const Tree& tree);
 // Computes what follows from the other members of the nodes.
 void complete(Shape& shape);
 
 // The nodes that keep others in step, in their order, and the pools.
 std::vector<NodeIndex> synchronized_nodes(const Shape& shape);
-// By index: whether the node uses resources of a pool.
-std::vector<bool> resource_users(const Shape& shape);
+// The nodes that use resources, those of the first pool first.
+std::vector<NodeIndex> users_of_pools(const Shape& shape);
+std::vector<bool> resource_users(const Shape& shape);  // the same by index
+// Those that begin their child again and again.
+std::vector<NodeIndex> repeating_nodes(const Shape& shape);
 std::vector<std::string> paths_of(const Shape& shape);
 // What a node calls what it holds: the children of a parallel differ in their last segment.
 std::vector<std::string> child_names(const Shape& shape, NodeIndex node);

@@ -13,6 +13,7 @@
 #include "engine/synchronized.h"
 #include "engine/writers.h"
 #include "judge/summary/standstill_text.h"
+#include "run/shape_of.h"
 #include "verify/certain.h"
 #include "verify/chance_runs.h"
 #include "verify/deadlocks.h"
@@ -119,7 +120,7 @@ class DeadlockText {
 
   std::string explained(const WaitChain& chain) const {
     constexpr std::size_t kMostExplained = 4;
-    std::vector<std::string> lines = wait_lines(tree_, chain);
+    std::vector<std::string> lines = wait_lines(shape_of(tree_), chain);
     lines.resize(std::min(lines.size(), kMostExplained));
     return joined(lines, "; ");
   }

@@ -7,8 +7,8 @@
 
 #include "base/core/random.h"
 #include "judge/measure/property_steps.h"
+#include "run/live_moments.h"
 #include "run/run.h"
-#include "trace/live_moments.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {

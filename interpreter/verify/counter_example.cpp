@@ -7,6 +7,7 @@
 #include "record/write/recorder.h"
 #include "run/deadlines.h"
 #include "run/loop.h"
+#include "run/shape_of.h"
 #include "verify/same_tick.h"
 
 namespace lockstep::host {
@@ -40,19 +41,22 @@ class Confirmation final : public Observer {
         checks_(property_of(tree, finding, properties)),
         steps_(checks_) {}
 
+  // Before the first tick of the run.
+  void watch(const Ticker& run) { run_ = &run; }
+
   AskedOfRun asked() const override { return steps_.asked(); }
-  void after_tick(Ticker& ticker, const TickReport& report) override {
-    steps_.after_tick(*report.moment);
+  void after_tick(const Moment& moment, const TickReport& report) override {
+    steps_.after_tick(moment);
     if (!wrong_.empty() || ticks_ == finding_.run.size()) return;
     const Status status = tracer_.tick(finding_.run[ticks_++]);
-    std::string wrong = difference(ticker, tracer_.ticker());
+    std::string wrong = difference(*run_, tracer_.ticker());
     if (wrong.empty() && status != report.status) {
       wrong = fmt::format("the tree is {}; in the search, it is {}", to_string(report.status),
                           to_string(status));
     }
     if (!wrong.empty()) wrong_ = fmt::format("in tick {}, {}", report.tick, wrong);
   }
-  void run_ended(Ticker&, const RunEnd& end) override {
+  void run_ended(const Moment&, const RunEnd& end) override {
     const bool by_itself = end.reason == StopReason::Completed || end.reason == StopReason::Fault;
     if (by_itself) checks_.end(RunIsOver::ByItself);
   }
@@ -69,6 +73,7 @@ class Confirmation final : public Observer {
  private:
   const Finding& finding_;
   Tracer& tracer_;
+  const Ticker* run_ = nullptr;
   PropertyChecks checks_;
   PropertySteps steps_;
   std::size_t ticks_ = 0;
@@ -79,15 +84,16 @@ class Confirmation final : public Observer {
 std::string record(const Tree& tree, const LeafScripts& scripts, const std::string& path,
                    const Finding& finding, Confirmation& confirmation,
                    const CounterExampleOptions& options) {
-  Recorder recorder(tree, {.path = path,
-                           .run = {.tree_file = options.tree_file,
-                                   .rate_hz = options.rate,
-                                   .arguments = options.arguments,
-                                   .values = options.values,
-                                   .verify = heading(finding)}});
+  Recorder recorder(shape_of(tree), {.path = path,
+                                     .run = {.tree_file = options.tree_file,
+                                             .rate_hz = options.rate,
+                                             .arguments = options.arguments,
+                                             .values = options.values,
+                                             .verify = heading(finding)}});
   if (!recorder.error().empty()) return recorder.error();
   VirtualClock clock;
   Run run(tree, {.period = deadline_of(1, options.rate), .virtual_time = true});
+  confirmation.watch(run.ticker());
   Observer* const observers[] = {&recorder, &confirmation};
   LoopOptions loop;
   loop.rate = options.rate;

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "engine/resources.h"
+#include "run/live_moments.h"
 #include "verify/components.h"
 #include "verify/trace.h"
 
@@ -20,6 +20,8 @@ class Deadlocks {
   Deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
             const SearchResult& found)
       : tree_(tree),
+        shape_(shape_of(tree)),
+        moments_(tree),
         found_(found),
         graph_(found.graph),
         held_(holdable(tree)),
@@ -115,23 +117,24 @@ class Deadlocks {
     way.push_back(graph_.edges_of(state).begin()->to);
     tracer_.go(trail, way);
     tracer_.play({trail.run.back()}, [&](Stepper& stepper, Status, std::size_t) {
+      const Moment& moment = moments_.after_tick(stepper.ticker(), 0, {});
       for (NodeIndex node = 0; node < holders.size(); ++node) {
-        if (!holders[node] || !holds_somebody(stepper.ticker(), node)) continue;
-        WaitChain chain = wait_chain(stepper.ticker(), node);
+        if (!holders[node] || !holds_somebody(shape_, moment, node)) continue;
+        WaitChain chain = wait_chain(shape_, moment, node);
         const bool lasts = std::ranges::all_of(chain.links, [&](const WaitLink& link) {
-          return is_pool(tree_, link.node) || holders[link.node];
+          return shape_.nodes[link.node].is_pool() || holders[link.node];
         });
         if (!lasts) chain = {.links = {chain.links.front()}};
-        const NodeIndex decider = decider_of(stepper.ticker(), chain.links.back().awaited);
+        const NodeIndex decider = decider_of(moment, chain.links.back().awaited);
         add({std::move(chain), decider});
       }
     });
   }
 
   // The lowest node above this one that has done something in this tick, or before.
-  NodeIndex decider_of(const Ticker& ticker, NodeIndex node) const {
+  NodeIndex decider_of(const Moment& moment, NodeIndex node) const {
     do node = tree_.labels[node].parent;
-    while (node != 0 && ticker.status(node) == Status::Idle);
+    while (node != 0 && moment.status(node) == Status::Idle);
     return node;
   }
 
@@ -148,6 +151,8 @@ class Deadlocks {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   const Tree& tree_;
+  const Shape shape_;
+  LiveMoments moments_;
   const SearchResult& found_;
   const Graph& graph_;
   const std::vector<Holdable> held_;

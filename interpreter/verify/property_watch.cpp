@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/tree.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {

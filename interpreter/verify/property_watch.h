@@ -12,7 +12,7 @@
 #include "judge/measure/property_steps.h"
 #include "language/property/property.h"
 #include "leaves/model_leaf.h"
-#include "trace/live_moments.h"
+#include "run/live_moments.h"
 
 namespace lockstep::host {
 

@@ -10,6 +10,7 @@
 #include "engine/synchronized.h"
 #include "judge/measure/stall.h"
 #include "judge/summary/standstill_text.h"
+#include "run/live_moments.h"
 #include "verify/fair_cycle.h"
 #include "verify/fixed_conditions.h"
 #include "verify/holds.h"
@@ -201,8 +202,10 @@ class VerdictMaker {
   // As a run would report it. Empty: nobody waits all the time.
   std::vector<std::string> standstill_of(const Finding& finding) {
     std::vector<std::string> lines;
-    StallWatch watch(tree_, period_ / 2, [&](const Standstill& standstill) {
-      lines = standstill_lines(tree_, standstill);
+    const Shape shape = shape_of(tree_);
+    LiveMoments moments(tree_);
+    StallWatch watch(shape, period_ / 2, [&](const Standstill& standstill) {
+      lines = standstill_lines(shape, standstill);
     });
     TracedRun run = finding.run;
     if (finding.repeats) {
@@ -214,7 +217,8 @@ class VerdictMaker {
     }
     tracer_.play(run, [&](Stepper& stepper, Status status, std::size_t tick) {
       if (status == Status::Running) {
-        watch.after_tick(stepper.ticker(), static_cast<std::int64_t>(tick) * period_);
+        watch.after_tick(
+            moments.after_tick(stepper.ticker(), tick, static_cast<std::int64_t>(tick) * period_));
       }
     });
     // When it began is that of this one run.

@@ -12,6 +12,7 @@
 #include "author/edit/subtree_edits.h"
 #include "property/random_source.h"
 #include "run/loading/load.h"
+#include "run/shape_of.h"
 #include "support/program.h"
 
 namespace lockstep::host::test {

@@ -44,7 +44,7 @@ class Watcher final : public Observer {
  public:
   Watcher(Samples& samples, Nanoseconds period) : samples_(samples), period_(period) {}
   // The first tick waits for nothing; after a skipped deadline the next is as late as planned.
-  void before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) override {
+  void before_tick(const Moment&, std::uint64_t tick, Nanoseconds time) override {
     const Nanoseconds deadline = time - time % period_;
     if (tick > 0) samples_.add(deadline, time, previous_, period_);
     previous_ = time;

@@ -9,7 +9,9 @@
 #include <chrono>
 
 #include "bench/bench_tree.h"
+#include "run/observers.h"
 #include "run/run.h"
+#include "run/shape_of.h"
 
 namespace {
 
@@ -22,29 +24,33 @@ using Duration = SteadyClock::duration;
 class Recorded {
  public:
   explicit Recorded(const Tree& tree)
-      : run_(tree, {}), recorder_(tree, {.path = "/dev/null", .run = {.tree_file = "bench.xml"}}) {
-    recorder_.run_started(run_.ticker(), {});
+      : run_(tree, {}),
+        recorder_(shape_of(tree), {.path = "/dev/null", .run = {.tree_file = "bench.xml"}}),
+        observers_(tree, {&watching_, 1}) {
+    observers_.run_started(run_.ticker(), {});
   }
 
   Duration tick() {
     report_.time += std::chrono::milliseconds(1);
     const auto begin = SteadyClock::now();
-    recorder_.before_tick(run_.ticker(), report_.tick, report_.time);
+    observers_.before_tick(run_.ticker(), report_.tick, report_.time);
     const auto asked = SteadyClock::now();
     run_.tick(report_.time);
     const auto ticked = SteadyClock::now();
-    recorder_.after_tick(run_.ticker(), report_);
+    observers_.after_tick(run_.ticker(), report_);
     const auto end = SteadyClock::now();
     ++report_.tick;
     return (asked - begin) + (end - ticked);
   }
   // The closing line is one that a run waits for.
-  void wait() { recorder_.run_ended(run_.ticker(), {}); }
+  void wait() { observers_.run_ended(run_.ticker(), {}); }
   std::uint64_t lost() const { return recorder_.lost(); }
 
  private:
   Run run_;
   Recorder recorder_;
+  Observer* const watching_ = &recorder_;
+  Observers observers_;
   TickReport report_;
 };
 

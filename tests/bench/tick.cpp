@@ -12,10 +12,11 @@
 #include "groot/publisher.h"
 #include "judge/summary/statistics.h"
 #include "record/write/recorder.h"
+#include "run/observers.h"
 #include "run/run.h"
+#include "run/shape_of.h"
 #include "show/view/console_live.h"
 #include "show/web/monitor.h"
-#include "trace/observers.h"
 
 namespace {
 
@@ -269,14 +270,14 @@ void observed_by_nobody(benchmark::State& state, const char* control, const char
 }
 void observed_by_statistics(benchmark::State& state, const char* control, const char* attributes) {
   const BenchTree bench = with_changes(control, attributes, state.range(0));
-  Statistics statistics(bench.tree());
+  Statistics statistics(shape_of(bench.tree()));
   observe(state, bench, &statistics);
 }
 void observed_by_recorder(benchmark::State& state, const char* control, const char* attributes) {
   const BenchTree bench = with_changes(control, attributes, state.range(0));
   const std::string path = std::filesystem::temp_directory_path() / "lockstep_bench_tick.jsonl";
   {
-    Recorder recorder(bench.tree(), {.path = path, .run = {.tree_file = "bench.xml"}});
+    Recorder recorder(shape_of(bench.tree()), {.path = path, .run = {.tree_file = "bench.xml"}});
     observe(state, bench, &recorder, [&] { std::filesystem::resize_file(path, 0); });
     state.counters["lost"] = static_cast<double>(recorder.lost());
   }
@@ -288,7 +289,7 @@ void observed_by_live_view(benchmark::State& state, const char* control, const c
   {
     Outlet out(fileno(null));
     const Outlet::Thread thread(out);
-    ConsoleLive view(bench.tree(), {}, out);
+    ConsoleLive view(shape_of(bench.tree()), {}, out);
     observe(state, bench, &view);
   }
   std::fclose(null);
@@ -298,7 +299,7 @@ void observed_by_monitor(benchmark::State& state, const char* control, const cha
   const BenchTree bench = with_changes(control, attributes, state.range(0));
   auto socket = listen_on(kAnyLoopback);
   if (!socket) std::abort();
-  Monitor monitor(bench.tree(), {.run = {.tree_file = "bench.xml", .rate_hz = 1000}});
+  Monitor monitor(shape_of(bench.tree()), {.run = {.tree_file = "bench.xml", .rate_hz = 1000}});
   monitor.open(std::move(*socket));
   observe(state, bench, &monitor);
 }
@@ -309,7 +310,7 @@ void observed_by_groot(benchmark::State& state, const char* control, const char*
   if (!requests || !events) std::abort();
   GrootTree shown{.document = {}, .order = {}, .boards = {{.name = "B"}}};
   for (NodeIndex node = 0; node < bench.tree().nodes[0].end; ++node) shown.order.push_back(node);
-  GrootPublisher publisher(bench.tree(), {.shown = std::move(shown), .print = {}},
+  GrootPublisher publisher(shape_of(bench.tree()), {.shown = std::move(shown), .print = {}},
                            GrootSockets(std::move(requests->socket), std::move(events->socket)));
   observe(state, bench, &publisher);
 }

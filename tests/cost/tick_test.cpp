@@ -27,12 +27,13 @@
 #include "record/live/status_feed.h"
 #include "record/write/recorder.h"
 #include "run/loop.h"
+#include "run/observers.h"
 #include "run/run.h"
 #include "run/run_control.h"
+#include "run/shape_of.h"
 #include "study/run_measures.h"
 #include "support/compiled.h"
 #include "support/paths.h"
-#include "trace/observers.h"
 
 namespace {
 thread_local bool t_counting = false;
@@ -137,7 +138,7 @@ class WatchedRun {
  public:
   explicit WatchedRun(const Tree& tree, Observer* observer = nullptr)
       : watch_({.budget = std::chrono::seconds(1)}),
-        statistics_(tree),
+        statistics_(shape_of(tree)),
         run_(tree, {.watch = &watch_}),
         observers_(tree, with_statistics(observer)) {
     observers_.run_started(run_.ticker(), {});
@@ -190,7 +191,7 @@ TEST_CASE("a tick allocates nothing and locks nothing") {
 
 TEST_CASE("recording a tick allocates nothing and locks nothing") {
   const TickingTree tree;
-  Recorder recorder(tree.tree(), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
+  Recorder recorder(shape_of(tree.tree()), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
   WatchedRun run(tree.tree(), &recorder);
   run.tick(10);
   check_costs_nothing([&] { run.tick(1000); });
@@ -206,7 +207,7 @@ TEST_CASE("an entry that is another number in each tick is recorded without allo
   line.reserve(json_lines::most_of_tick_end(0, 0, 1));
   const auto tick = [&](double value) {
     board.entries[0].assign(value);
-    json_lines::set_tick_end(line, {.entries = changes.changes(board)});
+    json_lines::set_tick_end(line, {.entries = changes.changes(board.entries)});
     changes.keep();
   };
   tick(-1);
@@ -226,7 +227,7 @@ TEST_CASE(
     "the monitor's feed passes lines on without allocating or locking, also when nobody takes "
     "them") {
   const TickingTree tree;
-  LineFeed feed(tree.tree(), {.tree_file = "cost.xml", .rate_hz = 100}, hurried);
+  LineFeed feed(shape_of(tree.tree()), {.tree_file = "cost.xml", .rate_hz = 100}, hurried);
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
   check_costs_nothing([&] {
@@ -240,7 +241,7 @@ TEST_CASE(
 
 TEST_CASE("statuses for Groot2 are passed on likewise") {
   const TickingTree tree;
-  StatusFeed feed(tree.tree());
+  StatusFeed feed(shape_of(tree.tree()));
   WatchedRun run(tree.tree(), &feed);
   run.tick(10);
   check_costs_nothing([&] { run.tick(20'000); });
@@ -263,15 +264,17 @@ TEST_CASE("a feed takes snapshots and entries that change without allocating or 
   const TickingTree tree;
   LeafWatch watch({.budget = std::chrono::seconds(1)});
   Run run(tree.tree(), {.watch = &watch});
-  SnapshotFeed feed(tree.tree(), hurried);
-  feed.run_started(run.ticker(), {.period = std::chrono::milliseconds(10)});
+  SnapshotFeed feed(shape_of(tree.tree()), hurried);
+  LiveMoments moments(tree.tree());
+  feed.run_started(moments.now(run.ticker()), {.period = std::chrono::milliseconds(10)});
   auto& board = const_cast<Blackboard&>(run.ticker().blackboard());
   const auto tick = [&](std::uint64_t number) {
     const Nanoseconds now = deadline_of(number, 100);
     run.set_now(now);
     std::get<std::vector<double>>(board.entries[0].to_write())[0] =
         0.3 / static_cast<double>(number);
-    feed.after_tick(run.ticker(), {number, now, run.tick(now)});
+    const Status status = run.tick(now);
+    feed.after_tick(moments.after_tick(run.ticker(), number, now), {number, now, status});
   };
   for (std::uint64_t number = 1; number <= 10; ++number) tick(number);
   check_costs_nothing([&] {
@@ -368,7 +371,7 @@ TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
     measures.push_back(spec ? *spec : parse_measure(text + "@0.5").value());
   }
   measures.push_back(parse_measure("progress-distance[2:5]").value());
-  RunMeasures measured(tree.tree(), measures, 100);
+  RunMeasures measured(shape_of(tree.tree()), measures, 100);
   REQUIRE(measured.error() == "");
   Run run(tree.tree(), {});
   RunEnd end;
@@ -377,14 +380,14 @@ TEST_CASE("measuring the runs of a study allocates nothing and locks nothing") {
   Observer* const measuring = &measured;
   Observers observers(tree.tree(), {&measuring, 1});
   const auto make_run = [&] {
-    measured.run_started(run.ticker(), {});
+    observers.run_started(run.ticker(), {});
     for (const std::uint64_t last = tick + 1000; tick < last; ++tick) {
       const Nanoseconds now = deadline_of(tick, 100);
       run.set_now(now);
       observers.before_tick(run.ticker(), tick, now);
       observers.after_tick(run.ticker(), {tick, now, run.tick(now)});
     }
-    measured.run_ended(run.ticker(), end);
+    observers.run_ended(run.ticker(), end);
   };
   make_run();
   g_allocations = g_locks = 0;
@@ -450,7 +453,7 @@ TEST_CASE("a recording in an emergency is printed without allocating or locking"
   char path[] = "/tmp/lockstep-XXXXXX";
   ::close(mkstemp(path));
   {
-    Recorder recorder(tree.tree(), {.path = path, .run = {.tree_file = "cost.xml"}});
+    Recorder recorder(shape_of(tree.tree()), {.path = path, .run = {.tree_file = "cost.xml"}});
     WatchedRun run(tree.tree(), &recorder);
     const off_t before = size_of(path);
     CHECK(allocations_alone([&] {
@@ -467,7 +470,7 @@ TEST_CASE("a tick calls the system for nothing") {
   WatchedRun run(tree.tree());
   run.tick(10);
   CHECK(survives_without_system_calls([&run] { run.tick(1000); }));
-  Recorder recorder(tree.tree(), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
+  Recorder recorder(shape_of(tree.tree()), {.path = "/dev/null", .run = {.tree_file = "cost.xml"}});
   WatchedRun recorded(tree.tree(), &recorder);
   recorded.tick(10);
   // So few that nobody has to be woken for them.

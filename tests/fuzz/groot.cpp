@@ -10,8 +10,9 @@
 #include "groot/answers.h"
 #include "require.h"
 #include "run/loading/plugins.h"
+#include "run/observers.h"
 #include "run/run.h"
-#include "trace/observers.h"
+#include "run/shape_of.h"
 #include "tree/resolve.h"
 
 namespace fuzz_groot_target {
@@ -64,11 +65,11 @@ class Answered {
   const GrootTree shown_;
   Run run_{tree_, {}};
   RunControl control_;
-  StatusFeed statuses_{tree_};
-  SnapshotFeed snapshots_{tree_};
+  StatusFeed statuses_{shape_of(tree_)};
+  SnapshotFeed snapshots_{shape_of(tree_)};
   Observer* const both_[2] = {&statuses_, &snapshots_};
   Observers observers_{tree_, both_};
-  GrootAnswers answers_{tree_, shown_, statuses_, snapshots_, &control_};
+  GrootAnswers answers_{shape_of(tree_), shown_, statuses_, snapshots_, &control_};
   Nanoseconds now_{0};
   std::uint64_t ticks_ = 0;
 };

@@ -10,6 +10,7 @@
 #include "record/live/orders.h"
 #include "require.h"
 #include "run/run_control.h"
+#include "run/shape_of.h"
 #include "show/web/gate.h"
 #include "show/web/http_server.h"
 #include "support/compiled.h"
@@ -39,9 +40,9 @@ class Answers final : public Answering {
     require(has_token || is_page);
     require(request.host.has_value() && request.body.size() <= 4096);
     if (request.method == "POST") {
-      const auto order = read_order(tree_, request.path == "/wall", request.body);
+      const auto order = read_order(shape_, request.path == "/wall", request.body);
       if (!order) return {.status = 400, .body = order.error().message};
-      require(order->breakpoint.node < tree_.nodes.size());
+      require(order->breakpoint.node < shape_.nodes.size());
       return {.status = 204};
     }
     return {.status = 200, .body = request.path};
@@ -49,6 +50,7 @@ class Answers final : public Answering {
 
  private:
   const Tree tree_ = small_tree();
+  const Shape shape_ = shape_of(tree_);
   const Gate gate_{"robot", std::string(kToken)};
 };
 

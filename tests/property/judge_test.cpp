@@ -16,6 +16,7 @@
 #include "property/plan_repair.h"
 #include "property/random_source.h"
 #include "property/reference.h"
+#include "run/shape_of.h"
 #include "support/tree_text.h"
 #include "verify/verdict.h"
 

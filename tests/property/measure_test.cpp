@@ -10,6 +10,7 @@
 #include "judge/measure/measure_spec.h"
 #include "property/random_tree.h"
 #include "property/reference.h"
+#include "run/shape_of.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 
@@ -79,7 +80,7 @@ TEST_CASE("what held a child by all others is what it was held") {
     INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     const auto specs = all_of(run.run.tree());
-    RunMeasures of_run(run.run.tree(), specs, kRate);
+    RunMeasures of_run(shape_of(run.run.tree()), specs, kRate);
     REQUIRE(of_run.error() == "");
     run.watch({&of_run}, static_cast<std::uint64_t>(trial.ticks));
     Measured measured;
@@ -163,7 +164,7 @@ TEST_CASE("the measures of random trees are those of the reference, without guar
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     const MeasureSpec specs[] = {parse_measure("progress-distance").value(),
                                  parse_measure("spread").value()};
-    RunMeasures measured(run.run.tree(), specs, kRate);
+    RunMeasures measured(shape_of(run.run.tree()), specs, kRate);
     run.watch({&measured}, static_cast<std::uint64_t>(trial.ticks));
     if (run.run.ticker().fault() != nullptr) continue;
     Status status = Status::Running;

@@ -11,7 +11,7 @@
 #include "record/read/recorded_moments.h"
 #include "record/read/recording_reader.h"
 #include "record/write/recorder.h"
-#include "trace/shape.h"
+#include "run/shape_of.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host::test {
@@ -93,8 +93,8 @@ class MomentWitness final : public Observer {
     asked.parallels = asked.progress;
     return asked;
   }
-  void after_tick(Ticker&, const TickReport& report) override {
-    seen.push_back(seen_in(*report.moment, shape_));
+  void after_tick(const Moment& moment, const TickReport&) override {
+    seen.push_back(seen_in(moment, shape_));
   }
   std::vector<SeenMoment> seen;
 
@@ -117,7 +117,7 @@ void compare(const SeenNodeOfMoment& run, const SeenNodeOfMoment& recording, See
 void compare(WatchedRun& run, std::uint64_t ticks, SeenCounts& counts) {
   const Shape shape = shape_of(run.run.tree());
   const TemporaryPath file;
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   MomentWitness witness(shape);
   run.watch({&recorder, &witness}, ticks);

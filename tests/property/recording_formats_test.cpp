@@ -20,6 +20,7 @@
 #include "record/use/mcap_stream.h"
 #include "record/use/recording_csv.h"
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "support/json.h"
 #include "unit/recording/watched_run.h"
 
@@ -337,13 +338,14 @@ TEST_CASE("each format of a recording of a random tree says the same, tick by ti
                              .whole_each = 1 + seed % 50};
     };
     {
-      Recorder plain(run.run.tree(), options(".jsonl")), packed(run.run.tree(), options(".zst"));
+      Recorder plain(shape_of(run.run.tree()), options(".jsonl")),
+          packed(shape_of(run.run.tree()), options(".zst"));
       RecorderOptions rotating = options(".set");
       rotating.rotation.time = std::chrono::milliseconds(300);
-      Recorder rotated(run.run.tree(), rotating);
+      Recorder rotated(shape_of(run.run.tree()), rotating);
       RecorderOptions mcap = options(".mcap");
       mcap.encoder = mcap_encoder(McapTimes::SinceStart);
-      Recorder direct(run.run.tree(), mcap);
+      Recorder direct(shape_of(run.run.tree()), mcap);
       run.watch({&plain, &packed, &rotated, &direct}, static_cast<std::uint64_t>(trial.ticks));
     }
     const std::string text = file_text(file.path() + ".jsonl");

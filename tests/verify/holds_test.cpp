@@ -5,7 +5,7 @@
 #include <random>
 
 #include "judge/measure/synchronized_ticks.h"
-#include "trace/live_moments.h"
+#include "run/live_moments.h"
 #include "verify/labels.h"
 #include "verify/verified.h"
 

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "judge/measure/property_steps.h"
+#include "run/shape_of.h"
 #include "support/tree_text.h"
-#include "trace/shape.h"
 
 namespace lockstep::host::test {
 namespace {

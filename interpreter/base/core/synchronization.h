@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/core/node_type.h"
+#include "base/core/status.h"
 
 namespace lockstep::host {
 
@@ -31,6 +32,11 @@ inline double least_progress(std::span<const double> progress) {
 // ParallelRelative: it is delta.
 inline double farthest(Synchronization synchronization, double limit, double least) {
   return synchronization == Synchronization::Relative ? least + limit : limit;
+}
+
+// At a barrier at 0 a member runs while its child has not begun.
+constexpr bool waits_to_begin(Status member, Status child) {
+  return member == Status::Running && child == Status::Idle;
 }
 
 }  // namespace lockstep::host

@@ -13,7 +13,7 @@ namespace lockstep::host {
 struct Definition;
 class Observer;
 class RunControl;
-struct Tree;
+struct Shape;
 
 // Where Groot2 looks for a run.
 constexpr std::string_view kGrootAddress = "127.0.0.1:1667";
@@ -24,7 +24,7 @@ class GrootListener {
   virtual ~GrootListener() = default;
   // Begins to answer, and shows the run that it observes; once. Clients may only look if `control`
   // is null. `print` shows a line to the person, from another thread.
-  virtual std::unique_ptr<Observer> show(const Tree& tree, RunControl* control,
+  virtual std::unique_ptr<Observer> show(const Shape& shape, RunControl* control,
                                          std::function<void(const std::string& line)> print) = 0;
 };
 

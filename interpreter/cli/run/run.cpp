@@ -33,6 +33,7 @@
 #include "record/write/recorder.h"
 #include "run/crash_report.h"
 #include "run/loop.h"
+#include "run/shape_of.h"
 #include "run/stall_fail.h"
 #include "run/stop_signals.h"
 #include "show/view/line_budget.h"
@@ -63,11 +64,11 @@ int exit_code_of(const RunEnd& end) {
 }
 
 // Says which leaf was at fault, and when.
-std::string describe(const Fault& fault, const Tree& tree, const RunEnd& end) {
+std::string describe(const Fault& fault, const Shape& shape, const RunEnd& end) {
   const bool in_tick = !fault.in_last_halt && end.ticks > 0;
-  return fmt::format("{} {}{}: {}", describe_node(tree, fault.node), failure_text(fault, end.ticks),
-                     in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.last)) : "",
-                     fault.message);
+  return fmt::format(
+      "{} {}{}: {}", describe_node(shape, fault.node), failure_text(fault, end.ticks),
+      in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.last)) : "", fault.message);
 }
 
 // None: all.
@@ -100,22 +101,23 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
              std::vector<Property> properties, WatcherSockets sockets)
       : options_(options),
         tree_(runnable.tree),
+        shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
-        view_(options.view, tree_, options.log_level),
-        watch_(tree_, options,
+        view_(options.view, shape_, options.log_level),
+        watch_(shape_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
-        statistics_(tree_),
-        repeated_halts_(tree_,
+        statistics_(shape_),
+        repeated_halts_(shape_,
                         [this](NodeIndex node, const std::string& text) {
                           if (!repeated_halts_budget_.take(monotonic_now())) return;
-                          log(tree_.path(node), text);
+                          log(shape_.nodes[node].path, text);
                           view_.print("warning: " + text);
                         }),
         description_(describe_run(runnable)),
-        watchers_(tree_, options, description_, std::move(sockets),
+        watchers_(shape_, options, description_, std::move(sockets),
                   [this](const std::string& line) { view_.print(line); }) {
     if (!options.record.empty()) {
-      recorder_.emplace(tree_, recorder_options());
+      recorder_.emplace(shape_, recorder_options());
     }
     if (options.notifies) service_.emplace();
     if (options.stall > 0 || options.stall_fail > 0) watch_standstills();
@@ -163,8 +165,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       if (end.fault) in_last_halt = run.ticker().take_tolerated();
     }
     view_.close();
-    if (end.fault) print_error(describe(*end.fault, tree_, end));
-    for (const Fault& fault : in_last_halt) print_error(describe(fault, tree_, end));
+    if (end.fault) print_error(describe(*end.fault, shape_, end));
+    for (const Fault& fault : in_last_halt) print_error(describe(fault, shape_, end));
     return end;
   }
 
@@ -265,8 +267,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   void watch_standstills() {
     std::optional<Nanoseconds> limit;
     if (options_.stall > 0) limit = from_seconds(options_.stall);
-    standstills_.emplace(tree_, limit, [this](NodeIndex node, const auto& lines) {
-      log(tree_.path(node), joined(lines, "; "));
+    standstills_.emplace(shape_, limit, [this](NodeIndex node, const auto& lines) {
+      log(shape_.nodes[node].path, joined(lines, "; "));
       tell_standstill(lines);
     });
     if (options_.stall_fail <= 0) return;
@@ -347,6 +349,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   const RunCommandOptions& options_;
   const Tree& tree_;
+  const Shape shape_;
   EndBudget end_budget_;
   std::optional<PluginClock> plugin_clock_;  // none: a clock of lockstep
   View view_;

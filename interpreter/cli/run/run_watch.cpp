@@ -32,9 +32,9 @@ double milliseconds(Nanoseconds time) {
 
 }  // namespace
 
-RunWatch::RunWatch(const Tree& tree, const RunCommandOptions& options,
+RunWatch::RunWatch(const Shape& shape, const RunCommandOptions& options,
                    std::function<void(const std::string& line)> print)
-    : tree_(tree),
+    : shape_(shape),
       options_(options),
       print_(std::move(print)),
       leaves_(leaf_watch_options()),
@@ -50,7 +50,7 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
                          .on_carried = {},
                          .on_float_mode = {}};
   watch.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
-    print_(fmt::format("{} {}", describe_node(tree_, leaf),
+    print_(fmt::format("{} {}", describe_node(shape_, leaf),
                        over_budget_text(function, took, *options_.tick_budget())));
   };
   watch.on_carried = [this](NodeIndex leaf, Nanoseconds took) {
@@ -58,11 +58,11 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
     print_(fmt::format(
         "the values of the ports of {} took {:.3f} ms between processes, more than "
         "the budget of {:.3f} ms",
-        describe_node(tree_, leaf), milliseconds(took), milliseconds(*options_.tick_budget())));
+        describe_node(shape_, leaf), milliseconds(took), milliseconds(*options_.tick_budget())));
   };
   watch.on_float_mode = [this](std::optional<NodeIndex> leaf, PluginFunction function) {
     print_(leaf ? fmt::format("{} changed the floating-point mode in {}; it was restored",
-                              describe_node(tree_, *leaf), name_of(function))
+                              describe_node(shape_, *leaf), name_of(function))
                 : "a leaf changed the floating-point mode in this tick; it was restored after the "
                   "tick, and if a leaf does so again it is named");
   };
@@ -80,25 +80,25 @@ WatchdogOptions RunWatch::watchdog_options() {
   return watchdog;
 }
 
-void RunWatch::run_started(Ticker&, const RunStart&) {
+void RunWatch::run_started(const Moment&, const RunStart&) {
   memory_at_start_ = resident_memory();
 }
 
-void RunWatch::after_tick(Ticker& ticker, const TickReport&) {
+void RunWatch::after_tick(const Moment& moment, const TickReport&) {
   constexpr std::size_t kMostLeaves = 20;
-  const auto all = ticker.out_of_range();
+  const auto all = moment.live->out_of_range();
   for (; out_of_range_ < std::min(all.size(), kMostLeaves); ++out_of_range_) {
     const OutOfRange& it = all[out_of_range_];
-    print_(fmt::format("{} {}", describe_node(tree_, it.node), out_of_range_text(it.reported)));
+    print_(fmt::format("{} {}", describe_node(shape_, it.node), out_of_range_text(it.reported)));
   }
-  const auto went_on = ticker.went_on();
+  const auto went_on = moment.live->went_on();
   for (; went_on_ < std::min(went_on.size(), kMostLeaves); ++went_on_) {
     const WentOn& it = went_on[went_on_];
-    print_(fmt::format("{} {}", describe_node(tree_, it.node), went_on_text(it.from, it.to)));
+    print_(fmt::format("{} {}", describe_node(shape_, it.node), went_on_text(it.from, it.to)));
   }
 }
 
-void RunWatch::run_ended(Ticker&, const RunEnd&) {
+void RunWatch::run_ended(const Moment&, const RunEnd&) {
   sigset_t now;
   pthread_sigmask(SIG_SETMASK, &signal_mask_, &now);
   for (int number = 1; number < NSIG; ++number) {
@@ -118,7 +118,7 @@ void RunWatch::run_ended(Ticker&, const RunEnd&) {
 void RunWatch::add_to(Summary& summary) const {
   if (const auto budget = options_.tick_budget()) summary.tick_budget = to_seconds(*budget);
   for (const LeafWatch::Timing& timing : leaves_.over_budget()) {
-    summary.over_budget.push_back({.path = tree_.path(timing.leaf),
+    summary.over_budget.push_back({.path = shape_.nodes[timing.leaf].path,
                                    .calls = timing.ticks,
                                    .over_budget = timing.over_budget,
                                    .p50 = to_seconds(timing.p50),

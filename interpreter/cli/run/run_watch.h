@@ -17,22 +17,22 @@ namespace lockstep::host {
 
 class RunWatch final : public Observer {
  public:
-  // `print` shows a line to the person; from any thread.
-  RunWatch(const Tree& tree, const RunCommandOptions& options,
+  // The shape must outlive this. `print` shows a line to the person; from any thread.
+  RunWatch(const Shape& shape, const RunCommandOptions& options,
            std::function<void(const std::string& line)> print);
 
   LeafWatch& leaves() { return leaves_; }
   // Must be the last of the observers, because the initial memory of the others is not a leak.
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
   void add_to(Summary& summary) const;
 
  private:
   LeafWatchOptions leaf_watch_options();
   WatchdogOptions watchdog_options();
 
-  const Tree& tree_;
+  const Shape& shape_;
   const RunCommandOptions& options_;
   std::function<void(const std::string& line)> print_;
   LeafWatch leaves_;

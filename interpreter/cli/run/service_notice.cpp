@@ -67,7 +67,7 @@ ServiceNotice::~ServiceNotice() {
   stop();
 }
 
-void ServiceNotice::run_started(Ticker& /*ticker*/, const RunStart& start) {
+void ServiceNotice::run_started(const Moment&, const RunStart& start) {
   if (!send("READY=1")) {
     const Lock lock(mutex_);
     owes_ready_ = true;
@@ -76,17 +76,17 @@ void ServiceNotice::run_started(Ticker& /*ticker*/, const RunStart& start) {
   period_.store(std::max<std::int64_t>(1, start.period.count()), std::memory_order_relaxed);
 }
 
-void ServiceNotice::before_tick(Ticker& /*ticker*/, std::uint64_t tick, Nanoseconds /*time*/) {
+void ServiceNotice::before_tick(const Moment&, std::uint64_t tick, Nanoseconds /*time*/) {
   ticks_.store(tick + 1, std::memory_order_relaxed);
   stands_.store(false, std::memory_order_relaxed);
 }
 
-void ServiceNotice::standing(Ticker& /*ticker*/) {
+void ServiceNotice::standing(const Moment&) {
   stands_.store(true, std::memory_order_relaxed);
 }
 
 // Leaves have been halted. What the end waits for has limits.
-void ServiceNotice::run_ended(Ticker& /*ticker*/, const RunEnd& /*end*/) {
+void ServiceNotice::run_ended(const Moment&, const RunEnd& /*end*/) {
   stop();
   send("STOPPING=1");
 }

@@ -29,10 +29,10 @@ class ServiceNotice final : public Observer {
   ServiceNotice();
   ~ServiceNotice() override;
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void standing(Ticker& ticker) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void standing(const Moment& moment) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
   bool send(std::string_view state) const;

@@ -11,15 +11,15 @@
 
 namespace lockstep::host {
 
-View::View(const std::string& mode, const Tree& tree, lockstep_log_level least) : least_(least) {
+View::View(const std::string& mode, const Shape& shape, lockstep_log_level least) : least_(least) {
   const bool wants_live = mode == "live" || (mode == "auto" && is_terminal(STDERR_FILENO));
   if (wants_live && can_draw()) {
     const bool has_keys = is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
-    live_.emplace(tree, LiveOptions{.keys = has_keys ? STDIN_FILENO : -1,
-                                    .color = wants_color(STDERR_FILENO),
-                                    .unicode = has_unicode()});
+    live_.emplace(shape, LiveOptions{.keys = has_keys ? STDIN_FILENO : -1,
+                                     .color = wants_color(STDERR_FILENO),
+                                     .unicode = has_unicode()});
   } else if (mode != "none") {
-    plain_.emplace(tree);
+    plain_.emplace(shape);
   }
 }
 

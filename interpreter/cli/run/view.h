@@ -19,7 +19,7 @@ class View {
   static constexpr std::int64_t kBurst = ConsolePlain::kBurst;
 
   // `mode` is auto, live, plain or none. Logs of leaves below the level `least` are not shown.
-  View(const std::string& mode, const Tree& tree, lockstep_log_level least);
+  View(const std::string& mode, const Shape& shape, lockstep_log_level least);
 
   // Null when there is nothing to show.
   Observer* observer();

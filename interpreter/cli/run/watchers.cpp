@@ -71,26 +71,26 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
   return sockets;
 }
 
-Watchers::Watchers(const Tree& tree, const RunCommandOptions& options, const RunDescription& run,
+Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
                    WatcherSockets sockets, std::function<void(const std::string& line)> print)
     : options_(options) {
   if (options.monitor_control || options.groot2_control) control_.emplace();
   if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
   if (sockets.monitor || sockets.attach) {
     monitor_.emplace(
-        tree, MonitorOptions{.run = run,
-                             .recording = options.record,
-                             .control = options.monitor_control ? control() : nullptr,
-                             .linger = linger_of(options),
-                             .stop = [] { return StopSignals::received() != 0; },
-                             .on_linger = tell_linger,
-                             .on_attached = [this](const auto& it) { link_->tell(it, false); }});
+        shape, MonitorOptions{.run = run,
+                              .recording = options.record,
+                              .control = options.monitor_control ? control() : nullptr,
+                              .linger = linger_of(options),
+                              .stop = [] { return StopSignals::received() != 0; },
+                              .on_linger = tell_linger,
+                              .on_attached = [this](const auto& it) { link_->tell(it, false); }});
   }
   if (sockets.monitor) opened_ = monitor_->open(std::move(*sockets.monitor));
   if (sockets.attach) monitor_->open_when_asked(std::move(*sockets.attach));
   if (sockets.groot) {
     groot_ = (*sockets.groot)
-                 ->show(tree, options.groot2_control ? control() : nullptr, std::move(print));
+                 ->show(shape, options.groot2_control ? control() : nullptr, std::move(print));
   }
 }
 

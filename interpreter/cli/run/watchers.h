@@ -29,7 +29,7 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
 class Watchers {
  public:
   // `print` shows a line to the person; from any thread.
-  Watchers(const Tree& tree, const RunCommandOptions& options, const RunDescription& run,
+  Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
            WatcherSockets sockets, std::function<void(const std::string& line)> print);
 
   // Says where the monitor is, before the run starts.

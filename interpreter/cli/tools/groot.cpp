@@ -17,10 +17,10 @@ class Listener final : public GrootListener {
   Listener(GrootTree shown, GrootSockets sockets)
       : shown_(std::move(shown)), sockets_(std::move(sockets)) {}
 
-  std::unique_ptr<Observer> show(const Tree& tree, RunControl* control,
+  std::unique_ptr<Observer> show(const Shape& shape, RunControl* control,
                                  std::function<void(const std::string& line)> print) override {
     GrootOptions options{.shown = std::move(shown_), .control = control, .print = std::move(print)};
-    return std::make_unique<GrootPublisher>(tree, std::move(options), std::move(sockets_));
+    return std::make_unique<GrootPublisher>(shape, std::move(options), std::move(sockets_));
   }
 
  private:

@@ -55,11 +55,11 @@ EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {
   values_.reserve(slots.size());
 }
 
-std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
+std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entries) {
   changes_.clear();
   for (std::uint32_t number = 0; number < watched_.size(); ++number) {
     Watched& watched = watched_[number];
-    const Entry& entry = board.entries[watched.slot];
+    const Entry& entry = entries[watched.slot];
     if (watched.writes == entry.writes()) continue;
     if (!entry.has_value()) continue;
     // A text that is too long may be another value, so it is shown each time it is written.
@@ -70,7 +70,7 @@ std::span<const EntryChange> EntryChanges::changes(const Blackboard& board) {
       changes_.push_back({.entry = number, .text = is_short ? &watched.next : nullptr});
     }
   }
-  board_ = &board;
+  entries_ = entries;
   return changes_;
 }
 
@@ -91,7 +91,7 @@ std::span<const EntryChange> EntryChanges::values() {
 void EntryChanges::keep() {
   for (const EntryChange& change : changes_) {
     Watched& watched = watched_[change.entry];
-    watched.writes = board_->entries[watched.slot].writes();
+    watched.writes = entries_[watched.slot].writes();
     watched.has_text = change.text != nullptr;
     std::swap(watched.text, watched.next);
   }

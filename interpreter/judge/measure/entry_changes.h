@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/blackboard.h"
+#include "base/blackboard/entry.h"
 
 namespace lockstep::host {
 
@@ -37,7 +37,7 @@ class EntryChanges {
 
   // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
   // than before.
-  std::span<const EntryChange> changes(const Blackboard& board);
+  std::span<const EntryChange> changes(std::span<const Entry> entries);
   // After changes(): each entry that has a value. Valid until the next call of either.
   std::span<const EntryChange> values();
   // Call when the last result of changes() was accepted.
@@ -55,7 +55,7 @@ class EntryChanges {
   };
   std::vector<Watched> watched_;
   std::vector<EntryChange> changes_, values_;
-  const Blackboard* board_ = nullptr;  // that they are of
+  std::span<const Entry> entries_;  // that they are of
 };
 
 }  // namespace lockstep::host

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "engine/synchronized.h"
+#include "base/core/progress.h"
+#include "base/core/synchronization.h"
 #include "judge/measure/measure.h"
 
 namespace lockstep::host {

@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "engine/resources.h"
-#include "engine/ticker.h"
+#include "base/core/progress.h"
+#include "base/core/resource_set.h"
 
 namespace lockstep::host {
-namespace {
 
-// Null: it is no member of any group.
-const Member* membership_of(const Tree& tree, NodeIndex node) {
-  const auto it = std::ranges::find(tree.members, node, &Member::node);
-  return it == tree.members.end() ? nullptr : &*it;
-}
-
-// In this tick.
-bool owns(Ticker& ticker, NodeIndex user) {
-  const auto& use = ticker.state<ResourceUse>(user);
-  return resources::has_asked(ticker, use) && use.grant == Grant::Owned;
-}
-
-}  // namespace
-
-Hindrance::Hindrance(Ticker& ticker, NodeIndex node) : ticker_(ticker), tree_(ticker.tree()) {
-  const Status status = ticker.status(node);
+Hindrance::Hindrance(const Shape& shape, const Moment& moment, NodeIndex node)
+    : shape_(shape), moment_(moment) {
+  const Status status = moment.status(node);
   if (status == Status::Running) {
     look_at(node);
   } else if (status == Status::Failure) {
@@ -37,17 +24,18 @@ Hindrance::Hindrance(Ticker& ticker, NodeIndex node) : ticker_(ticker), tree_(ti
 
 // Looks at a node that runs.
 void Hindrance::look_at(NodeIndex node) {
-  ticker_.held(node) ? look_around(node) : look_inside(node);
+  moment_.held(node) ? look_around(node) : look_inside(node);
 }
 
 // A node that is held, perhaps as a part of what is.
 void Hindrance::look_around(NodeIndex node) {
-  while (node != 0 && ticker_.held(tree_.labels[node].parent)) node = tree_.labels[node].parent;
-  const NodeIndex parent = tree_.labels[node].parent;
-  if (compares_progress(synchronization(tree_.nodes[parent]))) {
+  const auto parent_of = [&](NodeIndex it) { return shape_.nodes[it].parent.value_or(it); };
+  while (node != 0 && moment_.held(parent_of(node))) node = parent_of(node);
+  const NodeIndex parent = parent_of(node);
+  if (compares_progress(shape_.nodes[parent].synchronization)) {
     withheld_.push_back({parent, node});
-  } else if (const Member* const member = membership_of(tree_, parent)) {
-    add(*member);
+  } else if (shape_.nodes[parent].group) {
+    add(parent);
   } else {
     runs_ = true;
   }
@@ -56,86 +44,91 @@ void Hindrance::look_around(NodeIndex node) {
 // A node that gets ticks. Of several children that run, those count that are as far as it is: a
 // parallel is as far as what it lacks.
 void Hindrance::look_inside(NodeIndex node) {
-  if (lacks_resources(node)) return add_user(tree_.membership(node));
+  if (lacks_resources(node)) return add_user(node);
   pass(node);
   const std::vector<NodeIndex> running = running_children(node);
   if (running.empty()) runs_ = true;
   std::vector<NodeIndex> decisive;
   if (running.size() > 1) {
-    const double reached = ticker_.progress(node);
+    const double reached = moment_.live->progress(node);
     std::ranges::copy_if(running, std::back_inserter(decisive), [&](NodeIndex child) {
-      return std::fabs(ticker_.progress(child) - reached) <= kProgressEpsilon;
+      return std::fabs(moment_.live->progress(child) - reached) <= kProgressEpsilon;
     });
   }
   for (const NodeIndex child : decisive.empty() ? running : decisive) look_at(child);
 }
 
 void Hindrance::pass(NodeIndex node) {
-  if (compares_progress(synchronization(tree_.nodes[node]))) passed_.push_back(node);
-  const Member* const member = membership_of(tree_, node);
-  if (member != nullptr && !is_pool(tree_, member->group)) passed_.push_back(member->group);
+  if (compares_progress(shape_.nodes[node].synchronization)) passed_.push_back(node);
+  const auto group = shape_.nodes[node].group;
+  if (group && !shape_.nodes[*group].is_pool()) passed_.push_back(*group);
 }
 
 // A node that does not run: what it is inside of, or what runs where it may be its turn next.
 void Hindrance::look_before(NodeIndex node) {
   NodeIndex below = node;
-  for (; ticker_.status(node) != Status::Running; node = tree_.labels[node].parent) {
-    if (node == 0) return;
+  for (; moment_.status(node) != Status::Running; node = *shape_.nodes[node].parent) {
+    if (!shape_.nodes[node].parent) return;
     below = node;
   }
-  if (ticker_.held(node)) return look_around(node);
-  if (lacks_resources(node)) return add_user(tree_.membership(node));
-  if (ticker_.status(below) != Status::Idle) return;  // it has completed without this one
+  if (moment_.held(node)) return look_around(node);
+  if (lacks_resources(node)) return add_user(node);
+  if (moment_.status(below) != Status::Idle) return;  // it has completed without this one
   for (const NodeIndex child : running_children(node)) look_at(child);
   runs_ = false;
 }
 
 bool Hindrance::lacks_resources(NodeIndex node) const {
-  const Member* const member = membership_of(tree_, node);
-  return member != nullptr && is_pool(tree_, member->group) && !owns(ticker_, node);
+  const auto group = shape_.nodes[node].group;
+  return group && shape_.nodes[*group].is_pool() && !owns(moment_.limit(node));
 }
 
-void Hindrance::add(const Member& member) {
-  if (is_pool(tree_, member.group)) return add_user(member);
-  withheld_.push_back({member.group, member.node});
+void Hindrance::add(NodeIndex member) {
+  const NodeIndex group = *shape_.nodes[member].group;
+  if (shape_.nodes[group].is_pool()) return add_user(member);
+  withheld_.push_back({group, member});
 }
 
-void Hindrance::add_user(const Member& member) {
-  if (ticker_.state<ResourceUse>(member.node).grant == Grant::Closed) return add_gates(member);
-  if (lasting_owners(ticker_, member).empty()) {
+// One that does not wait has not asked: a barrier or an outer pool withholds its ticks.
+void Hindrance::add_user(NodeIndex user) {
+  if (!waits(moment_.limit(user))) return add_gates(user);
+  if (lasting_owners(shape_, moment_, user).empty()) {
     runs_ = true;
   } else {
-    withheld_.push_back({member.group, member.node});
+    withheld_.push_back({*shape_.nodes[user].group, user});
   }
 }
 
-void Hindrance::add_gates(const Member& user) {
-  for (const NodeIndex gate : tree_.gates_of(user)) {
-    const Member& member = tree_.membership(gate);
-    const bool is_open =
-        is_pool(tree_, member.group) ? owns(ticker_, gate) : !is_held_at_barrier(ticker_, gate);
-    if (!is_open) add(member);
+void Hindrance::add_gates(NodeIndex user) {
+  bool is_open = true;
+  for (const NodeIndex gate : shape_.nodes[user].gates) {
+    const bool is_of_pool = shape_.nodes[*shape_.nodes[gate].group].is_pool();
+    if (is_of_pool ? owns(moment_.limit(gate)) : !moment_.live->is_held_at_barrier(gate)) continue;
+    is_open = false;
+    add(gate);
   }
+  runs_ |= is_open;
 }
 
 std::vector<NodeIndex> Hindrance::running_children(NodeIndex node) const {
   std::vector<NodeIndex> running;
-  for (NodeIndex child = node + 1; child != ticker_.end_of(node); child = ticker_.end_of(child)) {
-    if (ticker_.status(child) == Status::Running) running.push_back(child);
-  }
+  std::ranges::copy_if(shape_.nodes[node].children, std::back_inserter(running),
+                       [&](NodeIndex child) { return moment_.status(child) == Status::Running; });
   return running;
 }
 
-std::vector<NodeIndex> lasting_owners(Ticker& ticker, const Member& denied) {
+std::vector<NodeIndex> lasting_owners(const Shape& shape, const Moment& moment, NodeIndex denied) {
   std::vector<NodeIndex> owners;
-  const bool first_wins = ticker.parameter(denied.group, resources::kIncrement).integer == 0;
-  const ResourceSet wanted = resource_set(limit(ticker, denied.node));
-  for (const Member& owner : ticker.tree().members_of(denied.group)) {
-    const double its = limit(ticker, owner.node);
+  const ShapeNode& pool = shape.nodes[*shape.nodes[denied].group];
+  const ResourceSet wanted = resource_set(moment.limit(denied));
+  for (const NodeIndex child : pool.members) {
+    const NodeIndex owner = *shape.nodes[child].parent;
+    const double its = moment.limit(owner);
     if (waits(its) || (resource_set(its) & wanted) == 0) continue;
-    const bool keeps = ticker.parameter(owner.node, resources::kKeep).boolean &&
-                       ticker.status(owner.node + 1) == Status::Running;
-    if (keeps || (first_wins && owner.number < denied.number)) owners.push_back(owner.node);
+    const ShapeNode& user = shape.nodes[owner];
+    const bool keeps = user.keeps_resources && moment.status(child) == Status::Running;
+    const bool is_before = user.number < shape.nodes[denied].number;
+    if (keeps || (pool.first_wins && is_before)) owners.push_back(owner);
   }
   return owners;
 }

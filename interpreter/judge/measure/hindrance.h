@@ -1,14 +1,13 @@
-// Finds why a node does not come on, from the state of the tree after a tick.
+// Finds why a node does not come on, from the Moment of a run that goes on.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "engine/tree.h"
+#include "trace/moment.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
-
-class Ticker;
 
 // Something that gets no ticks. A barrier and a pool call it by their member.
 struct Withheld {
@@ -27,7 +26,7 @@ enum class Obstacle : std::uint8_t {
 
 class Hindrance {
  public:
-  Hindrance(Ticker& ticker, NodeIndex node);
+  Hindrance(const Shape& shape, const Moment& moment, NodeIndex node);
 
   // From the node, what it is inside of, what it lacks inside, or what runs before its turn.
   const std::vector<Withheld>& withheld() const { return withheld_; }
@@ -44,22 +43,22 @@ class Hindrance {
   void look_before(NodeIndex node);
   void pass(NodeIndex node);
   bool lacks_resources(NodeIndex node) const;
-  void add(const Member& member);
-  void add_user(const Member& member);
-  void add_gates(const Member& user);
+  void add(NodeIndex member);
+  void add_user(NodeIndex user);
+  void add_gates(NodeIndex user);
   std::vector<NodeIndex> running_children(NodeIndex node) const;
 
-  Ticker& ticker_;
-  const Tree& tree_;
+  const Shape& shape_;
+  const Moment& moment_;
   std::vector<Withheld> withheld_;
   std::vector<NodeIndex> passed_;
   bool runs_ = false;
   Obstacle obstacle_ = Obstacle::Running;
 };
 
-// The owners of the resources that a member of a pool is denied, which have them as long as they
+// The owners of the resources that a user of a pool is denied, which have them as long as they
 // run: one with `keep`, and without an increment one before it in the tree. From all others it gets
 // them in one of the next ticks.
-std::vector<NodeIndex> lasting_owners(Ticker& ticker, const Member& denied);
+std::vector<NodeIndex> lasting_owners(const Shape& shape, const Moment& moment, NodeIndex denied);
 
 }  // namespace lockstep::host

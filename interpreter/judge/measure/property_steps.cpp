@@ -5,7 +5,7 @@ namespace lockstep::host {
 PropertyNames property_names(const Shape& shape) {
   PropertyNames names{.paths = paths_of(shape), .entries = {}};
   for (const ShapeEntry& it : shape.entries)
-    names.entries.push_back({it.key, it.type, it.is_strict});
+    names.entries.push_back({it.key, it.type, it.typing == Typing::Strict});
   return names;
 }
 

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/resources.h"
-#include "engine/ticker.h"
-
 namespace lockstep::host {
 namespace {
 
 constexpr double kNoChange = 1e-9;
 
 // The last link that is of no pool: what it waits for keeps all others waiting. There is one.
-std::size_t last_synchronized(const Tree& tree, const WaitChain& chain) {
+std::size_t last_synchronized(const Shape& shape, const WaitChain& chain) {
   std::size_t last = chain.links.size() - 1;
-  while (is_pool(tree, chain.links[last].node)) --last;
+  while (shape.nodes[chain.links[last].node].is_pool()) --last;
   return last;
 }
 
@@ -41,19 +38,17 @@ void StallDetector::after_tick(const SynchronizedTick& tick, bool holds_somebody
   ++number_;
 }
 
-StandingNodes::StandingNodes(const Tree& tree, Nanoseconds limit) : limit_(limit), moments_(tree) {
-  const Shape shape = shape_of(tree);
+StandingNodes::StandingNodes(const Shape& shape, Nanoseconds limit) : shape_(shape), limit_(limit) {
   for (const NodeIndex node : synchronized_nodes(shape)) {
     if (!compares_progress(shape.nodes[node].synchronization)) continue;
     nodes_.push_back({.ticks = SynchronizedTicks(shape, node, false)});
   }
 }
 
-void StandingNodes::after_tick(Ticker& ticker, Nanoseconds time) {
-  const Moment& moment = moments_.after_tick(ticker, 0, time);
+void StandingNodes::after_tick(const Moment& moment) {
   for (Standing& it : nodes_) {
     const SynchronizedTick tick = it.ticks.read(moment);
-    it.detector.after_tick(tick, tick.ticked && holds_somebody(ticker, it.node()));
+    it.detector.after_tick(tick, tick.ticked && holds_somebody(shape_, moment, it.node()));
   }
 }
 
@@ -62,12 +57,12 @@ StandingNodes::Standing* StandingNodes::find(NodeIndex node) {
   return it == nodes_.end() ? nullptr : &*it;
 }
 
-Standstill StandingNodes::standstill(Ticker& ticker, const Standing& at, Nanoseconds now) {
-  Standstill found{.chain = wait_chain(ticker, at.node()), .time = now};
+Standstill StandingNodes::standstill(const Moment& moment, const Standing& at, Nanoseconds now) {
+  Standstill found{.chain = wait_chain(shape_, moment, at.node()), .time = now};
   if (found.is_circle()) {
     describe_circle(found);
   } else {
-    describe_chain(found, at, ticker.tree());
+    describe_chain(found, at);
   }
   return found;
 }
@@ -86,8 +81,8 @@ void StandingNodes::describe_circle(Standstill& circle) {
 }
 
 // The node that is to blame may be slow instead of standing still.
-void StandingNodes::describe_chain(Standstill& found, const Standing& at, const Tree& tree) {
-  const std::size_t last = last_synchronized(tree, found.chain);
+void StandingNodes::describe_chain(Standstill& found, const Standing& at) {
+  const std::size_t last = last_synchronized(shape_, found.chain);
   const Standing& to_blame = *find(found.chain.links[last].node);
   found.is_old = to_blame.is_over(limit_, found.time);
   found.head = found.is_old ? last : 0;
@@ -96,23 +91,23 @@ void StandingNodes::describe_chain(Standstill& found, const Standing& at, const 
   found.best = head.best();
 }
 
-StallWatch::StallWatch(const Tree& tree, Nanoseconds limit, Report report)
-    : nodes_(tree, limit), report_(std::move(report)) {}
+StallWatch::StallWatch(const Shape& shape, Nanoseconds limit, Report report)
+    : nodes_(shape, limit), report_(std::move(report)) {}
 
-void StallWatch::after_tick(Ticker& ticker, Nanoseconds time) {
-  nodes_.after_tick(ticker, time);
+void StallWatch::after_tick(const Moment& moment) {
+  nodes_.after_tick(moment);
   for (StandingNodes::Standing& it : nodes_.all()) {
-    if (!it.is_over(nodes_.limit(), time) || time < it.next_look) continue;
-    if (it.told_as_circle != it.detector.number()) look(ticker, it, time);
+    if (!it.is_over(nodes_.limit(), moment.time) || moment.time < it.next_look) continue;
+    if (it.told_as_circle != it.detector.number()) look(moment, it);
   }
 }
 
 // The youngest node of a circle reports it, and of a chain the one that is to blame. If that comes
 // on, only slowly, the chain is reported as it is.
-void StallWatch::look(Ticker& ticker, Standing& at, Nanoseconds time) {
-  const Standstill found = nodes_.standstill(ticker, at, time);
+void StallWatch::look(const Moment& moment, Standing& at) {
+  const Standstill found = nodes_.standstill(moment, at, moment.time);
   const std::uint64_t number = at.detector.number();
-  at.next_look = time + nodes_.limit();
+  at.next_look = moment.time + nodes_.limit();
   if (at.told == number && !found.is_circle()) return;
   if (!found.is_old && (found.is_circle() || std::exchange(at.put_off, number) != number)) return;
   const auto told = found.is_circle() ? &Standing::told_as_circle : &Standing::told;

@@ -12,7 +12,8 @@
 #include "base/core/clock.h"
 #include "judge/measure/synchronized_ticks.h"
 #include "judge/measure/wait_chain.h"
-#include "trace/live_moments.h"
+#include "trace/moment.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
@@ -67,22 +68,23 @@ class StandingNodes {
       return detector.stands() && now - detector.since() > limit;
     }
   };
-  StandingNodes(const Tree& tree, Nanoseconds limit);
+  // The shape must outlive this.
+  StandingNodes(const Shape& shape, Nanoseconds limit);
 
-  void after_tick(Ticker& ticker, Nanoseconds time);
+  void after_tick(const Moment& moment);
 
   Nanoseconds limit() const { return limit_; }
   std::span<Standing> all() { return nodes_; }
   Standing* find(NodeIndex node);  // null: a pool
   // Describes a node that stands.
-  Standstill standstill(Ticker& ticker, const Standing& at, Nanoseconds now);
+  Standstill standstill(const Moment& moment, const Standing& at, Nanoseconds now);
 
  private:
   void describe_circle(Standstill& circle);
-  void describe_chain(Standstill& found, const Standing& at, const Tree& tree);
+  void describe_chain(Standstill& found, const Standing& at);
 
+  const Shape& shape_;
   Nanoseconds limit_;
-  LiveMoments moments_;
   std::vector<Standing> nodes_;
 };
 
@@ -91,13 +93,14 @@ class StandingNodes {
 class StallWatch {
  public:
   using Report = std::function<void(const Standstill&)>;
-  StallWatch(const Tree& tree, Nanoseconds limit, Report report);
+  // Likewise.
+  StallWatch(const Shape& shape, Nanoseconds limit, Report report);
 
-  void after_tick(Ticker& ticker, Nanoseconds time);
+  void after_tick(const Moment& moment);
 
  private:
   using Standing = StandingNodes::Standing;
-  void look(Ticker& ticker, Standing& at, Nanoseconds time);
+  void look(const Moment& moment, Standing& at);
 
   StandingNodes nodes_;
   Report report_;

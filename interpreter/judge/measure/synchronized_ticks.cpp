@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/core/resource_set.h"
-#include "engine/synchronized.h"
+#include "base/core/synchronization.h"
 
 namespace lockstep::host {
 namespace {

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "engine/resources.h"
-#include "engine/ticker.h"
+#include "base/core/progress.h"
+#include "base/core/synchronization.h"
 
 namespace lockstep::host {
 namespace {
@@ -14,27 +14,27 @@ namespace {
 // Visits the children of a node by the nodes that name them; a barrier and a pool name the members
 // around them.
 template <class Visit>
-void for_each_named(const Tree& tree, NodeIndex node, Visit visit) {
-  const bool is_group = tree.is_group(node);
-  for_each_child(tree, node, [&](NodeIndex child) { visit(is_group ? child - 1 : child); });
+void for_each_named(const Shape& shape, NodeIndex node, Visit visit) {
+  const bool is_group = shape.nodes[node].is_group();
+  for (const NodeIndex child : shape.nodes[node].held()) visit(is_group ? child - 1 : child);
 }
 
-std::optional<NodeIndex> first_held(Ticker& ticker, NodeIndex node) {
-  std::optional<NodeIndex> first;
-  const bool is_group = ticker.tree().is_group(node);
-  for_each_named(ticker.tree(), node, [&](NodeIndex it) {
+std::optional<NodeIndex> first_held(const Shape& shape, const Moment& moment, NodeIndex node) {
+  const bool is_group = shape.nodes[node].is_group();
+  for (const NodeIndex child : shape.nodes[node].held()) {
+    const NodeIndex named = is_group ? child - 1 : child;
     const bool is_held =
-        is_group ? ticker.status(it) == Status::Running && is_held_at_barrier(ticker, it)
-                 : ticker.held(it);
-    if (is_held && !first) first = it;
-  });
-  return first;
+        is_group ? moment.status(named) == Status::Running && moment.live->is_held_at_barrier(named)
+                 : moment.held(named);
+    if (is_held) return named;
+  }
+  return std::nullopt;
 }
 
 // Depth first for a circle; without one it follows the first way to its end.
 class WaitSearch {
  public:
-  explicit WaitSearch(Ticker& ticker) : ticker_(ticker), tree_(ticker.tree()) {}
+  WaitSearch(const Shape& shape, const Moment& moment) : shape_(shape), moment_(moment) {}
 
   WaitChain from(Withheld begin) {
     if (!find_circle(begin)) {
@@ -48,7 +48,7 @@ class WaitSearch {
 
  private:
   // Whoever a node holds waits for the same. Members of a pool wait for different owners.
-  NodeIndex key(Withheld at) const { return is_pool(tree_, at.node) ? at.from : at.node; }
+  NodeIndex key(Withheld at) const { return shape_.nodes[at.node].is_pool() ? at.from : at.node; }
 
   bool find_circle(Withheld at) {
     const auto again = std::ranges::find_if(links_, [&](const WaitLink& link) {
@@ -64,7 +64,7 @@ class WaitSearch {
     add(at);
     for (const NodeIndex awaited : awaited_by(at)) {
       set_awaited(links_[place], awaited);
-      const Hindrance hindrance(ticker_, awaited);
+      const Hindrance hindrance(shape_, moment_, awaited);
       for (const Withheld& next : hindrance.withheld()) {
         if (find_circle(next)) return true;
       }
@@ -78,13 +78,13 @@ class WaitSearch {
       WaitLink& link = add(at);
       set_awaited(link, awaited_by(at).front());
       const NodeIndex awaited = link.awaited;
-      const Hindrance hindrance(ticker_, awaited);
+      const Hindrance hindrance(shape_, moment_, awaited);
       if (!hindrance.runs() && !hindrance.withheld().empty()) {
         at = hindrance.withheld().front();
       } else if (const auto inner = next_inner(hindrance, awaited)) {
         at = *inner;
       } else {
-        return is_pool(tree_, at.node) ? Obstacle::Denied : hindrance.obstacle();
+        return shape_.nodes[at.node].is_pool() ? Obstacle::Denied : hindrance.obstacle();
       }
     }
   }
@@ -93,31 +93,31 @@ class WaitSearch {
   std::optional<Withheld> next_inner(const Hindrance& hindrance, NodeIndex awaited) {
     for (const NodeIndex node : hindrance.passed()) {
       if (std::ranges::find(links_, node, &WaitLink::node) != links_.end()) continue;
-      const auto held = first_held(ticker_, node);
+      const auto held = first_held(shape_, moment_, node);
       if (!held) continue;
       const NodeIndex its = awaited_by({node, *held}).front();
-      if (awaited <= its && its < ticker_.end_of(awaited)) return Withheld{node, *held};
+      if (awaited <= its && its < shape_.nodes[awaited].end) return Withheld{node, *held};
     }
     return std::nullopt;
   }
 
   // Whom those that a node holds wait for: the least progressed. Never empty.
   std::vector<NodeIndex> awaited_by(Withheld at) {
-    if (is_pool(tree_, at.node)) return lasting_owners(ticker_, tree_.membership(at.from));
-    const auto progress = child_progress(ticker_, at.node);
+    if (shape_.nodes[at.node].is_pool()) return lasting_owners(shape_, moment_, at.from);
+    const auto progress = moment_.used(at.node);
     const double most = least_progress(progress) + kProgressEpsilon;
     std::vector<NodeIndex> awaited;
     std::size_t number = 0;
-    if (tree_.is_group(at.node) &&
-        waits_to_begin(ticker_.status(at.from), ticker_.status(at.from + 1))) {
-      for_each_named(tree_, at.node, [&](NodeIndex it) {
-        const bool is_reached = ticker_.status(it) == Status::Running;
+    if (shape_.nodes[at.node].is_group() &&
+        waits_to_begin(moment_.status(at.from), moment_.status(at.from + 1))) {
+      for_each_named(shape_, at.node, [&](NodeIndex it) {
+        const bool is_reached = moment_.status(it) == Status::Running;
         if (progress[number++] == 0 && !is_reached) awaited.push_back(it);
       });
       if (!awaited.empty()) return awaited;
       number = 0;
     }
-    for_each_named(tree_, at.node, [&](NodeIndex it) {
+    for_each_named(shape_, at.node, [&](NodeIndex it) {
       if (progress[number++] <= most) awaited.push_back(it);
     });
     return awaited;
@@ -138,37 +138,37 @@ class WaitSearch {
   void set_awaited(WaitLink& link, NodeIndex awaited) {
     link.awaited = awaited;
     link.awaited_at = progress_of(awaited, link.node);
-    link.awaited_status = ticker_.status(awaited);
-    if (!is_pool(tree_, link.node)) return;
+    link.awaited_status = moment_.status(awaited);
+    if (!shape_.nodes[link.node].is_pool()) return;
     link.resources =
-        resource_set(limit(ticker_, link.waiting)) & resource_set(limit(ticker_, awaited));
+        resource_set(moment_.limit(link.waiting)) & resource_set(moment_.limit(awaited));
   }
 
   double progress_of(NodeIndex wanted, NodeIndex node) {
-    if (is_pool(tree_, node)) return ticker_.progress(wanted);
-    const auto progress = child_progress(ticker_, node);
+    if (shape_.nodes[node].is_pool()) return moment_.live->progress(wanted);
+    const auto progress = moment_.used(node);
     std::size_t number = 0, found = 0;
-    for_each_named(tree_, node, [&](NodeIndex it) {
+    for_each_named(shape_, node, [&](NodeIndex it) {
       if (it == wanted) found = number;
       ++number;
     });
     return progress[found];
   }
 
-  Ticker& ticker_;
-  const Tree& tree_;
+  const Shape& shape_;
+  const Moment& moment_;
   std::vector<WaitLink> links_;
   std::set<NodeIndex> seen_;
 };
 
 }  // namespace
 
-bool holds_somebody(Ticker& ticker, NodeIndex node) {
-  return first_held(ticker, node).has_value();
+bool holds_somebody(const Shape& shape, const Moment& moment, NodeIndex node) {
+  return first_held(shape, moment, node).has_value();
 }
 
-WaitChain wait_chain(Ticker& ticker, NodeIndex node) {
-  return WaitSearch(ticker).from({node, first_held(ticker, node).value_or(node)});
+WaitChain wait_chain(const Shape& shape, const Moment& moment, NodeIndex node) {
+  return WaitSearch(shape, moment).from({node, first_held(shape, moment, node).value_or(node)});
 }
 
 }  // namespace lockstep::host

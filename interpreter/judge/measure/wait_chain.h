@@ -1,5 +1,5 @@
-// Finds which nodes wait for which where a synchronized node does not come on, from the state of
-// the tree after a tick. A link goes from what a node withholds ticks from to what that waits for.
+// Finds which nodes wait for which where a synchronized node does not come on, from the Moment
+// of a run that goes on. A link goes from what a node withholds ticks from to what that waits for.
 // The next link is of the node that withholds ticks from this, or of one that waits for something
 // in it. The links end in a circle, or where nobody withholds anything.
 #pragma once
@@ -28,10 +28,10 @@ struct WaitChain {
 };
 
 // Whether a synchronized node that is no pool holds somebody back.
-bool holds_somebody(Ticker& ticker, NodeIndex node);
+bool holds_somebody(const Shape& shape, const Moment& moment, NodeIndex node);
 
 // From such a node on. If it only leads to a circle, that circle. A circle begins with its first
 // node in the tree.
-WaitChain wait_chain(Ticker& ticker, NodeIndex node);
+WaitChain wait_chain(const Shape& shape, const Moment& moment, NodeIndex node);
 
 }  // namespace lockstep::host

@@ -11,14 +11,14 @@ namespace lockstep::host {
 PropertyObserver::PropertyObserver(std::vector<Property> properties, Tell tell)
     : checks_(std::move(properties)), steps_(checks_), tell_(std::move(tell)) {}
 
-void PropertyObserver::after_tick(Ticker&, const TickReport& report) {
-  for (const std::size_t i : steps_.after_tick(*report.moment)) {
+void PropertyObserver::after_tick(const Moment& moment, const TickReport& report) {
+  for (const std::size_t i : steps_.after_tick(moment)) {
     tell_(checks_.all()[i],
           fmt::format("in tick {}, at {:.3f} s", report.tick, to_seconds(report.time)));
   }
 }
 
-void PropertyObserver::run_ended(Ticker&, const RunEnd& end) {
+void PropertyObserver::run_ended(const Moment&, const RunEnd& end) {
   const bool by_itself = end.reason == StopReason::Completed || end.reason == StopReason::Fault;
   const auto how = by_itself ? RunIsOver::ByItself : RunIsOver::FromOutside;
   for (const std::size_t i : checks_.end(how)) {

@@ -21,8 +21,8 @@ class PropertyObserver final : public Observer {
   PropertyObserver(std::vector<Property> properties, Tell tell);
 
   AskedOfRun asked() const override { return steps_.asked(); }
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   bool is_violated() const { return checks_.any(PropertyVerdict::Violated); }
   void add_to(Summary& summary) const;

@@ -10,6 +10,7 @@
 
 #include "judge/summary/capped_notes.h"
 #include "trace/observer.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
@@ -20,9 +21,9 @@ class RepeatedHalts final : public Observer {
 
   // On the tick thread, in the tick of the last of these halts: the action, and the warning.
   using Tell = std::function<void(NodeIndex action, const std::string& warning)>;
-  RepeatedHalts(const Tree& tree, Tell tell);
+  RepeatedHalts(Shape shape, Tell tell);
 
-  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
 
   void add_to(Summary& summary) const;
 
@@ -34,9 +35,10 @@ class RepeatedHalts final : public Observer {
     bool is_told = false;
     std::array<Nanoseconds, kHalts> times = {};  // of the last halts
   };
-  void note_halt(const Ticker& ticker, Action& action, Nanoseconds time);
+  void note_halt(const Moment& moment, Action& action);
+  std::string cause_of_halt(const Moment& moment, NodeIndex action) const;
 
-  const Tree& tree_;
+  const Shape shape_;
   const Tell tell_;
   std::vector<Action> actions_;
 };

@@ -5,28 +5,28 @@
 #include <algorithm>
 #include <map>
 
+#include "base/core/progress.h"
 #include "base/core/wording.h"
-#include "engine/resources.h"
 
 namespace lockstep::host {
 namespace {
 
 // A member is called by its name, and if it has none, by its child.
-std::string path_of(const Tree& tree, const WaitLink& link, NodeIndex node) {
-  const NodeLabel& label = tree.labels[node];
-  const bool is_nameless = tree.is_group(link.node) && label.name == label.type->id;
-  return tree.path(is_nameless ? node + 1 : node);
+std::string path_of(const Shape& shape, const WaitLink& link, NodeIndex node) {
+  const ShapeNode& it = shape.nodes[node];
+  const bool is_nameless = shape.nodes[link.node].is_group() && it.name == it.kind;
+  return shape.nodes[is_nameless ? node + 1 : node].path;
 }
 
 class StandstillText {
  public:
-  StandstillText(const Tree& tree, const Standstill& standstill)
-      : tree_(tree), standstill_(standstill), links_(standstill.chain.links) {
+  StandstillText(const Shape& shape, const Standstill& standstill)
+      : shape_(shape), standstill_(standstill), links_(standstill.chain.links) {
     std::map<std::string, std::string> paths;
     for (const WaitLink& link : links_) {
-      paths[tree.path(link.node)];
-      paths[path_of(tree, link, link.waiting)];
-      paths[path_of(tree, link, link.awaited)];
+      paths[shape.nodes[link.node].path];
+      paths[path_of(shape, link, link.waiting)];
+      paths[path_of(shape, link, link.awaited)];
     }
     std::vector<std::string> all;
     for (const auto& [path, name] : paths) all.push_back(path);
@@ -64,8 +64,8 @@ class StandstillText {
   // The child that the head waits for.
   std::string child() const {
     const WaitLink& head = standstill_.link();
-    const bool is_group = tree_.is_group(head.node);
-    const std::string who = tree_.path(is_group ? head.awaited + 1 : head.awaited);
+    const bool is_group = shape_.nodes[head.node].is_group();
+    const std::string who = shape_.nodes[is_group ? head.awaited + 1 : head.awaited].path;
     const std::string others =
         fmt::format("the other {} of '{}'", is_group ? "members" : "children", name(head.node));
     const double since = to_seconds(standstill_.since);
@@ -94,7 +94,8 @@ class StandstillText {
   // The obstacle is of the last link, behind which there may only be one of a pool.
   bool is_last() const {
     return std::all_of(links_.begin() + static_cast<std::ptrdiff_t>(standstill_.head) + 1,
-                       links_.end(), [&](const WaitLink& it) { return is_pool(tree_, it.node); });
+                       links_.end(),
+                       [&](const WaitLink& it) { return shape_.nodes[it.node].is_pool(); });
   }
 
   std::string denied() const {
@@ -105,7 +106,7 @@ class StandstillText {
   std::string link(std::size_t place) const {
     const WaitLink& it = links_[place];
     const std::string what = name_in(it, it.awaited), who = name_in(it, it.waiting);
-    if (is_pool(tree_, it.node)) {
+    if (shape_.nodes[it.node].is_pool()) {
       return fmt::format("'{}' keeps {} from '{}' until '{}' gives it back, which {}",
                          name(it.node), resources(it), who, what, state(place));
     }
@@ -134,17 +135,17 @@ class StandstillText {
   }
 
   bool contains(NodeIndex node, NodeIndex other) const {
-    return node <= other && other < tree_.nodes[node].end;
+    return node <= other && other < shape_.nodes[node].end;
   }
   std::string resources(const WaitLink& link) const {
-    return to_text(link.resources, tree_.group(link.node).resources);
+    return to_text(link.resources, shape_.nodes[link.node].resources);
   }
-  std::string name(NodeIndex node) const { return names_.at(tree_.path(node)); }
+  std::string name(NodeIndex node) const { return names_.at(shape_.nodes[node].path); }
   std::string name_in(const WaitLink& link, NodeIndex node) const {
-    return names_.at(path_of(tree_, link, node));
+    return names_.at(path_of(shape_, link, node));
   }
 
-  const Tree& tree_;
+  const Shape& shape_;
   const Standstill& standstill_;
   const std::vector<WaitLink>& links_;
   std::map<std::string, std::string> names_;  // of paths
@@ -152,13 +153,13 @@ class StandstillText {
 
 }  // namespace
 
-std::vector<std::string> standstill_lines(const Tree& tree, const Standstill& standstill) {
-  return StandstillText(tree, standstill).lines();
+std::vector<std::string> standstill_lines(const Shape& shape, const Standstill& standstill) {
+  return StandstillText(shape, standstill).lines();
 }
 
-std::vector<std::string> wait_lines(const Tree& tree, const WaitChain& chain) {
+std::vector<std::string> wait_lines(const Shape& shape, const WaitChain& chain) {
   const Standstill standstill{.chain = chain};
-  return StandstillText(tree, standstill).links();
+  return StandstillText(shape, standstill).links();
 }
 
 std::string_view to_string(Obstacle obstacle) {

@@ -5,33 +5,32 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/resources.h"
 #include "judge/summary/standstill_text.h"
 
 namespace lockstep::host {
 
-Standstills::Standstills(const Tree& tree, std::optional<Nanoseconds> limit, Tell tell)
-    : tree_(tree), tell_(std::move(tell)) {
-  if (limit) watch_.emplace(tree, *limit, [this](const Standstill& found) { report(found); });
+Standstills::Standstills(Shape shape, std::optional<Nanoseconds> limit, Tell tell)
+    : shape_(std::move(shape)), tell_(std::move(tell)) {
+  if (limit) watch_.emplace(shape_, *limit, [this](const Standstill& found) { report(found); });
 }
 
-void Standstills::before_tick(Ticker&, std::uint64_t, Nanoseconds) {
+void Standstills::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
   failed_.clear();
 }
 
-void Standstills::after_tick(Ticker& ticker, const TickReport& report) {
-  if (watch_) watch_->after_tick(ticker, report.time);
+void Standstills::after_tick(const Moment& moment, const TickReport&) {
+  if (watch_) watch_->after_tick(moment);
 }
 
 void Standstills::report(const Standstill& standstill) {
   add(standstill);
-  tell_(standstill.link().node, standstill_lines(tree_, standstill));
+  tell_(standstill.link().node, standstill_lines(shape_, standstill));
 }
 
 void Standstills::failed(const Standstill& standstill, NodeIndex node) {
   failed_.push_back(node);
-  const std::string path = tree_.path(node);
-  auto lines = standstill_lines(tree_, standstill);
+  const std::string path = shape_.nodes[node].path;
+  auto lines = standstill_lines(shape_, standstill);
   StandstillSummary* known = find(standstill);
   if (known != nullptr) {
     lines = {fmt::format("{} is halted and fails: it stands still since {:.3f} s", path,
@@ -69,17 +68,17 @@ StandstillSummary Standstills::summarize(const Standstill& standstill) const {
                             .since = to_seconds(standstill.since),
                             .reported = to_seconds(standstill.time),
                             .links = {},
-                            .lines = standstill_lines(tree_, standstill)};
+                            .lines = standstill_lines(shape_, standstill)};
   for (const WaitLink& it : standstill.chain.links) {
-    StandstillLinkSummary link{.node = tree_.path(it.node),
-                               .kind = std::string(tree_.labels[it.node].type->id),
-                               .waiting = tree_.path(it.waiting),
-                               .awaited = tree_.path(it.awaited),
+    StandstillLinkSummary link{.node = shape_.nodes[it.node].path,
+                               .kind = shape_.nodes[it.node].kind,
+                               .waiting = shape_.nodes[it.waiting].path,
+                               .awaited = shape_.nodes[it.awaited].path,
                                .waiting_at = it.waiting_at,
                                .awaited_at = it.awaited_at,
                                .awaited_status = it.awaited_status};
-    if (is_pool(tree_, it.node)) {
-      link.resources = to_text(it.resources, tree_.group(it.node).resources);
+    if (shape_.nodes[it.node].is_pool()) {
+      link.resources = to_text(it.resources, shape_.nodes[it.node].resources);
     }
     summary.links.push_back(std::move(link));
   }
@@ -92,7 +91,7 @@ void Standstills::add_to(Summary& summary) const {
   if (summary.why_failed.empty()) return;
   const std::string& last = summary.why_failed.back().path;
   summary.why_failed.back().stood_still =
-      std::ranges::any_of(failed_, [&](NodeIndex node) { return tree_.path(node) == last; });
+      std::ranges::any_of(failed_, [&](NodeIndex node) { return shape_.nodes[node].path == last; });
 }
 
 }  // namespace lockstep::host

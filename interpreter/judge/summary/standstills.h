@@ -20,10 +20,10 @@ class Standstills final : public Observer {
   // On the tick thread, in the tick that shows it: the node that stands still, and what to say.
   using Tell = std::function<void(NodeIndex node, const std::vector<std::string>& lines)>;
   // Without a limit it reports only what failed() adds.
-  Standstills(const Tree& tree, std::optional<Nanoseconds> limit, Tell tell);
+  Standstills(Shape shape, std::optional<Nanoseconds> limit, Tell tell);
 
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
   // --stall-fail has ended it; run/stall_fail.h.
   void failed(const Standstill& standstill, NodeIndex node);
 
@@ -39,7 +39,7 @@ class Standstills final : public Observer {
   StandstillSummary* find(const Standstill& standstill);
   StandstillSummary summarize(const Standstill& standstill) const;
 
-  const Tree& tree_;
+  const Shape shape_;
   std::optional<StallWatch> watch_;
   Tell tell_;
   std::vector<Kept> kept_;

@@ -3,37 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
-#include "engine/synchronized.h"
 #include "trace/progress_text.h"
 
 namespace lockstep::host {
 
-Statistics::Statistics(const Tree& tree)
-    : tree_(tree), shape_(shape_of(tree)), nodes_(measured_nodes(shape_)) {}
+Statistics::Statistics(Shape shape) : shape_(std::move(shape)), nodes_(measured_nodes(shape_)) {}
 
-void Statistics::run_started(Ticker&, const RunStart& start) {
+void Statistics::run_started(const Moment&, const RunStart& start) {
   real_time_ = start.real_time;
 }
 
-void Statistics::after_tick(Ticker&, const TickReport& report) {
+void Statistics::after_tick(const Moment& moment, const TickReport& report) {
   if (report.tick > 0) periods_.record(report.time - last_start_);
   last_start_ = report.time;
   lateness_.record(report.late);
-  for (MeasuredNode& node : nodes_) node.after_tick(*report.moment);
+  for (MeasuredNode& node : nodes_) node.after_tick(moment);
   for (const Fault& fault : report.faults) note(fault, report.tick);
-  if (report.status == Status::Failure) why_failed_ = deciding_path(shape_, *report.moment);
+  if (report.status == Status::Failure) why_failed_ = deciding_path(shape_, moment);
 }
 
 void Statistics::note(const Fault& fault, std::uint64_t tick) {
-  faults_.add([&] { return fault_text(tree_, fault, tick); });
+  faults_.add([&] { return fault_text(shape_, fault, tick); });
 }
 
-void Statistics::run_ended(Ticker& ticker, const RunEnd& end) {
+void Statistics::run_ended(const Moment& moment, const RunEnd& end) {
   end_ = end;
-  for (const Fault& fault : ticker.tolerated()) note(fault, end.ticks);
-  progress_notes_ = progress_notes(ticker);
-  went_on_ = ticker.went_on().size();
+  for (const Fault& fault : moment.live->tolerated()) note(fault, end.ticks);
+  progress_notes_ = progress_notes(shape_, *moment.live);
+  went_on_ = moment.live->went_on().size();
   for (MeasuredNode& node : nodes_) node.measure.run_ended(end.time);
 }
 
@@ -41,7 +40,7 @@ Summary Statistics::summary() const {
   Summary summary{.result = end_.result(),
                   .reason = end_.reason,
                   .signal = end_.signal,
-                  .fault = end_.fault ? fault_text(tree_, *end_.fault) : "",
+                  .fault = end_.fault ? fault_text(shape_, *end_.fault) : "",
                   .ticks = end_.ticks,
                   .seconds = to_seconds(end_.time),
                   .overruns = end_.overruns,
@@ -71,7 +70,7 @@ Summary Statistics::summary() const {
   }
   for (const DecidingNode& node : why_failed_) {
     summary.why_failed.push_back(
-        summarize(node, tree_.path(node.node), std::string(tree_.labels[node.node].type->id)));
+        summarize(node, shape_.nodes[node.node].path, shape_.nodes[node.node].kind));
   }
   for (const MeasuredNode& node : nodes_) {
     if (node.measure.distance().samples() > 0) {
@@ -87,7 +86,7 @@ std::optional<WorstTickSummary> Statistics::worst_tick() const {
   if (!real_time_ || worst.took == Nanoseconds(0)) return std::nullopt;
   return WorstTickSummary{.tick = worst.tick,
                           .took = to_seconds(worst.took),
-                          .leaf = worst.leaf ? tree_.path(*worst.leaf) : "",
+                          .leaf = worst.leaf ? shape_.nodes[*worst.leaf].path : "",
                           .leaf_took = to_seconds(worst.leaf_took)};
 }
 
@@ -97,11 +96,12 @@ SynchronizedSummary Statistics::summary_of(const MeasuredNode& measured) const {
   return summarize(measured.measure, node.path, node.kind, child_names(shape_, index));
 }
 
-std::string describe_node(const Tree& tree, NodeIndex node) {
-  const NodeType& type = *tree.labels[node].type;
-  if (type.leaf == nullptr) return fmt::format("the node '{}' ({})", tree.path(node), type.id);
+std::string describe_node(const Shape& shape, NodeIndex node) {
+  const NodeType& type = *shape.nodes[node].type;
+  if (type.leaf == nullptr)
+    return fmt::format("the node '{}' ({})", shape.nodes[node].path, type.id);
   return fmt::format("the {} '{}' ({} of plugin '{}')", type.arity.max == 0 ? "leaf" : "node",
-                     tree.path(node), type.id, type.plugin);
+                     shape.nodes[node].path, type.id, type.plugin);
 }
 
 std::string failure_text(const Fault& fault, std::uint64_t ticks) {
@@ -110,8 +110,8 @@ std::string failure_text(const Fault& fault, std::uint64_t ticks) {
   return fmt::format("failed in tick {}", ticks - 1);
 }
 
-std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick) {
-  const std::string path = tree.path(fault.node);
+std::string fault_text(const Shape& shape, const Fault& fault, std::uint64_t tick) {
+  const std::string path = shape.nodes[fault.node].path;
   if (fault.in_last_halt) {
     return fmt::format("the leaf '{}' could not be halted: {}", path, fault.message);
   }
@@ -119,24 +119,24 @@ std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick)
                      fault.message);
 }
 
-std::string fault_text(const Tree& tree, const Fault& fault) {
-  return fmt::format("{}: {}{}", tree.path(fault.node),
+std::string fault_text(const Shape& shape, const Fault& fault) {
+  return fmt::format("{}: {}{}", shape.nodes[fault.node].path,
                      fault.in_last_halt ? "could not be halted: " : "", fault.message);
 }
 
-std::vector<std::string> progress_notes(const Ticker& ticker) {
+std::vector<std::string> progress_notes(const Shape& shape, const LiveRun& run) {
   constexpr std::size_t kMostLeaves = 5;
   std::vector<std::string> notes;
   const auto add = [&](const auto& all, const char* more, auto text_of) {
     for (const auto& it : all.first(std::min(all.size(), kMostLeaves))) {
-      notes.push_back(fmt::format("the leaf '{}' {}", ticker.tree().path(it.node), text_of(it)));
+      notes.push_back(fmt::format("the leaf '{}' {}", shape.nodes[it.node].path, text_of(it)));
     }
     if (all.size() <= kMostLeaves) return;
     notes.push_back(fmt::format("{} leaves in all {}", all.size(), more));
   };
-  add(ticker.out_of_range(), "reported such a progress",
+  add(run.out_of_range(), "reported such a progress",
       [](const OutOfRange& it) { return out_of_range_text(it.reported); });
-  add(ticker.went_on(), "went on while they were held",
+  add(run.went_on(), "went on while they were held",
       [](const WentOn& it) { return went_on_text(it.from, it.to); });
   return notes;
 }

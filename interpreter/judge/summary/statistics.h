@@ -16,11 +16,11 @@ namespace lockstep::host {
 
 class Statistics final : public Observer {
  public:
-  explicit Statistics(const Tree& tree);
+  explicit Statistics(Shape shape);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   // Complete once the run has ended.
   Summary summary() const;
@@ -30,7 +30,6 @@ class Statistics final : public Observer {
   std::optional<WorstTickSummary> worst_tick() const;
   SynchronizedSummary summary_of(const MeasuredNode& measured) const;
 
-  const Tree& tree_;
   const Shape shape_;
   std::vector<MeasuredNode> nodes_;
   Histogram periods_;
@@ -45,16 +44,16 @@ class Statistics final : public Observer {
 };
 
 // "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
-std::string describe_node(const Tree& tree, NodeIndex node);
+std::string describe_node(const Shape& shape, NodeIndex node);
 // "failed in tick 11", in a run of 12 ticks.
 std::string failure_text(const Fault& fault, std::uint64_t ticks);
 // "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
-std::string fault_text(const Tree& tree, const Fault& fault, std::uint64_t tick);
+std::string fault_text(const Shape& shape, const Fault& fault, std::uint64_t tick);
 // "Door/pull/arm: threw …"
-std::string fault_text(const Tree& tree, const Fault& fault);
+std::string fault_text(const Shape& shape, const Fault& fault);
 
 // "the leaf 'Door/pull/arm' reported …" of the first few leaves whose progress was no share, and
 // how many there are; "… went on while it was held …" in the same way.
-std::vector<std::string> progress_notes(const Ticker& ticker);
+std::vector<std::string> progress_notes(const Shape& shape, const LiveRun& run);
 
 }  // namespace lockstep::host

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/moments.h"
 #include "record/live/packet_ring.h"
 #include "record/live/tick_end_json.h"
+#include "trace/moments_view.h"
 
 namespace lockstep::host {
 

@@ -10,38 +10,37 @@ namespace lockstep::host {
 namespace {
 
 // Room for some lines that have all nodes, and for seconds of a smaller tree at 1 kHz.
-std::size_t room_for(const Tree& tree) {
+std::size_t room_for(const Shape& shape) {
   constexpr std::size_t kLines = 3, kLeast = 2u << 20;
-  return std::max(kLeast, kLines * packet_size(tree.nodes.size(), kLeast / 8));
+  return std::max(kLeast, kLines * packet_size(shape.nodes.size(), kLeast / 8));
 }
 
 }  // namespace
 
-LineFeed::LineFeed(const Tree& tree, RunDescription run, RealTime real_time)
+LineFeed::LineFeed(const Shape& shape, RunDescription run, RealTime real_time)
     : real_time_(real_time),
       deadlines_(run.rate_hz),
-      packets_(tree, std::move(run)),
-      ring_(room_for(tree)),
+      packets_(shape, std::move(run)),
+      ring_(room_for(shape)),
       room_(64u << 10) {}
 
 void LineFeed::log(std::string_view who, std::string_view level, std::string_view text) {
   packets_.log(who, level, text);
 }
 
-void LineFeed::run_started(Ticker& ticker, const RunStart& start) {
-  ticker.keep_moments();
+void LineFeed::run_started(const Moment&, const RunStart& start) {
   is_real_time_ = start.real_time;
   header_ = packets_.header(start);
 }
 
 // Only a tick whose line is due asks leaves for their progress.
-void LineFeed::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds time) {
+void LineFeed::before_tick(const Moment& moment, std::uint64_t, Nanoseconds time) {
   began_ = real_time_();
   if (is_real_time_) publish_before_late(time);
   is_due_ = began_ - published_ >= kPeriod;
   if (!is_due_) return;
   published_ = began_;
-  packets_.before_tick(ticker);
+  packets_.before_tick(moment);
 }
 
 // Only the time of the tick before shows that a tick began late, so both have lines. Everything
@@ -58,13 +57,13 @@ void LineFeed::publish_before_late(Nanoseconds time) {
   hurry();
 }
 
-void LineFeed::after_tick(Ticker& ticker, const TickReport& report) {
+void LineFeed::after_tick(const Moment& moment, const TickReport& report) {
   if (is_real_time_) note_times(report.time);
   last_ = report;
   has_ticked_ = true;
   is_shown_ = false;
   faults_.insert(faults_.end(), report.faults.begin(), report.faults.end());
-  publish(ticker);
+  publish(moment);
 }
 
 // Another thread may take them in between: then they count for the next time, too.
@@ -85,22 +84,22 @@ std::optional<LineFeed::Times> LineFeed::take_times() {
 }
 
 // Nothing follows for a while, so what was held back is due; and so is the tick after it.
-void LineFeed::standing(Ticker& ticker) {
+void LineFeed::standing(const Moment& moment) {
   is_due_ = !is_shown_ || wants_full_.load(std::memory_order_relaxed);
-  if (has_ticked_ && is_due_) publish(ticker);
+  if (has_ticked_ && is_due_) publish(moment);
   hurry();
 }
 
-void LineFeed::run_ended(Ticker& ticker, const RunEnd& end) {
-  end_ = packets_.end(ticker, end, 0);
+void LineFeed::run_ended(const Moment& moment, const RunEnd& end) {
+  end_ = packets_.end(moment, end, 0);
 }
 
 // A node that begins is asked for its progress in the next tick, so that nobody takes that of its
 // last activation for it.
-void LineFeed::publish(Ticker& ticker) {
+void LineFeed::publish(const Moment& moment) {
   if (is_due_ && wants_full_.exchange(false, std::memory_order_relaxed)) packets_.start_over();
   last_.faults = faults_;
-  const Packet packet = packets_.tick(ticker, last_);
+  const Packet packet = packets_.tick(moment, last_);
   if (packets_.has_begun()) hurry();
   if (!is_due_ && !packets_.has_events()) return;
   if (push(packet)) {

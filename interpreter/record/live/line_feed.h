@@ -28,18 +28,19 @@ class LineFeed final : public Observer {
   using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
-  LineFeed(const Tree& tree, RunDescription run, RealTime real_time = monotonic_now);
+  LineFeed(const Shape& shape, RunDescription run, RealTime real_time = monotonic_now);
 
   // The next tick gets a line, however soon it comes.
   void hurry() { published_ = Nanoseconds(0); }
   // Passes on a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void standing(Ticker& ticker) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  AskedOfRun asked() const override { return {.within = true}; }
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void standing(const Moment& moment) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   // --- for the thread that takes the lines out ---------------------------------------------------
 
@@ -62,7 +63,7 @@ class LineFeed final : public Observer {
   void want_full() { wants_full_.store(true, std::memory_order_relaxed); }
 
  private:
-  void publish(Ticker& ticker);
+  void publish(const Moment& moment);
   void publish_before_late(Nanoseconds time);
   bool push(Packet packet);
   bool wait_to_push(const Packet& packet);

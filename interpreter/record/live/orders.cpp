@@ -10,7 +10,6 @@
 #include "base/core/any_value.h"
 #include "base/core/diagnostics.h"
 #include "base/json/reader.h"
-#include "engine/synchronized.h"
 
 namespace lockstep::host {
 namespace {
@@ -91,13 +90,13 @@ Result<Order> speed(const Fields& fields, bool is_real_time) {
   return Order{.what = What::Speed, .speed = fields.factor};
 }
 
-Result<Order> set(const Tree& tree, const Fields& fields) {
-  const auto slot = std::ranges::find(tree.slots, fields.entry, &Slot::name);
-  if (slot == tree.slots.end()) {
+Result<Order> set(const Shape& shape, const Fields& fields) {
+  const auto slot = std::ranges::find(shape.entries, fields.entry, &ShapeEntry::key);
+  if (slot == shape.entries.end()) {
     return problem(fmt::format("the tree has no entry '{}'", printable(fields.entry)));
   }
   const bool is_any = slot->typing == Typing::Any;
-  const ValueType type = is_any ? ValueType::String : slot->type;
+  const ValueType type = is_any ? ValueType::String : slot->value_type;
   if (type == ValueType::Object) {
     return problem(
         fmt::format("'{}' holds objects of a plugin: they have no text", printable(fields.entry)));
@@ -109,7 +108,7 @@ Result<Order> set(const Tree& tree, const Fields& fields) {
                                expected_text(type), printable(fields.entry)));
   }
   return Order{.what = What::Set,
-               .slot = static_cast<std::uint32_t>(slot - tree.slots.begin()),
+               .slot = static_cast<std::uint32_t>(slot - shape.entries.begin()),
                .type = type,
                .value = std::move(*value)};
 }
@@ -120,15 +119,17 @@ std::optional<When> when_of(std::string_view word) {
   return static_cast<When>(found - kWhen.begin());
 }
 
-Result<Order> breakpoint(const Tree& tree, const Fields& fields) {
+Result<Order> breakpoint(const Shape& shape, const Fields& fields) {
   const auto when = when_of(fields.when);
-  if (fields.node >= tree.nodes.size()) {
-    return problem(fmt::format("no node {}, expected 0 to {}", fields.node, tree.nodes.size() - 1));
+  if (fields.node >= shape.nodes.size()) {
+    return problem(
+        fmt::format("no node {}, expected 0 to {}", fields.node, shape.nodes.size() - 1));
   }
   if (!when) return problem("'when' is neither 'begins' nor 'completes' nor 'barrier'");
   const auto node = static_cast<NodeIndex>(fields.node);
-  if (*when == When::Barrier && !compares_progress(synchronization(tree.nodes[node]))) {
-    return problem(fmt::format("'{}' has no barriers and no delta", printable(tree.path(node))));
+  if (*when == When::Barrier && !compares_progress(shape.nodes[node].synchronization)) {
+    return problem(
+        fmt::format("'{}' has no barriers and no delta", printable(shape.nodes[node].path)));
   }
   return Order{.what = What::Break, .breakpoint = {node, *when}, .is_on = fields.on};
 }
@@ -139,7 +140,7 @@ std::string_view word_of(When when) {
   return kWhen[static_cast<std::size_t>(when)];
 }
 
-Result<Order> read_order(const Tree& tree, bool is_real_time, std::string text) {
+Result<Order> read_order(const Shape& shape, bool is_real_time, std::string text) {
   Fields fields;
   try {
     fields = read_fields(text);
@@ -151,8 +152,8 @@ Result<Order> read_order(const Tree& tree, bool is_real_time, std::string text) 
   if (fields.what == "halt") return Order{.what = What::Halt};
   if (fields.what == "step") return step(fields);
   if (fields.what == "speed") return speed(fields, is_real_time);
-  if (fields.what == "set") return set(tree, fields);
-  if (fields.what == "break") return breakpoint(tree, fields);
+  if (fields.what == "set") return set(shape, fields);
+  if (fields.what == "break") return breakpoint(shape, fields);
   return problem(fmt::format("'{}' is not an order", printable(fields.what)),
                  "pause, resume, step, halt, speed, set, break");
 }

@@ -5,13 +5,13 @@
 #include <string_view>
 
 #include "base/core/problem.h"
-#include "engine/tree.h"
 #include "run/run_control.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
 // The order that the text has, checked: it can be carried out in a run of this tree.
-Result<RunControl::Order> read_order(const Tree& tree, bool is_real_time, std::string text);
+Result<RunControl::Order> read_order(const Shape& shape, bool is_real_time, std::string text);
 
 // When the run is to pause, as clients say it: "begins", "completes" or "barrier".
 std::string_view word_of(Breakpoint::When when);

@@ -5,9 +5,7 @@
 #include <set>
 
 #include "base/core/differences.h"
-#include "engine/resources.h"
-#include "engine/ticker.h"
-#include "record/live/watched_nodes.h"
+#include "base/core/synchronization.h"
 
 namespace lockstep::host {
 namespace {
@@ -20,12 +18,12 @@ bool is_running(std::uint8_t state) {
 }
 
 // Simple enough for the compiler to do many nodes at a time.
-void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* moved,
-                std::uint8_t* states) {
+void put_states(const Moment& moment, const std::uint8_t* moved, std::uint8_t* states) {
+  const std::uint32_t tick = moment.number;
   const std::uint8_t ticked = tick != 0 ? NodeChange::kTicked : 0;  // 0: there was none yet
-  const Activity* const activity = run.activity.data();
-  const std::uint32_t* const last = run.last_tick.data();
-  const std::size_t count = run.activity.size();
+  const Activity* const activity = moment.activity.data();
+  const std::uint32_t* const last = moment.reached.data();
+  const std::size_t count = moment.activity.size();
   for (std::size_t i = 0; i < count; ++i) {
     const auto of_tick = static_cast<std::uint8_t>(last[i] == tick ? ticked : 0);
     states[i] =
@@ -34,54 +32,57 @@ void put_states(const RunState& run, std::uint32_t tick, const std::uint8_t* mov
 }
 
 // The synchronized nodes, and the children that measures compare, in order.
-std::vector<NodeIndex> measured_nodes(const Tree& tree) {
+std::vector<NodeIndex> compared_nodes(const Shape& shape) {
   std::set<NodeIndex> nodes;
-  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
-    const bool synchronizes = compares_progress(synchronization(tree.nodes[node]));
-    if (synchronizes) nodes.insert(node);
-    if (!synchronizes && !tree.labels[node].type->latches) continue;
-    for_each_child(tree, node, [&](NodeIndex child) { nodes.insert(child); });
+  for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+    const ShapeNode& it = shape.nodes[node];
+    const bool compares = compares_progress(it.synchronization);
+    if (compares) nodes.insert(node);
+    if (compares || it.latches) nodes.insert(it.held().begin(), it.held().end());
   }
   return {nodes.begin(), nodes.end()};
 }
 
 }  // namespace
 
-RunDelta::RunDelta(const Tree& tree)
-    : synchronized_nodes_(synchronized_nodes(tree)),
-      measured_(measured_nodes(tree)),
+RunDelta::RunDelta(const Shape& shape)
+    : measured_(compared_nodes(shape)),
       succeeded_(measured_),  // for its room
-      limits_(synchronized_nodes_.size()),
-      progress_(tree.nodes.size()),
-      source_(tree.nodes.size()),
-      moved_(tree.nodes.size()),
-      state_(tree.nodes.size()),
-      kept_(tree.nodes.size()),
-      kept_progress_(tree.nodes.size()),
-      changes_(tree.nodes.size()) {
-  for (const NodeIndex node : synchronized_nodes_) kept_limits_.push_back({.node = node});
-  for_each_resource_user(tree, [this](NodeIndex node) { kept_limits_.push_back({.node = node}); });
-  first_user_ = synchronized_nodes_.size();
+      progress_(shape.nodes.size()),
+      source_(shape.nodes.size()),
+      moved_(shape.nodes.size()),
+      state_(shape.nodes.size()),
+      kept_(shape.nodes.size()),
+      kept_progress_(shape.nodes.size()),
+      changes_(shape.nodes.size()) {
+  for (const NodeIndex node : synchronized_nodes(shape)) {
+    kept_limits_.push_back({.node = node});
+    const ShapeNode& it = shape.nodes[node];
+    if (it.is_pool()) continue;
+    keepers_.push_back({.node = node, .held = it.held(), .is_group = it.is_group()});
+  }
+  first_user_ = kept_limits_.size();
+  for (const NodeIndex node : users_of_pools(shape)) kept_limits_.push_back({.node = node});
   limits_.reserve(kept_limits_.size());
-  for (const NodeIndex node : repeating_nodes(tree)) kept_rounds_.push_back({.node = node});
+  for (const NodeIndex node : repeating_nodes(shape)) kept_rounds_.push_back({.node = node});
   rounds_.reserve(kept_rounds_.size());
 }
 
 // Only running nodes are asked. The progress of all others follows from their Activity, so it is
 // computed again only after a change of Activity.
-void RunDelta::before_tick(Ticker& ticker) {
-  ticker.share_progress();
-  const std::span<const Activity> activity = ticker.run_state().activity;
+void RunDelta::before_tick(const Moment& moment) {
+  moment.live->share_progress();
+  const std::span<const Activity> activity = moment.activity;
   for_each_difference(activity, source_.data(), [&](NodeIndex node) {
-    set_progress(node, ticker.progress(node));
+    set_progress(node, moment.live->progress(node));
     const bool running = status_of(activity[node]) == Status::Running;
     source_[node] = running ? kUnknown : static_cast<std::uint8_t>(activity[node]);
   });
 }
 
-std::span<const NodeChange> RunDelta::changes(Ticker& ticker) {
-  take_snapshots(ticker);
-  put_states(ticker.run_state(), ticker.tick_number(), moved_.data(), state_.data());
+std::span<const NodeChange> RunDelta::changes(const Moment& moment) {
+  take_used(moment);
+  put_states(moment, moved_.data(), state_.data());
   count_ = 0;
   has_turns_ = has_begun_ = false;
   if (is_whole_) {
@@ -102,33 +103,33 @@ void RunDelta::add_change(NodeIndex node) {
   has_begun_ |= is_running(state) && !is_running(kept_[node]);
 }
 
-std::span<const NodeIndex> RunDelta::succeeded(const Ticker& ticker) {
+std::span<const NodeIndex> RunDelta::succeeded(const Moment& moment) {
   succeeded_.clear();
-  if (ticker.run_state().ended.empty()) return {};
+  if (moment.ended.empty()) return {};
   for (const NodeIndex node : measured_) {
-    if (ticker.ended_after_success(node)) succeeded_.push_back(node);
+    const bool is_ended = std::ranges::find(moment.ended, node) != moment.ended.end();
+    if (is_ended) succeeded_.push_back(node);
   }
   return succeeded_;
 }
 
-std::span<const LimitChange> RunDelta::limits(Ticker& ticker) {
+std::span<const LimitChange> RunDelta::limits(const Moment& moment) {
   limits_.clear();
   for (std::size_t i = 0; i < kept_limits_.size(); ++i) {
     const LimitChange& kept = kept_limits_[i];
-    const bool is_as_kept = i < first_user_ && !ticker.ticked(kept.node);
-    const double limit = is_as_kept ? kept.limit : lockstep::host::limit(ticker, kept.node);
+    const bool is_as_kept = i < first_user_ && !moment.ticked(kept.node);
+    const double limit = is_as_kept ? kept.limit : moment.limit(kept.node);
     const bool is_new = limit != (all_limits_ ? 0 : kept.limit);
     if (is_new || (is_whole_ && limit != 0)) limits_.push_back({kept.node, limit});
   }
   return limits_;
 }
 
-std::span<const RoundChange> RunDelta::rounds(Ticker& ticker) {
+std::span<const RoundChange> RunDelta::rounds(const Moment& moment) {
   rounds_.clear();
   for (const RoundChange& kept : kept_rounds_) {
-    const bool is_running = ticker.status(kept.node) == Status::Running;
-    const Round round =
-        is_running ? ticker.node(kept.node).kind->round(ticker, kept.node) : Round{};
+    const bool is_running = moment.status(kept.node) == Status::Running;
+    const Round round = is_running ? moment.live->round(kept.node) : Round{};
     const bool is_new = round != kept.round;
     if (is_new || (is_whole_ && round != Round{})) rounds_.push_back({kept.node, round});
   }
@@ -168,14 +169,14 @@ void RunDelta::set_progress(NodeIndex node, double progress) {
 }
 
 // The numbers that a synchronized node has used replace those from before its tick.
-void RunDelta::take_snapshots(Ticker& ticker) {
-  for (const NodeIndex node : synchronized_nodes_) {
-    if (!compares_progress(synchronization(ticker.node(node)))) continue;
-    if (!asked_children(ticker, node)) continue;
-    each_used_progress(ticker, node, [&](NodeIndex child, double used) {
-      set_progress(child, used);
-      source_[child] = kUnknown;
-    });
+void RunDelta::take_used(const Moment& moment) {
+  for (const Keeper& it : keepers_) {
+    if (!asked_children(moment, it.node, it.held, it.is_group)) continue;
+    const std::span<const double> used = moment.used(it.node);
+    for (std::size_t child = 0; child < it.held.size(); ++child) {
+      set_progress(it.held[child], is_left_out(used[child]) ? 0 : used[child]);
+      source_[it.held[child]] = kUnknown;
+    }
   }
 }
 

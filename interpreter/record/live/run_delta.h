@@ -6,34 +6,33 @@
 #include <vector>
 
 #include "record/packet.h"
+#include "trace/moment.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
-class Ticker;
-struct Tree;
-
 class RunDelta {
  public:
-  explicit RunDelta(const Tree& tree);
+  explicit RunDelta(const Shape& shape);
 
   // Asks every running node for its progress.
-  void before_tick(Ticker& ticker);
+  void before_tick(const Moment& moment);
   // After the tick: the nodes that differ from the last accepted line. Valid until the next call.
-  std::span<const NodeChange> changes(Ticker& ticker);
+  std::span<const NodeChange> changes(const Moment& moment);
   // The synchronized nodes and the children of parallels that have succeeded in the tick and are
   // idle again, because an ancestor has ended them. Valid until the next call.
-  std::span<const NodeIndex> succeeded(const Ticker& ticker);
+  std::span<const NodeIndex> succeeded(const Moment& moment);
   // All nodes that succeeded() may have: among them the synchronized ones.
   std::size_t most_succeeded() const { return measured_.size(); }
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
-  std::span<const LimitChange> limits(Ticker& ticker);
+  std::span<const LimitChange> limits(const Moment& moment);
   // About the last result of changes(): a node has another status than what was kept, or is held or
   // was ticked where it was not, or the other way round; and a node has begun.
   bool has_turns() const { return has_turns_; }
   bool has_begun() const { return has_begun_; }
   // The rounds that are not what was kept. Valid until the next call.
-  std::span<const RoundChange> rounds(Ticker& ticker);
+  std::span<const RoundChange> rounds(const Moment& moment);
   // The next results of changes(), limits() and rounds() also have all that differs from the state
   // before a run, until keep().
   void add_whole() { is_whole_ = true; }
@@ -45,9 +44,15 @@ class RunDelta {
  private:
   void set_progress(NodeIndex node, double progress);
   void add_change(NodeIndex node);
-  void take_snapshots(Ticker& ticker);
+  void take_used(const Moment& moment);
 
-  std::vector<NodeIndex> synchronized_nodes_;
+  // A node that compares the progress of others, and these.
+  struct Keeper {
+    NodeIndex node;
+    std::vector<NodeIndex> held;
+    bool is_group;
+  };
+  std::vector<Keeper> keepers_;
   std::vector<NodeIndex> measured_;  // that succeeded() may have
   std::vector<NodeIndex> succeeded_;
   std::vector<LimitChange> kept_limits_;  // of each synchronized node, then of users of resources

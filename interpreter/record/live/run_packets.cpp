@@ -8,19 +8,17 @@
 
 #include "base/core/version.h"
 #include "base/core/wording.h"
-#include "engine/writers.h"
 #include "judge/summary/statistics.h"
 #include "record/json_lines.h"
-#include "record/live/watched_nodes.h"
 
 namespace lockstep::host {
 namespace {
 
-std::vector<std::uint32_t> slots_of(const Tree& tree,
+std::vector<std::uint32_t> slots_of(const Shape& shape,
                                     const std::optional<std::vector<std::string>>& keys) {
   std::vector<std::uint32_t> slots;
-  for (std::uint32_t slot = 0; slot < tree.slots.size(); ++slot) {
-    const bool wanted = !keys || std::ranges::find(*keys, tree.slots[slot].name) != keys->end();
+  for (std::uint32_t slot = 0; slot < shape.entries.size(); ++slot) {
+    const bool wanted = !keys || std::ranges::find(*keys, shape.entries[slot].key) != keys->end();
     if (wanted) slots.push_back(slot);
   }
   return slots;
@@ -28,22 +26,21 @@ std::vector<std::uint32_t> slots_of(const Tree& tree,
 
 }  // namespace
 
-RunPackets::RunPackets(const Tree& tree, RunDescription run)
-    : tree_(tree),
+RunPackets::RunPackets(Shape shape, RunDescription run)
+    : shape_(std::move(shape)),
       run_(std::move(run)),
-      delta_(tree),
-      slots_(slots_of(tree, run_.entries)),
+      delta_(shape_),
+      slots_(slots_of(shape_, run_.entries)),
       entries_(slots_) {
-  const std::size_t repeating = repeating_nodes(tree).size();
-  line_end_.reserve(json_lines::most_of_tick_end(
-      tree.nodes.size(), delta_.most_succeeded() + tree.members.size() + repeating,
-      2 * slots_.size()));
+  std::size_t more = delta_.most_succeeded() + repeating_nodes(shape_).size();
+  for (const ShapeNode& node : shape_.nodes) more += node.members.size();
+  line_end_.reserve(json_lines::most_of_tick_end(shape_.nodes.size(), more, 2 * slots_.size()));
 }
 
 std::string RunPackets::header(const RunStart& start) const {
   RecordingHeader header;
-  static_cast<Shape&>(header) = shape_of(tree_);
-  header.entries = entries_shown(std::move(header.entries));
+  static_cast<Shape&>(header) = shape_;
+  header.entries = entries_shown();
   header.file = run_.tree_file;
   header.version = kVersion;
   header.law = kLawVersion;
@@ -66,13 +63,9 @@ std::map<std::string, std::string, std::less<>> RunPackets::start_values() const
   return values;
 }
 
-std::vector<ShapeEntry> RunPackets::entries_shown(std::vector<ShapeEntry> all) const {
-  const auto who = writers(tree_);
+std::vector<ShapeEntry> RunPackets::entries_shown() const {
   std::vector<ShapeEntry> shown;
-  for (const std::uint32_t slot : slots_) {
-    shown.push_back(std::move(all[slot]));
-    shown.back().writers = who[slot];
-  }
+  for (const std::uint32_t slot : slots_) shown.push_back(shape_.entries[slot]);
   return shown;
 }
 
@@ -80,18 +73,18 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
   lines_.add(who, level, text);
 }
 
-Packet RunPackets::tick(Ticker& ticker, const TickReport& report) {
-  TickEnd end{.limits = delta_.limits(ticker),
-              .rounds = delta_.rounds(ticker),
-              .succeeded = delta_.succeeded(ticker),
-              .moments = ticker.moments(),
+Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
+  TickEnd end{.limits = delta_.limits(moment),
+              .rounds = delta_.rounds(moment),
+              .succeeded = delta_.succeeded(moment),
+              .moments = moment.within,
               .faults = report.faults,
-              .entries = entries_.changes(ticker.blackboard()),
+              .entries = entries_.changes(moment.entries),
               .logs = lines_.lines(),
               .is_full = is_full_};
   if (is_whole_) end.whole = entries_.values();
   json_lines::set_tick_end(line_end_, end);
-  Packet packet{.nodes = delta_.changes(ticker), .text = line_end_};
+  Packet packet{.nodes = delta_.changes(moment), .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
                 !end.succeeded.empty() || !end.moments.empty() || !end.faults.empty() ||
                 !end.entries.empty() || !end.logs.empty();
@@ -119,19 +112,19 @@ void RunPackets::start_over() {
   is_full_ = true;
 }
 
-std::string RunPackets::end(const Ticker& ticker, const RunEnd& end, std::uint64_t lost) {
+std::string RunPackets::end(const Moment& moment, const RunEnd& end, std::uint64_t lost) {
   RecordedEnd closing{.result = std::string(to_string(end.result())),
                       .reason = std::string(to_string(end.reason)),
-                      .fault = end.fault ? fault_text(tree_, *end.fault) : "",
+                      .fault = end.fault ? fault_text(shape_, *end.fault) : "",
                       .ticks = end.ticks,
                       .time = to_seconds(end.time),
                       .overruns = end.overruns,
                       .skipped = end.skipped,
                       .lost = lost};
-  for (const Fault& fault : ticker.tolerated()) {
-    closing.notes.push_back(fault_text(tree_, fault, end.ticks));
+  for (const Fault& fault : moment.live->tolerated()) {
+    closing.notes.push_back(fault_text(shape_, fault, end.ticks));
   }
-  std::ranges::move(progress_notes(ticker), std::back_inserter(closing.notes));
+  std::ranges::move(progress_notes(shape_, *moment.live), std::back_inserter(closing.notes));
   if (end.reason == StopReason::Signal) closing.signal = end.signal;
   const auto lines = lines_.lines();
   closing.logs.assign(lines.begin(), lines.end());

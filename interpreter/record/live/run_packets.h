@@ -29,14 +29,14 @@ struct RunDescription {
 
 class RunPackets {
  public:
-  RunPackets(const Tree& tree, RunDescription run);
+  RunPackets(Shape shape, RunDescription run);
 
   std::string header(const RunStart& start) const;
 
   // Before a tick that is to become a packet: asks every running node for its progress.
-  void before_tick(Ticker& ticker) { delta_.before_tick(ticker); }
+  void before_tick(const Moment& moment) { delta_.before_tick(moment); }
   // The changes since the last packet that was kept. Valid until the next call.
-  Packet tick(Ticker& ticker, const TickReport& report);
+  Packet tick(const Moment& moment, const TickReport& report);
   // The last packet has more than other progress: a node begins, completes, is held, goes on or is
   // ticked again, or there is a limit, a round, a fault, an entry or a line of a leaf.
   bool has_events() const { return has_events_; }
@@ -49,16 +49,16 @@ class RunPackets {
   // The next packet has the whole state, as if nothing had been kept, and says so.
   void start_over();
 
-  std::string end(const Ticker& ticker, const RunEnd& end, std::uint64_t lost);
+  std::string end(const Moment& moment, const RunEnd& end, std::uint64_t lost);
 
   // Takes a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
  private:
-  std::vector<ShapeEntry> entries_shown(std::vector<ShapeEntry> all) const;
+  std::vector<ShapeEntry> entries_shown() const;
   std::map<std::string, std::string, std::less<>> start_values() const;
 
-  const Tree& tree_;
+  const Shape shape_;
   const RunDescription run_;
   RunDelta delta_;
   std::vector<std::uint32_t> slots_;  // of the entries that are shown

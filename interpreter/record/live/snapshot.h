@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "base/core/clock.h"
-#include "engine/node_kind.h"
-#include "engine/run_state.h"
 #include "judge/measure/entry_changes.h"
 #include "run/leaf_lines.h"
+#include "trace/node_state.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -19,7 +18,7 @@ struct NodeView {
   Activity activity = Activity::Idle;
   double progress = 0;  // children of synchronized nodes only
   Round round = {};     // of a node that runs its child again and again; number 0: not known
-  double limit = 0;     // synchronized nodes only: that counted, see engine/synchronized.h
+  double limit = 0;     // synchronized nodes only: that counted, see base/core/synchronization.h
 };
 
 // The progress to show of a child of a synchronized node, given what the node used in its last

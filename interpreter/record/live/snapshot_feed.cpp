@@ -1,30 +1,33 @@
 #include "record/live/snapshot_feed.h"
 
+#include <algorithm>
 #include <numeric>
 
-#include "engine/resources.h"
-#include "record/live/watched_nodes.h"
+#include "base/core/synchronization.h"
 
 namespace lockstep::host {
 namespace {
 
-std::vector<std::uint32_t> all_slots(const Tree& tree) {
-  std::vector<std::uint32_t> slots(tree.slots.size());
+std::vector<std::uint32_t> all_slots(const Shape& shape) {
+  std::vector<std::uint32_t> slots(shape.entries.size());
   std::iota(slots.begin(), slots.end(), 0u);
   return slots;
 }
 
 }  // namespace
 
-SnapshotFeed::SnapshotFeed(const Tree& tree, RealTime real_time)
+SnapshotFeed::SnapshotFeed(const Shape& shape, RealTime real_time)
     : real_time_(real_time),
-      synchronized_nodes_(synchronized_nodes(tree)),
-      repeating_nodes_(repeating_nodes(tree)),
-      activity_(tree.nodes.size()),
-      changes_(all_slots(tree)),
-      entries_(tree.slots.size()),
+      users_(users_of_pools(shape)),
+      repeating_(repeating_nodes(shape)),
+      activity_(shape.nodes.size()),
+      changes_(all_slots(shape)),
+      entries_(shape.entries.size()),
       snapshots_(Snapshot{
-          .header = {}, .nodes = std::vector<NodeView>(tree.nodes.size()), .entries = entries_}) {
+          .header = {}, .nodes = std::vector<NodeView>(shape.nodes.size()), .entries = entries_}) {
+  for (const NodeIndex node : synchronized_nodes(shape)) {
+    if (!shape.nodes[node].is_pool()) compared_.emplace_back(shape, node, false);
+  }
   const auto make_room = [](std::vector<EntryState>& entries) {
     for (EntryState& entry : entries) entry.text.reserve(EntryChanges::kNumber);
   };
@@ -32,56 +35,51 @@ SnapshotFeed::SnapshotFeed(const Tree& tree, RealTime real_time)
   snapshots_.for_each([&](Snapshot& snapshot) { make_room(snapshot.entries); });
 }
 
-void SnapshotFeed::run_started(Ticker& ticker, const RunStart& start) {
+void SnapshotFeed::run_started(const Moment& moment, const RunStart& start) {
   header_.rate_hz = 1.0 / to_seconds(start.period);
   header_.real_time = start.real_time;
-  publish(ticker);
+  publish(moment);
 }
 
 void SnapshotFeed::log(std::string_view who, std::string_view level, std::string_view text) {
   lines_.add(who, level, text);
 }
 
-void SnapshotFeed::after_tick(Ticker& ticker, const TickReport& report) {
+void SnapshotFeed::after_tick(const Moment& moment, const TickReport& report) {
   header_.tick = report.tick;
   header_.time = report.time;
   *header_.overruns += report.skipped > 0;
-  activity_ = ticker.run_state().activity;
-  take_entries(ticker, report.tick);
+  std::ranges::copy(moment.activity, activity_.begin());
+  take_entries(moment, report.tick);
   take_logs();
   is_shown_ = false;
   const auto now = real_time_();
   if (now - published_ < kPeriod) return;
   published_ = now;
-  publish(ticker);
+  publish(moment);
 }
 
-void SnapshotFeed::standing(Ticker& ticker) {
-  if (!is_shown_) publish(ticker);
+void SnapshotFeed::standing(const Moment& moment) {
+  if (!is_shown_) publish(moment);
 }
 
-void SnapshotFeed::run_ended(Ticker& ticker, const RunEnd& end) {
+void SnapshotFeed::run_ended(const Moment& moment, const RunEnd& end) {
   header_.result = end.result();
   take_logs();  // of halts
-  publish(ticker);
+  publish(moment);
 }
 
-void SnapshotFeed::publish(Ticker& ticker) {
+void SnapshotFeed::publish(const Moment& moment) {
   Snapshot& back = snapshots_.back();
   back.header = header_;
   for (NodeIndex node = 0; node < back.nodes.size(); ++node) {
     back.nodes[node] = {.activity = activity_[node]};
   }
-  for (const NodeIndex node : synchronized_nodes_) {
-    if (compares_progress(synchronization(ticker.node(node))))
-      take_progress(ticker, node, back.nodes);
+  take_progress(moment, back.nodes);
+  for (const NodeIndex node : repeating_) {
+    if (status_of(activity_[node]) != Status::Running) continue;
+    back.nodes[node].round = moment.live->round(node);
   }
-  for_each_resource_user(ticker.tree(), [&](NodeIndex node) {
-    back.nodes[node].limit = limit(ticker, node);
-    const double progress = ticker.progress(node + 1);
-    back.nodes[node + 1].progress = shown_progress(activity_[node + 1], progress);
-  });
-  for (const NodeIndex node : repeating_nodes_) take_round(ticker, node, back.nodes[node]);
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     if (back.entries[i].changed != entries_[i].changed) back.entries[i] = entries_[i];
   }
@@ -94,8 +92,8 @@ void SnapshotFeed::publish(Ticker& ticker) {
   is_shown_ = true;
 }
 
-void SnapshotFeed::take_entries(Ticker& ticker, std::uint64_t tick) {
-  for (const EntryChange& change : changes_.changes(ticker.blackboard())) {
+void SnapshotFeed::take_entries(const Moment& moment, std::uint64_t tick) {
+  for (const EntryChange& change : changes_.changes(moment.entries)) {
     entries_[change.entry].set(change.text, tick);
   }
   changes_.keep();
@@ -106,17 +104,20 @@ void SnapshotFeed::take_logs() {
   lines_.keep();
 }
 
-void SnapshotFeed::take_round(Ticker& ticker, NodeIndex node, NodeView& view) {
-  if (view.activity != Activity::Running && view.activity != Activity::Paused) return;
-  view.round = ticker.tree().nodes[node].kind->round(ticker, node);
-}
-
-void SnapshotFeed::take_progress(Ticker& ticker, NodeIndex node,
-                                 std::vector<NodeView>& views) const {
-  views[node].limit = limit(ticker, node);
-  each_used_progress(ticker, node, [&](NodeIndex child, double used) {
-    views[child].progress = shown_progress(views[child].activity, used);
-  });
+void SnapshotFeed::take_progress(const Moment& moment, std::vector<NodeView>& views) const {
+  for (const SynchronizedTicks& it : compared_) {
+    views[it.node()].limit = moment.limit(it.node());
+    const std::span<const double> used = moment.used(it.node());
+    for (std::size_t number = 0; number < used.size(); ++number) {
+      NodeView& child = views[it.children()[number]];
+      child.progress = shown_progress(child.activity, is_left_out(used[number]) ? 0 : used[number]);
+    }
+  }
+  for (const NodeIndex node : users_) {
+    views[node].limit = moment.limit(node);
+    NodeView& child = views[node + 1];
+    child.progress = shown_progress(child.activity, moment.live->progress(node + 1));
+  }
 }
 
 }  // namespace lockstep::host

@@ -8,6 +8,7 @@
 
 #include "base/core/clock.h"
 #include "judge/measure/entry_changes.h"
+#include "judge/measure/synchronized_ticks.h"
 #include "record/live/snapshot.h"
 #include "record/live/triple_buffer.h"
 #include "run/leaf_lines.h"
@@ -21,32 +22,32 @@ class SnapshotFeed final : public Observer {
   using RealTime = Nanoseconds (*)();
 
   // Watches all entries of the tree. `real_time` is for tests.
-  explicit SnapshotFeed(const Tree& tree, RealTime real_time = monotonic_now);
+  explicit SnapshotFeed(const Shape& shape, RealTime real_time = monotonic_now);
 
   // Takes a line that a leaf has logged, for a consumer that shows it from snapshots. May be called
   // from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
   // Publishes a snapshot that was held back: no tick follows for a while.
-  void standing(Ticker& ticker) override;
+  void standing(const Moment& moment) override;
   // Everything has been halted by then; the last snapshot is that of the last tick.
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   // For one thread. True if there is a newer snapshot, which newest() is from then on.
   bool take() { return snapshots_.take(); }
   const Snapshot& newest() const { return snapshots_.front(); }
 
  private:
-  void take_entries(Ticker& ticker, std::uint64_t tick);
+  void take_entries(const Moment& moment, std::uint64_t tick);
   void take_logs();
-  void publish(Ticker& ticker);
-  void take_progress(Ticker& ticker, NodeIndex node, std::vector<NodeView>& views) const;
-  static void take_round(Ticker& ticker, NodeIndex node, NodeView& view);
+  void publish(const Moment& moment);
+  void take_progress(const Moment& moment, std::vector<NodeView>& views) const;
 
   RealTime real_time_;
-  std::vector<NodeIndex> synchronized_nodes_, repeating_nodes_;
+  std::vector<SynchronizedTicks> compared_;
+  std::vector<NodeIndex> users_, repeating_;
   Snapshot::Header header_;
   std::vector<Activity> activity_;  // after the last tick
   EntryChanges changes_;

@@ -2,27 +2,24 @@
 
 #include <algorithm>
 
-#include "engine/tree.h"
-
 namespace lockstep::host {
 namespace {
 
 // For three ticks that change everything, and for many that change little.
-std::size_t room_for_statuses(const Tree& tree) {
+std::size_t room_for_statuses(const Shape& shape) {
   constexpr std::size_t kLeast = 256u << 10;
-  return std::max<std::size_t>(kLeast, 3 * packet_size(tree.nodes.size(), 0));
+  return std::max<std::size_t>(kLeast, 3 * packet_size(shape.nodes.size(), 0));
 }
 
 }  // namespace
 
-StatusFeed::StatusFeed(const Tree& tree)
-    : passed_on_(tree.nodes.size()),
-      moment_(tree.nodes.size()),
-      changes_(tree.nodes.size()),
-      ring_(room_for_statuses(tree)) {}
+StatusFeed::StatusFeed(const Shape& shape)
+    : passed_on_(shape.nodes.size()),
+      moment_(shape.nodes.size()),
+      changes_(shape.nodes.size()),
+      ring_(room_for_statuses(shape)) {}
 
-void StatusFeed::after_tick(Ticker&, const TickReport& report) {
-  const Moment& moment = *report.moment;
+void StatusFeed::after_tick(const Moment& moment, const TickReport& report) {
   moment.within.each(moment_, [&](std::span<const NodeState> states, const TickMoment&, bool) {
     pass_on([&](NodeIndex node) { return states[node].activity(); }, report);
   });

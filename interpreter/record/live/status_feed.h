@@ -7,15 +7,16 @@
 
 #include "record/live/packet_ring.h"
 #include "trace/observer.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
 class StatusFeed final : public Observer {
  public:
-  explicit StatusFeed(const Tree& tree);
+  explicit StatusFeed(const Shape& shape);
 
   AskedOfRun asked() const override { return {.within = true}; }
-  void after_tick(Ticker& ticker, const TickReport& report) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
 
   // For one other thread: visits the changes since the last call, in order, as whole ticks.
   template <class Visit>  // (NodeIndex, Status, Nanoseconds)

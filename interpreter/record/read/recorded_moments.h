@@ -1,4 +1,4 @@
-// The Moments of a recording: each is what trace/live_moments.h gave when that tick was recorded.
+// The Moments of a recording: each is what run/live_moments.h gave when that tick was recorded.
 #pragma once
 
 #include <vector>

@@ -11,6 +11,7 @@
 #include "base/core/wording.h"
 #include "record/lines.h"
 #include "record/read/recording_json.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {
@@ -88,8 +89,8 @@ bool is_yes(JsonValue value, std::size_t index) {
 // A recording names kinds, and does not say in which language.
 bool latches(std::string_view kind) {
   return std::ranges::any_of(languages(), [&](const LanguageRules* rules) {
-    return std::ranges::any_of(
-        rules->kinds, [&](const NodeKind* it) { return it->type.latches && it->type.id == kind; });
+    return std::ranges::any_of(built_in_types(*rules),
+                               [&](const NodeType* it) { return it->latches && it->id == kind; });
   });
 }
 

@@ -13,6 +13,7 @@
 #include "base/core/resource_set.h"
 #include "base/core/wording.h"
 #include "record/lines.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {
@@ -372,17 +373,18 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
     value.each_item(
         [&](JsonValue it) { succeeded_.push_back(node_from(it, states.size(), kNone)); });
   };
+  const MostWithin most = most_within(states.size());
   const auto read_moments = [&](JsonValue value) {
     value.each_item([&](JsonValue it) {
-      if (moments_.size() == Moments::kMost) {
-        throw JsonError(fmt::format("more than {} moments", Moments::kMost));
+      if (moments_.size() == most.moments) {
+        throw JsonError(fmt::format("more than {} moments", most.moments));
       }
       moments_.push_back(moment_from(it, states.size(), moment_changes_));
     });
   };
   const auto read_leaf_progress = [&](JsonValue value) {
     value.each_item([&](JsonValue it) {
-      if (leaf_progress_.size() == Moments::most_progress(states.size())) {
+      if (leaf_progress_.size() == most.progress) {
         throw JsonError("more leaf_progress than a tick has");
       }
       leaf_progress_.push_back(leaf_progress_from(it, states.size()));

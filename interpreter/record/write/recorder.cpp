@@ -13,9 +13,9 @@ namespace {
 // A packet that is longer than the queue could never be written, so the queue has room for several.
 // (Only the messages of faults have no limit. A tick that is too long because of them is lost, the
 // one after it is not.)
-std::size_t queue_of(const Tree& tree, std::size_t wanted) {
+std::size_t queue_of(const Shape& shape, std::size_t wanted) {
   constexpr std::size_t kTicks = 4;
-  const std::size_t longest = packet_size(tree.nodes.size(), kPacketCell);
+  const std::size_t longest = packet_size(shape.nodes.size(), kPacketCell);
   return std::max(wanted, kTicks * longest);
 }
 
@@ -38,16 +38,15 @@ FileForm form_of(const RecorderOptions& options) {
 
 }  // namespace
 
-Recorder::Recorder(const Tree& tree, RecorderOptions options)
+Recorder::Recorder(const Shape& shape, RecorderOptions options)
     : options_(std::move(options)),
-      file_(options_.path, queue_of(tree, options_.queue), form_of(options_),
+      file_(options_.path, queue_of(shape, options_.queue), form_of(options_),
             {.are_wanted = options_.rotation.is_wanted(), .keep = options_.rotation.keep}),
-      packets_(tree, options_.run),
+      packets_(shape, options_.run),
       next_whole_(options_.whole_each),
-      bytes_between_wholes_(kWholeShare * packet_size(tree.nodes.size(), 0)) {}
+      bytes_between_wholes_(kWholeShare * packet_size(shape.nodes.size(), 0)) {}
 
-void Recorder::run_started(Ticker& ticker, const RunStart& start) {
-  ticker.keep_moments_with_progress();
+void Recorder::run_started(const Moment&, const RunStart& start) {
   may_wait_ = !start.real_time;
   const std::string header = packets_.header(start);
   if (options_.rotation.is_wanted()) file_.set_header(header);
@@ -59,15 +58,15 @@ void Recorder::log(std::string_view who, std::string_view level, std::string_vie
 }
 
 // Also after a failure of the file: the calls of leaves must not depend on a disk.
-void Recorder::before_tick(Ticker& ticker, std::uint64_t, Nanoseconds) {
-  packets_.before_tick(ticker);
+void Recorder::before_tick(const Moment& moment, std::uint64_t, Nanoseconds) {
+  packets_.before_tick(moment);
 }
 
-void Recorder::after_tick(Ticker& ticker, const TickReport& report) {
+void Recorder::after_tick(const Moment& moment, const TickReport& report) {
   if (!failed()) {
     plan_whole(report.tick);
     plan_part(report);
-    if (push_tick(ticker, report)) {
+    if (push_tick(moment, report)) {
       packets_.keep();
       gap_ = 0;
       if (std::exchange(begins_part_, false)) {
@@ -115,8 +114,8 @@ bool Recorder::wants_part(Nanoseconds time) {
   return file_.part() == parts_ && file_.part_size() >= limit.bytes;
 }
 
-bool Recorder::push_tick(Ticker& ticker, const TickReport& report) {
-  Packet packet = packets_.tick(ticker, report);
+bool Recorder::push_tick(const Moment& moment, const TickReport& report) {
+  Packet packet = packets_.tick(moment, report);
   add_gap(packet.head);
   packet.head.begins_part = begins_part_ ? 1 : 0;
   bytes_since_whole_ += packet_size(packet);
@@ -133,10 +132,10 @@ void Recorder::add_gap(PacketHead& head) const {
   head.lost_from = gap_from_;
 }
 
-void Recorder::run_ended(Ticker& ticker, const RunEnd& end) {
+void Recorder::run_ended(const Moment& moment, const RunEnd& end) {
   const auto patience = end.budget == nullptr ? std::nullopt : end.budget->share();
   if (patience) file_.set_patience(*patience);
-  write(packets_.end(ticker, end, lost_));
+  write(packets_.end(moment, end, lost_));
   if (patience && file_.ran_out_of_patience()) {
     end.budget->used_up_by(fmt::format("who reads the recording '{}'", options_.path));
   }

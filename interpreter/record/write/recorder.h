@@ -37,12 +37,14 @@ struct RecorderOptions {
 
 class Recorder final : public Observer {
  public:
-  Recorder(const Tree& tree, RecorderOptions options);
+  Recorder(const Shape& shape, RecorderOptions options);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  AskedOfRun asked() const override { return {.within = true, .progress_within = true}; }
+
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   // Takes a line that a leaf has logged: the recording has it in the line of its tick. May be
   // called from any thread.
@@ -60,7 +62,7 @@ class Recorder final : public Observer {
   void plan_whole(std::uint64_t tick);
   void plan_part(const TickReport& report);
   bool wants_part(Nanoseconds time);
-  bool push_tick(Ticker& ticker, const TickReport& report);
+  bool push_tick(const Moment& moment, const TickReport& report);
   void write(const std::string& text);
   void tell_error();
 

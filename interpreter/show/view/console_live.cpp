@@ -12,13 +12,8 @@
 
 namespace lockstep::host {
 
-ConsoleLive::ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out)
-    : tree_(tree),
-      shape_(shape_of(tree)),
-      options_(options),
-      out_(out),
-      feed_(tree),
-      screen_(out) {}
+ConsoleLive::ConsoleLive(Shape shape, const LiveOptions& options, Outlet& out)
+    : shape_(std::move(shape)), options_(options), out_(out), feed_(shape_), screen_(out) {}
 
 ConsoleLive::~ConsoleLive() {
   try {
@@ -27,23 +22,23 @@ ConsoleLive::~ConsoleLive() {
   }
 }
 
-void ConsoleLive::run_started(Ticker& ticker, const RunStart& start) {
-  feed_.run_started(ticker, start);
+void ConsoleLive::run_started(const Moment& moment, const RunStart& start) {
+  feed_.run_started(moment, start);
   terminal_.emplace(options_.keys, out_.file());
   thread_.start([this] { draw_until_stopped(); });
 }
 
-void ConsoleLive::after_tick(Ticker& ticker, const TickReport& report) {
-  for (const Fault& fault : report.faults) print(fault_text(tree_, fault, report.tick));
-  feed_.after_tick(ticker, report);
+void ConsoleLive::after_tick(const Moment& moment, const TickReport& report) {
+  for (const Fault& fault : report.faults) print(fault_text(shape_, fault, report.tick));
+  feed_.after_tick(moment, report);
 }
 
-void ConsoleLive::standing(Ticker& ticker) {
-  feed_.standing(ticker);
+void ConsoleLive::standing(const Moment& moment) {
+  feed_.standing(moment);
 }
 
-void ConsoleLive::run_ended(Ticker& ticker, const RunEnd& end) {
-  feed_.run_ended(ticker, end);
+void ConsoleLive::run_ended(const Moment& moment, const RunEnd& end) {
+  feed_.run_ended(moment, end);
   stop();
 }
 

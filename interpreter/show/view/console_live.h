@@ -29,16 +29,16 @@ class ConsoleLive final : public Observer {
  public:
   static constexpr std::size_t kMostLines = 1000;
 
-  ConsoleLive(const Tree& tree, const LiveOptions& options, Outlet& out = messages());
+  ConsoleLive(Shape shape, const LiveOptions& options, Outlet& out = messages());
   // Leaves the last frame on the screen and the cursor visible below it.
   ~ConsoleLive() override;
   ConsoleLive(const ConsoleLive&) = delete;
   ConsoleLive& operator=(const ConsoleLive&) = delete;
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void standing(Ticker& ticker) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void standing(const Moment& moment) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   // A line that scrolls by above the view. May be called from any thread; the line appears with the
   // next frame, or at once after the last one. If a frame has more than kMostLines, the rest is
@@ -55,7 +55,6 @@ class ConsoleLive final : public Observer {
   std::string take_printed();
   DrawOptions draw_options() const;
 
-  const Tree& tree_;
   const Shape shape_;
   LiveOptions options_;
   Outlet& out_;

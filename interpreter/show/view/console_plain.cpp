@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "base/core/diagnostics.h"
-#include "engine/synchronized.h"
+#include "base/core/synchronization.h"
 #include "judge/summary/statistics.h"
 #include "judge/summary/summary.h"
 #include "show/view/waiting.h"
 
 namespace lockstep::host {
 
-ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
-    : tree_(tree), shape_(shape_of(tree)), out_(out), real_time_(real_time) {
+ConsolePlain::ConsolePlain(Shape shape, Outlet& out, RealTime real_time)
+    : shape_(std::move(shape)), out_(out), real_time_(real_time) {
   for (NodeIndex node = 0; node < shape_.nodes.size(); ++node) {
     if (shape_.nodes[node].held().empty()) leaves_.push_back({.node = node});
   }
@@ -27,20 +27,20 @@ ConsolePlain::ConsolePlain(const Tree& tree, Outlet& out, RealTime real_time)
   }
 }
 
-void ConsolePlain::run_started(Ticker&, const RunStart& start) {
+void ConsolePlain::run_started(const Moment&, const RunStart& start) {
   print(fmt::format("run of {} starts, {:.6g} Hz{}", shape_.id, 1.0 / to_seconds(start.period),
                     start.real_time ? "" : ", virtual clock"));
 }
 
-void ConsolePlain::before_tick(Ticker&, std::uint64_t tick, Nanoseconds time) {
+void ConsolePlain::before_tick(const Moment&, std::uint64_t tick, Nanoseconds time) {
   tick_ = tick;
   time_ = time;
 }
 
-void ConsolePlain::after_tick(Ticker&, const TickReport& report) {
+void ConsolePlain::after_tick(const Moment& moment, const TickReport& report) {
   for (const Fault& fault : report.faults) tell_fault(fault);
-  moment_ = report.moment;
-  tell_moment(*moment_);
+  has_ticked_ = true;
+  tell_moment(moment);
 }
 
 void ConsolePlain::tell_moment(const Moment& moment) {
@@ -50,9 +50,9 @@ void ConsolePlain::tell_moment(const Moment& moment) {
   }
 }
 
-void ConsolePlain::run_ended(Ticker& ticker, const RunEnd& end) {
-  for (const Fault& fault : ticker.tolerated()) tell_fault(fault);
-  if (moment_ != nullptr) tell_moment(*moment_);  // what was halted
+void ConsolePlain::run_ended(const Moment& moment, const RunEnd& end) {
+  for (const Fault& fault : moment.live->tolerated()) tell_fault(fault);
+  if (has_ticked_) tell_moment(moment);  // what was halted
   tell_left_out();
   if (short_waits_ > 0) print(fmt::format("... {} left out", counted(short_waits_, "short wait")));
   // The message of the command says which fault it is.
@@ -78,7 +78,7 @@ void ConsolePlain::tell_left_out() {
 
 void ConsolePlain::tell_fault(const Fault& fault) {
   if (!fault_budget_.take(real_time_())) return;
-  print(fault.in_last_halt ? fault_text(tree_, fault)
+  print(fault.in_last_halt ? fault_text(shape_, fault)
                            : fmt::format("{}: failed: {}; counted as Failure",
                                          shape_.nodes[fault.node].path, fault.message));
 }

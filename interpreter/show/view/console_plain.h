@@ -28,13 +28,12 @@ class ConsolePlain final : public Observer {
   using RealTime = Nanoseconds (*)();
 
   // `real_time` is for tests.
-  explicit ConsolePlain(const Tree& tree, Outlet& out = messages(),
-                        RealTime real_time = monotonic_now);
+  explicit ConsolePlain(Shape shape, Outlet& out = messages(), RealTime real_time = monotonic_now);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
   // A line that must not be left out, such as a standstill. Any thread.
   void print(std::string_view text);
@@ -72,7 +71,6 @@ class ConsolePlain final : public Observer {
   void tell_end_of_wait(const Moment& moment, Watched& node, std::size_t child);
   void tell(NodeIndex node, std::string_view what);
 
-  const Tree& tree_;
   const Shape shape_;
   Outlet& out_;
   RealTime real_time_;
@@ -80,8 +78,8 @@ class ConsolePlain final : public Observer {
   LineBudget fault_budget_{kBurstOfFaults};
   std::vector<Leaf> leaves_;
   std::vector<Watched> nodes_;
-  const Moment* moment_ = nullptr;  // of the last tick
-  std::uint64_t short_waits_ = 0;   // that were not reported
+  bool has_ticked_ = false;
+  std::uint64_t short_waits_ = 0;  // that were not reported
   std::atomic<std::uint64_t> tick_{0};
   std::atomic<Nanoseconds> time_{Nanoseconds(0)};
 };

@@ -12,7 +12,6 @@
 #include "base/core/utf8.h"
 #include "base/core/wording.h"
 #include "base/terminal/text_line.h"
-#include "engine/synchronized.h"
 #include "judge/summary/summary.h"
 #include "show/view/lines_below.h"
 #include "show/view/progress_bar.h"

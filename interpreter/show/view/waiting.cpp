@@ -6,8 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/core/progress.h"
 #include "base/core/resource_set.h"
-#include "engine/synchronized.h"
+#include "base/core/synchronization.h"
 
 namespace lockstep::host {
 namespace {

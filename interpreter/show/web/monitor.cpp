@@ -40,11 +40,11 @@ std::string Monitor::Entrance::link() const {
   return fmt::format("http://{}/{}{}", address, has_token ? "#token=" : "", gate.token());
 }
 
-Monitor::Monitor(const Tree& tree, MonitorOptions options)
-    : tree_(tree),
+Monitor::Monitor(Shape shape, MonitorOptions options)
+    : shape_(std::move(shape)),
       recording_(std::move(options.recording)),
       control_(options.control),
-      feed_(tree, std::move(options.run)),
+      feed_(shape_, std::move(options.run)),
       on_attached_(std::move(options.on_attached)),
       linger_(options.linger),
       stop_(std::move(options.stop)),
@@ -78,9 +78,9 @@ void Monitor::log(std::string_view who, std::string_view level, std::string_view
   feed_.log(who, level, text);
 }
 
-void Monitor::run_started(Ticker& ticker, const RunStart& start) {
+void Monitor::run_started(const Moment& moment, const RunStart& start) {
   is_real_time_ = start.real_time;
-  feed_.run_started(ticker, start);
+  feed_.run_started(moment, start);
   log_.set_header(sent_line(feed_.header()));
   feed_.begin_taking([this] { thread_.wake(); });
   thread_.start([this] {
@@ -91,25 +91,25 @@ void Monitor::run_started(Ticker& ticker, const RunStart& start) {
   });
 }
 
-void Monitor::before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+void Monitor::before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) {
   if (control_ != nullptr && control_->pauses_after_tick()) feed_.hurry();
-  feed_.before_tick(ticker, tick, time);
+  feed_.before_tick(moment, tick, time);
 }
 
-void Monitor::after_tick(Ticker& ticker, const TickReport& report) {
-  feed_.after_tick(ticker, report);
+void Monitor::after_tick(const Moment& moment, const TickReport& report) {
+  feed_.after_tick(moment, report);
 }
 
 // Whoever comes while the run is paused begins with the state in which it is, and whoever is behind
 // at its end goes on with that.
-void Monitor::standing(Ticker& ticker) {
+void Monitor::standing(const Moment& moment) {
   feed_.want_full();
-  feed_.standing(ticker);
+  feed_.standing(moment);
   thread_.wake();
 }
 
-void Monitor::run_ended(Ticker& ticker, const RunEnd& end) {
-  feed_.run_ended(ticker, end);
+void Monitor::run_ended(const Moment& moment, const RunEnd& end) {
+  feed_.run_ended(moment, end);
   patience_ = end.budget == nullptr ? kPatience : end.budget->share(kPatience);
   thread_.ask_to_stop();
   if (linger_ > Nanoseconds(0)) return;
@@ -246,7 +246,7 @@ WebAnswer Monitor::obey(const std::string& text) {
   if (control_ == nullptr) {
     return refusal(403, {"this monitor only shows the run", "start it with --monitor-control"});
   }
-  auto order = read_order(tree_, is_real_time_, text);
+  auto order = read_order(shape_, is_real_time_, text);
   if (!order) return refusal(400, order.error());
   if (order->what == RunControl::Order::What::Break) status_.note(order->breakpoint, order->is_on);
   control_->give(std::move(*order));

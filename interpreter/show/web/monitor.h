@@ -37,7 +37,7 @@ struct MonitorOptions {
 class Monitor final : public Observer, private Answering {
  public:
   // Nobody reaches it until it is opened.
-  Monitor(const Tree& tree, MonitorOptions options);
+  Monitor(Shape shape, MonitorOptions options);
   ~Monitor() override;
 
   // Lets clients in, before the run starts. Returns the link, for a person.
@@ -49,11 +49,12 @@ class Monitor final : public Observer, private Answering {
   // Passes on a line that a leaf has logged. May be called from any thread.
   void log(std::string_view who, std::string_view level, std::string_view text);
 
-  void run_started(Ticker& ticker, const RunStart& start) override;
-  void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) override;
-  void after_tick(Ticker& ticker, const TickReport& report) override;
-  void standing(Ticker& ticker) override;
-  void run_ended(Ticker& ticker, const RunEnd& end) override;
+  AskedOfRun asked() const override { return feed_.asked(); }
+  void run_started(const Moment& moment, const RunStart& start) override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void standing(const Moment& moment) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
   // Where clients come in.
@@ -80,7 +81,7 @@ class Monitor final : public Observer, private Answering {
   std::unique_ptr<Stream> history();
   WebAnswer obey(const std::string& order);
 
-  const Tree& tree_;
+  const Shape shape_;
   const std::string recording_;
   RunControl* const control_;
   bool is_real_time_ = true;

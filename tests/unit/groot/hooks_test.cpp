@@ -35,7 +35,7 @@ struct HookedRun {
   Tree tree = test::tree_from_text("Sequence[memory=true](Wait[seconds=0.25] Wait[seconds=0.45])");
   Run run{tree, {}};
   RunControl control;
-  GrootHooks hooks{tree, &control};
+  GrootHooks hooks{tree.nodes[0].end, &control};
   Nanoseconds now{0};
   Status status = Status::Idle;
 };

@@ -11,6 +11,7 @@
 #include "record/live/snapshot_feed.h"
 #include "record/live/status_feed.h"
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 
@@ -36,17 +37,17 @@ Counted count(const std::string& tree, const std::string& leaves, std::uint64_t 
 
   WatchedRun run(tree, leaves);
   const Tree& compiled = run.run.tree();
-  Recorder recorder(compiled, {.path = "/dev/null", .run = {.tree_file = "test.xml"}});
-  LineFeed lines(compiled, {.tree_file = "test.xml"});
-  StatusFeed statuses(compiled);
-  SnapshotFeed snapshots(compiled);
+  Recorder recorder(shape_of(compiled), {.path = "/dev/null", .run = {.tree_file = "test.xml"}});
+  LineFeed lines(shape_of(compiled), {.tree_file = "test.xml"});
+  StatusFeed statuses(shape_of(compiled));
+  SnapshotFeed snapshots(shape_of(compiled));
   auto property = Property::parse("never a.progress > 0.9", property_names(shape_of(compiled)));
   REQUIRE(property);
   PropertyObserver properties({*property}, [](const Property&, std::string) {});
-  Statistics statistics(compiled);
+  Statistics statistics(shape_of(compiled));
   const auto spec = parse_measure("predictability:a@.5");
   REQUIRE(spec);
-  RunMeasures measures(compiled, {&*spec, 1}, 100);
+  RunMeasures measures(shape_of(compiled), {&*spec, 1}, 100);
   run.watch({&recorder, &lines, &statuses, &snapshots, &properties, &statistics, &measures}, ticks);
   counted.watched = asked(run);
   return counted;

@@ -11,6 +11,7 @@
 
 #include "record/json_lines.h"
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "support/json.h"
 #include "support/text.h"
 #include "unit/recording/watched_run.h"
@@ -85,7 +86,7 @@ Known without_progress(Known known) {
 // Takes 7 ms for each tick, takes the lines out now and then, and wants a full one at times.
 struct Reader final : Observer {
   explicit Reader(LineFeed& it) : feed(it) {}
-  void after_tick(Ticker&, const TickReport& report) override {
+  void after_tick(const Moment&, const TickReport& report) override {
     g_now += std::chrono::milliseconds(7);
     if (report.tick % 3 == 0) feed.take(lines);
     if (report.tick % 41 == 0) feed.want_full();
@@ -101,10 +102,10 @@ struct Watched {
 
 Watched watch(WatchedRun& run) {
   const TemporaryPath file;
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   g_now = std::chrono::seconds(1);
-  LineFeed feed(run.run.tree(), {.tree_file = "a.xml", .rate_hz = 10}, now_of_test);
+  LineFeed feed(shape_of(run.run.tree()), {.tree_file = "a.xml", .rate_hz = 10}, now_of_test);
   Reader reader(feed);
   run.watch({&recorder, &feed, &reader}, 300);
   feed.take(reader.lines);
@@ -188,10 +189,10 @@ TEST_CASE("a node that fails in each tick has failed as often as there were tick
 TEST_CASE("lines that find no room are counted, and the next one has what they had") {
   WatchedRun run("Sequence(a)", "a=R");
   g_now = std::chrono::seconds(1);
-  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, now_of_test);
+  LineFeed feed(shape_of(run.run.tree()), {.tree_file = "a.xml"}, now_of_test);
   const std::string long_text(LeafLines::kRoom / 2, 'x');
   struct Chatter final : Observer {
-    void before_tick(Ticker&, std::uint64_t tick, Nanoseconds) override {
+    void before_tick(const Moment&, std::uint64_t tick, Nanoseconds) override {
       g_now += std::chrono::milliseconds(50);
       feed.log("Test/a", "info", std::to_string(tick) + text);
     }
@@ -200,7 +201,7 @@ TEST_CASE("lines that find no room are counted, and the next one has what they h
     const std::string& text;
   } chatter(feed, long_text);
   struct LateTaker final : Observer {
-    void after_tick(Ticker&, const TickReport& report) override {
+    void after_tick(const Moment&, const TickReport& report) override {
       if (report.tick == 98) feed.take(lines);
     }
     explicit LateTaker(LineFeed& it) : feed(it) {}
@@ -223,9 +224,11 @@ TEST_CASE("lines that find no room are counted, and the next one has what they h
 TEST_CASE("on a virtual clock a tick waits for the one who takes lines, and none is lost") {
   WatchedRun run("Sequence(a)", "a=R");
   g_now = std::chrono::seconds(1);
-  LineFeed feed(run.run.tree(), {.tree_file = "a.xml"}, now_of_test);
+  LineFeed feed(shape_of(run.run.tree()), {.tree_file = "a.xml"}, now_of_test);
   struct Chatter final : Observer {
-    void before_tick(Ticker&, std::uint64_t, Nanoseconds) override { feed.log("a", "info", text); }
+    void before_tick(const Moment&, std::uint64_t, Nanoseconds) override {
+      feed.log("a", "info", text);
+    }
     explicit Chatter(LineFeed& it) : feed(it), text(LeafLines::kRoom / 2, 'x') {}
     LineFeed& feed;
     const std::string text;

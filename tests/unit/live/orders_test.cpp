@@ -1,5 +1,6 @@
 // What may be ordered of a run: which values an entry takes, and why it takes no other.
 #include "record/live/orders.h"
+#include "run/shape_of.h"
 
 #include <catch2/catch.hpp>
 #include <string>
@@ -17,7 +18,7 @@ struct Row {
 };
 
 void check(const Tree& tree, const Row& row) {
-  const auto order = read_order(tree, false,
+  const auto order = read_order(shape_of(tree), false,
                                 R"({"do":"set","entry":")" + std::string(row.entry) +
                                     R"(","value":)" + std::string(row.value) + "}");
   INFO(row.entry << " = " << row.value << (order ? "" : ": " + order.error().message));
@@ -73,7 +74,8 @@ TEST_CASE("orders: an entry with a type takes its values, and refuses others wit
 TEST_CASE("orders: an entry of any type takes a number or a truth value where the text is one") {
   const Tree tree = tree_from_text("Sequence(Script[code=a:=1] Script[code=b:=a])", btcpp::kRules);
   const auto value_of = [&](const std::string& json) {
-    const auto order = read_order(tree, false, R"({"do":"set","entry":"a","value":)" + json + "}");
+    const auto order =
+        read_order(shape_of(tree), false, R"({"do":"set","entry":"a","value":)" + json + "}");
     REQUIRE(order);
     return order->value;
   };

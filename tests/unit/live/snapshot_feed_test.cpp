@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "show/view/console_live.h"
 #include "show/view/replay/replay_view.h"
 #include "unit/recording/watched_run.h"
@@ -36,7 +37,7 @@ Nanoseconds hurried() {
 // logs which tick it is.
 struct Writes : Observer {
   explicit Writes(WatchedRun& run) : run_(run) {}
-  void before_tick(Ticker&, std::uint64_t tick, Nanoseconds) override {
+  void before_tick(const Moment&, std::uint64_t tick, Nanoseconds) override {
     for (auto [at, end] = values.equal_range(tick); at != end; ++at) {
       run_.run.set(at->second.first, at->second.second);
       log("Test/a", "info", "tick " + std::to_string(tick));
@@ -62,7 +63,7 @@ std::vector<double> list(std::initializer_list<double> numbers) {
 // What the feed has after each tick, and what a replay of the same run has.
 struct Shown final : Observer {
   Shown(SnapshotFeed& feed, std::vector<Snapshot>& all) : feed_(feed), all_(all) {}
-  void after_tick(Ticker&, const TickReport&) override {
+  void after_tick(const Moment&, const TickReport&) override {
     REQUIRE(feed_.take());
     all_.push_back(feed_.newest());
   }
@@ -79,7 +80,7 @@ TEST_CASE("a snapshot has the value of each entry, and the tick of its last chan
                    {2, {"plan", list({0.5, 1})}},  // the same value is no change
                    {3, {"pause", 7.5}},
                    {4, {"plan", std::vector<double>(200, 0.123456)}}};
-  SnapshotFeed feed(run.run.tree(), hurried);
+  SnapshotFeed feed(shape_of(run.run.tree()), hurried);
   std::vector<Snapshot> all;
   Shown shown(feed, all);
   run.watch({&writes, &feed, &shown}, 6);
@@ -96,7 +97,7 @@ TEST_CASE("a snapshot has the value of each entry, and the tick of its last chan
 
 TEST_CASE("a snapshot has the last lines that leaves logged, and counts the others") {
   WatchedRun run("Sequence(a)", "a=R");
-  SnapshotFeed feed(run.run.tree(), hurried);
+  SnapshotFeed feed(shape_of(run.run.tree()), hurried);
   for (int i = 1; i <= 20; ++i) feed.log("Test/a", "info", "line " + std::to_string(i));
   std::vector<Snapshot> all;
   Shown shown(feed, all);
@@ -112,11 +113,12 @@ TEST_CASE("a snapshot has the last lines that leaves logged, and counts the othe
 
 TEST_CASE("the last snapshot has what leaves log when they are halted, and what had no room") {
   WatchedRun run("Sequence(a)", "a=R");
-  SnapshotFeed feed(run.run.tree(), hurried);
+  SnapshotFeed feed(shape_of(run.run.tree()), hurried);
   run.watch({&feed}, 1);
   const std::string half(LeafLines::kRoom / 2, 'x');
   for (int i = 0; i < 4; ++i) feed.log("Test/a", "info", half);
-  feed.run_ended(run.run.ticker(), {});
+  LiveMoments moments(run.run.tree());
+  feed.run_ended(moments.now(run.run.ticker()), {});
   REQUIRE(feed.take());
   CHECK(feed.newest().logs.lines.size() == 1);
   CHECK(feed.newest().logs.earlier == 3);
@@ -131,9 +133,9 @@ TEST_CASE("a replay has the entries and logs of the live snapshots, forward and 
     if (tick % 2 == 0) writes.values.insert({tick, {"pause", static_cast<double>(100 + tick)}});
   }
   writes.values.insert({20, {"plan", std::vector<double>(200, 0.123456)}});
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-  SnapshotFeed feed(run.run.tree(), hurried);
+  SnapshotFeed feed(shape_of(run.run.tree()), hurried);
   writes.log = [&](auto who, auto level, auto text) {
     recorder.log(who, level, text);
     feed.log(who, level, text);
@@ -264,7 +266,7 @@ TEST_CASE("the live view shows entries below the tree") {
   WatchedRun run(kTree, kLeaves);
   Writes writes(run);
   writes.values = {{2, {"plan", list({0.5, 1})}}};
-  ConsoleLive live(run.run.tree(), {.color = false, .unicode = false}, out.outlet());
+  ConsoleLive live(shape_of(run.run.tree()), {.color = false, .unicode = false}, out.outlet());
   run.watch({&writes, &live}, 4);
   const std::string text = out.text();
   CHECK(text.find("plan = 0.5;1  tick 2\x1b[K\n\x1b[J\x1b[?25h") != std::string::npos);

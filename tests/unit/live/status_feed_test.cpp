@@ -14,9 +14,10 @@ using test::WatchedRun;
 // room from then on. Compares what it then knows with the run.
 struct Taker final : Observer {
   Taker(const Tree& tree, std::uint64_t ticks)
-      : feed(tree), every(ticks), known(tree.nodes.size()) {}
-  void after_tick(Ticker& ticker, const TickReport& report) override {
-    feed.after_tick(ticker, report);
+      : feed(shape_of(tree)), every(ticks), known(tree.nodes.size()) {}
+  AskedOfRun asked() const override { return feed.asked(); }
+  void after_tick(const Moment& moment, const TickReport& report) override {
+    feed.after_tick(moment, report);
     if (report.tick % every > 1) return;
     feed.take([&](NodeIndex node, Status status, Nanoseconds time) {
       if (time > report.time) FAIL("it is of a later tick");
@@ -24,7 +25,7 @@ struct Taker final : Observer {
     });
     if (report.tick % every != 1 % every) return;
     for (NodeIndex node = 0; node < known.size(); ++node) {
-      if (known[node] != ticker.status(node)) FAIL("node " << node << ", tick " << report.tick);
+      if (known[node] != moment.status(node)) FAIL("node " << node << ", tick " << report.tick);
     }
     ++looks;
   }

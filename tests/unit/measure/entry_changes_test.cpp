@@ -33,17 +33,18 @@ std::string text_of(std::span<const EntryChange> changes) {
 TEST_CASE("entries: one is shown when it has another value than in the last line") {
   Board it;
   EntryChanges changes({0, 1});
-  CHECK(text_of(changes.changes(it.board)).empty());  // nobody has written anything
+  CHECK(text_of(changes.changes(it.board.entries)).empty());  // nobody has written anything
   it.set(0, 0.5);
   it.set(1, std::vector<double>{0.25, 1});
-  CHECK(text_of(changes.changes(it.board)) == "0=0.5 1=0.25;1");
-  CHECK(text_of(changes.changes(it.board)) == "0=0.5 1=0.25;1");  // the file did not take it
+  CHECK(text_of(changes.changes(it.board.entries)) == "0=0.5 1=0.25;1");
+  CHECK(text_of(changes.changes(it.board.entries)) ==
+        "0=0.5 1=0.25;1");  // the file did not take it
   changes.keep();
-  CHECK(text_of(changes.changes(it.board)).empty());
+  CHECK(text_of(changes.changes(it.board.entries)).empty());
   it.set(0, 0.5);  // the same value
-  CHECK(text_of(changes.changes(it.board)).empty());
+  CHECK(text_of(changes.changes(it.board.entries)).empty());
   it.set(0, 0.75);
-  CHECK(text_of(changes.changes(it.board)) == "0=0.75");
+  CHECK(text_of(changes.changes(it.board.entries)) == "0=0.75");
 }
 
 TEST_CASE("entries: only those that were asked for, numbered in their order") {
@@ -51,25 +52,25 @@ TEST_CASE("entries: only those that were asked for, numbered in their order") {
   EntryChanges changes({1});
   it.set(0, 0.5);
   it.set(1, std::vector<double>{0.5});
-  CHECK(text_of(changes.changes(it.board)) == "0=0.5");
-  CHECK(changes.changes(it.board).size() == 1);
+  CHECK(text_of(changes.changes(it.board.entries)) == "0=0.5");
+  CHECK(changes.changes(it.board.entries).size() == 1);
 }
 
 TEST_CASE("entries: a value of more than 256 bytes is only named, each time it is written") {
   Board it;
   EntryChanges changes({0, 1});
   it.set(0, std::string(EntryChanges::kLongest, 'x'));
-  CHECK(changes.changes(it.board)[0].text->size() == EntryChanges::kLongest);
+  CHECK(changes.changes(it.board.entries)[0].text->size() == EntryChanges::kLongest);
   changes.keep();
   it.set(0, std::string(EntryChanges::kLongest + 1, 'x'));
-  CHECK(text_of(changes.changes(it.board)) == "0=(too long)");
+  CHECK(text_of(changes.changes(it.board.entries)) == "0=(too long)");
   changes.keep();
-  CHECK(changes.changes(it.board).empty());
+  CHECK(changes.changes(it.board.entries).empty());
   it.set(0, std::string(EntryChanges::kLongest + 1, 'y'));
-  CHECK(changes.changes(it.board).size() == 1);
+  CHECK(changes.changes(it.board.entries).size() == 1);
   changes.keep();
   it.set(1, std::vector<double>(200, 0.123456));
-  CHECK(text_of(changes.changes(it.board)) == "1=(too long)");
+  CHECK(text_of(changes.changes(it.board.entries)) == "1=(too long)");
 }
 
 }  // namespace lockstep::host::test

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "judge/measure/synchronized_ticks.h"
+#include "run/live_moments.h"
 #include "support/scripted_run.h"
-#include "trace/live_moments.h"
 
 namespace lockstep::host {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "judge/measure/measure_spec.h"
+#include "run/live_moments.h"
 #include "support/generated_file.h"
 #include "support/scripted_run.h"
-#include "trace/live_moments.h"
 
 namespace lockstep::host {
 namespace {

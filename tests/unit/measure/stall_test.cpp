@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "run/live_moments.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::host {
@@ -13,7 +14,9 @@ std::string watch(std::string_view tree, std::string_view leaves, int ticks, dou
   test::ScriptedRun run(tree, leaves);
   std::string reports;
   int tick = 0;
-  StallWatch watch(run.tree(), from_seconds(limit), [&](const Standstill& found) {
+  const Shape shape = shape_of(run.tree());
+  LiveMoments moments(run.tree());
+  StallWatch watch(shape, from_seconds(limit), [&](const Standstill& found) {
     const NodeIndex awaited =
         found.link().awaited + (run.tree().is_group(found.link().node) ? 1 : 0);
     reports += std::string(run.tree().labels[awaited].name) + "@" + std::to_string(tick) +
@@ -22,7 +25,7 @@ std::string watch(std::string_view tree, std::string_view leaves, int ticks, dou
   for (; tick < ticks; ++tick) {
     const auto now = std::chrono::milliseconds(100) * tick;
     run.tick(now);
-    watch.after_tick(run.ticker(), now);
+    watch.after_tick(moments.after_tick(run.ticker(), static_cast<std::uint64_t>(tick), now));
   }
   return reports;
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "run/live_moments.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::host {
@@ -19,8 +20,11 @@ std::string chain(std::string_view tree_text, std::string_view leaves, std::stri
   };
   NodeIndex node = 0;
   while (label(node) != from) ++node;
-  if (!holds_somebody(run.ticker(), node)) return "nobody is held";
-  const WaitChain found = wait_chain(run.ticker(), node);
+  const Shape shape = shape_of(tree);
+  LiveMoments moments(tree);
+  const Moment& moment = moments.now(run.ticker());
+  if (!holds_somebody(shape, moment, node)) return "nobody is held";
+  const WaitChain found = wait_chain(shape, moment, node);
   std::string text;
   for (const WaitLink& link : found.links) {
     text += label(link.node) + ": " + name(link, link.waiting) + " waits for " +

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "record/read/recording_reader.h"
+#include "run/shape_of.h"
 #include "unit/recording/blocked_disk.h"
 
 namespace lockstep::host {
@@ -24,22 +25,26 @@ class SteppedRun {
   const Tree& tree() { return run_.run.tree(); }
   std::uint64_t ticks() const { return ticks_; }
   void start(Observer& observer, bool real_time) {
-    observer.run_started(ticker(), {.period = kPeriod, .real_time = real_time});
+    moments_.begin(ticker());
+    observer.run_started(moments_.now(ticker()), {.period = kPeriod, .real_time = real_time});
     observers_.push_back(&observer);
   }
   void tick() {
     const Nanoseconds now = kPeriod * static_cast<std::int64_t>(ticks_);
-    for (Observer* observer : observers_) observer->before_tick(ticker(), ticks_, now);
+    for (Observer* observer : observers_) {
+      observer->before_tick(moments_.now(ticker()), ticks_, now);
+    }
     TickReport report;
     report.tick = ticks_++;
     report.time = now;
     report.status = ticker().tick_root(now);
-    for (Observer* observer : observers_) observer->after_tick(ticker(), report);
+    const Moment& moment = moments_.after_tick(ticker(), report.tick, now);
+    for (Observer* observer : observers_) observer->after_tick(moment, report);
   }
   void end() {
     RunEnd end;
     end.ticks = ticks_;
-    for (Observer* observer : observers_) observer->run_ended(ticker(), end);
+    for (Observer* observer : observers_) observer->run_ended(moments_.now(ticker()), end);
   }
 
  private:
@@ -47,6 +52,7 @@ class SteppedRun {
   Ticker& ticker() { return run_.run.ticker(); }
 
   WatchedRun run_;
+  LiveMoments moments_{run_.run.tree(), {.within = true, .progress_within = true}};
   std::vector<Observer*> observers_;
   std::uint64_t ticks_ = 0;
 };
@@ -65,8 +71,10 @@ TEST_CASE("a disk that is too slow loses ticks, the recording says which, the re
   std::uint64_t lost = 0, ticks = 0;
   {
     SteppedRun run("Sequence[memory=true](a b)", leaves);
-    Recorder recorder(run.tree(), {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
-    Recorder reference(run.tree(), {.path = complete.path(), .run = {.tree_file = "a.xml"}});
+    Recorder recorder(shape_of(run.tree()),
+                      {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
+    Recorder reference(shape_of(run.tree()),
+                       {.path = complete.path(), .run = {.tree_file = "a.xml"}});
     run.start(recorder, true);
     run.start(reference, false);
     while (run.ticks() < 600) run.tick();
@@ -108,7 +116,8 @@ TEST_CASE("ticks lost at the end are reported before the closing line") {
   std::uint64_t lost = 0;
   {
     SteppedRun run("Sequence(a)", "a=R");
-    Recorder recorder(run.tree(), {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
+    Recorder recorder(shape_of(run.tree()),
+                      {.path = disk.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
     run.start(recorder, true);
     while ((lost = recorder.lost()) < 10) run.tick();
     disk.unblock();
@@ -126,7 +135,7 @@ TEST_CASE("on the virtual clock the run waits for the disk instead") {
   const std::string tree = "Repeat[times=500](a)", leaves = "a=RS...";
   const auto record = [&](const std::string& path, std::size_t queue) {
     WatchedRun run(tree, leaves);
-    Recorder recorder(run.run.tree(),
+    Recorder recorder(shape_of(run.run.tree()),
                       {.path = path, .run = {.tree_file = "a.xml"}, .queue = queue});
     run.watch({&recorder}, 5000);
     CHECK(recorder.lost() == 0);
@@ -143,10 +152,11 @@ TEST_CASE("an error while the run goes on is reported within a tick of its being
   BlockedDisk disk;
   std::string told;
   SteppedRun run("Sequence(a)", "a=R");
-  Recorder recorder(run.tree(), {.path = disk.path(),
-                                 .run = {.tree_file = "a.xml"},
-                                 .on_error = [&](const std::string& error) { told += error; },
-                                 .queue = 0});
+  Recorder recorder(shape_of(run.tree()),
+                    {.path = disk.path(),
+                     .run = {.tree_file = "a.xml"},
+                     .on_error = [&](const std::string& error) { told += error; },
+                     .queue = 0});
   run.start(recorder, true);
   run.tick();
   CHECK_FALSE(recorder.failed());
@@ -169,7 +179,7 @@ TEST_CASE("a message that is longer than the queue loses its tick, not the recor
     for (int fault = 0; fault < 100; ++fault) {
       run.faults[2].push_back({1, std::string(100000, 'x')});
     }
-    Recorder recorder(run.run.tree(),
+    Recorder recorder(shape_of(run.run.tree()),
                       {.path = file.path(), .run = {.tree_file = "a.xml"}, .queue = 0});
     run.watch({&recorder});
   }
@@ -188,7 +198,7 @@ TEST_CASE("a recorder that cannot make MCAP refuses its name, and leaves no file
   const TemporaryPath folder;
   const std::string path = folder.path() + ".mcap";
   {
-    Recorder recorder(run.run.tree(), {.path = path, .run = {.tree_file = "a.xml"}});
+    Recorder recorder(shape_of(run.run.tree()), {.path = path, .run = {.tree_file = "a.xml"}});
     CHECK(recorder.error().starts_with("cannot write '" + path +
                                        "': this program writes JSON Lines"));
   }

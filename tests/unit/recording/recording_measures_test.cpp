@@ -9,6 +9,7 @@
 
 #include "judge/measure/measure_spec.h"
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "study/run_measures.h"
 #include "unit/recording/watched_run.h"
 
@@ -96,9 +97,9 @@ void compare(const Case& it, std::span<const MeasureSpec> measures, ValuesOfMeas
   INFO(it.law);
   const TemporaryPath file;
   WatchedRun run(it.tree, it.leaves);
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-  RunMeasures of_run(run.run.tree(), measures, 10);
+  RunMeasures of_run(shape_of(run.run.tree()), measures, 10);
   REQUIRE(of_run.error() == "");
   run.watch({&recorder, &of_run});
 
@@ -166,9 +167,9 @@ TEST_CASE("a tick that a script decides adds nothing to the measures of a synchr
     WatchedRun run("Sequence[memory=true](Script[code=n:=0] Repeat[times=" + std::string(times) +
                        "](ParallelAbsolute[barriers=.5;1 success_if=n>0 on_success=n:=1](a b)))",
                    "a+.1 b+.3");
-    Recorder recorder(run.run.tree(),
+    Recorder recorder(shape_of(run.run.tree()),
                       {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
-    RunMeasures of_run(run.run.tree(), measures, 10);
+    RunMeasures of_run(shape_of(run.run.tree()), measures, 10);
     run.watch({&recorder, &of_run});
     std::istringstream text(file.text());
     RecordingReader reader(text, "run.jsonl");
@@ -186,10 +187,10 @@ TEST_CASE("a plain Parallel is measured by the progress before each of its ticks
   const TemporaryPath file;
   // It runs twice: none of its children has progress when it begins again.
   WatchedRun run("Repeat[times=2](Parallel(a b))", "a+.5 b+.25");
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   const auto measures = measures_of({"progress-distance", "spread", "step-length"});
-  RunMeasures of_run(run.run.tree(), measures, 10);
+  RunMeasures of_run(shape_of(run.run.tree()), measures, 10);
   run.watch({&recorder, &of_run});
   // Before its ticks (0, 0) (.5, .25) (1, .5) (1, .75), and the same again.
   CHECK(of_run.values()[0] == Approx(2 * (.25 + .5 + .25)));
@@ -205,10 +206,10 @@ TEST_CASE("a plain Parallel is measured by the progress before each of its ticks
 TEST_CASE("a recording has the number of an entry after the last tick") {
   const TemporaryPath file;
   WatchedRun run("Parallel(Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](a))", "a=RS");
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   const auto measures = measures_of({"entry:pause"});
-  RunMeasures of_run(run.run.tree(), measures, 10);
+  RunMeasures of_run(shape_of(run.run.tree()), measures, 10);
   run.run.set("pause", 0.25);
   run.run.set("plan", std::vector<double>{0.5});
   run.watch({&recorder, &of_run});
@@ -227,7 +228,7 @@ TEST_CASE("a recording has the number of an entry after the last tick") {
 TEST_CASE("a recording that is cut does not say whether the run succeeded") {
   const TemporaryPath file;
   WatchedRun run("ParallelRelative[delta=1](a b)", "a+.5 b+.5");
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   run.watch({&recorder});
   const std::string whole = file.text();
@@ -244,7 +245,7 @@ TEST_CASE("a recording tells of a node that has succeeded and was ended in the s
   const TemporaryPath file;
   WatchedRun run("Parallel(Sequence[memory=true](ParallelRelative[delta=1](a b) w) c)",
                  "a+.5 b+.3,.7 w=R c=RF");
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   run.watch({&recorder});
 

@@ -10,6 +10,7 @@
 #include "record/use/recording_csv.h"
 #include "record/use/recording_info.h"
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "support/text.h"
 #include "unit/recording/watched_run.h"
 
@@ -26,11 +27,11 @@ constexpr const char* kLeaves = "a+.25 b+.5";
 std::string record(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000) {
   const TemporaryPath file;
   WatchedRun run(tree, leaves);
-  Recorder recorder(run.run.tree(), {.path = file.path(),
-                                     .run = {.tree_file = "trees/a.xml",
-                                             .rate_hz = 10,
-                                             .seed = 18446744073709551615u,
-                                             .arguments = {{"barriers", "0.5;1"}}}});
+  Recorder recorder(shape_of(run.run.tree()), {.path = file.path(),
+                                               .run = {.tree_file = "trees/a.xml",
+                                                       .rate_hz = 10,
+                                                       .seed = 18446744073709551615u,
+                                                       .arguments = {{"barriers", "0.5;1"}}}});
   run.watch({&recorder}, max_ticks);
   CHECK(recorder.error() == "");
   return file.text();
@@ -192,7 +193,8 @@ TEST_CASE("faults that the run went on after are in their tick, and counted") {
   {
     WatchedRun run("Sequence(a b)", "a=RRS b=S");
     run.faults[1] = {{1, "said \"no\"\n"}, {2, "broke \xff"}};
-    Recorder recorder(run.run.tree(), {.path = file.path(), .run = {.tree_file = "a.xml"}});
+    Recorder recorder(shape_of(run.run.tree()),
+                      {.path = file.path(), .run = {.tree_file = "a.xml"}});
     run.watch({&recorder});
   }
   const std::string text = file.text();
@@ -354,9 +356,9 @@ TEST_CASE("a recording that cannot be written is reported once and the run goes 
   for (const char* path : {"/nowhere/run.jsonl", "/dev/full"}) {
     WatchedRun run(kTree, kLeaves);
     int told = 0;
-    Recorder recorder(run.run.tree(), {.path = path,
-                                       .run = {.tree_file = "a.xml"},
-                                       .on_error = [&](const std::string&) { ++told; }});
+    Recorder recorder(shape_of(run.run.tree()), {.path = path,
+                                                 .run = {.tree_file = "a.xml"},
+                                                 .on_error = [&](const std::string&) { ++told; }});
     const RunEnd end = run.watch({&recorder});
     CHECK(end.status == Status::Success);
     CHECK(told == 1);

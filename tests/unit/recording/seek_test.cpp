@@ -6,6 +6,7 @@
 #include "base/compression/decompressed.h"
 #include "record/read/recording_reader.h"
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
@@ -22,10 +23,10 @@ std::string record(std::uint64_t whole_each, bool compresses) {
   WatchedRun run(
       "Repeat[times=100000](Sequence[memory=true](ParallelAbsolute[barriers=.5;1](a b) c))",
       "a+.25 b+.05 c=RRRS...");
-  Recorder recorder(run.run.tree(), {.path = file.path(),
-                                     .run = {.tree_file = "a.xml", .rate_hz = 10},
-                                     .whole_each = whole_each,
-                                     .compresses = compresses});
+  Recorder recorder(shape_of(run.run.tree()), {.path = file.path(),
+                                               .run = {.tree_file = "a.xml", .rate_hz = 10},
+                                               .whole_each = whole_each,
+                                               .compresses = compresses});
   run.watch({&recorder}, kTicks);
   CHECK(recorder.error() == "");
   return file.text();
@@ -135,7 +136,7 @@ TEST_CASE("whole states are left out where they would be most of a recording") {
   for (int i = 0; i < 100; ++i) leaves += " a";
   const TemporaryPath file;
   WatchedRun run("Parallel(" + leaves.substr(1) + ")", "a=R");  // nothing happens
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml"}, .whole_each = 1});
   run.watch({&recorder}, 600);
   const std::string text = file.text();

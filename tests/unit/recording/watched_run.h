@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/terminal/outlet.h"
+#include "run/observers.h"
 #include "support/scripted_run.h"
-#include "trace/observers.h"
 
 namespace lockstep::host::test {
 

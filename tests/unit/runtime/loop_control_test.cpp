@@ -30,11 +30,11 @@ class PassingClock final : public Clock {
 // Gives orders where the run stands, and notes when ticks began.
 class Commander final : public Observer {
  public:
-  void after_tick(Ticker&, const TickReport& report) override {
+  void after_tick(const Moment&, const TickReport& report) override {
     begins.push_back(report.time);
     if (on_tick) on_tick(report.tick);
   }
-  void standing(Ticker&) override { on_stand(stands++); }
+  void standing(const Moment&) override { on_stand(stands++); }
 
   std::vector<Nanoseconds> begins;
   int stands = 0;  // the last is the end

@@ -49,10 +49,10 @@ struct Begin {
 // When each tick began, as the loop says.
 class Begins final : public Observer {
  public:
-  void after_tick(Ticker&, const TickReport& report) override {
+  void after_tick(const Moment&, const TickReport& report) override {
     list.push_back({report.time, report.skipped});
   }
-  void run_ended(Ticker&, const RunEnd&) override { ended = true; }
+  void run_ended(const Moment&, const RunEnd&) override { ended = true; }
   std::vector<Begin> list;
   bool ended = false;
 };
@@ -287,7 +287,7 @@ TEST_CASE("the worst tick names the leaf that took at least half of it") {
 
 TEST_CASE("a report has the faults that the run goes on after") {
   struct Faults final : Observer {
-    void after_tick(Ticker&, const TickReport& report) override {
+    void after_tick(const Moment&, const TickReport& report) override {
       for (const Fault& fault : report.faults) {
         told.push_back(std::to_string(report.tick) + " " + std::to_string(fault.node) + " " +
                        fault.message);
@@ -323,7 +323,7 @@ TEST_CASE("on a virtual clock nothing is late and no tick is the worst") {
 
 TEST_CASE("an exception that nobody expected halts the running leaves on its way") {
   struct Throwing final : Observer {
-    void after_tick(Ticker&, const TickReport& report) override {
+    void after_tick(const Moment&, const TickReport& report) override {
       if (report.tick == 3) throw std::bad_alloc();
     }
   } throwing;

@@ -7,6 +7,7 @@
 
 #include "judge/measure/measure_spec.h"
 #include "run/loop.h"
+#include "run/shape_of.h"
 #include "support/compiled.h"
 #include "unit/plugin/lab_plugin.h"
 
@@ -47,7 +48,7 @@ Outcome outcome(const RunEnd& end, std::span<const double> values) {
 
 Outcome looped(const StudyCell& cell, std::span<const MeasureSpec> measures, int (*stop)()) {
   begin_run();
-  RunMeasures measured(cell.tree, measures, cell.rate);
+  RunMeasures measured(shape_of(cell.tree), measures, cell.rate);
   Run run(cell.tree, {.period = deadline_of(1, cell.rate), .virtual_time = true});
   VirtualClock clock;
   Observer* const observers[] = {&measured};

@@ -1,4 +1,5 @@
 #include "judge/summary/repeated_halts.h"
+#include "run/shape_of.h"
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +19,7 @@ Told told_of(const std::string& tree, const std::string& leaves, std::uint64_t t
   Told told;
   WatchedRun run(tree, leaves);
   run.start.period = period;
-  RepeatedHalts halts(run.run.tree(), [&](NodeIndex, const std::string& warning) {
+  RepeatedHalts halts(shape_of(run.run.tree()), [&](NodeIndex, const std::string& warning) {
     told.warnings.push_back(warning);
   });
   run.watch({&halts}, ticks);

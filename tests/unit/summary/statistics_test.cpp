@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "engine/synchronized.h"
+#include "run/shape_of.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host {
@@ -15,7 +16,7 @@ using test::WatchedRun;
 constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
 
 Summary summary_of(WatchedRun& run) {
-  Statistics statistics(run.run.tree());
+  Statistics statistics(shape_of(run.run.tree()));
   run.watch({&statistics});
   return statistics.summary();
 }

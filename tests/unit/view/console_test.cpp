@@ -1,6 +1,7 @@
 // The plain lines, and the thread of the live view.
 #include <catch2/catch.hpp>
 
+#include "run/shape_of.h"
 #include "show/view/console_live.h"
 #include "show/view/console_plain.h"
 #include "unit/recording/watched_run.h"
@@ -18,7 +19,7 @@ Nanoseconds frozen() {
 std::string plain(std::string_view tree, std::string_view leaves, std::uint64_t max_ticks = 1000) {
   TextFile out;
   WatchedRun run(tree, leaves);
-  ConsolePlain console(run.run.tree(), out.outlet(), frozen);
+  ConsolePlain console(shape_of(run.run.tree()), out.outlet(), frozen);
   run.watch({&console}, max_ticks);
   return out.text();
 }
@@ -90,7 +91,7 @@ TEST_CASE(
   WatchedRun run("Repeat(a)", "a=RS...");
   run.faults[500] = {{1, "threw\x1b[2J"}};
   run.faults[501].assign(ConsolePlain::kBurstOfFaults + 9, {1, "again"});
-  ConsolePlain console(run.run.tree(), out.outlet(), frozen);
+  ConsolePlain console(shape_of(run.run.tree()), out.outlet(), frozen);
   run.watch({&console}, 1000);
   const std::string text = out.text();
   CHECK(text.find("    50.000 s  tick 500     Test/Repeat/a: failed: threw\\x1B[2J; counted as "
@@ -162,7 +163,7 @@ TEST_CASE("after the burst there is a line for each second") {
 TEST_CASE("the live view leaves the last state and the cursor on the screen") {
   TextFile out;
   WatchedRun run("ParallelAbsolute[barriers=.5;1](a b)", "a+.25 b+.5");
-  ConsoleLive live(run.run.tree(), {.color = false, .unicode = false}, out.outlet());
+  ConsoleLive live(shape_of(run.run.tree()), {.color = false, .unicode = false}, out.outlet());
   live.print("a line of a leaf");
   run.watch({&live});
   const std::string text = out.text();
@@ -181,7 +182,7 @@ TEST_CASE("the live view shows which round of Retry and Repeat it is") {
   TextFile out;
   WatchedRun run("Parallel(Retry[attempts=8](a) Repeat[times=4](b) Repeat(c) d)",
                  "a=RF b=RS c=RS d=R");
-  ConsoleLive live(run.run.tree(), {.color = false, .unicode = false}, out.outlet());
+  ConsoleLive live(shape_of(run.run.tree()), {.color = false, .unicode = false}, out.outlet());
   run.watch({&live}, 3);
   const std::string text = out.text();
   const std::string last = text.substr(text.rfind("Test  10 Hz"));
@@ -194,7 +195,7 @@ TEST_CASE("the live view shows which round of Retry and Repeat it is") {
 TEST_CASE("no line is lost after the last frame, and too many are counted") {
   TextFile out;
   WatchedRun run("Sequence(a)", "a=S");
-  ConsoleLive live(run.run.tree(), {}, out.outlet());
+  ConsoleLive live(shape_of(run.run.tree()), {}, out.outlet());
   for (std::size_t i = 0; i < ConsoleLive::kMostLines + 7; ++i) live.print("early");
   run.watch({&live});
   live.print("late");
@@ -207,8 +208,9 @@ TEST_CASE("a live view that is given up restores the cursor") {
   TextFile out;
   WatchedRun run("Sequence(a)", "a=R");
   {
-    ConsoleLive live(run.run.tree(), {}, out.outlet());
-    live.run_started(run.run.ticker(), run.start);
+    ConsoleLive live(shape_of(run.run.tree()), {}, out.outlet());
+    LiveMoments moments(run.run.tree());
+    live.run_started(moments.now(run.run.ticker()), run.start);
   }
   CHECK(out.text().ends_with("\x1b[?25h"));
 }

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "record/write/recorder.h"
+#include "run/shape_of.h"
 #include "show/view/replay/replay_view.h"
 #include "unit/recording/random_recording.h"
 #include "unit/recording/watched_run.h"
@@ -265,8 +266,8 @@ TEST_CASE("the speed is doubled and halved, within limits") {
 
 // What the ticker said of each node after each tick.
 struct Activities final : Observer {
-  void after_tick(Ticker& ticker, const TickReport&) override {
-    ticks.push_back(ticker.run_state().activity);
+  void after_tick(const Moment& moment, const TickReport&) override {
+    ticks.emplace_back(moment.activity.begin(), moment.activity.end());
   }
   std::vector<std::vector<Activity>> ticks;
 };
@@ -275,7 +276,7 @@ TEST_CASE("a replay shows each node as the live view of the run does") {
   const TemporaryPath file;
   WatchedRun run("Sequence(ParallelAbsolute[barriers=.5;1](a Sequence[memory=true](b c)) d)",
                  "a+.05 b+.3 c+.2 d=RRF");
-  Recorder recorder(run.run.tree(),
+  Recorder recorder(shape_of(run.run.tree()),
                     {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
   Activities live;
   run.watch({&recorder, &live});
@@ -303,7 +304,7 @@ TEST_CASE("the last tick of a replay has the result of the run") {
   const auto first_line = [](std::string_view leaf) {
     const TemporaryPath file;
     WatchedRun run("Parallel[success_count=1](AlwaysSuccess a)", leaf);
-    Recorder recorder(run.run.tree(),
+    Recorder recorder(shape_of(run.run.tree()),
                       {.path = file.path(), .run = {.tree_file = "a.xml", .rate_hz = 10}});
     run.watch({&recorder});
     Opened opened(file.text());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "run/shape_of.h"
 #include "show/view/tree_browser.h"
 #include "show/view/tree_view.h"
 #include "support/tree_text.h"

@@ -1,4 +1,5 @@
 #include "show/view/tree_view.h"
+#include "run/shape_of.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "judge/summary/statistics.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {
@@ -44,10 +45,10 @@ std::string run_command(const StudyOptions& options, const StudyPlan& plan,
 }
 
 std::string fault_text(const StudyFault& fault, const LoadedStudy& study) {
-  const Tree& tree = study.cells[fault.row.cell].tree;
+  const Shape shape = shape_of(study.cells[fault.row.cell].tree);
   const std::string cell = cell_text(study.plan, fault.row.cell);
   return fmt::format("{} {}, in run {} of cell {}{}{}{}, seed {}: {}",
-                     describe_node(tree, fault.fault.node), failure_text(fault.fault, fault.ticks),
+                     describe_node(shape, fault.fault.node), failure_text(fault.fault, fault.ticks),
                      fault.row.run, fault.row.cell, cell.empty() ? "" : " (", cell,
                      cell.empty() ? "" : ")", fault.seed, fault.fault.message);
 }

@@ -16,6 +16,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/real_time_leaves.h"
 #include "judge/measure/measure_spec.h"
+#include "run/shape_of.h"
 #include "study/column_names.h"
 #include "study/grid_text.h"
 #include "study/plan_check.h"
@@ -204,7 +205,7 @@ void StudyLoader::add_files(const Project& project) {
 }
 
 void StudyLoader::add_columns(StudyCell& cell, std::uint64_t number) {
-  const RunMeasures measures(cell.tree, study_.measures, cell.rate);
+  const RunMeasures measures(shape_of(cell.tree), study_.measures, cell.rate);
   if (!measures.error().empty()) {
     const std::string where = cell_text(study_.plan, number);
     return error(fmt::format("--measure: {}{}{}", measures.error(),

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "run/shape_of.h"
 #include "trace/moment.h"
 
 namespace lockstep::host {
@@ -12,18 +13,22 @@ namespace lockstep::host {
 class Ticker;
 struct Tree;
 
-class LiveMoments {
+class LiveMoments final : private LiveRun {
  public:
   // The tree must outlive this.
   explicit LiveMoments(const Tree& tree, const AskedOfRun& asked = {});
   LiveMoments(const LiveMoments&) = delete;
   LiveMoments& operator=(const LiveMoments&) = delete;
 
+  // Before the first tick: makes room, which a tick may not. Else the first one does.
+  void begin(Ticker& ticker) const;
+  // As the run is between two ticks. Valid until the next call, and until the next tick.
+  const Moment& now(Ticker& ticker);
   // Needed only if something is asked for.
   void before_tick(Ticker& ticker) {
     if (asks_progress_ || asks_within_) ask(ticker);
   }
-  // Valid until the next call, and until the next tick.
+  // Likewise.
   const Moment& after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
 
  private:
@@ -41,11 +46,21 @@ class LiveMoments {
     std::vector<NodeIndex> children = {};
     std::vector<double> progress = {};
   };
+  double progress(NodeIndex node) override;
+  void share_progress() override;
+  Round round(NodeIndex node) override;
+  bool is_held_at_barrier(NodeIndex member) override;
+  bool faulted() const override;
+  std::span<const Fault> tolerated() const override;
+  std::span<const OutOfRange> out_of_range() const override;
+  std::span<const WentOn> went_on() const override;
+
   void ask(Ticker& ticker);
   void bind(Ticker& ticker);
   void take_used(Ticker& ticker);
 
   const Tree& tree_;
+  Ticker* ticker_ = nullptr;  // of the last call
   std::vector<Asked> asked_;
   std::vector<Plain> plain_;
   std::vector<double> progress_;
@@ -53,7 +68,7 @@ class LiveMoments {
   std::vector<std::span<const double>> uses_;
   const std::vector<NodeIndex> synchronized_;
   const void* bound_ = nullptr;  // where the engine keeps what these point to
-  bool asks_progress_, asks_within_;
+  bool asks_progress_, asks_within_, asks_progress_within_;
   Moment moment_;
 };
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "trace/live_moments.h"
+#include "run/live_moments.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -18,7 +18,7 @@ class Observers {
   void run_started(Ticker& ticker, const RunStart& start);
   // Around the tick, of which the ticker has the time already.
   void before_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time);
-  void after_tick(Ticker& ticker, TickReport report);
+  void after_tick(Ticker& ticker, const TickReport& report);
   void standing(Ticker& ticker);
   void run_ended(Ticker& ticker, const RunEnd& end);
 

@@ -1,4 +1,4 @@
-#include "trace/live_moments.h"
+#include "run/live_moments.h"
 
 #include "engine/blackboard.h"
 #include "engine/resources.h"
@@ -13,7 +13,8 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
       uses_(tree.nodes.size()),
       synchronized_(synchronized_nodes(tree)),
       asks_progress_(!asked.progress.empty()),
-      asks_within_(asked.within) {
+      asks_within_(asked.within),
+      asks_progress_within_(asked.progress_within) {
   for (const NodeIndex node : asked.progress) asked_.push_back({.node = node});
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const Synchronization kind = synchronization(tree.nodes[node]);
@@ -37,8 +38,13 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
   moment_.uses = uses_;
 }
 
-void LiveMoments::ask(Ticker& ticker) {
+void LiveMoments::begin(Ticker& ticker) const {
+  if (asks_progress_within_) return ticker.keep_moments_with_progress();
   if (asks_within_) ticker.keep_moments();
+}
+
+void LiveMoments::ask(Ticker& ticker) {
+  begin(ticker);
   if (!asks_progress_) return;
   ticker.share_progress();
   for (const Asked& it : asked_) progress_[it.node] = ticker.progress(it.node);
@@ -81,20 +87,52 @@ void LiveMoments::take_used(Ticker& ticker) {
   }
 }
 
-const Moment& LiveMoments::after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+const Moment& LiveMoments::now(Ticker& ticker) {
   const RunState& state = ticker.run_state();
   const bool is_bound =
       moment_.activity.data() == state.activity.data() && bound_ == state.bytes.data();
   if (!is_bound) [[unlikely]]
     bind(ticker);
+  ticker_ = &ticker;
+  moment_.live = this;
+  moment_.number = state.tick_number;
+  moment_.ended = state.ended;
+  moment_.entries = ticker.blackboard().entries;
+  return moment_;
+}
+
+const Moment& LiveMoments::after_tick(Ticker& ticker, std::uint64_t tick, Nanoseconds time) {
+  now(ticker);
   if (!asked_.empty()) take_used(ticker);
   moment_.tick = tick;
   moment_.time = time;
-  moment_.number = state.tick_number;
-  moment_.ended = state.ended;
   if (asks_within_) moment_.within = ticker.moments();
-  moment_.entries = ticker.blackboard().entries;
   return moment_;
+}
+
+double LiveMoments::progress(NodeIndex node) {
+  return ticker_->progress(node);
+}
+void LiveMoments::share_progress() {
+  ticker_->share_progress();
+}
+Round LiveMoments::round(NodeIndex node) {
+  return tree_.nodes[node].kind->round(*ticker_, node);
+}
+bool LiveMoments::is_held_at_barrier(NodeIndex member) {
+  return host::is_held_at_barrier(*ticker_, member);
+}
+bool LiveMoments::faulted() const {
+  return ticker_->faulted();
+}
+std::span<const Fault> LiveMoments::tolerated() const {
+  return ticker_->tolerated();
+}
+std::span<const OutOfRange> LiveMoments::out_of_range() const {
+  return ticker_->out_of_range();
+}
+std::span<const WentOn> LiveMoments::went_on() const {
+  return ticker_->went_on();
 }
 
 }  // namespace lockstep::host

@@ -1,0 +1,83 @@
+#include "run/shape_of.h"
+
+#include "base/core/parameter_value.h"
+#include "engine/moments.h"
+#include "engine/resources.h"
+#include "engine/writers.h"
+
+namespace lockstep::host {
+namespace {
+
+// Whether measures compare the progress of the children.
+bool is_measured(const ShapeNode& node) {
+  return node.latches || compares_progress(node.synchronization);
+}
+
+void add_members(const Tree& tree, Shape& shape) {
+  for (const Member& member : tree.members) {
+    if (!is_pool(tree, member.group)) continue;
+    ShapeNode& user = shape.nodes[member.node];
+    const auto gates = tree.gates_of(member);
+    user.gates.assign(gates.begin(), gates.end());
+    user.keeps_resources = resources::may_keep(tree, member.node);
+    shape.nodes[member.group].first_wins = resources::first_wins(tree, member.group);
+  }
+}
+
+}  // namespace
+
+Shape shape_of(const Tree& tree) {
+  Shape shape{.id = tree.id};
+  shape.nodes.resize(tree.nodes.size());
+  for (NodeIndex index = 0; index < tree.nodes.size(); ++index) {
+    ShapeNode& node = shape.nodes[index];
+    const NodeLabel& label = tree.labels[index];
+    const bool has_parent = label.parent != index;
+    // Not each path from the root down: those of a deep tree are long.
+    node.path = (has_parent ? shape.nodes[label.parent].path : tree.id) + "/" + tree.segment(index);
+    node.kind = label.type->id;
+    node.name = label.name;
+    if (has_parent) node.parent = label.parent;
+    node.synchronization = synchronization(tree.nodes[index]);
+    if (const auto list = barriers(tree, index)) node.barriers.emplace(list->begin(), list->end());
+    node.delta = delta(tree, index);
+    node.ignores_idle = ignores_idle(tree, index);
+    node.latches = label.type->latches;
+    node.type = label.type;
+    node.repeats = tree.nodes[index].kind->round != nullptr;
+    if (!tree.is_group(index)) continue;
+    node.resources = tree.group(index).resources;
+    for_each_child(tree, index, [&](NodeIndex child) { node.members.push_back(child); });
+  }
+  const auto who = writers(tree);
+  for (const Slot& slot : tree.slots) {
+    shape.entries.push_back({.key = slot.name,
+                             .type = std::string(type_name(slot.type, slot.object)),
+                             .writers = who[shape.entries.size()],
+                             .value_type = slot.type,
+                             .typing = slot.typing});
+  }
+  add_members(tree, shape);
+  complete(shape);
+  for (const ShapeNode& node : shape.nodes) {
+    if (!is_measured(node)) continue;
+    for (const NodeIndex child : node.held()) {
+      shape.nodes[child].is_guard = tree.nodes[child].is_guard != 0;
+    }
+  }
+  return shape;
+}
+
+std::vector<const NodeType*> built_in_types(const LanguageRules& rules) {
+  std::vector<const NodeType*> types;
+  for (const NodeKind* kind : built_in_kinds(rules)) types.push_back(&kind->type);
+  return types;
+}
+
+MostWithin most_within(std::size_t nodes) {
+  return {.moments = Moments::kMost,
+          .changes = Moments::most_changes(nodes),
+          .progress = Moments::most_progress(nodes)};
+}
+
+}  // namespace lockstep::host
