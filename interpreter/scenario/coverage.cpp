@@ -39,16 +39,16 @@ std::size_t CoveredTree::shown() const {
 }
 
 void Coverage::add(const ScenarioReport& report) {
-  const auto& stage = report.stage;
+  const auto& fixture = report.fixture;
   const NodeCoverage& coverage = *report.coverage;
-  auto it = std::ranges::find(stages_, stage, &Played::stage);
-  if (it == stages_.end()) {
-    stages_.push_back({stage, report.leaves, report.rate, NodeCoverage(stage->tree()), {}});
-    it = stages_.end() - 1;
+  auto it = std::ranges::find(fixtures_, fixture, &Played::fixture);
+  if (it == fixtures_.end()) {
+    fixtures_.push_back({fixture, report.leaves, report.rate, NodeCoverage(fixture->tree()), {}});
+    it = fixtures_.end() - 1;
   }
   Played& played = *it;
   played.coverage.add(coverage);
-  for (NodeIndex node = 0; node < stage->tree().nodes[0].end; ++node) {
+  for (NodeIndex node = 0; node < fixture->tree().nodes[0].end; ++node) {
     auto& by = played.by[node];
     for (std::size_t aspect = 0; aspect < kAspectCount; ++aspect) {
       const bool is_shown = coverage.seen(node).has(static_cast<Aspect>(aspect));
@@ -60,14 +60,14 @@ void Coverage::add(const ScenarioReport& report) {
 void Coverage::find_possible(unsigned jobs) {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t i = next++; i < stages_.size(); i = next++) {
-      Played& it = stages_[i];
-      const auto found = possible_coverage(it.stage->tree(), it.leaves, it.rate);
+    for (std::size_t i = next++; i < fixtures_.size(); i = next++) {
+      Played& it = fixtures_[i];
+      const auto found = possible_coverage(it.fixture->tree(), it.leaves, it.rate);
       if (found) it.possible.emplace(*found);
     }
   };
   std::vector<std::jthread> threads;
-  const auto count = std::min<std::size_t>(jobs, stages_.size());
+  const auto count = std::min<std::size_t>(jobs, fixtures_.size());
   for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work);
 }
 
@@ -78,13 +78,13 @@ std::vector<CoveredTree> Coverage::trees(unsigned jobs) {
     std::map<std::string, std::size_t> numbers;  // of the nodes, by path
   };
   std::vector<Numbered> all;
-  for (const Played& played : stages_) {
-    const Stage& stage = *played.stage;
+  for (const Played& played : fixtures_) {
+    const Fixture& fixture = *played.fixture;
     auto it = std::ranges::find_if(all, [&](const Numbered& known) {
-      return known.tree.file == stage.file() && known.tree.id == stage.tree().id;
+      return known.tree.file == fixture.file() && known.tree.id == fixture.tree().id;
     });
     if (it == all.end()) {
-      all.push_back({{.file = stage.file(), .id = stage.tree().id}, {}});
+      all.push_back({{.file = fixture.file(), .id = fixture.tree().id}, {}});
       it = all.end() - 1;
     }
     merge(played, it->tree, it->numbers);
@@ -96,8 +96,8 @@ std::vector<CoveredTree> Coverage::trees(unsigned jobs) {
 
 void Coverage::merge(const Played& played, CoveredTree& into,
                      std::map<std::string, std::size_t>& numbers) const {
-  const Stage& stage = *played.stage;
-  const Tree& tree = stage.tree();
+  const Fixture& fixture = *played.fixture;
+  const Tree& tree = fixture.tree();
   const auto& possible = played.possible;
   into.is_proved &= possible.has_value();
   for (NodeIndex index = 0; index < tree.nodes.size(); ++index) {
@@ -108,7 +108,7 @@ void Coverage::merge(const Played& played, CoveredTree& into,
     if (is_new) {
       into.nodes.push_back({.path = tree.path(index),
                             .kind = std::string(tree.labels[index].type->id),
-                            .place = stage.location_of(index),
+                            .place = fixture.location_of(index),
                             .seen = {},
                             .possible = {}});
     }

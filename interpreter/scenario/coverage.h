@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scenario/fixture.h"
 #include "scenario/node_coverage.h"
-#include "scenario/stage.h"
 #include "scenario/test_run.h"
 
 namespace lockstep::host {
@@ -41,12 +41,12 @@ class Coverage {
  public:
   // The scenario was played; its leaf file must outlive this.
   void add(const ScenarioReport& report);
-  // Searches for what is possible, once for each stage, on so many threads.
+  // Searches for what is possible, once for each fixture, on so many threads.
   std::vector<CoveredTree> trees(unsigned jobs);
 
  private:
   struct Played {
-    std::shared_ptr<const Stage> stage;
+    std::shared_ptr<const Fixture> fixture;
     const LeafFile* leaves;  // null: there is none
     double rate;
     NodeCoverage coverage;
@@ -57,7 +57,7 @@ class Coverage {
   void merge(const Played& played, CoveredTree& into,
              std::map<std::string, std::size_t>& numbers) const;
 
-  std::vector<Played> stages_;  // in the order in which they came
+  std::vector<Played> fixtures_;  // in the order in which they came
 };
 
 // "98.1 %"; all of nothing is 100.

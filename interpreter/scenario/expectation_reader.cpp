@@ -14,7 +14,7 @@ void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
   std::set<Expectation::Kind> kinds;
   for (const Attribute& it : document_.attributes(element)) {
     if (it.name == "tolerance") {
-      tolerance = cast_.number(it, 0, 1);
+      tolerance = reader_.number(it, 0, 1);
       continue;
     }
     if (!expect) expect = Expectation{.place = it.place};
@@ -78,10 +78,10 @@ void ExpectationReader::read_ending(const Attribute& it, Expectation& expect) co
     expect.result = it.value;
     expect.result_place = it.place;
   } else if (it.name == "ticks") {
-    expect.ticks = cast_.range(it, "3, 2..10 or 5..inf");
+    expect.ticks = reader_.range(it, "3, 2..10 or 5..inf");
     expect.ticks_place = it.place;
   } else if (it.name == "time") {
-    expect.time = cast_.range(it, "0.5, 0.5..2 or 2..inf, in seconds");
+    expect.time = reader_.range(it, "0.5, 0.5..2 or 2..inf, in seconds");
     expect.time_place = it.place;
   } else if (it.name == "node") {
     expect.node = it.value;

@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <string>
 
-#include "scenario/cast_reader.h"
+#include "scenario/binding_reader.h"
 
 namespace lockstep::host {
 
 class ExpectationReader {
  public:
-  // All must outlive this; numbers are read by `cast`.
-  ExpectationReader(const Document& document, const std::string& file, const CastReader& cast,
+  // All must outlive this; numbers are read by `reader`.
+  ExpectationReader(const Document& document, const std::string& file, const BindingReader& reader,
                     const Reporter& report)
-      : document_(document), file_(file), cast_(cast), report_(report) {}
+      : document_(document), file_(file), reader_(reader), report_(report) {}
 
   void read(std::uint32_t element, Scenario& into) const;
 
@@ -23,7 +23,7 @@ class ExpectationReader {
 
   const Document& document_;
   const std::string& file_;
-  const CastReader& cast_;
+  const BindingReader& reader_;
   const Reporter& report_;
 };
 

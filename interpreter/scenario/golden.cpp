@@ -87,9 +87,9 @@ void Golden::compare(std::vector<Surprise>& surprises) const {
     return;
   }
   const BriefRecording brief;
-  PerformOptions again = options;
+  ScenarioRunOptions again = options;
   again.record = brief.path();
-  const Performance performance = performer.perform(again);
+  const ScenarioResult result = runner.run(again);
   NamedRecording golden_file(golden);
   std::ifstream this_file(brief.path());
   if (!golden_file.is_open()) {
@@ -123,9 +123,9 @@ bool Golden::update(std::vector<Surprise>& surprises) const {
   // All of it, before it takes the place of another one.
   const std::string path = without_links(expected.texts[0]);
   const BriefRecording brief;
-  PerformOptions again = options;
+  ScenarioRunOptions again = options;
   again.record = brief.path(path.ends_with(".zst") ? ".jsonl.zst" : ".jsonl");
-  std::string problem = performer.perform(again).problem;
+  std::string problem = runner.run(again).problem;
   if (problem.empty()) {
     const auto bytes = read_file(again.record, std::size_t{4} << 30u);
     const Result<void> written =

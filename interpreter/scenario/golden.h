@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "base/core/diagnostics.h"
-#include "scenario/performance.h"
+#include "scenario/scenario_runner.h"
 
 namespace lockstep::host {
 
 struct Golden {
-  const Performer& performer;
+  const ScenarioRunner& runner;
   const Expectation& expected;
-  const PerformOptions& options;  // of the run
+  const ScenarioRunOptions& options;  // of the run
 
   // Adds what differs.
   void compare(std::vector<Surprise>& surprises) const;

@@ -35,20 +35,20 @@ std::string value_text(const Value& value) {
 
 }  // namespace
 
-InputWatch::InputWatch(const Rehearsal& rehearsal, const Tree& tree)
-    : rehearsal_(rehearsal),
+InputWatch::InputWatch(const BoundScenario& bound, const Tree& tree)
+    : bound_(bound),
       tree_(tree),
-      has_begun_(rehearsal.inputs.size()),
-      is_violated_(rehearsal.inputs.size()) {}
+      has_begun_(bound.inputs.size()),
+      is_violated_(bound.inputs.size()) {}
 
 void InputWatch::begins(const lockstep_caller& caller) {
-  for (std::size_t i = 0; i < rehearsal_.inputs.size(); ++i) {
-    if (std::ranges::binary_search(rehearsal_.inputs[i].leaves, caller.node)) compare(i, caller);
+  for (std::size_t i = 0; i < bound_.inputs.size(); ++i) {
+    if (std::ranges::binary_search(bound_.inputs[i].leaves, caller.node)) compare(i, caller);
   }
 }
 
 void InputWatch::compare(std::size_t number, const lockstep_caller& caller) {
-  const PreparedInput& input = rehearsal_.inputs[number];
+  const PreparedInput& input = bound_.inputs[number];
   has_begun_[number] = true;
   const auto port = std::ranges::find(caller.ports, input.port, &BoundPort::name);
   if (is_violated_[number] || port == caller.ports.end()) return;
@@ -63,7 +63,7 @@ void InputWatch::compare(std::size_t number, const lockstep_caller& caller) {
 
 std::vector<Surprise> InputWatch::verdict() {
   for (std::size_t i = 0; i < has_begun_.size(); ++i) {
-    const PreparedInput& input = rehearsal_.inputs[i];
+    const PreparedInput& input = bound_.inputs[i];
     if (has_begun_[i] || input.of->is_for_all) continue;
     surprises_.push_back(
         {input.place,

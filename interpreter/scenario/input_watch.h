@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "leaves/play/played_leaves.h"
-#include "scenario/performance.h"
-#include "scenario/rehearsal.h"
+#include "scenario/bound_scenario.h"
+#include "scenario/scenario_runner.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -14,7 +14,7 @@ namespace lockstep::host {
 class InputWatch final : public Observer, public PlayedLeafWatch {
  public:
   // Both must outlive this.
-  InputWatch(const Rehearsal& rehearsal, const Tree& tree);
+  InputWatch(const BoundScenario& bound, const Tree& tree);
 
   void before_tick(const Moment&, std::uint64_t tick, Nanoseconds) override { tick_ = tick; }
   void begins(const lockstep_caller& caller) override;
@@ -25,7 +25,7 @@ class InputWatch final : public Observer, public PlayedLeafWatch {
  private:
   void compare(std::size_t input, const lockstep_caller& caller);
 
-  const Rehearsal& rehearsal_;
+  const BoundScenario& bound_;
   const Tree& tree_;
   std::uint64_t tick_ = 0;
   std::vector<bool> has_begun_, is_violated_;  // of each input

@@ -41,8 +41,8 @@ std::string_view result_text(const RunEnd& end) {
   return kTexts[static_cast<std::size_t>(end.result())];
 }
 
-Judge::Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties)
-    : rehearsal_(rehearsal), tree_(tree), checks_(std::move(properties)), steps_(checks_) {}
+Judge::Judge(const BoundScenario& bound, const Tree& tree, std::vector<Property> properties)
+    : bound_(bound), tree_(tree), checks_(std::move(properties)), steps_(checks_) {}
 
 void Judge::after_tick(const Moment& moment, const TickReport& report) {
   ticks_ = report.tick + 1;
@@ -54,7 +54,7 @@ void Judge::after_tick(const Moment& moment, const TickReport& report) {
     for (const DecidingNode& it : deciding_path(shape_of(tree_), moment)) {
       decided_.push_back(tree_.path(it.node));
     }
-  } else if (report.tick + 1 >= rehearsal_.scenario->max_ticks.value_or(kMostScenarioTicks)) {
+  } else if (report.tick + 1 >= bound_.scenario->max_ticks.value_or(kMostScenarioTicks)) {
     for (const LeafNode& leaf : tree_.leaves) {
       if (moment.status(leaf.node) != Status::Running) continue;
       running_.push_back(tree_.path(leaf.node) + (moment.held(leaf.node) ? " (held)" : ""));
@@ -74,7 +74,7 @@ void Judge::standing(const Moment& moment) {
 }
 
 void Judge::tell_violated(std::size_t property, const std::string& when, const Moment& moment) {
-  const PreparedProperty& it = rehearsal_.properties[property];
+  const PreparedProperty& it = bound_.properties[property];
   Surprise surprise{.place = it.of->place,
                     .message = fmt::format("'{}' is violated {}", it.property.text(), when)};
   const std::span<const SeenNode> seen = checks_.seen_by(property);
@@ -100,7 +100,7 @@ std::vector<Surprise> Judge::verdict(const RunEnd& end, const RunMeasures* measu
 
 // A moment behind the end never comes: the scenario is about something else.
 void Judge::judge_moments(const RunEnd& end) {
-  const Scenario& scenario = *rehearsal_.scenario;
+  const Scenario& scenario = *bound_.scenario;
   const auto missed = [&](Place place, const std::string& moment) {
     surprises_.push_back(
         {place,
@@ -120,7 +120,7 @@ void Judge::judge_moments(const RunEnd& end) {
 }
 
 void Judge::judge_ending(const RunEnd& end) {
-  const Scenario& scenario = *rehearsal_.scenario;
+  const Scenario& scenario = *bound_.scenario;
   bool is_result_said = false;
   for (const Expectation& it : scenario.expectations) {
     if (it.kind != Kind::Ending) continue;
@@ -181,7 +181,7 @@ std::vector<std::string> Judge::why(const RunEnd& end) const {
 }
 
 void Judge::judge_limits(const RunMeasures& measures) {
-  for (const PreparedLimit& limit : rehearsal_.limits) {
+  for (const PreparedLimit& limit : bound_.limits) {
     const std::string name = to_text(limit.measure);
     for (std::size_t column = 0; column < measures.columns().size(); ++column) {
       const StudyColumn& it = measures.columns()[column];

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "judge/measure/property_steps.h"
-#include "scenario/performance.h"
+#include "scenario/scenario_runner.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -15,7 +15,7 @@ class RunMeasures;
 class Judge final : public Observer {
  public:
   // All must outlive this.
-  Judge(const Rehearsal& rehearsal, const Tree& tree, std::vector<Property> properties);
+  Judge(const BoundScenario& bound, const Tree& tree, std::vector<Property> properties);
 
   AskedOfRun asked() const override { return steps_.asked(); }
   void after_tick(const Moment& moment, const TickReport& report) override;
@@ -33,7 +33,7 @@ class Judge final : public Observer {
   void judge_limits(const RunMeasures& measures);
   std::vector<std::string> why(const RunEnd& end) const;
 
-  const Rehearsal& rehearsal_;
+  const BoundScenario& bound_;
   const Tree& tree_;
   PropertyChecks checks_;
   PropertySteps steps_;

@@ -1,6 +1,6 @@
 // A scenario, as the user has written it: a tree, what its leaves do, and what is to come of it.
-// docs/testing.md has the reference. Names are as written here; scenario/rehearsal.h finds what
-// they mean in a tree.
+// docs/testing.md has the reference. Names are as written here; scenario/bound_scenario.h finds
+// what they mean in a tree.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct LateTick {
 };
 
 // The part that the leaves of a type, or with a path, play.
-struct CastRow {
+struct BindingRow {
   enum class From : std::uint8_t { Words, Plugin, Recording };
   std::string of, path;  // one of both
   Place place = {};      // of that attribute
@@ -90,7 +90,7 @@ struct Scenario {
   bool is_verified = false;
   std::vector<NamedText> arguments = {};
   std::vector<SetEntry> changes = {};
-  std::vector<CastRow> cast = {};
+  std::vector<BindingRow> bindings = {};
   std::vector<LateTick> late = {};
   std::size_t changes_of_file = 0, late_of_file = 0;  // the first of them are for all scenarios
   std::vector<Expectation> expectations = {};

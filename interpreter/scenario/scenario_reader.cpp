@@ -14,7 +14,7 @@
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "leaves/word_check.h"
-#include "scenario/cast_reader.h"
+#include "scenario/binding_reader.h"
 #include "scenario/expectation_reader.h"
 #include "scenario/row_values.h"
 #include "scenario/scenario_words.h"
@@ -32,8 +32,8 @@ class Reader {
         elements_(document.elements()),
         file_(file),
         report_(file.sources, diagnostics),
-        cast_(document, file.path, report_),
-        expectations_(document, file.path, cast_, report_) {}
+        reader_(document, file.path, report_),
+        expectations_(document, file.path, reader_, report_) {}
 
   bool read() {
     const Element& root = elements_[0];
@@ -119,7 +119,7 @@ class Reader {
       report_.at(elements_[at].place, "the scenario has no tree",
                  "write tree=\"FILE.xml\", here or in <scenarios>");
     }
-    const bool says_one_run = scenario.cast.size() > common_.cast.size() ||
+    const bool says_one_run = scenario.bindings.size() > common_.bindings.size() ||
                               scenario.changes.size() > common_.changes.size() ||
                               scenario.late.size() > common_.late.size();
     if (scenario.is_verified && says_one_run) {
@@ -154,14 +154,14 @@ class Reader {
         into.leaves = beside(file_.path, it.value);
         into.leaves_place = it.place;
       } else if (it.name == "rate") {
-        into.rate = cast_.number(it, 0.001, 100000);
+        into.rate = reader_.number(it, 0.001, 100000);
         into.is_rate_given = true;
       } else if (it.name == "max-ticks") {
-        into.max_ticks = cast_.count(it, 1);
+        into.max_ticks = reader_.count(it, 1);
       } else if (it.name == "seed") {
-        into.seed = cast_.count(it, 0);
+        into.seed = reader_.count(it, 0);
       } else if (it.name == "runs") {
-        into.runs = cast_.count(it, 1);
+        into.runs = reader_.count(it, 1);
       } else if (it.name == "verify") {
         into.is_verified = it.value == "yes";
       }
@@ -187,7 +187,7 @@ class Reader {
     if (!check_words(document_, at, open, tag->words, report_)) return;
     if (tag->name == "arg") read_argument(at, into);
     if (tag->name == "set") read_change(at, into);
-    if (tag->name == "leaf") cast_.read_leaf(at, into);
+    if (tag->name == "leaf") reader_.read_leaf(at, into);
     if (tag->name == "late") read_late(at, into);
     if (tag->name == "substitutions") read_substitutions(*attribute(at, "from"), into);
     if (tag->name == "expect") expectations_.read(at, into);
@@ -206,14 +206,14 @@ class Reader {
     if (tick != nullptr && time != nullptr) {
       report_.at(time->place, "give one of 'tick' and 'time'");
     }
-    if (tick != nullptr) change.tick = cast_.count(*tick, 0);
-    if (time != nullptr) change.time = cast_.number(*time, 0, 1e9);
+    if (tick != nullptr) change.tick = reader_.count(*tick, 0);
+    if (time != nullptr) change.time = reader_.number(*time, 0, 1e9);
     into.changes.push_back(std::move(change));
   }
 
   void read_late(std::uint32_t at, Scenario& into) const {
-    into.late.push_back({cast_.count(*attribute(at, "tick"), 0),
-                         cast_.number(*attribute(at, "by"), 0, 1e6), elements_[at].place});
+    into.late.push_back({reader_.count(*attribute(at, "tick"), 0),
+                         reader_.number(*attribute(at, "by"), 0, 1e6), elements_[at].place});
   }
 
   void read_substitutions(const Attribute& from, Scenario& into) const {
@@ -224,9 +224,9 @@ class Reader {
     for (const std::string& note : found->notes) {
       report_.at_value(from.place, note, "write it into the scenario", Severity::Warning);
     }
-    for (CastRow& row : found->rows) {
+    for (BindingRow& row : found->rows) {
       row.place = row.source = from.place;
-      into.cast.push_back(std::move(row));
+      into.bindings.push_back(std::move(row));
     }
   }
 
@@ -234,7 +234,7 @@ class Reader {
   const std::span<const Element> elements_;
   ScenarioFile& file_;
   const Reporter report_;
-  const CastReader cast_;
+  const BindingReader reader_;
   const ExpectationReader expectations_;
   Scenario common_;
 };

@@ -74,7 +74,7 @@ void add_rows(const std::string& pattern, const TestNode& node, Substitutions& i
   std::string status = node.status;
   std::ranges::transform(status, status.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  CastRow row;
+  BindingRow row;
   row.restarts = row.has_result = row.may_lack = true;
   row.seconds = node.delay_ms / 1000;
   row.result = status == "failure"   ? Status::Failure

@@ -11,7 +11,7 @@
 namespace lockstep::host {
 
 struct Substitutions {
-  std::vector<CastRow> rows;
+  std::vector<BindingRow> rows;
   std::vector<std::string> notes;  // what of them is left out
 };
 

@@ -77,16 +77,16 @@ void TestRun::prepare(Part& part) {
   if (!part.scenario->leaves.empty()) load_leaves(part);
 }
 
-TestRun::LoadedStage& TestRun::stage(const Stage::Key& key) {
-  const auto [it, is_new] = stages_.try_emplace(key);
-  LoadedStage& loaded = it->second;
+TestRun::LoadedFixture& TestRun::fixture(const Fixture::Key& key) {
+  const auto [it, is_new] = fixtures_.try_emplace(key);
+  LoadedFixture& loaded = it->second;
   if (is_new) {
     Diagnostics diagnostics;
     const bool is_changed =
         !options_.changed_tree.empty() && it->first.tree == options_.changed_tree;
-    loaded.stage = Stage::load(it->first, is_changed ? &options_.changed_text : nullptr,
-                               options_.load, diagnostics, plugins_, loaded.failure);
-    if (loaded.stage == nullptr) {
+    loaded.fixture = Fixture::load(it->first, is_changed ? &options_.changed_text : nullptr,
+                                   options_.load, diagnostics, plugins_, loaded.failure);
+    if (loaded.fixture == nullptr) {
       loaded.errors = errors_of(diagnostics);
       if (loaded.errors.empty()) loaded.errors.push_back({.message = "the tree cannot be loaded"});
     }
@@ -95,17 +95,17 @@ TestRun::LoadedStage& TestRun::stage(const Stage::Key& key) {
 }
 
 // Values declare entries, as `--set` does; one that comes later is unset before. Most trees need
-// none, so that scenarios with different values share a stage.
+// none, so that scenarios with different values share a fixture.
 void TestRun::load_stage(Part& part) {
-  Stage::Key key = Stage::key_of(*part.scenario);
-  const LoadedStage* found = &stage(key);
-  if (found->stage == nullptr) {
-    key.values = Stage::start_values(*part.scenario);
-    key.later = Stage::later_values(*part.scenario);
-    found = &stage(key);
+  Fixture::Key key = Fixture::key_of(*part.scenario);
+  const LoadedFixture* found = &fixture(key);
+  if (found->fixture == nullptr) {
+    key.values = Fixture::start_values(*part.scenario);
+    key.later = Fixture::later_values(*part.scenario);
+    found = &fixture(key);
   }
-  const LoadedStage& loaded = *found;
-  part.stage = loaded.stage;
+  const LoadedFixture& loaded = *found;
+  part.fixture = loaded.fixture;
   part.errors = loaded.errors;
   part.failure = loaded.failure;
   // An error without a place in the tree is about what the scenario asks of it.
@@ -132,10 +132,10 @@ void TestRun::load_leaves(Part& part) {
 
 std::vector<std::string> TestRun::documents() const {
   std::vector<std::string> paths;
-  for (const auto& [key, loaded] : stages_) {
+  for (const auto& [key, loaded] : fixtures_) {
     paths.push_back(key.tree);
-    if (loaded.stage == nullptr) continue;
-    for (const auto& source : loaded.stage->sources().all()) paths.push_back(source->path());
+    if (loaded.fixture == nullptr) continue;
+    for (const auto& source : loaded.fixture->sources().all()) paths.push_back(source->path());
   }
   for (const auto& [path, loaded] : leaves_) paths.push_back(path);
   return paths;
@@ -153,7 +153,7 @@ void TestRun::run(const std::function<void(const ScenarioReport&)>& report) {
       const Part& part = parts_[i];
       reports[i] = worker.play({.file = part.file,
                                 .scenario = part.scenario,
-                                .stage = part.stage,
+                                .fixture = part.fixture,
                                 .leaves = part.leaves,
                                 .errors = part.errors,
                                 .failure = part.failure,

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "leaves/leaf_file.h"
+#include "scenario/fixture.h"
 #include "scenario/node_coverage.h"
-#include "scenario/performance.h"
-#include "scenario/stage.h"
+#include "scenario/scenario_runner.h"
 
 namespace lockstep::host {
 
@@ -27,7 +27,7 @@ struct ScenarioReport {
   bool was_stopped = false;                    // by a signal
   std::uint64_t written = 0;                   // recordings, by --update
   // The coverage is of all runs; null: nobody asks for it, or it has none.
-  std::shared_ptr<const Stage> stage = {};
+  std::shared_ptr<const Fixture> fixture = {};
   std::shared_ptr<const NodeCoverage> coverage = {};
   const LeafFile* leaves = nullptr;
   double rate = 0;
@@ -66,21 +66,21 @@ class TestRun {
   struct Part {
     const ScenarioFile* file;
     const Scenario* scenario;
-    std::shared_ptr<const Stage> stage = {};  // null: it cannot be loaded
-    const LeafFile* leaves = nullptr;         // null: there is none
+    std::shared_ptr<const Fixture> fixture = {};  // null: it cannot be loaded
+    const LeafFile* leaves = nullptr;             // null: there is none
     std::vector<Diagnostic> errors = {};
     LoadFailure failure = LoadFailure::Invalid;
     std::string stem = {};  // of the names of its files
   };
 
-  struct LoadedStage {
-    std::shared_ptr<const Stage> stage;
+  struct LoadedFixture {
+    std::shared_ptr<const Fixture> fixture;
     std::vector<Diagnostic> errors;
     LoadFailure failure = LoadFailure::Invalid;
   };
 
   void prepare(Part& part);
-  LoadedStage& stage(const Stage::Key& key);
+  LoadedFixture& fixture(const Fixture::Key& key);
   void load_stage(Part& part);
   void load_leaves(Part& part);
 
@@ -91,7 +91,7 @@ class TestRun {
     std::unique_ptr<LeafFile> file;
     std::vector<Diagnostic> errors;
   };
-  std::map<Stage::Key, LoadedStage> stages_;
+  std::map<Fixture::Key, LoadedFixture> fixtures_;
   std::map<std::string, LoadedLeaves> leaves_;
   std::vector<Part> parts_;
 };

@@ -13,17 +13,17 @@ namespace {
 constexpr std::size_t kMostMemory = std::size_t{1} << 30u;  // bytes
 
 // The place of the property that it is about, if it is one of the scenario.
-Place place_of(const Finding& finding, const Rehearsal& rehearsal) {
-  for (const PreparedProperty& it : rehearsal.properties) {
+Place place_of(const Finding& finding, const BoundScenario& bound) {
+  for (const PreparedProperty& it : bound.properties) {
     if (finding.name == "property/" + it.property.name()) return it.of->place;
   }
-  return rehearsal.scenario->place;
+  return bound.scenario->place;
 }
 
 // An expected result is the only one that may come.
-void add_results(const Rehearsal& rehearsal, const SearchResult& found,
+void add_results(const BoundScenario& bound, const SearchResult& found,
                  std::vector<Surprise>& surprises) {
-  for (const Expectation& it : rehearsal.scenario->expectations) {
+  for (const Expectation& it : bound.scenario->expectations) {
     if (it.kind != Expectation::Kind::Ending || it.result.empty()) continue;
     for (const Status status : {Status::Success, Status::Failure, Status::Skipped}) {
       const auto& first = found.results[index_of(status)];
@@ -38,13 +38,13 @@ void add_results(const Rehearsal& rehearsal, const SearchResult& found,
 
 }  // namespace
 
-std::vector<Surprise> verify_scenario(const Rehearsal& rehearsal, const Stage& stage,
+std::vector<Surprise> verify_scenario(const BoundScenario& bound, const Fixture& fixture,
                                       const LeafFile* file,
                                       const std::function<int()>& stop_signal) {
-  const Tree& tree = stage.tree();
-  const Place place = rehearsal.scenario->place;
-  std::vector<Property> properties = stage.properties();
-  for (const PreparedProperty& it : rehearsal.properties) properties.push_back(it.property);
+  const Tree& tree = fixture.tree();
+  const Place place = bound.scenario->place;
+  std::vector<Property> properties = fixture.properties();
+  for (const PreparedProperty& it : bound.properties) properties.push_back(it.property);
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems = not_verifiable(tree);
   const Observed observed = observed_by(tree, properties, problems);
@@ -53,22 +53,22 @@ std::vector<Surprise> verify_scenario(const Rehearsal& rehearsal, const Stage& s
   for (const NodeProblem& it : problems) {
     surprises.push_back({place,
                          fmt::format("cannot be verified: {}", it.message),
-                         {stage.place_of(it.node) + ": " + tree.path(it.node), it.hint}});
+                         {fixture.place_of(it.node) + ": " + tree.path(it.node), it.hint}});
   }
   if (!problems.empty()) return surprises;
-  const SearchResult found = search(tree, models, properties, from_seconds(1 / rehearsal.rate),
+  const SearchResult found = search(tree, models, properties, from_seconds(1 / bound.rate),
                                     {.memory = kMostMemory, .stop_signal = stop_signal});
   const Verdict verdict = make_verdict(
       tree, models, properties, found,
-      {.rate = rehearsal.rate, .place = [&](NodeIndex node) { return stage.place_of(node); }});
+      {.rate = bound.rate, .place = [&](NodeIndex node) { return fixture.place_of(node); }});
   for (const Finding& it : verdict.findings) {
     if (!it.accepted.empty()) continue;
     surprises.push_back(
-        {place_of(it, rehearsal), fmt::format("finding {}: {}", it.name, it.message), it.more});
+        {place_of(it, bound), fmt::format("finding {}: {}", it.name, it.message), it.more});
     surprises.back().more.push_back("lockstep verify shows a run to it");
   }
-  add_results(rehearsal, found, surprises);
-  const auto wrong = find_contradiction(tree, models, properties, from_seconds(1 / rehearsal.rate),
+  add_results(bound, found, surprises);
+  const auto wrong = find_contradiction(tree, models, properties, from_seconds(1 / bound.rate),
                                         found, usual_chance(found));
   if (wrong) surprises.push_back({place, to_text(*wrong), {"this is a bug in lockstep"}});
   if (!found.is_complete() && surprises.empty()) {

@@ -4,12 +4,12 @@
 #include <functional>
 #include <vector>
 
-#include "scenario/performance.h"
+#include "scenario/scenario_runner.h"
 
 namespace lockstep::host {
 
 // A surprise for each finding, and for each property that does not hold.
-std::vector<Surprise> verify_scenario(const Rehearsal& rehearsal, const Stage& stage,
+std::vector<Surprise> verify_scenario(const BoundScenario& bound, const Fixture& fixture,
                                       const LeafFile* file,
                                       const std::function<int()>& stop_signal);
 

@@ -14,11 +14,11 @@ ScenarioReport ScenarioWorker::play(const PreparedScenario& part) {
   ScenarioReport report{.file = part.file, .scenario = part.scenario};
   report.errors = part.errors;
   report.failure = part.failure;
-  if (part.stage == nullptr || !report.errors.empty()) return report;
+  if (part.fixture == nullptr || !report.errors.empty()) return report;
   Diagnostics diagnostics;
   try {
-    const Rehearsal rehearsal = rehearse(
-        *part.scenario, part.file->sources, *part.stage, part.leaves,
+    const BoundScenario bound = bind_scenario(
+        *part.scenario, part.file->sources, *part.fixture, part.leaves,
         options_.changed_tree.empty() ? MissingLeaves::AreErrors : MissingLeaves::AreLeftOut,
         diagnostics);
     if (diagnostics.has_errors()) {
@@ -26,7 +26,7 @@ ScenarioReport ScenarioWorker::play(const PreparedScenario& part) {
       report.errors = diagnostics.all();
       return report;
     }
-    play(part, rehearsal, report);
+    play(part, bound, report);
   } catch (const std::exception& error) {
     report.errors.push_back(
         {.location = part.file->sources.locate(part.scenario->place), .message = error.what()});
@@ -34,76 +34,76 @@ ScenarioReport ScenarioWorker::play(const PreparedScenario& part) {
   return report;
 }
 
-void ScenarioWorker::play(const PreparedScenario& part, const Rehearsal& rehearsal,
+void ScenarioWorker::play(const PreparedScenario& part, const BoundScenario& bound,
                           ScenarioReport& report) {
   if (part.scenario->is_verified) {
-    report.surprises = verify_scenario(rehearsal, *part.stage, part.leaves, options_.stop_signal);
+    report.surprises = verify_scenario(bound, *part.fixture, part.leaves, options_.stop_signal);
     report.was_stopped = options_.stop_signal && options_.stop_signal() != 0;
     return;
   }
-  if (!initialize_plugins(part, rehearsal, report)) return;
+  if (!initialize_plugins(part, bound, report)) return;
   std::optional<RunCoverage> coverage;
-  if (options_.covers) coverage.emplace(part.stage->tree());
-  perform(part, rehearsal, report, coverage ? &*coverage : nullptr);
+  if (options_.covers) coverage.emplace(part.fixture->tree());
+  run(part, bound, report, coverage ? &*coverage : nullptr);
   if (!coverage) return;
-  report.stage = part.stage;
+  report.fixture = part.fixture;
   report.leaves = part.leaves;
-  report.rate = rehearsal.rate;
+  report.rate = bound.rate;
   report.coverage = std::make_shared<NodeCoverage>(coverage->coverage());
 }
 
-void ScenarioWorker::perform(const PreparedScenario& part, const Rehearsal& rehearsal,
-                             ScenarioReport& report, Observer* observer) {
-  const Performer performer(rehearsal, players_for(part, rehearsal));
+void ScenarioWorker::run(const PreparedScenario& part, const BoundScenario& bound,
+                         ScenarioReport& report, Observer* observer) {
+  const ScenarioRunner runner(bound, stubs_for(part, bound));
   for (std::uint64_t run = 0; run < part.scenario->runs; ++run) {
-    PerformOptions options{.seed = part.scenario->seed + run,
-                           .observer = observer,
-                           .stop_signal = options_.stop_signal};
-    Performance performance = performer.perform(options);
+    ScenarioRunOptions options{.seed = part.scenario->seed + run,
+                               .observer = observer,
+                               .stop_signal = options_.stop_signal};
+    ScenarioResult result = runner.run(options);
     ++report.runs;
-    report.ticks += performance.end.ticks;
-    if (performance.end.reason == StopReason::Signal) {
+    report.ticks += result.end.ticks;
+    if (result.end.reason == StopReason::Signal) {
       report.was_stopped = true;
       return;
     }
-    report.surprises = std::move(performance.surprises);
+    report.surprises = std::move(result.surprises);
     options.observer = nullptr;
-    if (!options_.updates) compare_to_golden(performer, options, report);
+    if (!options_.updates) compare_to_golden(runner, options, report);
     if (report.surprises.empty()) continue;
     report.seed = options.seed;
-    return record(part, performer, options, report);
+    return record(part, runner, options, report);
   }
-  if (options_.updates) update_golden(performer, report);
+  if (options_.updates) update_golden(runner, report);
 }
 
-void ScenarioWorker::compare_to_golden(const Performer& performer, const PerformOptions& options,
+void ScenarioWorker::compare_to_golden(const ScenarioRunner& runner,
+                                       const ScenarioRunOptions& options,
                                        ScenarioReport& report) const {
   for (const Expectation& it : report.scenario->expectations) {
-    if (it.kind == Expectation::Kind::SameAs)
-      Golden{performer, it, options}.compare(report.surprises);
+    if (it.kind == Expectation::Kind::SameAs) Golden{runner, it, options}.compare(report.surprises);
   }
 }
 
 // All runs are as expected otherwise: the first one is written, and the others are to be the same.
-void ScenarioWorker::update_golden(const Performer& performer, ScenarioReport& report) const {
-  PerformOptions options{.seed = report.scenario->seed, .stop_signal = options_.stop_signal};
+void ScenarioWorker::update_golden(const ScenarioRunner& runner, ScenarioReport& report) const {
+  ScenarioRunOptions options{.seed = report.scenario->seed, .stop_signal = options_.stop_signal};
   for (const Expectation& it : report.scenario->expectations) {
     if (it.kind == Expectation::Kind::SameAs)
-      report.written += Golden{performer, it, options}.update(report.surprises) ? 1 : 0;
+      report.written += Golden{runner, it, options}.update(report.surprises) ? 1 : 0;
   }
   for (std::uint64_t run = 1; run < report.runs && report.surprises.empty(); ++run) {
     report.seed = ++options.seed;
-    compare_to_golden(performer, options, report);
+    compare_to_golden(runner, options, report);
   }
 }
 
-void ScenarioWorker::record(const PreparedScenario& part, const Performer& performer,
-                            PerformOptions options, ScenarioReport& report) const {
+void ScenarioWorker::record(const PreparedScenario& part, const ScenarioRunner& runner,
+                            ScenarioRunOptions options, ScenarioReport& report) const {
   if (options_.out.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(options_.out, error);
   options.record = (std::filesystem::path(options_.out) / (part.stem + ".jsonl")).string();
-  const std::string problem = performer.perform(options).problem;
+  const std::string problem = runner.run(options).problem;
   if (problem.empty()) {
     report.recording = options.record;
   } else {
@@ -111,22 +111,22 @@ void ScenarioWorker::record(const PreparedScenario& part, const Performer& perfo
   }
 }
 
-Players& ScenarioWorker::players_for(const PreparedScenario& part, const Rehearsal& rehearsal) {
-  const bool is_usual = rehearsal.cast.real.empty() && rehearsal.models == nullptr;
-  if (!may_reuse_ || !is_usual || &players_->stage() != part.stage.get()) {
-    players_ = std::make_unique<Players>(part.stage, rehearsal.cast.real);
+StubLeaves& ScenarioWorker::stubs_for(const PreparedScenario& part, const BoundScenario& bound) {
+  const bool is_usual = bound.bindings.real.empty() && bound.models == nullptr;
+  if (!may_reuse_ || !is_usual || &stubs_->fixture() != part.fixture.get()) {
+    stubs_ = std::make_unique<StubLeaves>(part.fixture, bound.bindings.real);
   }
   may_reuse_ = is_usual;
-  return *players_;
+  return *stubs_;
 }
 
-bool ScenarioWorker::initialize_plugins(const PreparedScenario& part, const Rehearsal& rehearsal,
+bool ScenarioWorker::initialize_plugins(const PreparedScenario& part, const BoundScenario& bound,
                                         ScenarioReport& report) {
-  const bool has_control = std::ranges::any_of(part.stage->tree().leaves, [](const LeafNode& it) {
+  const bool has_control = std::ranges::any_of(part.fixture->tree().leaves, [](const LeafNode& it) {
     return it.type->category == NodeCategory::Control ||
            it.type->category == NodeCategory::Decorator;
   });
-  if (rehearsal.cast.real.empty() && !has_control) return true;
+  if (bound.bindings.real.empty() && !has_control) return true;
   static std::mutex mutex;
   const std::scoped_lock lock(mutex);
   Diagnostics diagnostics;

@@ -12,9 +12,9 @@ namespace lockstep::host {
 struct PreparedScenario {
   const ScenarioFile* file;
   const Scenario* scenario;
-  std::shared_ptr<const Stage> stage;  // null: its tree cannot be loaded
-  const LeafFile* leaves;              // null: there is none
-  std::vector<Diagnostic> errors;      // why it cannot be played
+  std::shared_ptr<const Fixture> fixture;  // null: its tree cannot be loaded
+  const LeafFile* leaves;                  // null: there is none
+  std::vector<Diagnostic> errors;          // why it cannot be played
   LoadFailure failure;
   std::string stem;  // of the names of its files
 };
@@ -28,23 +28,23 @@ class ScenarioWorker {
   ScenarioReport play(const PreparedScenario& part);
 
  private:
-  void play(const PreparedScenario& part, const Rehearsal& rehearsal, ScenarioReport& report);
-  void perform(const PreparedScenario& part, const Rehearsal& rehearsal, ScenarioReport& report,
-               Observer* observer);
-  void compare_to_golden(const Performer& performer, const PerformOptions& options,
+  void play(const PreparedScenario& part, const BoundScenario& bound, ScenarioReport& report);
+  void run(const PreparedScenario& part, const BoundScenario& bound, ScenarioReport& report,
+           Observer* observer);
+  void compare_to_golden(const ScenarioRunner& runner, const ScenarioRunOptions& options,
                          ScenarioReport& report) const;
-  void update_golden(const Performer& performer, ScenarioReport& report) const;
-  void record(const PreparedScenario& part, const Performer& performer, PerformOptions options,
-              ScenarioReport& report) const;
+  void update_golden(const ScenarioRunner& runner, ScenarioReport& report) const;
+  void record(const PreparedScenario& part, const ScenarioRunner& runner,
+              ScenarioRunOptions options, ScenarioReport& report) const;
   // Those of before, if they fit.
-  Players& players_for(const PreparedScenario& part, const Rehearsal& rehearsal);
+  StubLeaves& stubs_for(const PreparedScenario& part, const BoundScenario& bound);
   // Those whose nodes take part.
-  bool initialize_plugins(const PreparedScenario& part, const Rehearsal& rehearsal,
+  bool initialize_plugins(const PreparedScenario& part, const BoundScenario& bound,
                           ScenarioReport& report);
 
   const TestOptions& options_;
   PluginSet& plugins_;
-  std::unique_ptr<Players> players_;
+  std::unique_ptr<StubLeaves> stubs_;
   bool may_reuse_ = false;
 };
 

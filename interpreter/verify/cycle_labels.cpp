@@ -14,11 +14,11 @@ constexpr std::size_t kStatesAgain = 8192, kStatesOfPart = 32;
 
 class CycleLabels {
  public:
-  CycleLabels(const Graph& graph, const StateStore& store, Crew& crew, const Expanders& expanders,
-              SearchRoom& room)
+  CycleLabels(const Graph& graph, const StateStore& store, WorkerThreads& workers,
+              const Expanders& expanders, SearchRoom& room)
       : graph_(graph),
         store_(store),
-        crew_(crew),
+        workers_(workers),
         expanders_(expanders),
         room_(room),
         memory_(room.memory),
@@ -93,7 +93,7 @@ class CycleLabels {
                        std::optional<SearchEnd>& cut) {
     std::vector<Part> parts((states.size() + kStatesOfPart - 1) / kStatesOfPart);
     std::atomic<std::size_t> next{0};
-    crew_.work([&](unsigned thread) {
+    workers_.work([&](unsigned thread) {
       while (!room_.is_round_full()) {
         const std::size_t i = next++;
         if (i >= parts.size()) return;
@@ -155,7 +155,7 @@ class CycleLabels {
 
   const Graph& graph_;
   const StateStore& store_;
-  Crew& crew_;
+  WorkerThreads& workers_;
   const Expanders& expanders_;
   SearchRoom& room_;
   const std::size_t memory_;  // before
@@ -166,9 +166,9 @@ class CycleLabels {
 
 }  // namespace
 
-CycleGraph label_cycles(const Graph& graph, const StateStore& store, Crew& crew,
+CycleGraph label_cycles(const Graph& graph, const StateStore& store, WorkerThreads& workers,
                         const Expanders& expanders, SearchRoom& room) {
-  return CycleLabels(graph, store, crew, expanders, room).find();
+  return CycleLabels(graph, store, workers, expanders, room).find();
 }
 
 }  // namespace lockstep::host

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "verify/crew.h"
 #include "verify/edge_merger.h"
+#include "verify/worker_threads.h"
 
 namespace lockstep::host {
 
@@ -15,7 +15,7 @@ struct CycleGraph {
   std::optional<SearchEnd> cut = {};  // why some edges are missing
 };
 
-CycleGraph label_cycles(const Graph& graph, const StateStore& store, Crew& crew,
+CycleGraph label_cycles(const Graph& graph, const StateStore& store, WorkerThreads& workers,
                         const Expanders& expanders, SearchRoom& room);
 
 }  // namespace lockstep::host

@@ -112,11 +112,11 @@ class Deadlocks {
 
   // Behind a tick from that state.
   void look_at(StateId state, const std::vector<bool>& holders) {
-    Trail trail = tracer_.begin();
-    std::vector<StateId> way = found_.way_to(state);
-    way.push_back(graph_.edges_of(state).begin()->to);
-    tracer_.go(trail, way);
-    tracer_.play({trail.run.back()}, [&](Stepper& stepper, Status, std::size_t) {
+    TracedPath traced = tracer_.begin();
+    std::vector<StateId> path = found_.path_to(state);
+    path.push_back(graph_.edges_of(state).begin()->to);
+    tracer_.go(traced, path);
+    tracer_.play({traced.run.back()}, [&](Stepper& stepper, Status, std::size_t) {
       const Moment& moment = moments_.after_tick(stepper.ticker(), 0, {});
       for (NodeIndex node = 0; node < holders.size(); ++node) {
         if (!holders[node] || !holds_somebody(shape_, moment, node)) continue;

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "verify/components.h"
+#include "verify/shortest_path.h"
 #include "verify/union_find.h"
-#include "verify/way.h"
 
 namespace lockstep::host {
 namespace {
@@ -162,12 +162,12 @@ class FairCycle {
     return is_more;
   }
 
-  // All of the component is fair. A short cycle: from its first state back to it, by way of an end
-  // of each leaf that works on the way.
-  std::vector<CycleStep> walk(const Component& component, const Way::Uses& within) const {
+  // All of the component is fair. A short cycle: from its first state back to it, through an end
+  // of each leaf that works on that path.
+  std::vector<CycleStep> walk(const Component& component, const ShortestPath::Uses& within) const {
     const StateId start = std::ranges::min(component);
-    const Way way(graph_, within);
-    const Way following(
+    const ShortestPath path(graph_, within);
+    const ShortestPath following(
         graph_, within,
         {.places = moving_.size(),
          .choices =
@@ -178,18 +178,18 @@ class FairCycle {
              },
          .next = [&](const Edge& edge, std::size_t i) { return leaf_after(edge, i); }});
     const auto is_start = [&](StateId, const Edge& edge, std::size_t) { return edge.to == start; };
-    std::vector<CycleStep> cycle = way.find(start, is_start);
+    std::vector<CycleStep> cycle = path.find(start, is_start);
     const auto take = [&](const std::vector<CycleStep>& steps) {
       cycle.insert(cycle.end(), steps.begin(), steps.end());
       if (cycle.back().edge.to == start) return;
-      const auto back = way.find(cycle.back().edge.to, is_start);
+      const auto back = path.find(cycle.back().edge.to, is_start);
       cycle.insert(cycle.end(), back.begin(), back.end());
     };
     // Not fair yet: it also goes where the leaf ends, and back.
     while (fairness_ == Fairness::Needed) {
       if (const auto leaf = staying_that_only_works(cycle)) {
-        take(way.find(start,
-                      [&](StateId, const Edge& edge, std::size_t) { return ends(edge, *leaf); }));
+        take(path.find(start,
+                       [&](StateId, const Edge& edge, std::size_t) { return ends(edge, *leaf); }));
       } else if (const auto place = moving_that_only_works(cycle)) {
         take(following.find(
             start, [&](StateId, const Edge& edge, std::size_t i) { return ends(edge, moving_[i]); },

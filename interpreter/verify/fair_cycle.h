@@ -1,5 +1,5 @@
 // Runs that never end although each leaf that is ticked again and again ends: Streett's condition.
-// Where equal children change places on the way, a leaf is followed from place to place: E. A.
+// Where equal children change places on the path, a leaf is followed from place to place: E. A.
 // Emerson, A. P. Sistla, "Utilizing Symmetry when Model-Checking under Fairness Assumptions", ACM
 // TOPLAS 19, 1997.
 #pragma once

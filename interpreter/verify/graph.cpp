@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "verify/components.h"
-#include "verify/way.h"
+#include "verify/shortest_path.h"
 
 namespace lockstep::host {
 namespace {
@@ -85,11 +85,11 @@ std::optional<std::uint64_t> longest_row(const Graph& graph, const LabelFilter& 
   return most;
 }
 
-std::vector<CycleStep> shortest_way(const Graph& graph, StateId from,
-                                    const std::vector<bool>& is_goal) {
-  const Way way(graph, [](StateId, const Edge&) { return true; });
-  return way.find(from,
-                  [&](StateId, const Edge& edge, std::size_t) { return bool(is_goal[edge.to]); });
+std::vector<CycleStep> shortest_path(const Graph& graph, StateId from,
+                                     const std::vector<bool>& is_goal) {
+  const ShortestPath path(graph, [](StateId, const Edge&) { return true; });
+  return path.find(from,
+                   [&](StateId, const Edge& edge, std::size_t) { return bool(is_goal[edge.to]); });
 }
 
 }  // namespace lockstep::host

@@ -58,7 +58,7 @@ void for_each_equal(const Label& equals, std::size_t place, const F& call) {
 
 using Swaps = std::array<Swap, 2>;  // the first one first
 
-// A way through a graph, edge by edge.
+// A path through a graph, edge by edge.
 struct CycleStep {
   StateId from;
   Edge edge;
@@ -68,11 +68,11 @@ struct CycleStep {
 // The edges that it may use.
 using EdgeFilter = std::function<bool(const Edge&)>;
 
-// Says of each state whether some way leads from it to an end, or to a state that was not looked
+// Says of each state whether some path leads from it to an end, or to a state that was not looked
 // at.
 std::vector<bool> can_end(const Graph& graph);
 
-// The states to which some way leads from this one, which is one of them.
+// The states to which some path leads from this one, which is one of them.
 std::vector<bool> reachable_from(const Graph& graph, StateId from);
 
 // Whether some cycle has an edge like this.
@@ -83,8 +83,8 @@ bool recurs(const Graph& graph, const EdgeFilter& is_wanted);
 using LabelFilter = std::function<bool(std::uint32_t label)>;
 std::optional<std::uint64_t> longest_row(const Graph& graph, const LabelFilter& is_wanted);
 
-// From `from` the shortest way to a state for which `is_goal`, over the edges of the graph.
-std::vector<CycleStep> shortest_way(const Graph& graph, StateId from,
-                                    const std::vector<bool>& is_goal);
+// From `from` the shortest path to a state for which `is_goal`, over the edges of the graph.
+std::vector<CycleStep> shortest_path(const Graph& graph, StateId from,
+                                     const std::vector<bool>& is_goal);
 
 }  // namespace lockstep::host

@@ -21,7 +21,7 @@ class Searcher {
            Nanoseconds period, const SearchLimits& limits)
       : tree_(tree),
         limits_(limits),
-        crew_(std::max(1u, limits.jobs)),
+        workers_(std::max(1u, limits.jobs)),
         result_(tree),
         room_{limits, monotonic_now()} {
     result_.store = StateStore(limits.hash_bits);
@@ -99,7 +99,7 @@ class Searcher {
       }
     };
     // To wake the others takes longer than one chunk does.
-    count == 1 ? work(0) : crew_.work(work);
+    count == 1 ? work(0) : workers_.work(work);
     const StateId made = std::min<StateId>(next, count);
     for (StateId i = 0; i < made; ++i) {
       if (is_over(first + i * kStatesOfChunk) || !put_together(chunks_[i])) return first;
@@ -157,7 +157,7 @@ class Searcher {
     limits.memory +=
         std::min(limits.memory / 8, std::numeric_limits<std::size_t>::max() - limits.memory);
     SearchRoom room{limits, room_.began, memory()};
-    CycleGraph cycles = label_cycles(result_.graph, result_.store, crew_, expanders_, room);
+    CycleGraph cycles = label_cycles(result_.graph, result_.store, workers_, expanders_, room);
     result_.cycles = std::move(cycles.graph);
     if (!cycles.cut) return;
     if (*cycles.cut == SearchEnd::Signal) result_.signal = limits_.stop_signal();
@@ -232,7 +232,7 @@ class Searcher {
 
   const Tree& tree_;
   const SearchLimits& limits_;
-  Crew crew_;
+  WorkerThreads workers_;
   Expanders expanders_;
   std::vector<Chunk> chunks_;  // of a round
   SearchResult result_;
@@ -267,11 +267,11 @@ StateId SearchResult::found_from(StateId state) const {
   throw std::logic_error("no tick has found this state");
 }
 
-std::vector<StateId> SearchResult::way_to(StateId state) const {
-  std::vector<StateId> way{state};
-  while (way.back() != 0) way.push_back(found_from(way.back()));
-  std::ranges::reverse(way);
-  return way;
+std::vector<StateId> SearchResult::path_to(StateId state) const {
+  std::vector<StateId> path{state};
+  while (path.back() != 0) path.push_back(found_from(path.back()));
+  std::ranges::reverse(path);
+  return path;
 }
 
 std::size_t SearchResult::memory() const {

@@ -1,5 +1,5 @@
 // Ticks a tree from every state that it can reach with every answer that its leaves may give,
-// breadth first: what is found first is found by a shortest way.
+// breadth first: what is found first is found by a shortest path.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ struct SearchResult {
   // So many ticks were looked at with all behaviors.
   std::uint32_t complete_depth() const;
   // The states from the first to this one, each found by a tick from the one before it.
-  std::vector<StateId> way_to(StateId state) const;
+  std::vector<StateId> path_to(StateId state) const;
   // The labels of its edges say all that matters of cycles. It has at least the edges of those.
   const Graph& graph_of_cycles() const { return cycles == nullptr ? graph : *cycles; }
   std::size_t memory() const;

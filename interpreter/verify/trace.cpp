@@ -36,12 +36,12 @@ StateBytes Tracer::state_of(StateId state) {
     return {bytes.begin(), bytes.end()};
   }
   StateBytes here = stepper_.first_state();
-  const std::vector<StateId> way = found_.way_to(state);
-  for (std::size_t i = 1; i < way.size(); ++i) {
+  const std::vector<StateId> path = found_.path_to(state);
+  for (std::size_t i = 1; i < path.size(); ++i) {
     StateBytes next;  // a tick is folded once
-    find_step(here, way[i - 1], [&] {
+    find_step(here, path[i - 1], [&] {
       next = stepper_.fold();
-      return found_.store.is(way[i], next);
+      return found_.store.is(path[i], next);
     });
     here = std::move(next);
   }
@@ -82,7 +82,7 @@ std::vector<GuidedStep> Tracer::steps_of(std::span<const CycleStep> edges) {
   return steps;
 }
 
-Trail Tracer::begin(std::vector<NodeIndex> nodes) {
+TracedPath Tracer::begin(std::vector<NodeIndex> nodes) {
   if (nodes.empty()) {
     nodes.resize(tree_.nodes.size());
     std::iota(nodes.begin(), nodes.end(), NodeIndex{0});
@@ -122,36 +122,36 @@ Tracer::Outcome Tracer::outcome(Status status) {
   return outcome;
 }
 
-void Tracer::go(Trail& trail, std::span<const GuidedStep> steps) {
-  for (const GuidedStep& step : steps) go(trail, step);
+void Tracer::go(TracedPath& traced, std::span<const GuidedStep> steps) {
+  for (const GuidedStep& step : steps) go(traced, step);
 }
 
-void Tracer::go(Trail& trail, std::span<const StateId> way) {
-  for (std::size_t i = 1; i < way.size(); ++i) {
-    go(trail, first_step(trail.searched, way[i - 1], way[i]));
+void Tracer::go(TracedPath& traced, std::span<const StateId> path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    go(traced, first_step(traced.searched, path[i - 1], path[i]));
   }
 }
 
 // The run does in its places what the search does in others.
-void Tracer::go(Trail& trail, const GuidedStep& step) {
-  for (const Swap& it : step.swaps) swap(trail.nodes, it);
-  Outcome wanted = outcome(tick(trail.searched, step));
-  TracedTick next{trail.now, step.step.from == 0, stepper_.answers().asked()};
-  trail.searched = wanted.searched;
+void Tracer::go(TracedPath& traced, const GuidedStep& step) {
+  for (const Swap& it : step.swaps) swap(traced.nodes, it);
+  Outcome wanted = outcome(tick(traced.searched, step));
+  TracedTick next{traced.now, step.step.from == 0, stepper_.answers().asked()};
+  traced.searched = wanted.searched;
   if (!found_.symmetry.empty()) {
-    const std::vector<NodeIndex> nodes = trail.nodes;
+    const std::vector<NodeIndex> nodes = traced.nodes;
     if (!wanted.state.empty()) {
       const auto origins = stepper_.origins();
-      for (std::size_t i = 0; i < origins.size(); ++i) trail.nodes[i] = nodes[origins[i]];
+      for (std::size_t i = 0; i < origins.size(); ++i) traced.nodes[i] = nodes[origins[i]];
       wanted.state = stepper_.moved(wanted.state, nodes);
     }
     wanted.label = labeller_.moved(wanted.label, nodes);
     next.answers = moved(std::move(next.answers), nodes);
     if (outcome(tick(next)) != wanted) fail("children that change places are not equal");
   }
-  swap(trail.nodes, step.after);
-  trail.now = wanted.state;
-  trail.run.push_back(std::move(next));
+  swap(traced.nodes, step.after);
+  traced.now = wanted.state;
+  traced.run.push_back(std::move(next));
 }
 
 void Tracer::swap(std::vector<NodeIndex>& nodes, const Swap& swap) const {
@@ -174,12 +174,12 @@ std::vector<LeafAnswer> Tracer::moved(std::vector<LeafAnswer> answers,
   return answers;
 }
 
-void Tracer::go_round(Trail& trail, std::span<const GuidedStep> cycle) {
+void Tracer::go_round(TracedPath& traced, std::span<const GuidedStep> cycle) {
   constexpr int kMostRounds = 100'000;  // changes of places come back to the first far earlier
-  const StateBytes start = trail.now;
+  const StateBytes start = traced.now;
   for (int round = 0; round < kMostRounds; ++round) {
-    go(trail, cycle);
-    if (trail.now == start) return;
+    go(traced, cycle);
+    if (traced.now == start) return;
   }
   fail("a cycle does not come back to where it began");
 }

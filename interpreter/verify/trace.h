@@ -28,7 +28,7 @@ struct GuidedStep {
 
 // A run along steps of a search, as far as it has come. Where equal children have changed places in
 // the search, they stay in theirs in the run.
-struct Trail {
+struct TracedPath {
   TracedRun run;
   StateBytes now, searched;      // the state that it has come to, and the one of the search
   std::vector<NodeIndex> nodes;  // of each place in the search: the node of the run that is there
@@ -44,16 +44,16 @@ class Tracer {
   std::vector<GuidedStep> steps_of(std::span<const CycleStep> edges);
 
   // `nodes`: of each place, the node that begins there; empty: its own.
-  Trail begin(std::vector<NodeIndex> nodes = {});
-  void go(Trail& trail, std::span<const GuidedStep> steps);
-  void go(Trail& trail, const Step& step) { go(trail, GuidedStep{step}); }
-  void go(Trail& trail, const Occurrence& it) {
-    go(trail, GuidedStep{.step = it.step, .answers = it.answers});
+  TracedPath begin(std::vector<NodeIndex> nodes = {});
+  void go(TracedPath& traced, std::span<const GuidedStep> steps);
+  void go(TracedPath& traced, const Step& step) { go(traced, GuidedStep{step}); }
+  void go(TracedPath& traced, const Occurrence& it) {
+    go(traced, GuidedStep{.step = it.step, .answers = it.answers});
   }
   // From the first of these states of the search on to each other one, by the first tick that does.
-  void go(Trail& trail, std::span<const StateId> way);
+  void go(TracedPath& traced, std::span<const StateId> path);
   // Rounds of a cycle until everything is where it was.
-  void go_round(Trail& trail, std::span<const GuidedStep> cycle);
+  void go_round(TracedPath& traced, std::span<const GuidedStep> cycle);
 
   // After each tick; its state is not folded yet.
   using After = std::function<void(Stepper&, Status status, std::size_t tick)>;
@@ -77,7 +77,7 @@ class Tracer {
   Step find_step(std::span<const std::byte> state, StateId from, const IsWanted& is_wanted);
   Status tick(std::span<const std::byte> state, const GuidedStep& step);
   Outcome outcome(Status status);
-  void go(Trail& trail, const GuidedStep& step);
+  void go(TracedPath& traced, const GuidedStep& step);
   void swap(std::vector<NodeIndex>& nodes, const Swap& swap) const;
   std::vector<LeafAnswer> moved(std::vector<LeafAnswer> answers,
                                 std::span<const NodeIndex> nodes) const;

@@ -69,10 +69,10 @@ class VerdictMaker {
     return place.empty() ? tree_.path(node) : fmt::format("{} ({})", tree_.path(node), place);
   }
   TracedRun run_to(const Occurrence& it) {
-    Trail trail = tracer_.begin();
-    tracer_.go(trail, found_.way_to(it.step.from));
-    tracer_.go(trail, it);
-    return std::move(trail.run);
+    TracedPath traced = tracer_.begin();
+    tracer_.go(traced, found_.path_to(it.step.from));
+    tracer_.go(traced, it);
+    return std::move(traced.run);
   }
 
   // Nothing: the time is over.
@@ -169,27 +169,28 @@ class VerdictMaker {
     return add_lasso(from, cycle, finding, tracer_.begin());
   }
   std::size_t add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding,
-                        Trail trail) {
-    tracer_.go(trail, found_.way_to(from));
+                        TracedPath traced) {
+    tracer_.go(traced, found_.path_to(from));
     std::size_t round = 0;
     if (!cycle.empty()) {
-      tracer_.go(trail, way_to_cycle(from, cycle));
-      finding.repeats = trail.run.size();
-      tracer_.go_round(trail, tracer_.steps_of(cycle));
-      round = trail.run.size() - *finding.repeats;
-      for (std::size_t i = 0; i < round; ++i) trail.run.push_back(trail.run[*finding.repeats + i]);
+      tracer_.go(traced, way_to_cycle(from, cycle));
+      finding.repeats = traced.run.size();
+      tracer_.go_round(traced, tracer_.steps_of(cycle));
+      round = traced.run.size() - *finding.repeats;
+      for (std::size_t i = 0; i < round; ++i)
+        traced.run.push_back(traced.run[*finding.repeats + i]);
     }
-    finding.run = std::move(trail.run);
+    finding.run = std::move(traced.run);
     return round;
   }
 
   std::vector<StateId> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
-    std::vector<StateId> way{from};
-    if (from == cycle.front().from) return way;
+    std::vector<StateId> path{from};
+    if (from == cycle.front().from) return path;
     std::vector<bool> is_goal(graph_.states());
     is_goal[cycle.front().from] = true;
-    for (const CycleStep& it : shortest_way(graph_, from, is_goal)) way.push_back(it.edge.to);
-    return way;
+    for (const CycleStep& it : shortest_path(graph_, from, is_goal)) path.push_back(it.edge.to);
+    return path;
   }
 
   // Says who waits for whom in the end, or what is done instead.
@@ -362,11 +363,11 @@ class VerdictMaker {
   }
 
   // A run in which the child that is held when it comes to the state is this one.
-  Trail trail_for(NodeIndex child, std::size_t held, StateId state) {
+  TracedPath trail_for(NodeIndex child, std::size_t held, StateId state) {
     if (!found_.symmetry.moves(child)) return tracer_.begin();
-    Trail trail = tracer_.begin();
-    tracer_.go(trail, found_.way_to(state));
-    return tracer_.begin(found_.symmetry.exchange(trail.nodes[held_[held].child], child));
+    TracedPath traced = tracer_.begin();
+    tracer_.go(traced, found_.path_to(state));
+    return tracer_.begin(found_.symmetry.exchange(traced.nodes[held_[held].child], child));
   }
 
   struct HoldOfChild {

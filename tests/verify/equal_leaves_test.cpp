@@ -88,12 +88,12 @@ TEST_CASE("equal leaves: of two that are held, the one counts that is held again
 TEST_CASE("equal leaves: where a run says so, they change places behind a tick") {
   const Verified it("Parallel(a b)", R"(<leaf path="*" ticks="2"/>)");
   Tracer tracer(it.tree, it.models, {}, from_seconds(0.1), it.found);
-  Trail trail = tracer.begin();
+  TracedPath traced = tracer.begin();
   const std::vector<GuidedStep> steps{{.step = {0, 0}, .swaps = {}, .after = {kLeft, kRight}}};
-  tracer.go(trail, steps);
+  tracer.go(traced, steps);
   const NodeIndex left = it.tree.leaves[0].node, right = it.tree.leaves[1].node;
-  CHECK(trail.nodes[left] == right);
-  CHECK(trail.nodes[right] == left);
+  CHECK(traced.nodes[left] == right);
+  CHECK(traced.nodes[right] == left);
 }
 
 TEST_CASE("equal leaves: the one that is held for ever is not the one that works for ever") {

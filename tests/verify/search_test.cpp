@@ -200,13 +200,13 @@ TEST_CASE("the way to a state is a shortest one, over edges that the search has 
     const Verified it(tree);
     const SearchResult& found = it.found;
     for (StateId state = 0; state < found.store.size(); ++state) {
-      const std::vector<StateId> way = found.way_to(state);
-      REQUIRE(way.size() == found.depth_of(state) + 1);
-      CHECK(way.front() == 0);
-      CHECK(way.back() == state);
-      for (std::size_t i = 1; i < way.size(); ++i) {
-        CHECK(std::ranges::any_of(found.graph.edges_of(way[i - 1]),
-                                  [&](const Edge& edge) { return edge.to == way[i]; }));
+      const std::vector<StateId> path = found.path_to(state);
+      REQUIRE(path.size() == found.depth_of(state) + 1);
+      CHECK(path.front() == 0);
+      CHECK(path.back() == state);
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        CHECK(std::ranges::any_of(found.graph.edges_of(path[i - 1]),
+                                  [&](const Edge& edge) { return edge.to == path[i]; }));
       }
     }
   }

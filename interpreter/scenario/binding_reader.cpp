@@ -1,4 +1,4 @@
-#include "scenario/cast_reader.h"
+#include "scenario/binding_reader.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ std::string beside(const std::string& file, std::string_view name) {
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
 
-void add_even_words(CastRow& row, std::uint64_t ticks) {
+void add_even_words(BindingRow& row, std::uint64_t ticks) {
   const bool ends = row.is_fault || row.result != Status::Running;
   for (std::uint64_t i = 1; i < std::min(ticks, kMostTimes); ++i) {
     row.words.push_back({.progress = static_cast<double>(i) / static_cast<double>(ticks)});
@@ -83,8 +83,8 @@ void add_even_words(CastRow& row, std::uint64_t ticks) {
   row.words.push_back(std::move(last));
 }
 
-void CastReader::read_leaf(std::uint32_t element, Scenario& into) const {
-  CastRow row;
+void BindingReader::read_leaf(std::uint32_t element, Scenario& into) const {
+  BindingRow row;
   int sources = 0;
   bool has_result = false;
   for (const Attribute& it : document_.attributes(element)) {
@@ -120,10 +120,10 @@ void CastReader::read_leaf(std::uint32_t element, Scenario& into) const {
     }
   }
   if (has_result) make_words(element, row);
-  into.cast.push_back(std::move(row));
+  into.bindings.push_back(std::move(row));
 }
 
-void CastReader::read_words(const Attribute& it, CastRow& row) const {
+void BindingReader::read_words(const Attribute& it, BindingRow& row) const {
   Words all = parse_words(it.value);
   row.source = it.place;
   if (!all.wrong.empty()) {
@@ -137,14 +137,14 @@ void CastReader::read_words(const Attribute& it, CastRow& row) const {
   row.words = std::move(all.words);
 }
 
-void CastReader::read_source(const Attribute& it, CastRow& row) const {
+void BindingReader::read_source(const Attribute& it, BindingRow& row) const {
   row.source = it.place;
-  row.from = it.value == "plugin" ? CastRow::From::Plugin : CastRow::From::Recording;
-  if (row.from == CastRow::From::Recording) row.recording = beside(file_, it.value);
+  row.from = it.value == "plugin" ? BindingRow::From::Plugin : BindingRow::From::Recording;
+  if (row.from == BindingRow::From::Recording) row.recording = beside(file_, it.value);
 }
 
 // Progress rises in equal steps.
-void CastReader::make_words(std::uint32_t element, CastRow& row) const {
+void BindingReader::make_words(std::uint32_t element, BindingRow& row) const {
   const std::string_view result = document_.find_attribute(element, "result")->value;
   const Attribute *ticks = document_.find_attribute(element, "ticks"),
                   *seconds = document_.find_attribute(element, "seconds");
@@ -162,7 +162,7 @@ void CastReader::make_words(std::uint32_t element, CastRow& row) const {
   if (!row.seconds) add_even_words(row, ticks == nullptr ? 1 : count(*ticks, 1));
 }
 
-std::uint64_t CastReader::count(const Attribute& it, std::uint64_t least) const {
+std::uint64_t BindingReader::count(const Attribute& it, std::uint64_t least) const {
   const auto number = parse_int(it.value);
   if (number && *number >= 0 && static_cast<std::uint64_t>(*number) >= least) {
     return static_cast<std::uint64_t>(*number);
@@ -172,7 +172,7 @@ std::uint64_t CastReader::count(const Attribute& it, std::uint64_t least) const 
   return least;
 }
 
-double CastReader::number(const Attribute& it, double least, double most) const {
+double BindingReader::number(const Attribute& it, double least, double most) const {
   const auto number = parse_double(it.value);
   if (number && *number >= least && *number <= most) return *number;
   report_.at_value(it.place,
@@ -180,7 +180,7 @@ double CastReader::number(const Attribute& it, double least, double most) const 
   return least;
 }
 
-NumberRange CastReader::range(const Attribute& it, std::string_view as) const {
+NumberRange BindingReader::range(const Attribute& it, std::string_view as) const {
   const auto parts = split(it.value, "..");
   const auto least = parse_double(parts.front());
   const auto most = parse_double(parts.back());

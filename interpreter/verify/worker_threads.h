@@ -10,12 +10,12 @@
 
 namespace lockstep::host {
 
-class Crew {
+class WorkerThreads {
  public:
-  explicit Crew(unsigned size);
-  ~Crew();
-  Crew(const Crew&) = delete;
-  Crew& operator=(const Crew&) = delete;
+  explicit WorkerThreads(unsigned size);
+  ~WorkerThreads();
+  WorkerThreads(const WorkerThreads&) = delete;
+  WorkerThreads& operator=(const WorkerThreads&) = delete;
 
   // Calls it on each thread, with the number of the thread. Returns when all have returned, and
   // rethrows what one has thrown.

@@ -1,4 +1,4 @@
-#include "scenario/rehearsal.h"
+#include "scenario/bound_scenario.h"
 
 #include <fmt/format.h>
 
@@ -61,40 +61,40 @@ bool is_of_one_run(const Expectation& it) {
   return it.kind != Kind::Order;
 }
 
-class Rehearser {
+class ScenarioBinder {
  public:
-  Rehearser(const Scenario& scenario, const Sources& sources, const Stage& stage,
-            MissingLeaves missing, Diagnostics& diagnostics)
+  ScenarioBinder(const Scenario& scenario, const Sources& sources, const Fixture& fixture,
+                 MissingLeaves missing, Diagnostics& diagnostics)
       : scenario_(scenario),
-        stage_(stage),
-        tree_(stage.tree()),
+        fixture_(fixture),
+        tree_(fixture.tree()),
         missing_(missing),
         diagnostics_(diagnostics),
         report_(sources, diagnostics) {}
 
-  Rehearsal rehearse(const LeafFile* file) {
-    rehearsal_.scenario = &scenario_;
-    rehearsal_.rate = scenario_.rate;
-    if (file != nullptr && file->rate && !scenario_.is_rate_given) rehearsal_.rate = *file->rate;
-    rehearsal_.cast =
-        make_cast(scenario_, tree_, stage_.definition(), file != nullptr, missing_, report_);
+  BoundScenario bind(const LeafFile* file) {
+    bound_.scenario = &scenario_;
+    bound_.rate = scenario_.rate;
+    if (file != nullptr && file->rate && !scenario_.is_rate_given) bound_.rate = *file->rate;
+    bound_.bindings =
+        bind_leaves(scenario_, tree_, fixture_.definition(), file != nullptr, missing_, report_);
     if (file != nullptr) add_models(*file);
     for (const SetEntry& it : scenario_.changes) add_change(it);
     for (const Expectation& it : scenario_.expectations) add_expectation(it);
-    return std::move(rehearsal_);
+    return std::move(bound_);
   }
 
  private:
   void add_models(const LeafFile& file) {
     std::vector<NodeProblem> problems;
     auto models = std::make_shared<LeafModels>(make_models(tree_, &file, diagnostics_, problems));
-    const auto& without = rehearsal_.cast.without_row;
+    const auto& without = bound_.bindings.without_row;
     for (const NodeProblem& it : problems) {
       if (std::ranges::find(without, it.node) == without.end()) continue;
       report_.at_value(scenario_.leaves_place,
                        fmt::format("'{}': {}", tree_.path(it.node), it.message), it.hint);
     }
-    rehearsal_.models = std::move(models);
+    bound_.models = std::move(models);
   }
 
   void add_change(const SetEntry& change) {
@@ -116,7 +116,7 @@ class Rehearser {
           fmt::format("expected {}", expected_text(slot->type)));
     }
     const auto place = static_cast<std::uint32_t>(slot - tree_.slots.begin());
-    rehearsal_.changes.push_back({place, std::move(*value), change.tick, change.time});
+    bound_.changes.push_back({place, std::move(*value), change.tick, change.time});
   }
 
   void add_expectation(const Expectation& it) {
@@ -141,7 +141,7 @@ class Rehearser {
   }
 
   void add_property(const Expectation& of, std::string_view text) {
-    auto property = Property::parse(text, stage_.names());
+    auto property = Property::parse(text, fixture_.names());
     if (!property) {
       const PropertyError& error = property.error();
       if (of.kind == Kind::Text) {
@@ -151,7 +151,7 @@ class Rehearser {
       }
       return;
     }
-    rehearsal_.properties.push_back({std::move(*property), &of});
+    bound_.properties.push_back({std::move(*property), &of});
   }
 
   // Each only after the one before it, and the last one at all.
@@ -180,7 +180,7 @@ class Rehearser {
     const MeasureSpec specs[] = {*measure};
     const Measuring measuring(shape_of(tree_), specs);
     if (!measuring.error().empty()) return report_.at_value(it.place, measuring.error());
-    rehearsal_.limits.push_back(
+    bound_.limits.push_back(
         {std::move(*measure), *relation, *number, std::string(trimmed(it.texts[0])), &it});
   }
 
@@ -192,7 +192,7 @@ class Rehearser {
       return report_.at_value(it.place, problem.message, problem.hint);
     }
     for (const NodeIndex leaf : leaves) {
-      if (!rehearsal_.cast.real.contains(leaf)) continue;
+      if (!bound_.bindings.real.contains(leaf)) continue;
       return report_.at_value(
           it.place, fmt::format("what '{}' gets is not seen", tree_.path(leaf)),
           "leaves with from=\"plugin\" read their inputs themselves; give it words");
@@ -225,28 +225,29 @@ class Rehearser {
       }
       text = to_text(*value);
     }
-    rehearsal_.inputs.push_back({leaves, input.name, std::move(text), input.place, &of});
+    bound_.inputs.push_back({leaves, input.name, std::move(text), input.place, &of});
   }
 
   void check_node(const Expectation& it) const {
-    const auto found = find_path(stage_.names().paths, it.node);
+    const auto found = find_path(fixture_.names().paths, it.node);
     if (!found) report_.at_value(it.place, found.error().message, found.error().hint);
   }
 
   const Scenario& scenario_;
-  const Stage& stage_;
+  const Fixture& fixture_;
   const Tree& tree_;
   const MissingLeaves missing_;
   Diagnostics& diagnostics_;
   const Reporter report_;
-  Rehearsal rehearsal_;
+  BoundScenario bound_;
 };
 
 }  // namespace
 
-Rehearsal rehearse(const Scenario& scenario, const Sources& sources, const Stage& stage,
-                   const LeafFile* file, MissingLeaves missing, Diagnostics& diagnostics) {
-  return Rehearser(scenario, sources, stage, missing, diagnostics).rehearse(file);
+BoundScenario bind_scenario(const Scenario& scenario, const Sources& sources,
+                            const Fixture& fixture, const LeafFile* file, MissingLeaves missing,
+                            Diagnostics& diagnostics) {
+  return ScenarioBinder(scenario, sources, fixture, missing, diagnostics).bind(file);
 }
 
 }  // namespace lockstep::host

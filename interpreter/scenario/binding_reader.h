@@ -17,12 +17,12 @@ std::string beside(const std::string& file, std::string_view name);
 
 // As many words as ticks: running with a progress that rises in equal steps, then the result of the
 // row. A leaf that is to run for ever has one.
-void add_even_words(CastRow& row, std::uint64_t ticks);
+void add_even_words(BindingRow& row, std::uint64_t ticks);
 
-class CastReader {
+class BindingReader {
  public:
   // All must outlive this.
-  CastReader(const Document& document, const std::string& file, const Reporter& report)
+  BindingReader(const Document& document, const std::string& file, const Reporter& report)
       : document_(document), file_(file), report_(report) {}
 
   void read_leaf(std::uint32_t element, Scenario& into) const;
@@ -33,9 +33,9 @@ class CastReader {
   NumberRange range(const Attribute& it, std::string_view as) const;
 
  private:
-  void read_words(const Attribute& it, CastRow& row) const;
-  void read_source(const Attribute& it, CastRow& row) const;
-  void make_words(std::uint32_t element, CastRow& row) const;
+  void read_words(const Attribute& it, BindingRow& row) const;
+  void read_source(const Attribute& it, BindingRow& row) const;
+  void make_words(std::uint32_t element, BindingRow& row) const;
 
   const Document& document_;
   const std::string& file_;

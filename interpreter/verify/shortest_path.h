@@ -1,5 +1,5 @@
-// The shortest way over some edges of a graph, breadth first. It can also lead to what an edge does
-// with one leaf, which the edges before it may have moved to other places.
+// The shortest path over some edges of a graph, breadth first. It can also lead to what an edge
+// does with one leaf, which the edges before it may have moved to other places.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,14 @@ struct FollowedLeaf {
   std::function<std::size_t(const Edge&, std::size_t place)> next = {};
 };
 
-class Way {
+class ShortestPath {
  public:
   using Uses = std::function<bool(StateId from, const Edge&)>;
   // `place`: of the leaf that is followed, before the edge.
   using Goal = std::function<bool(StateId from, const Edge&, std::size_t place)>;
 
   // The graph must outlive this.
-  Way(const Graph& graph, Uses uses, FollowedLeaf followed = {})
+  ShortestPath(const Graph& graph, Uses uses, FollowedLeaf followed = {})
       : graph_(graph), uses_(std::move(uses)), followed_(std::move(followed)) {}
 
   // The last step is the first that is a goal.
@@ -61,13 +61,13 @@ class Way {
       found = expand(queue[at].step.edge.to, queue[at].place, at);
     }
     if (!found) return {};
-    std::vector<CycleStep> way;
+    std::vector<CycleStep> path;
     for (std::size_t at = queue.size() - 1;; at = queue[at].before) {
-      way.push_back(queue[at].step);
+      path.push_back(queue[at].step);
       if (queue[at].before == at) break;
     }
-    std::ranges::reverse(way);
-    return way;
+    std::ranges::reverse(path);
+    return path;
   }
 
  private:

@@ -5,16 +5,16 @@
 
 #include "base/core/clock.h"
 #include "run/run.h"
-#include "scenario/rehearsal.h"
+#include "scenario/bound_scenario.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
 
 // A virtual clock on which ticks may take time. With such ticks it counts as real, so that
 // deadlines are missed as on a robot.
-class StageClock final : public Clock {
+class ScenarioClock final : public Clock {
  public:
-  explicit StageClock(bool is_real) : is_real_(is_real) {}
+  explicit ScenarioClock(bool is_real) : is_real_(is_real) {}
   Nanoseconds now() override { return now_; }
   void sleep_until(Nanoseconds deadline) override { now_ = std::max(now_, deadline); }
   bool is_real() const override { return is_real_; }
@@ -28,8 +28,8 @@ class StageClock final : public Clock {
 // Writes entries before ticks. The first of the observers.
 class EntryWriter final : public Observer {
  public:
-  EntryWriter(const Rehearsal& rehearsal, Run& run)
-      : changes_(rehearsal.changes), is_done_(changes_.size()), run_(run) {}
+  EntryWriter(const BoundScenario& bound, Run& run)
+      : changes_(bound.changes), is_done_(changes_.size()), run_(run) {}
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
 
  private:
@@ -41,12 +41,12 @@ class EntryWriter final : public Observer {
 // Lets time pass in ticks. The last of the observers.
 class LateTicks final : public Observer {
  public:
-  LateTicks(const Scenario& scenario, StageClock& clock) : late_(scenario.late), clock_(clock) {}
+  LateTicks(const Scenario& scenario, ScenarioClock& clock) : late_(scenario.late), clock_(clock) {}
   void after_tick(const Moment& moment, const TickReport& report) override;
 
  private:
   const std::vector<LateTick>& late_;
-  StageClock& clock_;
+  ScenarioClock& clock_;
 };
 
 }  // namespace lockstep::host

@@ -1,4 +1,4 @@
-#include "verify/crew.h"
+#include "verify/worker_threads.h"
 
 #include <system_error>
 #include <utility>
@@ -7,7 +7,8 @@
 
 namespace lockstep::host {
 
-Crew::Crew(unsigned size) : failures_(size) {  // NOLINT(bugprone-throw-keyword-missing)
+WorkerThreads::WorkerThreads(unsigned size)
+    : failures_(size) {  // NOLINT(bugprone-throw-keyword-missing)
   try {
     for (unsigned i = 1; i < size; ++i) {
       threads_.push_back(own_thread([this, i] { serve(i); }));
@@ -17,14 +18,14 @@ Crew::Crew(unsigned size) : failures_(size) {  // NOLINT(bugprone-throw-keyword-
   }
 }
 
-Crew::~Crew() {
+WorkerThreads::~WorkerThreads() {
   job_ = nullptr;
   ++begun_;
   begun_.notify_all();
   for (std::thread& it : threads_) it.join();
 }
 
-void Crew::serve(unsigned number) {
+void WorkerThreads::serve(unsigned number) {
   for (std::uint32_t seen = 0;; ++seen) {
     begun_.wait(seen);
     if (job_ == nullptr) return;
@@ -33,7 +34,7 @@ void Crew::serve(unsigned number) {
   }
 }
 
-void Crew::do_part(unsigned number) {
+void WorkerThreads::do_part(unsigned number) {
   try {
     (*job_)(number);
   } catch (...) {
@@ -41,7 +42,7 @@ void Crew::do_part(unsigned number) {
   }
 }
 
-void Crew::work(const std::function<void(unsigned)>& job) {
+void WorkerThreads::work(const std::function<void(unsigned)>& job) {
   job_ = &job;
   busy_ = static_cast<std::uint32_t>(threads_.size());
   ++begun_;

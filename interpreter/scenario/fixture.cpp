@@ -1,4 +1,4 @@
-#include "scenario/stage.h"
+#include "scenario/fixture.h"
 
 #include <utility>
 
@@ -23,13 +23,13 @@ bool is_start(const SetEntry& it) {
 
 }  // namespace
 
-Stage::Key Stage::key_of(const Scenario& scenario) {
+Fixture::Key Fixture::key_of(const Scenario& scenario) {
   Key key{scenario.tree, scenario.main, {}};
   for (const NamedText& it : scenario.arguments) key.arguments[it.name] = it.text;
   return key;
 }
 
-StartValues Stage::start_values(const Scenario& scenario) {
+StartValues Fixture::start_values(const Scenario& scenario) {
   StartValues values;
   for (const SetEntry& it : scenario.changes) {
     if (is_start(it)) values[it.key] = it.value;
@@ -37,7 +37,7 @@ StartValues Stage::start_values(const Scenario& scenario) {
   return values;
 }
 
-StartValues Stage::later_values(const Scenario& scenario) {
+StartValues Fixture::later_values(const Scenario& scenario) {
   StartValues values;
   for (const SetEntry& it : scenario.changes) {
     if (!is_start(it)) values.try_emplace(it.key, it.value);
@@ -45,10 +45,10 @@ StartValues Stage::later_values(const Scenario& scenario) {
   return values;
 }
 
-std::shared_ptr<const Stage> Stage::load(const Key& key, const std::string* text,
-                                         const LoadOptions& options, Diagnostics& diagnostics,
-                                         const std::shared_ptr<PluginSet>& plugins,
-                                         LoadFailure& failure) {
+std::shared_ptr<const Fixture> Fixture::load(const Key& key, const std::string* text,
+                                             const LoadOptions& options, Diagnostics& diagnostics,
+                                             const std::shared_ptr<PluginSet>& plugins,
+                                             LoadFailure& failure) {
   LoadOptions load = options;
   load.arguments = key.arguments;
   load.values = key.values;
@@ -62,24 +62,24 @@ std::shared_ptr<const Stage> Stage::load(const Key& key, const std::string* text
     failure = loaded.error();
     return nullptr;
   }
-  return std::shared_ptr<const Stage>(new Stage(key.tree, std::move(*loaded)));
+  return std::shared_ptr<const Fixture>(new Fixture(key.tree, std::move(*loaded)));
 }
 
-Stage::Stage(std::string file, Loaded loaded)
+Fixture::Fixture(std::string file, Loaded loaded)
     : file_(std::move(file)),
       loaded_(std::move(loaded)),
       tree_(played_tree(loaded_.definition, {}, played_)),
       names_(property_names(shape_of(tree_))) {}
 
-SourceLocation Stage::location_of(NodeIndex node) const {
+SourceLocation Fixture::location_of(NodeIndex node) const {
   return sources().locate(loaded_.definition.nodes[node].place);
 }
 
-std::string Stage::place_of(NodeIndex node) const {
+std::string Fixture::place_of(NodeIndex node) const {
   return to_text(location_of(node));
 }
 
-Players::Players(std::shared_ptr<const Stage> stage, const std::set<NodeIndex>& real)
-    : stage_(std::move(stage)), tree_(played_tree(stage_->definition(), real, played_)) {}
+StubLeaves::StubLeaves(std::shared_ptr<const Fixture> fixture, const std::set<NodeIndex>& real)
+    : fixture_(std::move(fixture)), tree_(played_tree(fixture_->definition(), real, played_)) {}
 
 }  // namespace lockstep::host

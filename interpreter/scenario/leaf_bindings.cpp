@@ -1,4 +1,4 @@
-#include "scenario/cast.h"
+#include "scenario/leaf_bindings.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "leaves/play/played_leaves.h"
-#include "scenario/cast_reader.h"
+#include "scenario/binding_reader.h"
 #include "scenario/recorded_words.h"
 
 namespace lockstep::host {
@@ -36,27 +36,27 @@ class CastMaker {
             MissingLeaves missing, const Reporter& report)
       : scenario_(scenario), tree_(tree), given_(given), missing_(missing), report_(report) {}
 
-  Cast make(bool has_models) {
-    std::vector<const CastRow*> rows(tree_.leaves.size());
-    for (const CastRow& row : scenario_.cast) choose(row, rows);
+  LeafBindings make(bool has_models) {
+    std::vector<const BindingRow*> rows(tree_.leaves.size());
+    for (const BindingRow& row : scenario_.bindings) choose(row, rows);
     for (std::size_t leaf = 0; leaf < rows.size(); ++leaf) {
       const LeafNode& it = tree_.leaves[leaf];
       if (!is_leaf(*it.type)) continue;
       if (rows[leaf] != nullptr) {
         give(*rows[leaf], it);
       } else {
-        cast_.without_row.push_back(it.node);
+        reader_.without_row.push_back(it.node);
         if (!has_models) {
-          cast_.scripts.leaves[tree_.path(it.node)] = {LeafWord{.status = Status::Success}};
+          reader_.scripts.leaves[tree_.path(it.node)] = {LeafWord{.status = Status::Success}};
         }
       }
     }
-    return std::move(cast_);
+    return std::move(reader_);
   }
 
  private:
   // Later rows win.
-  void choose(const CastRow& row, std::vector<const CastRow*>& rows) const {
+  void choose(const BindingRow& row, std::vector<const BindingRow*>& rows) const {
     bool is_there = false;
     for (std::size_t leaf = 0; leaf < rows.size(); ++leaf) {
       if (!fits(row.of, row.path, tree_, tree_.leaves[leaf])) continue;
@@ -66,45 +66,45 @@ class CastMaker {
     if (!is_there && !row.may_lack && missing_ == MissingLeaves::AreErrors) tell_no_match(row);
   }
 
-  void tell_no_match(const CastRow& row) const {
+  void tell_no_match(const BindingRow& row) const {
     const Problem problem = no_such_leaf(tree_, row.of, row.path);
     report_.at_value(row.place, problem.message, problem.hint);
   }
 
-  void give(const CastRow& row, const LeafNode& leaf) {
-    if (row.from == CastRow::From::Plugin) {
+  void give(const BindingRow& row, const LeafNode& leaf) {
+    if (row.from == BindingRow::From::Plugin) {
       if (given_.nodes[leaf.node].type->leaf == nullptr) {
         return report_.at_value(row.source, fmt::format("no plugin has '{}'", leaf.type->id));
       }
-      cast_.real.insert(leaf.node);
+      reader_.real.insert(leaf.node);
       return;
     }
     const std::string path = tree_.path(leaf.node);
-    std::vector<LeafWord> words = row.from == CastRow::From::Recording
+    std::vector<LeafWord> words = row.from == BindingRow::From::Recording
                                       ? words_of_recording(row, leaf)
                                       : words_for(row, *leaf.type);
     if (words.empty()) return;
     check(row, leaf, path, words);
-    if (row.restarts) cast_.scripts.restarting.insert(path);
+    if (row.restarts) reader_.scripts.restarting.insert(path);
     if (row.seconds && !answers_at_once(row, *leaf.type)) {
-      cast_.scripts.times[path] = from_seconds(*row.seconds);
+      reader_.scripts.times[path] = from_seconds(*row.seconds);
     }
-    cast_.scripts.leaves[path] = std::move(words);
+    reader_.scripts.leaves[path] = std::move(words);
   }
 
-  std::vector<LeafWord> words_for(const CastRow& row, const NodeType& type) const {
-    CastRow made = row;
+  std::vector<LeafWord> words_for(const BindingRow& row, const NodeType& type) const {
+    BindingRow made = row;
     if (row.seconds) add_even_words(made, 1);  // LeafScripts::times has the time until it
     if (answers_at_once(row, type)) made.words.erase(made.words.begin(), made.words.end() - 1);
     return std::move(made.words);
   }
 
   // Whatever the time that the row gives to actions, a condition answers at once.
-  static bool answers_at_once(const CastRow& row, const NodeType& type) {
+  static bool answers_at_once(const BindingRow& row, const NodeType& type) {
     return row.has_result && is_condition(type) && !type.can_run;
   }
 
-  std::vector<LeafWord> words_of_recording(const CastRow& row, const LeafNode& leaf) {
+  std::vector<LeafWord> words_of_recording(const BindingRow& row, const LeafNode& leaf) {
     auto& recording = recordings_[row.recording];
     if (recording == nullptr) {
       recording = std::make_unique<RecordedWords>(read_recorded_words(row.recording, tree_));
@@ -116,7 +116,7 @@ class CastMaker {
     return words == recording->leaves.end() ? std::vector<LeafWord>{LeafWord()} : words->second;
   }
 
-  void check(const CastRow& row, const LeafNode& leaf, const std::string& path,
+  void check(const BindingRow& row, const LeafNode& leaf, const std::string& path,
              const std::vector<LeafWord>& words) const {
     LeafScripts one;
     const bool writes =
@@ -131,7 +131,7 @@ class CastMaker {
     const bool runs = std::ranges::any_of(words, [](const LeafWord& it) {
       return it.kind == LeafWord::Kind::Tick && it.status == Status::Running;
     });
-    if (runs && row.from == CastRow::From::Words) {
+    if (runs && row.from == BindingRow::From::Words) {
       report_.at_value(row.source,
                        fmt::format("'{}' is a condition, which is never running", leaf.type->id),
                        "write S or F for each tick");
@@ -143,7 +143,7 @@ class CastMaker {
   const Definition& given_;
   const MissingLeaves missing_;
   const Reporter& report_;
-  Cast cast_;
+  LeafBindings reader_;
   std::map<std::string, std::unique_ptr<RecordedWords>> recordings_;
 };
 
@@ -172,8 +172,8 @@ Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string&
           suggest_path(path.empty() ? of : path, known, "its leaves")};
 }
 
-Cast make_cast(const Scenario& scenario, const Tree& tree, const Definition& given, bool has_models,
-               MissingLeaves missing, const Reporter& report) {
+LeafBindings bind_leaves(const Scenario& scenario, const Tree& tree, const Definition& given,
+                         bool has_models, MissingLeaves missing, const Reporter& report) {
   return CastMaker(scenario, tree, given, missing, report).make(has_models);
 }
 

@@ -1,4 +1,4 @@
-#include "scenario/stage_hands.h"
+#include "scenario/timed_events.h"
 
 namespace lockstep::host {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "judge/measure/measure.h"
-#include "scenario/cast.h"
-#include "scenario/stage.h"
+#include "scenario/fixture.h"
+#include "scenario/leaf_bindings.h"
 
 namespace lockstep::host {
 
@@ -42,10 +42,10 @@ struct PreparedInput {
   const Expectation* of;
 };
 
-struct Rehearsal {
+struct BoundScenario {
   const Scenario* scenario = nullptr;
   double rate = kScenarioRate;
-  Cast cast;
+  LeafBindings bindings;
   std::shared_ptr<const LeafModels> models;  // null: there is no leaf file
   std::vector<PreparedChange> changes;
   std::vector<PreparedProperty> properties;
@@ -55,7 +55,8 @@ struct Rehearsal {
 
 // Reports errors at their places. `file` is the scenario's leaf file, or null. All must outlive
 // what this returns.
-Rehearsal rehearse(const Scenario& scenario, const Sources& sources, const Stage& stage,
-                   const LeafFile* file, MissingLeaves missing, Diagnostics& diagnostics);
+BoundScenario bind_scenario(const Scenario& scenario, const Sources& sources,
+                            const Fixture& fixture, const LeafFile* file, MissingLeaves missing,
+                            Diagnostics& diagnostics);
 
 }  // namespace lockstep::host

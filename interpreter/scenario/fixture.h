@@ -15,9 +15,9 @@
 
 namespace lockstep::host {
 
-class Stage {
+class Fixture {
  public:
-  // The file and the values that a tree is loaded with; equal keys have the same stage.
+  // The file and the values that a tree is loaded with; equal keys have the same fixture.
   struct Key {
     std::string tree, main;
     Arguments arguments;
@@ -33,16 +33,16 @@ class Stage {
 
   // Null, with errors, if it cannot be loaded; `failure` says why. `text` is in place of the main
   // file, or null. Several share `plugins`.
-  static std::shared_ptr<const Stage> load(const Key& key, const std::string* text,
-                                           const LoadOptions& options, Diagnostics& diagnostics,
-                                           const std::shared_ptr<PluginSet>& plugins,
-                                           LoadFailure& failure);
+  static std::shared_ptr<const Fixture> load(const Key& key, const std::string* text,
+                                             const LoadOptions& options, Diagnostics& diagnostics,
+                                             const std::shared_ptr<PluginSet>& plugins,
+                                             LoadFailure& failure);
 
   const std::string& file() const { return file_; }
   // With the values that are in force.
   const std::vector<DeclaredArgument>& arguments() const { return loaded_.project->arguments; }
   const Definition& definition() const { return loaded_.definition; }
-  // The tree with all leaves as they are on the stage, and what properties may name in it.
+  // The tree with stubs in place of all leaves, and what properties may name in it.
   const Tree& tree() const { return tree_; }
   const PropertyNames& names() const { return names_; }
   const std::vector<Property>& properties() const { return loaded_.properties; }
@@ -52,7 +52,7 @@ class Stage {
   const Sources& sources() const { return loaded_.project->sources; }
 
  private:
-  Stage(std::string file, Loaded loaded);
+  Fixture(std::string file, Loaded loaded);
 
   std::string file_;  // the main one
   Loaded loaded_;
@@ -61,20 +61,20 @@ class Stage {
   PropertyNames names_;
 };
 
-// The leaves on a stage, for one thread.
-class Players {
+// The stubs of a fixture, for one thread.
+class StubLeaves {
  public:
   // `real` are leaves that plugins play themselves.
-  Players(std::shared_ptr<const Stage> stage, const std::set<NodeIndex>& real);
-  Players(const Players&) = delete;
-  Players& operator=(const Players&) = delete;
+  StubLeaves(std::shared_ptr<const Fixture> fixture, const std::set<NodeIndex>& real);
+  StubLeaves(const StubLeaves&) = delete;
+  StubLeaves& operator=(const StubLeaves&) = delete;
 
-  const Stage& stage() const { return *stage_; }
+  const Fixture& fixture() const { return *fixture_; }
   const Tree& tree() const { return tree_; }
   PlayedLeaves& leaves() { return played_; }
 
  private:
-  std::shared_ptr<const Stage> stage_;
+  std::shared_ptr<const Fixture> fixture_;
   PlayedLeaves played_;
   Tree tree_;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/rehearsal.h"
+#include "scenario/bound_scenario.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -18,31 +18,31 @@ struct Surprise {
   std::vector<std::string> more = {};  // lines: where, and in which tick
 };
 
-struct Performance {
+struct ScenarioResult {
   RunEnd end;
   std::vector<Surprise> surprises;
   std::string problem = {};  // why the recording was not written
 };
 
-struct PerformOptions {
+struct ScenarioRunOptions {
   std::uint64_t seed = 0;
   std::string record = {};       // a file; "": none
   Observer* observer = nullptr;  // of each tick, too
   std::function<int()> stop_signal = {};
 };
 
-class Performer {
+class ScenarioRunner {
  public:
-  // Both must outlive this. The leaves of `players` belong to the rehearsal from now on; if it has
+  // Both must outlive this. The stubs belong to the scenario from now on; if it has
   // models, for ever.
-  Performer(const Rehearsal& rehearsal, Players& players);
+  ScenarioRunner(const BoundScenario& bound, StubLeaves& stubs);
 
   // Plays it once.
-  Performance perform(const PerformOptions& options) const;
+  ScenarioResult run(const ScenarioRunOptions& options) const;
 
  private:
-  const Rehearsal& rehearsal_;
-  Players& players_;
+  const BoundScenario& bound_;
+  StubLeaves& stubs_;
 };
 
 }  // namespace lockstep::host

@@ -1,4 +1,5 @@
-// The cast: the rows of a scenario found in its tree.
+// Which leaves of a tree the rows of a scenario are about. Example: <leaf path="Main/lift"> means
+// the node 4, whose script it gives.
 #pragma once
 
 #include <set>
@@ -13,7 +14,7 @@
 
 namespace lockstep::host {
 
-struct Cast {
+struct LeafBindings {
   LeafScripts scripts;
   std::set<NodeIndex> real;            // that plugins play themselves
   std::vector<NodeIndex> without_row;  // whose scripts are the usual one, or none
@@ -28,9 +29,9 @@ Problem no_such_leaf(const Tree& tree, const std::string& of, const std::string&
 // Rows for which the tree has no leaf.
 enum class MissingLeaves : bool { AreErrors, AreLeftOut };
 
-// `given` are the nodes before the stage has taken them over.
+// `given` are the nodes before the fixture has put stubs in place of them.
 // `has_models`: leaves without a row get no script. Reports errors at their places.
-Cast make_cast(const Scenario& scenario, const Tree& tree, const Definition& given, bool has_models,
-               MissingLeaves missing, const Reporter& report);
+LeafBindings bind_leaves(const Scenario& scenario, const Tree& tree, const Definition& given,
+                         bool has_models, MissingLeaves missing, const Reporter& report);
 
 }  // namespace lockstep::host
