@@ -45,7 +45,8 @@ std::string github_line(const Diagnostic& message) {
   std::string properties = file.empty() ? "" : "file=" + escaped(printable(file), kProperty) + ",";
   if (line > 0) properties += fmt::format("line={},", line);
   if (line > 0 && column > 0) properties += fmt::format("col={},", column);
-  return fmt::format("::{} {}title=lockstep::{}\n", github_word(message.severity), properties,
+  return fmt::format("::{} {}title=lockstep{}::{}\n", github_word(message.severity), properties,
+                     message.code.empty() ? "" : fmt::format(" {}", message.code.text()),
                      escaped(whole_text(message), kData));
 }
 
@@ -55,6 +56,7 @@ std::string as_json(std::span<const Diagnostic> messages) {
   Json all = Json::array();
   for (const Diagnostic& it : messages) {
     all.push_back({{"severity", to_string(it.severity)},
+                   {"code", it.code.text()},
                    {"file", it.location.file},
                    {"line", it.location.line},
                    {"column", it.location.column},

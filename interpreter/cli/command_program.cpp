@@ -33,10 +33,9 @@ Program::Program(const std::vector<std::string>& words, Options options)
       "refused, 5 leaf fault, 6 a plugin crashed or "
       "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
       "has those that it uses.\n\n"
-      "Example: lockstep run trees/door_pulling.xml\n\n"
-      "`lockstep help COMMAND` shows the options of a command and examples. docs/tutorial.md is "
-      "the "
-      "beginning, docs/glossary.md explains the words.");
+      "Example: lockstep run --example door_pulling\n\n"
+      "`lockstep help COMMAND` shows the options of a command and examples. "
+      "`lockstep docs tutorial` is the beginning, `lockstep docs glossary` explains the words.");
   for (const Command* command : commands()) {
     CLI::App* subcommand = app_->add_subcommand(command->name, command->summary);
     const bool is_named = std::ranges::find(words, command->name) != words.end();

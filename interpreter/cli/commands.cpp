@@ -30,14 +30,15 @@ namespace lockstep::host {
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kNodesCommand, kSchemaCommand,
     kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand, kMonitorCommand,
     kVerifyCommand, kTestCommand, kNewCommand, kFmtCommand, kLspCommand, kCompletionCommand,
-    kManualCommand, kDoctorCommand;
+    kManualCommand, kDoctorCommand, kDocsCommand, kExamplesCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kNewCommand,    &kRunCommand,    &kCheckCommand,      &kVerifyCommand, &kTestCommand,
-      &kShowCommand,   &kNodesCommand,  &kSchemaCommand,     &kFmtCommand,    &kConvertCommand,
-      &kPluginCommand, &kLogCommand,    &kReplayCommand,     &kStudyCommand,  &kMonitorCommand,
-      &kLspCommand,    &kDoctorCommand, &kCompletionCommand, &kManualCommand};
+      &kNewCommand,    &kRunCommand,    &kCheckCommand,  &kVerifyCommand,   &kTestCommand,
+      &kShowCommand,   &kNodesCommand,  &kSchemaCommand, &kFmtCommand,      &kConvertCommand,
+      &kPluginCommand, &kLogCommand,    &kReplayCommand, &kStudyCommand,    &kMonitorCommand,
+      &kLspCommand,    &kDoctorCommand, &kDocsCommand,   &kExamplesCommand, &kCompletionCommand,
+      &kManualCommand};
   return kAll;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "cli/command_walk.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -43,8 +45,21 @@ class WrappedHelp final : public CLI::Formatter {
     column_width(kColumn);
   }
 
+  // Without the syntax of CLI11: "TEXT:a|b=a REQUIRED Needs: --c".
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string value = takes_value(*option) ? value_name(*option) : "";
+    return value.empty() ? "" : " " + value;
+  }
+
   std::string make_option_desc(const CLI::Option* option) const override {
-    return wrapped(option->get_description(), width_);
+    std::string text = option->get_description();
+    const std::string standard = option->get_default_str();
+    if (!standard.empty()) text += fmt::format(" (default: {})", standard);
+    if (option->get_required() && !option->get_positional()) text += " (required)";
+    for (const CLI::Option* it : option->get_needs()) {
+      text += fmt::format(" (only with {})", it->get_name());
+    }
+    return wrapped(text, width_);
   }
 
   std::string make_subcommand(const CLI::App* command) const override {
@@ -90,6 +105,18 @@ class WrappedHelp final : public CLI::Formatter {
 };
 
 }  // namespace
+
+std::string value_name(const CLI::Option& option) {
+  std::string type = option.get_type_name();
+  const std::size_t colon = type.find(':');
+  const bool is_list = colon != std::string::npos &&
+                       (type.find('|', colon) != std::string::npos || type[colon + 1] == '{');
+  if (is_list) type = type.substr(colon + 1);
+  type = type.substr(0, type.find(":INT"));  // the range that CLI11 adds
+  std::erase_if(type, [&](char c) { return is_list && (c == '{' || c == '}'); });
+  std::ranges::replace(type, ',', is_list ? '|' : ',');
+  return type;
+}
 
 std::string wrapped(std::string_view text, std::size_t width) {
   std::string lines;

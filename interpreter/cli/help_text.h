@@ -9,6 +9,7 @@
 namespace CLI {
 class App;
 class FormatterBase;
+class Option;
 }  // namespace CLI
 
 namespace lockstep::host {
@@ -16,6 +17,9 @@ namespace lockstep::host {
 // `text` with line breaks between words, so that no line is longer than `width` columns where its
 // words allow that.
 std::string wrapped(std::string_view text, std::size_t width);
+
+// What stands for the value of an option: "wall|virtual" for "TEXT:wall|virtual", "HZ" for "HZ".
+std::string value_name(const CLI::Option& option);
 
 std::shared_ptr<CLI::FormatterBase> help_formatter(std::size_t width);
 

@@ -10,6 +10,7 @@ extern const Command kShowCommand = absent("show"), kNodesCommand = absent("node
                      kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
                      kNewCommand = absent("new"), kFmtCommand = absent("fmt"),
                      kLspCommand = absent("lsp"), kCompletionCommand = absent("completion"),
-                     kManualCommand = absent("manual");
+                     kManualCommand = absent("manual"), kDocsCommand = absent("docs"),
+                     kExamplesCommand = absent("examples");
 
 }  // namespace lockstep::host

@@ -32,6 +32,7 @@ class PropertyReader {
     const auto line_begin = before.rfind('\n') + 1;  // 0 when there is none
     const auto line_end = std::min(text.find('\n', line_begin), text.size());
     diagnostics_.error(
+        "bad-property"_code,
         {source, line + static_cast<std::uint32_t>(std::ranges::count(before, '\n')),
          static_cast<std::uint32_t>(error.offset - line_begin + 1)},
         error.message, error.hint,
@@ -42,7 +43,8 @@ class PropertyReader {
   void read_file(const std::string& path) {
     std::ifstream file(path);
     if (!file) {
-      diagnostics_.error({path}, fmt::format("cannot read it: {}", std::strerror(errno)));
+      diagnostics_.error("unreadable-file"_code, {path},
+                         fmt::format("cannot read it: {}", std::strerror(errno)));
       return;
     }
     std::uint32_t number = 0;
@@ -71,7 +73,7 @@ class PropertyReader {
 void add_property_options(CLI::App& app, PropertyOptions& options) {
   app.add_option("--property", options.texts,
                  "A property, as 'grip: never grip.running and not gripper.held'; may be repeated. "
-                 "docs/properties.md has the language")
+                 "`lockstep docs properties` has the language")
       ->type_name("TEXT")
       ->allow_extra_args(false);
   app.add_option("--property-file", options.files,

@@ -29,20 +29,23 @@ class Reader {
   bool read() {
     const Element& root = document_.elements()[0];
     if (root.tag != "leaves") {
-      report_.at(root.place, fmt::format("'{}' is no leaf file", brief(root.tag)),
+      report_.at("wrong-root"_code, root.place,
+                 fmt::format("'{}' is no leaf file", brief(root.tag)),
                  "it begins with <leaves lockstep=\"1\">");
       return false;
     }
     check_words(0, "leaves", leaf_words::kRoot);
     if (const Attribute* version = document_.find_attribute(0, "lockstep");
         version != nullptr && version->value != "1") {
-      report_.at_value(version->place, fmt::format("unknown version '{}'", brief(version->value)),
+      report_.at_value("unknown-version"_code, version->place,
+                       fmt::format("unknown version '{}'", brief(version->value)),
                        "this lockstep knows version 1");
     }
     if (const Attribute* rate = document_.find_attribute(0, "rate")) {
       file_.rate = parse_double(rate->value);
       if (!file_.rate || *file_.rate < 0.001 || *file_.rate > 100000) {
-        report_.at_value(rate->place, "'rate' must be a number from 0.001 to 100000");
+        report_.at_value("bad-value"_code, rate->place,
+                         "'rate' must be a number from 0.001 to 100000");
       }
     }
     for (std::uint32_t at = 1; at < root.end; at = document_.elements()[at].end) read_element(at);
@@ -56,12 +59,13 @@ class Reader {
     if (tag == std::end(leaf_words::kTags)) {
       std::vector<std::string_view> names;
       for (const Tag& it : leaf_words::kTags) names.push_back(it.name);
-      report_.at(element.place, fmt::format("unknown element '{}'", brief(element.tag)),
+      report_.at("unknown-element"_code, element.place,
+                 fmt::format("unknown element '{}'", brief(element.tag)),
                  suggest(element.tag, names, "elements of 'leaves'"));
       return;
     }
     if (element.end > at + 1) {
-      report_.at(document_.elements()[at + 1].place,
+      report_.at("unexpected-element"_code, document_.elements()[at + 1].place,
                  fmt::format("'{}' cannot contain elements", element.tag));
     }
     if (!check_words(at, tag->name, tag->words)) return;
@@ -87,7 +91,8 @@ class Reader {
     fact.name = name.value;
     fact.place = name.place;
     if (std::ranges::find(file_.facts, fact.name, &FactRow::name) != file_.facts.end()) {
-      report_.at_value(name.place, fmt::format("fact '{}' is declared twice", brief(name.value)));
+      report_.at_value("duplicate-name"_code, name.place,
+                       fmt::format("fact '{}' is declared twice", brief(name.value)));
     }
     if (const Attribute* changes = document_.find_attribute(at, "changes")) {
       constexpr std::array<std::string_view, 4> kWords{"never", "freely", "rises", "falls"};
@@ -102,7 +107,8 @@ class Reader {
     row.place = document_.elements()[at].place;
     for (const Attribute& it : document_.attributes(at)) read_leaf(it, row);
     if (row.of.empty() == row.path.empty()) {
-      report_.at(document_.elements()[at].place, "give exactly one of 'of' and 'path'");
+      report_.at("bad-attributes"_code, document_.elements()[at].place,
+                 "give exactly one of 'of' and 'path'");
       return;
     }
     file_.leaves.push_back(std::move(row));
@@ -119,7 +125,7 @@ class Reader {
       for (const std::string_view part : split(value, ";")) read_set(it, part, row);
     } else if (is_behavior_word(name)) {
       const auto wrong = add_statement(name, value, row);
-      if (wrong) report_.at_value(it.place, wrong->message, wrong->hint);
+      if (wrong) report_.at_value("bad-leaf-model"_code, it.place, wrong->message, wrong->hint);
       if (name.starts_with(kOutputWord)) row.outputs.back().place = it.place;
     }
   }
@@ -130,7 +136,7 @@ class Reader {
     if (to == "true" || to == "false") {
       row.sets.push_back({std::string(part.substr(0, sign)), std::string(to), it.place});
     } else {
-      report_.at_value(it.place,
+      report_.at_value("bad-leaf-model"_code, it.place,
                        fmt::format("'{}' does not say what becomes of a fact", brief(part)),
                        "write charged=true, or charged=true;seen=false");
     }
@@ -156,7 +162,8 @@ std::unique_ptr<LeafFile> load_leaf_file(const std::string& path, Diagnostics& d
   constexpr std::size_t kMost = std::size_t{16} << 20u;
   auto text = read_file(path, kMost);
   if (text) return read_leaf_file(path, std::move(*text), diagnostics);
-  diagnostics.error({path}, "cannot be read: " + text.error().message, text.error().hint);
+  diagnostics.error("unreadable-file"_code, {path}, "cannot be read: " + text.error().message,
+                    text.error().hint);
   return nullptr;
 }
 

@@ -170,7 +170,7 @@ class ModelMaker {
     names.erase(std::unique(names.begin(), names.end()), names.end());
     const std::vector<std::string_view> known(names.begin(), names.end());
     const std::string& given = row.path.empty() ? row.of : row.path;
-    report().at_value(row.place,
+    report().at_value("unknown-leaf"_code, row.place,
                       row.path.empty()
                           ? fmt::format("the tree has no leaf of type '{}'", brief(given))
                           : fmt::format("no leaf has the path '{}'", brief(given)),
@@ -213,10 +213,10 @@ class ModelMaker {
     std::vector<std::string_view> names;
     for (const Fact& known : models_.facts) names.push_back(known.name);
     if (told_.insert(named.place.byte).second) {
-      report().at_value(named.place, fmt::format("unknown fact '{}'", brief(named.name)),
-                        names.empty()
-                            ? fmt::format("declare it: <fact name=\"{}\"/>", brief(named.name))
-                            : suggest(named.name, names, "facts"));
+      report().at_value(
+          "unknown-fact"_code, named.place, fmt::format("unknown fact '{}'", brief(named.name)),
+          names.empty() ? fmt::format("declare it: <fact name=\"{}\"/>", brief(named.name))
+                        : suggest(named.name, names, "facts"));
     }
     return kNoFact;
   }
@@ -234,7 +234,8 @@ class ModelMaker {
     }
     const auto parameter = std::ranges::find(type.parameters, named.name, &Parameter::name);
     if (parameter == type.parameters.end() || parameter->direction == Direction::Input) {
-      report().at(named.place, fmt::format("'{}' has no output '{}'", type.id, brief(named.name)),
+      report().at("unknown-port"_code, named.place,
+                  fmt::format("'{}' has no output '{}'", type.id, brief(named.name)),
                   suggest(named.name, known, "its outputs"));
       return;
     }
@@ -253,7 +254,7 @@ class ModelMaker {
       const std::string_view part = rest.substr(0, rest.find('|'));
       const auto value = parse_value(parameter.type, part);
       if (!value) {
-        report().at_value(named.place,
+        report().at_value("bad-value"_code, named.place,
                           fmt::format("'{}' is no value of '{}'", brief(part), parameter.name),
                           fmt::format("expected {}", expected_text(parameter.type)));
         return {};
@@ -398,7 +399,8 @@ class ModelMaker {
     if (is_declared && wants_grid && way->kind == Kind::Cuts) way.reset();
     if (way && way->kind == Kind::Grid) model.parts = way->parts;
     if (way && way->kind == Kind::Cuts && wants_grid) {
-      report().at(place, "its progress is compared with a distance: no set of cuts is exact",
+      report().at("inexact-progress"_code, place,
+                  "its progress is compared with a distance: no set of cuts is exact",
                   fmt::format("write progress=\"grid:{}\"", parts_for(cuts.deltas)));
     }
     if (!way && wants_grid) model.parts = parts_for(cuts.deltas);
@@ -422,7 +424,8 @@ class ModelMaker {
   void check_parts(const ProgressWay& way, Place place, const std::vector<double>& deltas) {
     for (const double delta : deltas) {
       if (is_whole(delta * way.parts)) continue;
-      report().at(place, fmt::format("delta {} is no multiple of 1/{}", delta, way.parts),
+      report().at("inexact-progress"_code, place,
+                  fmt::format("delta {} is no multiple of 1/{}", delta, way.parts),
                   fmt::format("write progress=\"grid:{}\"", parts_for(deltas)));
     }
   }

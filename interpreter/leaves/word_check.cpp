@@ -19,7 +19,8 @@ bool is_one_of(const Attribute& it, const Word& word, const Reporter& report) {
   if (!is_choice) return true;
   const auto choices = split(word.pattern, "|");
   if (std::ranges::find(choices, it.value) != choices.end()) return true;
-  report.at_value(it.place, fmt::format("'{}' cannot be '{}'", word.name, brief(it.value)),
+  report.at_value("bad-value"_code, it.place,
+                  fmt::format("'{}' cannot be '{}'", word.name, brief(it.value)),
                   suggest(it.value, choices, "it can be"));
   return false;
 }
@@ -48,10 +49,11 @@ bool check_words(const Document& document, std::uint32_t element, std::string_vi
     if (name.empty()) continue;  // it is the text
     const bool is_open = !open.empty() && name.starts_with(open);
     if (!is_open && std::ranges::find(names, name) == names.end()) {
-      report.at(place, fmt::format("unknown attribute '{}' of '{}'", brief(name), tag),
+      report.at("unknown-attribute"_code, place,
+                fmt::format("unknown attribute '{}' of '{}'", brief(name), tag),
                 suggest(name, names, fmt::format("attributes of '{}'", tag)));
     } else if (value.empty() && std::ranges::find(may_be_empty, name) == may_be_empty.end()) {
-      report.at_value(place, fmt::format("'{}' is empty", brief(name)));
+      report.at_value("bad-value"_code, place, fmt::format("'{}' is empty", brief(name)));
     }
   }
   bool complete = true;
@@ -60,7 +62,7 @@ bool check_words(const Document& document, std::uint32_t element, std::string_vi
     if (it != nullptr && !is_one_of(*it, word, report)) complete = false;
     if (it != nullptr || !word.required) continue;
     complete = false;
-    report.at(document.elements()[element].place,
+    report.at("missing-attribute"_code, document.elements()[element].place,
               fmt::format("'{}' needs the attribute '{}'", tag, word.name));
   }
   return complete;

@@ -106,17 +106,19 @@ void BindingReader::read_leaf(std::uint32_t element, Scenario& into) const {
   }
   const Place place = document_.elements()[element].place;
   if (row.of.empty() == row.path.empty()) {
-    return report_.at(place, "give exactly one of 'of' and 'path'");
+    return report_.at("bad-attributes"_code, place, "give exactly one of 'of' and 'path'");
   }
   if (sources != 1) {
-    return report_.at(place, "give exactly one of 'does', 'each', 'result' and 'from'",
+    return report_.at("bad-scenario"_code, place,
+                      "give exactly one of 'does', 'each', 'result' and 'from'",
                       "does=\"R.25 R.5 S\", or result=\"success\" ticks=\"3\"");
   }
   for (const Attribute& it : document_.attributes(element)) {
     const bool needs_result =
         it.name == "ticks" || it.name == "seconds" || it.name.starts_with(leaf_words::kOutput);
     if (needs_result && !has_result) {
-      return report_.at(it.place, fmt::format("'{}' is of a leaf with 'result'", it.name));
+      return report_.at("bad-scenario"_code, it.place,
+                        fmt::format("'{}' is of a leaf with 'result'", it.name));
     }
   }
   if (has_result) make_words(element, row);
@@ -127,12 +129,12 @@ void BindingReader::read_words(const Attribute& it, BindingRow& row) const {
   Words all = parse_words(it.value);
   row.source = it.place;
   if (!all.wrong.empty()) {
-    report_.in_value(it.place, all.offset,
+    report_.in_value("bad-scenario"_code, it.place, all.offset,
                      fmt::format("'{}' is no word of a leaf", brief(all.wrong)),
                      "there are R.5 (running, with its progress), S, F, K (skipped), X (a fault), "
                      "~.5 (held), S[port=value] (it writes), R.5*3 (three times)");
   } else if (all.words.empty()) {
-    report_.at_value(it.place, "a leaf without words", "write R.25 R.5 S");
+    report_.at_value("bad-scenario"_code, it.place, "a leaf without words", "write R.25 R.5 S");
   }
   row.words = std::move(all.words);
 }
@@ -149,7 +151,7 @@ void BindingReader::make_words(std::uint32_t element, BindingRow& row) const {
   const Attribute *ticks = document_.find_attribute(element, "ticks"),
                   *seconds = document_.find_attribute(element, "seconds");
   if (ticks != nullptr && seconds != nullptr) {
-    report_.at(seconds->place, "give one of 'ticks' and 'seconds'");
+    report_.at("bad-attributes"_code, seconds->place, "give one of 'ticks' and 'seconds'");
   }
   row.restarts = row.has_result = true;
   row.result = status_of(result);
@@ -167,7 +169,7 @@ std::uint64_t BindingReader::count(const Attribute& it, std::uint64_t least) con
   if (number && *number >= 0 && static_cast<std::uint64_t>(*number) >= least) {
     return static_cast<std::uint64_t>(*number);
   }
-  report_.at_value(it.place,
+  report_.at_value("bad-value"_code, it.place,
                    fmt::format("'{}' is no whole number from {}", brief(it.value), least));
   return least;
 }
@@ -175,7 +177,7 @@ std::uint64_t BindingReader::count(const Attribute& it, std::uint64_t least) con
 double BindingReader::number(const Attribute& it, double least, double most) const {
   const auto number = parse_double(it.value);
   if (number && *number >= least && *number <= most) return *number;
-  report_.at_value(it.place,
+  report_.at_value("bad-value"_code, it.place,
                    fmt::format("'{}' must be a number from {} to {}", it.name, least, most));
   return least;
 }
@@ -188,7 +190,7 @@ NumberRange BindingReader::range(const Attribute& it, std::string_view as) const
   const bool fits =
       least && *least >= 0 && parts.size() <= 2 && (is_open || (most && *most >= *least));
   if (fits) return {*least, is_open ? std::nullopt : most};
-  report_.at_value(it.place, fmt::format("'{}' is no range", brief(it.value)),
+  report_.at_value("bad-scenario"_code, it.place, fmt::format("'{}' is no range", brief(it.value)),
                    fmt::format("write {}", as));
   return {};
 }

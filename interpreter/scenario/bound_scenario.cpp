@@ -91,7 +91,7 @@ class ScenarioBinder {
     const auto& without = bound_.bindings.without_row;
     for (const NodeProblem& it : problems) {
       if (std::ranges::find(without, it.node) == without.end()) continue;
-      report_.at_value(scenario_.leaves_place,
+      report_.at_value("bad-scenario"_code, scenario_.leaves_place,
                        fmt::format("'{}': {}", tree_.path(it.node), it.message), it.hint);
     }
     bound_.models = std::move(models);
@@ -102,7 +102,7 @@ class ScenarioBinder {
     if (slot == tree_.slots.end()) {
       std::vector<std::string_view> known;
       for (const Slot& it : tree_.slots) known.emplace_back(it.name);
-      return report_.at_value(change.key_place,
+      return report_.at_value("unknown-entry"_code, change.key_place,
                               fmt::format("the tree has no entry '{}'", brief(change.key)),
                               suggest(change.key, known, "its entries"));
     }
@@ -111,7 +111,7 @@ class ScenarioBinder {
                                      : parse_value(slot->type, change.value);
     if (!value) {
       return report_.at_value(
-          change.value_place,
+          "bad-value"_code, change.value_place,
           fmt::format("'{}' is no value of '{}'", brief(change.value), change.key),
           fmt::format("expected {}", expected_text(slot->type)));
     }
@@ -122,7 +122,8 @@ class ScenarioBinder {
   void add_expectation(const Expectation& it) {
     if (scenario_.is_verified && is_of_one_run(it)) {
       if (it.is_for_all) return;
-      return report_.at_value(it.place, "this is about one run, not about all behaviors",
+      return report_.at_value("bad-scenario"_code, it.place,
+                              "this is about one run, not about all behaviors",
                               "with verify=\"yes\", expect a result or a property");
     }
     if (it.kind == Kind::Text) {
@@ -131,7 +132,8 @@ class ScenarioBinder {
       } else if (it.path.empty()) {
         add_property(it, it.texts[0]);
       } else {
-        report_.at_value(it.place, "'path' names the node of a measure, not of a property",
+        report_.at_value("bad-scenario"_code, it.place,
+                         "'path' names the node of a measure, not of a property",
                          "write path=\"both\" with a measure such as spread &lt; 0.1");
       }
     }
@@ -145,9 +147,9 @@ class ScenarioBinder {
     if (!property) {
       const PropertyError& error = property.error();
       if (of.kind == Kind::Text) {
-        report_.in_value(of.place, error.offset, error.message, error.hint);
+        report_.in_value("bad-property"_code, of.place, error.offset, error.message, error.hint);
       } else {
-        report_.at_value(of.place, error.message, error.hint);
+        report_.at_value("bad-property"_code, of.place, error.message, error.hint);
       }
       return;
     }
@@ -170,16 +172,19 @@ class ScenarioBinder {
     const auto relation = relation_of(text.relation);
     const auto number = parse_double(text.number);
     if (!measure) {
-      return report_.at_value(it.place, measure.error().message, measure.error().hint);
+      return report_.at_value("bad-scenario"_code, it.place, measure.error().message,
+                              measure.error().hint);
     }
     if (!relation || !number) {
       return report_.at_value(
-          it.place, fmt::format("expected a limit of the measure '{}'", text.measure),
+          "bad-scenario"_code, it.place,
+          fmt::format("expected a limit of the measure '{}'", text.measure),
           fmt::format("write {} &lt; 0.1; the relations are &lt; &lt;= == != > >=", text.measure));
     }
     const MeasureSpec specs[] = {*measure};
     const Measuring measuring(shape_of(tree_), specs);
-    if (!measuring.error().empty()) return report_.at_value(it.place, measuring.error());
+    if (!measuring.error().empty())
+      return report_.at_value("bad-scenario"_code, it.place, measuring.error());
     bound_.limits.push_back(
         {std::move(*measure), *relation, *number, std::string(trimmed(it.texts[0])), &it});
   }
@@ -189,12 +194,13 @@ class ScenarioBinder {
     if (leaves.empty() && missing_ == MissingLeaves::AreLeftOut) return;
     if (leaves.empty()) {
       const Problem problem = no_such_leaf(tree_, it.of, it.path);
-      return report_.at_value(it.place, problem.message, problem.hint);
+      return report_.at_value("bad-scenario"_code, it.place, problem.message, problem.hint);
     }
     for (const NodeIndex leaf : leaves) {
       if (!bound_.bindings.real.contains(leaf)) continue;
       return report_.at_value(
-          it.place, fmt::format("what '{}' gets is not seen", tree_.path(leaf)),
+          "bad-scenario"_code, it.place,
+          fmt::format("what '{}' gets is not seen", tree_.path(leaf)),
           "leaves with from=\"plugin\" read their inputs themselves; give it words");
     }
     for (const NamedText& input : it.inputs) add_input(it, input, leaves);
@@ -211,7 +217,7 @@ class ScenarioBinder {
         for (const Parameter& it : type.parameters) {
           if (it.direction != Direction::Output) known.push_back(it.name);
         }
-        return report_.at(input.place,
+        return report_.at("unknown-port"_code, input.place,
                           fmt::format("'{}' has no input '{}'", type.id, brief(input.name)),
                           suggest(input.name, known, "its inputs"));
       }
@@ -219,7 +225,7 @@ class ScenarioBinder {
       const auto value = parse_value(port->type, input.text);
       if (!value) {
         return report_.at_value(
-            input.place,
+            "bad-value"_code, input.place,
             fmt::format("'{}' is no value of the port '{}'", brief(input.text), input.name),
             fmt::format("expected {}", expected_text(port->type)));
       }
@@ -230,7 +236,8 @@ class ScenarioBinder {
 
   void check_node(const Expectation& it) const {
     const auto found = find_path(fixture_.names().paths, it.node);
-    if (!found) report_.at_value(it.place, found.error().message, found.error().hint);
+    if (!found)
+      report_.at_value("bad-scenario"_code, it.place, found.error().message, found.error().hint);
   }
 
   const Scenario& scenario_;

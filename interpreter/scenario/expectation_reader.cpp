@@ -27,20 +27,22 @@ void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
     kinds.erase(Expectation::Kind::Inputs);
   }
   if (kinds.size() != 1) {
-    report_.at(place, expect ? "an expectation says one thing" : "the expectation says nothing",
+    report_.at("bad-scenario"_code, place,
+               expect ? "an expectation says one thing" : "the expectation says nothing",
                "write result (with ticks, time), order, same-as, a property or a measure as text, "
                "or path with in.PORT");
     return;
   }
   if (expect->kind == Expectation::Kind::Inputs &&
       (expect->inputs.empty() || expect->of.empty() == expect->path.empty())) {
-    report_.at(place, "an expectation about inputs needs 'of' or 'path', and in.PORT",
+    report_.at("bad-scenario"_code, place,
+               "an expectation about inputs needs 'of' or 'path', and in.PORT",
                "write path=\"arm\" in.speed=\"0.2\"");
     return;
   }
   if (const Attribute* it = document_.find_attribute(element, "tolerance");
       it != nullptr && expect->kind != Expectation::Kind::SameAs) {
-    report_.at(it->place, "'tolerance' is of an expectation with 'same-as'");
+    report_.at("bad-scenario"_code, it->place, "'tolerance' is of an expectation with 'same-as'");
   }
   expect->tolerance = tolerance;
   into.expectations.push_back(std::move(*expect));

@@ -68,13 +68,14 @@ class CastMaker {
 
   void tell_no_match(const BindingRow& row) const {
     const Problem problem = no_such_leaf(tree_, row.of, row.path);
-    report_.at_value(row.place, problem.message, problem.hint);
+    report_.at_value("bad-scenario"_code, row.place, problem.message, problem.hint);
   }
 
   void give(const BindingRow& row, const LeafNode& leaf) {
     if (row.from == BindingRow::From::Plugin) {
       if (given_.nodes[leaf.node].type->leaf == nullptr) {
-        return report_.at_value(row.source, fmt::format("no plugin has '{}'", leaf.type->id));
+        return report_.at_value("unknown-node"_code, row.source,
+                                fmt::format("no plugin has '{}'", leaf.type->id));
       }
       reader_.real.insert(leaf.node);
       return;
@@ -109,7 +110,7 @@ class CastMaker {
     if (recording == nullptr) {
       recording = std::make_unique<RecordedWords>(read_recorded_words(row.recording, tree_));
       const std::string& error = recording->outcome.error;
-      if (!error.empty()) report_.at_value(row.source, error);
+      if (!error.empty()) report_.at_value("bad-scenario"_code, row.source, error);
     }
     const auto words = recording->leaves.find(tree_.path(leaf.node));
     // One that the recording never ticks.
@@ -124,7 +125,7 @@ class CastMaker {
     if (writes) {
       one.leaves[path] = words;
       if (const auto wrong = PlayedLeaves::check(one, tree_)) {
-        return report_.at_value(row.source, wrong->message, wrong->hint);
+        return report_.at_value("bad-scenario"_code, row.source, wrong->message, wrong->hint);
       }
     }
     if (!is_condition(*leaf.type) || leaf.type->can_run) return;
@@ -132,7 +133,7 @@ class CastMaker {
       return it.kind == LeafWord::Kind::Tick && it.status == Status::Running;
     });
     if (runs && row.from == BindingRow::From::Words) {
-      report_.at_value(row.source,
+      report_.at_value("bad-scenario"_code, row.source,
                        fmt::format("'{}' is a condition, which is never running", leaf.type->id),
                        "write S or F for each tick");
     }

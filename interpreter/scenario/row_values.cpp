@@ -21,7 +21,7 @@ RowValues::RowValues(Document& document, std::uint32_t scenario, const Reporter&
     if (elements[child].tag != scenario_words::kRow) continue;
     rows_.push_back({child});
     if (document.attributes(child).empty()) {
-      report_.at(elements[child].place, "a row without values",
+      report_.at("bad-scenario"_code, elements[child].place, "a row without values",
                  "write <row name=\"value\"/>, and ${name} where it is to be");
       are_good_ = false;
     }
@@ -54,7 +54,7 @@ std::string RowValues::replaced(const Written& written, std::size_t row) {
       for (const Attribute& it : document_.attributes(rows_[row].element)) known.push_back(it.name);
     }
     if (value == nullptr) {
-      report_.at_value(written.attribute->place,
+      report_.at_value("unknown-argument"_code, written.attribute->place,
                        fmt::format("no row of the scenario has '{}'", brief(name)),
                        rows_.empty() ? "write <row name=\"value\"/> in the scenario"
                                      : suggest(name, known, "values of this row"));

@@ -39,14 +39,16 @@ class Reader {
     const Element& root = elements_[0];
     if (root.tag == "root") return read_tree();
     if (root.tag != "scenarios") {
-      report_.at(root.place, fmt::format("'{}' is no file of scenarios", brief(root.tag)),
+      report_.at("wrong-root"_code, root.place,
+                 fmt::format("'{}' is no file of scenarios", brief(root.tag)),
                  "it begins with <scenarios lockstep=\"1\">");
       return false;
     }
     check_words(document_, 0, "", scenario_words::kScenarios, report_);
     if (const Attribute* version = attribute(0, "lockstep");
         version != nullptr && version->value != "1") {
-      report_.at_value(version->place, fmt::format("unknown version '{}'", brief(version->value)),
+      report_.at_value("unknown-version"_code, version->place,
+                       fmt::format("unknown version '{}'", brief(version->value)),
                        "this lockstep knows version 1");
     }
     read_head(0, common_);
@@ -73,7 +75,7 @@ class Reader {
     }
     for (const std::uint32_t child : children_in(elements_, 0)) {
       if (elements_[child].tag != "scenario") continue;
-      report_.at(elements_[child].place,
+      report_.at("bad-scenario"_code, elements_[child].place,
                  fmt::format("a file for {} has no scenarios", document_.rules().title),
                  "put them into a file beside it, NAME.test.xml");
     }
@@ -116,19 +118,19 @@ class Reader {
       read_part(child, scenario, "elements of 'scenario'");
     }
     if (scenario.tree.empty()) {
-      report_.at(elements_[at].place, "the scenario has no tree",
+      report_.at("bad-scenario"_code, elements_[at].place, "the scenario has no tree",
                  "write tree=\"FILE.xml\", here or in <scenarios>");
     }
     const bool says_one_run = scenario.bindings.size() > common_.bindings.size() ||
                               scenario.changes.size() > common_.changes.size() ||
                               scenario.late.size() > common_.late.size();
     if (scenario.is_verified && says_one_run) {
-      report_.at(elements_[at].place,
+      report_.at("bad-scenario"_code, elements_[at].place,
                  "a scenario with verify=\"yes\" is about all behaviors, not about one run",
                  "say what leaves may do in a leaf file: leaves=\"NAME.leaves.xml\"");
     }
     if (scenario.expectations.empty() && !scenario.is_verified && !says_expect) {
-      report_.at(elements_[at].place, "the scenario expects nothing",
+      report_.at("bad-scenario"_code, elements_[at].place, "the scenario expects nothing",
                  "write <expect result=\"success\"/>");
     }
     file_.scenarios.push_back(std::move(scenario));
@@ -137,7 +139,7 @@ class Reader {
   void check_name(const Scenario& scenario, const Attribute& name) {
     const auto same = std::ranges::find(file_.scenarios, scenario.name, &Scenario::name);
     if (same == file_.scenarios.end()) return;
-    report_.at_value(name.place,
+    report_.at_value("duplicate-name"_code, name.place,
                      fmt::format("a scenario '{}' exists already", brief(scenario.name)),
                      fmt::format("the first is at {}", to_text(file_.sources.locate(same->place))));
   }
@@ -174,12 +176,14 @@ class Reader {
     if (tag == std::end(scenario_words::kTags)) {
       std::vector<std::string_view> names{"scenario"};
       for (const Tag& it : scenario_words::kTags) names.push_back(it.name);
-      report_.at(element.place, fmt::format("unknown element '{}'", brief(element.tag)),
+      report_.at("unknown-element"_code, element.place,
+                 fmt::format("unknown element '{}'", brief(element.tag)),
                  suggest(element.tag, names, known));
       return;
     }
     if (element.end > at + 1) {
-      report_.at(elements_[at + 1].place, fmt::format("'{}' cannot contain elements", element.tag));
+      report_.at("unexpected-element"_code, elements_[at + 1].place,
+                 fmt::format("'{}' cannot contain elements", element.tag));
     }
     const std::string_view open = tag->name == "leaf"     ? leaf_words::kOutput
                                   : tag->name == "expect" ? scenario_words::kInput
@@ -204,7 +208,7 @@ class Reader {
     SetEntry change{std::string(key.value), std::string(value.value), key.place, value.place};
     const Attribute *tick = attribute(at, "tick"), *time = attribute(at, "time");
     if (tick != nullptr && time != nullptr) {
-      report_.at(time->place, "give one of 'tick' and 'time'");
+      report_.at("bad-attributes"_code, time->place, "give one of 'tick' and 'time'");
     }
     if (tick != nullptr) change.tick = reader_.count(*tick, 0);
     if (time != nullptr) change.time = reader_.number(*time, 0, 1e9);
@@ -219,10 +223,12 @@ class Reader {
   void read_substitutions(const Attribute& from, Scenario& into) const {
     auto found = host::read_substitutions(beside(file_.path, from.value));
     if (!found) {
-      return report_.at_value(from.place, found.error().message, found.error().hint);
+      return report_.at_value("bad-scenario"_code, from.place, found.error().message,
+                              found.error().hint);
     }
     for (const std::string& note : found->notes) {
-      report_.at_value(from.place, note, "write it into the scenario", Severity::Warning);
+      report_.at_value("bad-scenario"_code, from.place, note, "write it into the scenario",
+                       Severity::Warning);
     }
     for (BindingRow& row : found->rows) {
       row.place = row.source = from.place;
@@ -254,7 +260,8 @@ std::unique_ptr<ScenarioFile> read_scenarios(const std::string& path, std::strin
 std::unique_ptr<ScenarioFile> read_scenarios(const std::string& path, Diagnostics& diagnostics) {
   auto text = read_file(path, Document::kMaxBytes, FileKinds::Regular);
   if (text) return read_scenarios(path, std::move(*text), diagnostics);
-  diagnostics.error({path}, "cannot be read: " + text.error().message, text.error().hint);
+  diagnostics.error("unreadable-file"_code, {path}, "cannot be read: " + text.error().message,
+                    text.error().hint);
   return nullptr;
 }
 

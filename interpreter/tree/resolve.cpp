@@ -26,9 +26,9 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, bool has_
   if (trees.ids.empty()) {
     // Else it is there, but without an ID, or this is no tree file at all: reported already.
     if (trees.nodes.empty() && main && options.may_lack_main && has_content) {
-      report.at(main->place, "the file has no BehaviorTree", {}, Severity::Note);
+      report.at("no-tree"_code, main->place, "the file has no BehaviorTree", {}, Severity::Note);
     } else if (trees.nodes.empty() && main) {
-      report.at(main->place, "there is no BehaviorTree",
+      report.at("no-tree"_code, main->place, "there is no BehaviorTree",
                 "put a <BehaviorTree ID=\"…\"> into <root>");
     }
     return std::nullopt;
@@ -36,7 +36,8 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, bool has_
   if (!given.empty()) {
     const auto it = trees.trees.find(given);
     if (it != trees.trees.end()) return it->first;
-    report.nowhere(worded(fmt::format("--tree {}: unknown tree", given),
+    report.nowhere("unknown-tree"_code,
+                   worded(fmt::format("--tree {}: unknown tree", given),
                           fmt::format("unknown tree '{}'", given)),
                    suggest(given, trees.ids, "trees in this project"));
     return std::nullopt;
@@ -45,22 +46,24 @@ std::optional<std::string_view> choose_main(const CheckedTrees& trees, bool has_
     const auto it = trees.trees.find(*main->tree);
     if (it != trees.trees.end()) return it->first;
     if (options.may_lack_main && options.elsewhere.contains(*main->tree)) {
-      report.at_value(main->tree_place,
+      report.at_value("tree-elsewhere"_code, main->tree_place,
                       fmt::format("the main tree '{}' is in another file", brief(*main->tree)),
                       "each tree of this one is checked alone", Severity::Note);
       return std::nullopt;
     }
-    report.at_value(main->tree_place, fmt::format("unknown tree '{}'", brief(*main->tree)),
+    report.at_value("unknown-tree"_code, main->tree_place,
+                    fmt::format("unknown tree '{}'", brief(*main->tree)),
                     suggest(*main->tree, trees.ids, "trees in this project"));
     return std::nullopt;
   }
   if (trees.ids.size() == 1 && !options.is_part) return trees.ids.front();
   if (options.may_lack_main) {
-    report.at(main->place, "this file names no main tree: each of its trees is checked alone",
+    report.at("no-main-tree"_code, main->place,
+              "this file names no main tree: each of its trees is checked alone",
               "--tree chooses one", Severity::Note);
     return std::nullopt;
   }
-  report.at(main->place, "several trees, and none is chosen",
+  report.at("no-main-tree"_code, main->place, "several trees, and none is chosen",
             fmt::format("add main_tree_to_execute=\"…\" or {}; trees: {}",
                         worded("use --tree", "choose one for the project"), listed(trees.ids)));
   return std::nullopt;

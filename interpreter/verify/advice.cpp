@@ -130,13 +130,13 @@ class DeadlockText {
     std::vector<std::string_view> names;
     for (const WaitLink& link : chain.links) names.push_back(tree_.labels[link.node].name);
     names.push_back(names.front());
-    return {chain.links.front().waiting, Severity::Warning,
+    return {"deadlock"_code, chain.links.front().waiting, Severity::Warning,
             fmt::format("held nodes may wait for each other in a circle: {}", chained(names)),
             explained(chain)};
   }
 
   Advice idle(const WaitLink& link, NodeIndex decider) const {
-    return {link.awaited, Severity::Note,
+    return {"waits-for-idle"_code, link.awaited, Severity::Note,
             fmt::format("the others at '{}' wait for '{}' for ever if '{}' does not run it",
                         name(link.node), name(link.awaited), name(decider)),
             "idle=\"ignore\" waits only for members that run"};
@@ -144,7 +144,7 @@ class DeadlockText {
 
   Advice hold(const WaitChain& chain) const {
     const WaitLink& first = chain.links.front();
-    return {first.waiting, Severity::Note,
+    return {"endless-pause"_code, first.waiting, Severity::Note,
             fmt::format("'{}' may be held by '{}' for ever", name(first.waiting), name(first.node)),
             explained(chain)};
   }

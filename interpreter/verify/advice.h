@@ -14,6 +14,7 @@
 namespace lockstep::host {
 
 struct Advice {
+  MessageCode code;
   NodeIndex node;
   Severity severity;
   std::string message, hint;

@@ -43,7 +43,7 @@ class Certainties {
       const bool is_dead = !alive.contains(places_[node].byte);
       if (is_dead && told.insert(places_[node].byte).second) {
         certainties_.push_back(
-            {node, Severity::Warning,
+            {"dead-node"_code, node, Severity::Warning,
              fmt::format("'{}' can never run, whatever the leaves do", tree_.labels[node].name),
              why_dead(node)});
       }
@@ -125,11 +125,11 @@ class Certainties {
       return false;
     });
     if (goes_on || !holds) {
-      certainties_.push_back(
-          {0, Severity::Note, "this tree never ends, whatever its leaves do", ""});
+      certainties_.push_back({"endless-tree"_code, 0, Severity::Note,
+                              "this tree never ends, whatever its leaves do", ""});
       return;
     }
-    certainties_.push_back({0, Severity::Warning,
+    certainties_.push_back({"deadlock"_code, 0, Severity::Warning,
                             "this tree can never end: whatever its leaves do, it stands still",
                             std::move(why_it_stands_)});
   }

@@ -124,16 +124,16 @@ TEST_CASE("a program that does not answer describe as it should is an error of t
   CHECK(error("wrong") ==
         "2:1: 'Hull' cannot be described: its program answers describe wrongly: expected 'ports' "
         "or 'refused' | "
-        "docs/programs.md has the answers to describe");
-  CHECK(error("ends") ==
-        "2:1: 'Hull' cannot be described: its program ended with exit code 3 before it answered "
-        "describe | run it by hand to see what it prints");
+        "`lockstep docs programs` has the answers to describe");
+  CHECK(error("ends").starts_with(
+      "2:1: 'Hull' cannot be described: its program ended with exit code 3 before it answered "
+      "describe | run it by hand to see what it prints: PYTHONPATH="));
   CHECK(error("bad") ==
         "2:1: 'Hull' cannot be described: its program answers describe wrongly: port 'size.x': the "
         "type "
         "of a port is 'thing', "
         "expected bool, int, double, string, number, or 'list of ' and one of the first four | "
-        "docs/programs.md has the answers to describe");
+        "`lockstep docs programs` has the answers to describe");
 }
 
 TEST_CASE("a constant that its port does not take is the error that it always is") {

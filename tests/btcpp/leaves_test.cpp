@@ -119,7 +119,7 @@ TEST_CASE("leaves for BehaviorTree.CPP: what a node does wrong is its fault") {
     const Outcome outcome = run_tree(tree, "faulty");
     INFO(it.how);
     CHECK(outcome.code == 5);
-    CHECK(contains(outcome.out, "fault: Main/Wrong: " + it.message));
+    CHECK(contains(outcome.out, " s: Main/Wrong: " + it.message));
     CHECK(run_tree(tree, "faulty", {"--isolate"}).out == outcome.out);
   }
   const auto tree = directory.file("tree.xml", tree_of("<Wrong how=\"throws\"/>"));

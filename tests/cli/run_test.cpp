@@ -371,7 +371,7 @@ TEST_CASE("the result of a run that a fault ended is fault, whatever its sibling
       "<Parallel success_count=\"1\"><AlwaysSuccess/><Probe name=\"culprit\"/></Parallel>");
   const Outcome text = it.run({"--plugin", abi_plugin("throws_exception")});
   CHECK(text.code == 5);
-  CHECK(text.out.starts_with("fault: Main/Parallel/culprit: threw an exception"));
+  CHECK(text.out.starts_with("fault after 1 tick, 0.010 s: Main/Parallel/culprit: threw an"));
   CHECK(contains(text.err, "run ends: fault after 1 tick"));
   const std::string recording = it.directory.path("run.jsonl");
   const Outcome outcome =

@@ -202,7 +202,7 @@ TEST_CASE("a value in a later tick declares an entry, which is unset before") {
         Row{R"(<set key="k" value="1" tick="0"/><set key="k" value="3" tick="2"/>)", "1 passed", 3,
             0},
         // Too late: the entry is unset where it is read.
-        Row{R"(<set key="k" value="3" tick="3"/>)", "an entry without value", 3, 1},
+        Row{R"(<set key="k" value="3" tick="3"/>)", "without a value", 3, 1},
         Row{R"(<set key="k" value="3" tick="1"/><set key="k" value="x" tick="2"/>)",
             "'x' is no value of 'k'", 3, 3},
         Row{R"(<set key="j" value="3" tick="1"/>)", "nothing declares the entry 'k'", 3, 3}}) {

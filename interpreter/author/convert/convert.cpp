@@ -150,7 +150,7 @@ class Converter {
     }
     if (to_ours() || tag == "property") {
       open_.back().is_left_out = true;
-      report_.at(place, fmt::format("'{}' is left out", brief(tag)),
+      report_.at("left-out"_code, place, fmt::format("'{}' is left out", brief(tag)),
                  fmt::format("{} does not have it; it has no effect on a run",
                              to_ours() ? "lockstep's language" : "BehaviorTree.CPP"),
                  Severity::Note);
@@ -163,7 +163,7 @@ class Converter {
   void warn_of_argument(std::uint32_t argument) const {
     if (report_.counted_only(Severity::Warning)) return;
     const Attribute* name = document_.find_attribute(argument, "name");
-    report_.at(place_of(argument), "BehaviorTree.CPP ignores 'arg'",
+    report_.at("not-convertible"_code, place_of(argument), "BehaviorTree.CPP ignores 'arg'",
                fmt::format("'${{{}}}' is a text there: write the value, or an entry in its place",
                            name == nullptr ? "…" : brief(name->value)),
                Severity::Warning);
@@ -184,7 +184,7 @@ class Converter {
   void warn_of_arguments(const Attribute& attribute) {
     for_each_argument(attribute.value, [&](std::size_t at, std::string_view name) {
       if (declaration_of(name) != 0 || !told_.insert(name).second) return;
-      report_.in_value(attribute.place, at,
+      report_.in_value("not-convertible"_code, attribute.place, at,
                        fmt::format("'${{{}}}' is a text for BehaviorTree.CPP", brief(name)),
                        "it has no arguments: write the value, or an entry", Severity::Warning);
     });
@@ -224,7 +224,7 @@ class Converter {
     if (is_name && id->value != "Root" && id->value != "root") return;
     if (report_.counted_only(Severity::Warning)) return;
     report_.at_value(
-        id->place,
+        "bad-name"_code, id->place,
         fmt::format("BehaviorTree.CPP 4.8.4 and later refuse the ID '{}'", brief(id->value)),
         "an ID there has no blanks and none of <>&\"'/\\:*?|., and is not Root", Severity::Warning);
   }
@@ -233,17 +233,18 @@ class Converter {
     const Attribute* id = document_.find_attribute(tree, "ID");
     const Place place = document_.elements()[tree].place;
     if (id == nullptr || id->value.empty()) {
-      report_.at(place, "a BehaviorTree without 'ID'", "give it one");
+      report_.at("missing-attribute"_code, place, "a BehaviorTree without 'ID'", "give it one");
     } else if (id->value.find('/') != std::string_view::npos) {
-      report_.at_value(id->place, fmt::format("the ID '{}' contains '/'", brief(id->value)),
+      report_.at_value("bad-name"_code, id->place,
+                       fmt::format("the ID '{}' contains '/'", brief(id->value)),
                        "in lockstep's language '/' separates the names in a path");
     }
   }
 
   void cannot(Place place, std::string_view what, std::string hint = {}) const {
     if (report_.counted_only(Severity::Error)) return;
-    report_.at(place, fmt::format("{} cannot be said in {}", what, conversion_.to.title),
-               std::move(hint));
+    report_.at("not-convertible"_code, place,
+               fmt::format("{} cannot be said in {}", what, conversion_.to.title), std::move(hint));
   }
 
   void convert_node(std::uint32_t element, const XmlToken& token) {
@@ -277,8 +278,9 @@ class Converter {
     for (const btcpp::Difference& it : pair_->differences) {
       if (!circumstances_.apply(it.when, element) || report_.counted_only(Severity::Warning))
         continue;
-      report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
-                 std::string(it.what), Severity::Warning);
+      report_.at("not-the-same"_code, place_of(element),
+                 fmt::format("'{}' is not quite the same", brief(type)), std::string(it.what),
+                 Severity::Warning);
     }
   }
 
@@ -293,7 +295,8 @@ class Converter {
     if (!to_ours()) open_.back().tag += std::to_string(converted.attributes.size() - 1);
     for (const auto& [name, value] : converted.attributes) add_attribute(token, name, value);
     if (report_.counted_only(Severity::Warning)) return;
-    report_.at(place_of(element), fmt::format("'{}' is not quite the same", brief(type)),
+    report_.at("not-the-same"_code, place_of(element),
+               fmt::format("'{}' is not quite the same", brief(type)),
                "for BehaviorTree.CPP, an entry without a value chooses the last child; in "
                "lockstep's language it is an error",
                Severity::Warning);
@@ -398,7 +401,7 @@ class Converter {
     }
     if (report_.counted_only(Severity::Error)) return;
     report_.in_value(
-        attribute.place, script.error().offset,
+        "not-convertible"_code, attribute.place, script.error().offset,
         fmt::format("{} cannot be said in {}", script.error().message, conversion_.to.title),
         script.error().hint);
   }
@@ -488,8 +491,9 @@ class Converter {
   void leave_out(const XmlToken& token, const Attribute& attribute) {
     remove(token);
     if (report_.counted_only(Severity::Note)) return;
-    report_.at(attribute.place, fmt::format("'{}' is left out", brief(attribute.name)),
-               "it is for editors", Severity::Note);
+    report_.at("left-out"_code, attribute.place,
+               fmt::format("'{}' is left out", brief(attribute.name)), "it is for editors",
+               Severity::Note);
   }
 
   // A value that only the lenient grammar accepts is written as XML.
@@ -541,7 +545,8 @@ class Converter {
     edits_.remove(token.begin, token.begin + token.value.size());
     if (report_.counted_only(Severity::Note)) return;
     const std::uint32_t element = next_ == 0 ? 0 : next_ - 1;
-    report_.at(place_of(element), fmt::format("'{}' is left out", brief(token.value)),
+    report_.at("left-out"_code, place_of(element),
+               fmt::format("'{}' is left out", brief(token.value)),
                to_ours() ? "it has no effect, and XML does not have it there"
                          : "BehaviorTree.CPP takes processing instructions only at the beginning "
                            "of a file",

@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxSourceBytes = std::size_t{4} << 20U;
 constexpr int kMaxDepth = 4;
+constexpr int kMostEntries = 10'000;
 
 // The language of a source of a plugin; else null.
 const SourceLanguage* language_of(const fs::path& path, const std::string& text) {
@@ -52,10 +53,11 @@ bool is_left_out(const fs::directory_entry& entry) {
 std::vector<PluginSource> sources_below(const fs::path& folder) {
   std::vector<PluginSource> found;
   std::error_code error;
+  int left = kMostEntries;  // of a home directory, say
   for (fs::recursive_directory_iterator
            it(folder, fs::directory_options::skip_permission_denied, error),
        end;
-       !error && it != end; it.increment(error)) {
+       !error && it != end && left-- > 0; it.increment(error)) {
     if (it->is_directory(error) && (is_left_out(*it) || it.depth() >= kMaxDepth)) {
       it.disable_recursion_pending();
     }

@@ -96,6 +96,7 @@ class Converter {
     Json json{{"range", range},
               {"severity", severity_number(it.severity)},
               {"source", "lockstep"},
+              {"code", it.code.text()},
               {"message", std::move(message)}};
     if (it.hint.empty() || adds_hint) return json;
     Json place{{"uri", text.uri}, {"range", std::move(range)}};

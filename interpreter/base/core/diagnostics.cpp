@@ -94,18 +94,20 @@ void Diagnostics::count_one(Severity severity) {
   ++lost_[index(severity)];
 }
 
-void Diagnostics::warning(SourceLocation location, std::string message, std::string hint) {
-  add({Severity::Warning, std::move(location), std::move(message), std::move(hint)});
+void Diagnostics::warning(MessageCode code, SourceLocation location, std::string message,
+                          std::string hint) {
+  add({Severity::Warning, std::move(location), std::move(message), std::move(hint), {}, code});
 }
 
-void Diagnostics::note(SourceLocation location, std::string message, std::string hint) {
-  add({Severity::Note, std::move(location), std::move(message), std::move(hint)});
+void Diagnostics::note(MessageCode code, SourceLocation location, std::string message,
+                       std::string hint) {
+  add({Severity::Note, std::move(location), std::move(message), std::move(hint), {}, code});
 }
 
-void Diagnostics::error(SourceLocation location, std::string message, std::string hint,
-                        Excerpt excerpt) {
+void Diagnostics::error(MessageCode code, SourceLocation location, std::string message,
+                        std::string hint, Excerpt excerpt) {
   add({Severity::Error, std::move(location), std::move(message), std::move(hint),
-       std::move(excerpt)});
+       std::move(excerpt), code});
 }
 
 bool Diagnostics::has_errors() const {
@@ -146,10 +148,11 @@ std::string_view to_string(Severity severity) {
 
 std::string render(const Diagnostic& diagnostic, bool color) {
   const Paint paint{color};
-  const auto& [severity, location, message, hint, excerpt] = diagnostic;
-  auto text = fmt::format("{}{} {}\n", paint("1", place(location)),
-                          paint(color_of(severity), fmt::format("{}:", to_string(severity))),
-                          printable(message));
+  const auto& [severity, location, message, hint, excerpt, code] = diagnostic;
+  auto text =
+      fmt::format("{}{} {}{}\n", paint("1", place(location)),
+                  paint(color_of(severity), fmt::format("{}:", to_string(severity))),
+                  printable(message), code.empty() ? "" : fmt::format(" [{}]", code.text()));
   if (!excerpt.text.empty()) {
     const std::string_view mark = excerpt.column > 1 ? "..." : "";  // for what comes before it
     text += fmt::format("  {}{}\n", mark, visible(excerpt.text, Tabs::Kept));

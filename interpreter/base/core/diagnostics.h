@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/message_code.h"
+
 namespace lockstep::host {
 
 // Line and column count from 1, the column in bytes; 0 = not known (the file as a whole).
@@ -35,6 +37,7 @@ struct Diagnostic {
   std::string message;    // lower case, no full stop, names in single quotes
   std::string hint = {};  // what to do, or ""
   Excerpt excerpt = {};   // no text: there is none
+  MessageCode code = {};
 };
 
 class Diagnostics {
@@ -43,10 +46,11 @@ class Diagnostics {
   static constexpr std::size_t kMaxKept = 1000;
 
   void add(Diagnostic diagnostic);
-  void error(SourceLocation location, std::string message, std::string hint = {},
+  void error(MessageCode code, SourceLocation location, std::string message, std::string hint = {},
              Excerpt excerpt = {});
-  void warning(SourceLocation location, std::string message, std::string hint = {});
-  void note(SourceLocation location, std::string message, std::string hint = {});
+  void warning(MessageCode code, SourceLocation location, std::string message,
+               std::string hint = {});
+  void note(MessageCode code, SourceLocation location, std::string message, std::string hint = {});
 
   bool has_errors() const;
   // True if no more of this severity are kept. Then a message is not needed: count_one() is enough.
@@ -69,8 +73,8 @@ class Diagnostics {
 
 std::string_view to_string(Severity severity);
 
-// "file:line:column: error: message", the source line, a caret and the hint, each on its own line,
-// ending in a newline. Control characters are made visible. `color` adds ANSI colors.
+// "file:line:column: error: message [code]", the source line, a caret and the hint, each on its own
+// line, ending in a newline. Control characters are made visible. `color` adds ANSI colors.
 std::string render(const Diagnostic& diagnostic, bool color);
 
 // `text` without effect on a terminal: control characters and invalid UTF-8 become \xNN or \uNNNN.

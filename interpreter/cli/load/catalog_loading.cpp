@@ -3,6 +3,7 @@
 #include "base/core/clock.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/load/load_options.h"
 #include "run/plugin_thread.h"
 
 namespace lockstep::host {
@@ -14,6 +15,7 @@ int load_catalog(const PluginOptions& options, PluginSet& plugins, Catalog& cata
   const bool good = load_given_plugins(options, plugins, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
   if (!good) return kExitPluginRefused;
+  note_project_plugins(plugins, options);
   catalog = make_catalog(plugins);
   return kExitSuccess;
 }

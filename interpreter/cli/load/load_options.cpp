@@ -4,11 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "base/core/clock.h"
 #include "base/core/value.h"
+#include "base/core/wording.h"
 #include "base/system/freed_memory.h"
 #include "cli/checks.h"
+#include "cli/console.h"
 #include "cli/exit_code.h"
 #include "leaves/remote/json_lines/orphans.h"
 #include "run/plugin_thread.h"
@@ -23,7 +26,8 @@ Arguments parse_pairs(const std::vector<std::string>& pairs, std::string_view op
   for (const std::string& pair : pairs) {
     const auto equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) {
-      diagnostics.error({}, fmt::format("{} {}: expected name=value", option, pair));
+      diagnostics.error("bad-option"_code, {},
+                        fmt::format("{} {}: expected name=value", option, pair));
     } else {
       map[pair.substr(0, equals)] = pair.substr(equals + 1);
     }
@@ -58,7 +62,8 @@ Mocks parse_mocks(const LoadCommandOptions& options, Diagnostics& diagnostics) {
     if (const auto mock = parse_mock(text)) {
       mocks[id] = *mock;
     } else {
-      diagnostics.error({}, fmt::format("--mock-leaf {}={}: no result", id, text),
+      diagnostics.error("bad-option"_code, {},
+                        fmt::format("--mock-leaf {}={}: no result", id, text),
                         "success, failure or running, then perhaps a time: failure:2.5");
     }
   }
@@ -67,13 +72,29 @@ Mocks parse_mocks(const LoadCommandOptions& options, Diagnostics& diagnostics) {
 
 }  // namespace
 
+void note_project_plugins(const PluginSet& plugins, const PluginOptions& options) {
+  const std::vector<PluginSet::Info> list = plugins.list();
+  std::vector<std::string_view> names;
+  for (const PluginSet::Info& it : list) {
+    if (std::filesystem::path(it.path).parent_path() == options.project_build) {
+      names.push_back(it.name);
+    }
+  }
+  if (names.empty()) return;
+  print_note(fmt::format("from the directory '{}' here: {} {}", options.project_build,
+                         names.size() == 1 ? "the plugin" : "the plugins", listed(names)));
+}
+
 void add_plugin_options(CLI::App& app, PluginOptions& options) {
+  options.project_build = "build";
   app.add_option("--plugin", options.plugins,
                  "Load this plugin: a file (.so), or a name to search for; may be repeated")
       ->type_name("FILE|NAME")
       ->allow_extra_args(false);
-  app.add_option("--plugin-path", options.directories,
-                 "Search plugins in this directory first; may be repeated")
+  app.add_option(
+         "--plugin-path", options.directories,
+         "Search plugins in this directory first; may be repeated (last: build, in the working "
+         "directory)")
       ->type_name("DIR")
       ->allow_extra_args(false);
   app.add_flag("--isolate", options.isolate,
@@ -169,6 +190,7 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
   if (loaded && std::ranges::any_of(loaded->plugins->list(), &PluginSet::Info::isolated)) {
     take_over_orphans();
   }
+  if (loaded) note_project_plugins(*loaded->plugins, options.plugins);
   return loaded;
 }
 

@@ -32,6 +32,8 @@ struct LoadCommandOptions {
 void add_program_option(CLI::App& app, PluginOptions& options);
 // --plugin, --plugin-path, --isolate and --hang-limit.
 void add_plugin_options(CLI::App& app, PluginOptions& options);
+// Notes which plugins come from the build of the user's project.
+void note_project_plugins(const PluginSet& plugins, const PluginOptions& options);
 // The plugin options, --arg, --set, --tree and --ros-package.
 void add_load_options(CLI::App& app, LoadCommandOptions& options);
 

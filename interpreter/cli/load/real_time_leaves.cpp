@@ -17,8 +17,8 @@ bool warn_of_real_time_leaves(const Tree& tree, const std::string& file, const s
   if (count == 0) return false;
   if (count > kMostNamed) names += fmt::format(" and {} more", count - kMostNamed);
   diagnostics.warning(
-      {file}, "on the virtual clock no tick waits for leaves that work in real time: " + names,
-      hint);
+      "real-time-leaf"_code, {file},
+      "on the virtual clock no tick waits for leaves that work in real time: " + names, hint);
   return true;
 }
 

@@ -35,7 +35,7 @@ void note_leaves_without_progress(const Tree& tree, const std::string& file,
     if (!compares_progress(synchronization(tree.nodes[keeper]))) continue;
     const std::string names = leaves_without_progress(tree, keeper);
     if (names.empty()) continue;
-    diagnostics.note({file},
+    diagnostics.note("no-progress"_code, {file},
                      fmt::format("the children of '{}' are in step, but these report no "
                                  "progress and are at 0 until they succeed: {}",
                                  tree.path(keeper), names),

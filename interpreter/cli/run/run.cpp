@@ -506,12 +506,12 @@ extern const Command kRunCommand{
     "order; a second one ends the program at once), 141 the reader of stdout has gone.\n"
     "\n"
     "Examples:\n"
-    "  lockstep run trees/door_pulling.xml\n"
-    "  lockstep run trees/door_pulling.xml --arg barriers=0.5 --record run.jsonl\n"
-    "  lockstep run trees/door_pulling.xml --clock virtual --seed 7 --json\n"
-    "  lockstep run trees/door_pulling.xml --monitor 8080 --groot2 1667\n"
-    "  lockstep run trees/door_pulling.xml --property 'base.held at most 200 ticks'\n"
-    "  lockstep run trees/door_pulling.xml --realtime --cpu 1 --spin 50",
+    "  lockstep run --example door_pulling\n"
+    "  lockstep run --example door_pulling --arg barriers=0.5 --record run.jsonl\n"
+    "  lockstep run --example door_pulling --clock virtual --seed 7 --json\n"
+    "  lockstep run --example door_pulling --monitor 8080 --groot2 1667\n"
+    "  lockstep run --example door_pulling --property 'base.held at most 200 ticks'\n"
+    "  lockstep run --example door_pulling --realtime --cpu 1 --spin 50",
     define_run};
 
 }  // namespace lockstep::host

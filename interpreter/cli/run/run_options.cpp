@@ -8,6 +8,7 @@
 #include "cli/checks.h"
 #include "cli/help_text.h"
 #include "cli/load/given_leaves.h"
+#include "cli/load/tree_argument.h"
 #include "cli/run/rotation.h"
 #include "run/deadlines.h"
 #include "run/stop_signals.h"
@@ -222,9 +223,10 @@ void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
 
 void define_record_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Recording");
-  app.add_option("--record", options.record,
-                 "Write a recording (JSON Lines; see docs/recording.md); FILE.jsonl.zst compresses "
-                 "it, FILE.mcap is for Foxglove and PlotJuggler")
+  app.add_option(
+         "--record", options.record,
+         "Write a recording (JSON Lines; see `lockstep docs recording`); FILE.jsonl.zst compresses "
+         "it, FILE.mcap is for Foxglove and PlotJuggler")
       ->type_name("FILE.jsonl");
   app.add_flag("--record-compress", options.record_compress,
                "Compress the recording with zstd, whatever its name")
@@ -321,7 +323,7 @@ LoopOptions RunCommandOptions::loop() const {
 }
 
 void define_run_options(CLI::App& app, RunCommandOptions& options) {
-  app.add_option("tree", options.tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  add_tree_argument(app, options.tree, "Tree file; - is stdin");
   begin_group(app, "The tree and its leaves");
   add_load_options(app, options.load);
   options.load.plugins.run_programs = true;

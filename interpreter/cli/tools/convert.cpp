@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/load/tree_argument.h"
 #include "language/document/file.h"
 #include "run/loading/load.h"
 #include "run/loading/plugins.h"
@@ -42,7 +43,8 @@ void check_result(const Document& document, const std::string& result, Diagnosti
   for (const Diagnostic& it : found.all()) {
     if (it.severity != Severity::Error || it.location.file != name) continue;
     diagnostics.warning(
-        {name}, fmt::format("line {} of the result has an error: {}", it.location.line, it.message),
+        "not-convertible"_code, {name},
+        fmt::format("line {} of the result has an error: {}", it.location.line, it.message),
         it.hint);
   }
 }
@@ -53,7 +55,7 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
                        : read_file(options.tree, Document::kMaxBytes, FileKinds::RegularOrPipe);
   const std::string name = is_stdin ? "stdin" : options.tree;
   if (!text) {
-    diagnostics.error({name}, "cannot be read: " + text.error().message);
+    diagnostics.error("unreadable-file"_code, {name}, "cannot be read: " + text.error().message);
     return std::nullopt;
   }
   const auto document = Document::parse(name, std::move(*text), diagnostics);
@@ -64,7 +66,7 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   };
   const LanguageRules& to = **std::ranges::find_if(languages(), is_meant);
   if (&to == &from) {
-    diagnostics.error({name}, "is in that language already");
+    diagnostics.error("wrong-language"_code, {name}, "is in that language already");
     return std::nullopt;
   }
   const PluginSet none;
@@ -88,7 +90,7 @@ int convert_file(const ConvertOptions& options) {
 
 std::function<int()> define_convert(CLI::App& app) {
   const auto options = std::make_shared<ConvertOptions>();
-  app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  add_tree_argument(app, options->tree, "Tree file; - is stdin");
   app.add_option("--to", options->to, "lockstep or btcpp4 (default: the one that it is not in)")
       ->check(one_of({"lockstep", "btcpp4"}));
   return [options] { return convert_file(*options); };
@@ -104,7 +106,7 @@ extern const Command kConvertCommand{
     "\n"
     "Examples:\n"
     "  lockstep convert dock.xml > dock_lockstep.xml\n"
-    "  lockstep convert --to btcpp4 trees/door_pulling.xml > door_pulling.xml",
+    "  lockstep convert --to btcpp4 --example door_pulling > door_pulling.xml",
     define_convert};
 
 }  // namespace lockstep::host

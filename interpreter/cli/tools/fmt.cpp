@@ -61,7 +61,7 @@ class FormatRun {
   };
 
   void fail(const std::string& name, std::string message, std::string hint = {}) {
-    diagnostics_.error({name}, std::move(message), std::move(hint));
+    diagnostics_.error("bad-format"_code, {name}, std::move(message), std::move(hint));
     code_ = first_failure(code_, kExitInvalidTree);
   }
 
@@ -141,7 +141,7 @@ class FormatRun {
     std::string after(byte_order_mark(*text));
     after += result->edit.apply(result->document->source()->text());
     if (const auto done = replace_text(path, *text, after); !done) {
-      diagnostics_.error({}, done.error().message, done.error().hint);
+      diagnostics_.error("bad-format"_code, {}, done.error().message, done.error().hint);
       code_ = first_failure(code_, kExitUsage);
     }
   }
@@ -208,7 +208,7 @@ extern const Command kFmtCommand{
     "3 a file cannot be read.\n"
     "\n"
     "Examples:\n"
-    "  lockstep fmt trees/door_pulling.xml\n"
+    "  lockstep fmt tree.xml\n"
     "  lockstep fmt --check --diff trees\n"
     "  generate | lockstep fmt - > tree.xml",
     define_fmt};

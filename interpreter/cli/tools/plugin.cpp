@@ -112,7 +112,7 @@ int check_object(const PluginCheckOptions& options, const std::string& file) {
   }
   const Conformance found = check_object(file, options.plugins);
   const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
-  const std::string text = text_of(found, file, "the contract (docs/plugins.md)");
+  const std::string text = text_of(found, file, "the contract (`lockstep docs plugins`)");
   return first_failure(write_results(text), code);
 }
 
@@ -125,7 +125,7 @@ int check_plugin(const PluginCheckOptions& options) {
   if (program.empty()) return refuse_file(options);
   const auto part = options.only_leaves ? ConformancePart::Begin : ConformancePart::All;
   const Conformance found = check_conformance(program, isolation_options(options.plugins), part);
-  const std::string text = text_of(found, program, "the protocol (docs/programs.md)");
+  const std::string text = text_of(found, program, "the protocol (`lockstep docs programs`)");
   const int code = found.is_good() ? kExitSuccess : kExitPluginRefused;
   const int saved = options.save && found.is_good()
                         ? save_leaves(options, program, found.first_line)

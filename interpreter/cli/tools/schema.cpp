@@ -53,7 +53,7 @@ extern const Command kSchemaCommand{
     "Examples:\n"
     "  lockstep schema > lockstep.xsd\n"
     "  lockstep schema --strict --plugin motion > lockstep-motion.xsd\n"
-    "  xmllint --noout --schema lockstep.xsd trees/door_pulling.xml",
+    "  xmllint --noout --schema lockstep.xsd tree.xml",
     define_schema};
 
 }  // namespace lockstep::host

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/load/load_options.h"
+#include "cli/load/tree_argument.h"
 #include "describe/tree_drawing.h"
 
 namespace lockstep::host {
@@ -35,7 +36,7 @@ int show(const ShowOptions& options) {
 
 std::function<int()> define_show(CLI::App& app) {
   const auto options = std::make_shared<ShowOptions>();
-  app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  add_tree_argument(app, options->tree, "Tree file; - is stdin");
   app.add_option("--format", options->format, "text, dot: for Graphviz, or mermaid")
       ->check(one_of({"text", "dot", "mermaid"}))
       ->capture_default_str();
@@ -54,9 +55,9 @@ extern const Command kShowCommand{
     "crashed or hung.\n"
     "\n"
     "Examples:\n"
-    "  lockstep show trees/door_pulling.xml\n"
-    "  lockstep show trees/door_pulling.xml --arg barriers=0.5\n"
-    "  lockstep show --format dot trees/door_pulling.xml | dot -Tsvg > door.svg",
+    "  lockstep show --example door_pulling\n"
+    "  lockstep show --example door_pulling --arg barriers=0.5\n"
+    "  lockstep show --format dot --example door_pulling | dot -Tsvg > door.svg",
     define_show};
 
 }  // namespace lockstep::host

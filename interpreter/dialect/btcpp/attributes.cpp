@@ -32,8 +32,9 @@ void check_mark(const Attribute& attribute, const Reporter& report) {
   if (std::ranges::find(kMarks, attribute.name) != std::end(kMarks)) return;
   const std::string hint = did_you_mean(attribute.name, kOwn);
   if (hint.empty() || report.counted_only(Severity::Warning)) return;
-  report.at(attribute.place, fmt::format("the attribute '{}' is ignored", brief(attribute.name)),
-            hint, Severity::Warning);
+  report.at("ignored-attribute"_code, attribute.place,
+            fmt::format("the attribute '{}' is ignored", brief(attribute.name)), hint,
+            Severity::Warning);
 }
 
 class PortChecker {
@@ -72,7 +73,7 @@ class PortChecker {
         continue;
       } else if (!has(attribute.name) && !report_.counted_only(Severity::Error)) {
         report_.at(
-            attribute.place,
+            "unknown-port"_code, attribute.place,
             fmt::format("'{}' has no port '{}'", brief(node_.type->id), brief(attribute.name)),
             unknown_hint(attribute.name));
       }
@@ -137,7 +138,7 @@ class PortChecker {
     }
     if (!parameter.required) return true;
     if (is_misspelled(parameter)) return false;
-    report_.at(element_.place,
+    report_.at("missing-port"_code, element_.place,
                fmt::format("'{}' needs the port '{}'", brief(node_.type->id), parameter.name),
                fmt::format("ports of '{}': {}", brief(node_.type->id), listed(names())));
     return false;
@@ -153,7 +154,8 @@ class PortChecker {
 
   // Nothing can read an entry without a name.
   bool empty_name(const Parameter& parameter, const Attribute& attribute) const {
-    report_.at_value(attribute.place, fmt::format("'{}' names no entry", parameter.name),
+    report_.at_value("needs-entry"_code, attribute.place,
+                     fmt::format("'{}' names no entry", parameter.name),
                      parameter.is_key ? fmt::format("write {}=\"key\"", parameter.name)
                                       : fmt::format("write {}=\"{{key}}\"", parameter.name),
                      parameter.is_key ? Severity::Warning : Severity::Error);
@@ -164,7 +166,7 @@ class PortChecker {
   bool check_blanks(const Parameter& parameter, const Attribute& attribute) const {
     if (value_from_text(parameter.type, parameter.object, attribute.value)) return true;
     report_.at_value(
-        attribute.place,
+        "whitespace"_code, attribute.place,
         fmt::format("there are blanks around the entry '{}'",
                     brief(without_blanks_around(attribute.value))),
         fmt::format("write {}=\"{}\"", parameter.name, without_blanks_around(attribute.value)));
@@ -186,7 +188,7 @@ class PortChecker {
     if (read->has_rest) warn_of_rest(parameter, attribute);
     if (parameter.direction == Direction::Output) {
       report_.at_value(
-          attribute.place,
+          "lost-output"_code, attribute.place,
           fmt::format("what '{}' writes to '{}' is lost", brief(node_.type->id), parameter.name),
           fmt::format("write {}=\"{{key}}\"", parameter.name), Severity::Warning);
       return true;
@@ -201,7 +203,7 @@ class PortChecker {
 
   void warn_of_rest(const Parameter& parameter, const Attribute& attribute) const {
     if (report_.counted_only(Severity::Warning)) return;
-    report_.at_value(attribute.place,
+    report_.at_value("partly-read"_code, attribute.place,
                      fmt::format("'{}' is only read as far as it is {}", brief(attribute.value),
                                  expected_text(parameter.type, parameter.object)),
                      "what comes after that is ignored", Severity::Warning);
@@ -240,7 +242,7 @@ void add_defaults(const NodeElement& element, const Model& model, const Reporter
           trees.remappings.emplace_back(remapping(port.name, *port.default_value, element.place));
       it.is_written = false;
     } else if (!report.counted_only(Severity::Error)) {
-      report.at(element.place,
+      report.at("missing-port"_code, element.place,
                 fmt::format("the SubTree '{}' needs the port '{}'", brief(id), brief(port.name)),
                 "its model in TreeNodesModel declares it without a default; _autoremap=\"true\" "
                 "takes it from outside");
@@ -264,12 +266,13 @@ void read_subtree_attributes(const NodeElement& element, const Models& models,
       const auto autoremap = value_from_text(ValueType::Bool, nullptr, value);
       subtree.autoremap = autoremap && autoremap->value == Value(true);
       if (!autoremap) {
-        report.at_value(place, fmt::format("'{}' is not true or false", brief(value)));
+        report.at_value("bad-value"_code, place,
+                        fmt::format("'{}' is not true or false", brief(value)));
       }
     } else if (is_port_name(name)) {
       trees.remappings.push_back(remapping(name, value, place));
     } else if (name == "__shared_blackboard") {
-      report.at(place, "'__shared_blackboard' is ignored since version 4",
+      report.at("ignored-attribute"_code, place, "'__shared_blackboard' is ignored since version 4",
                 "write _autoremap=\"true\"", Severity::Warning);
     } else {
       check_mark(attribute, report);
@@ -281,7 +284,7 @@ void read_subtree_attributes(const NodeElement& element, const Models& models,
   }
   subtree.remappings = static_cast<std::uint32_t>(trees.remappings.size()) - subtree.first;
   if (subtree.id.empty()) {
-    report.at(element.place, "'SubTree' needs the attribute 'ID'",
+    report.at("missing-attribute"_code, element.place, "'SubTree' needs the attribute 'ID'",
               "write <SubTree ID=\"…\"/> with the ID of a BehaviorTree");
   }
   check_hooks(element, report, node, trees);

@@ -81,7 +81,8 @@ class TreeReader {
     }
     if (std::ranges::find(kKnown, tag) != std::end(kKnown)) return;
     if (report_.counted_only(Severity::Warning)) return;
-    report_.at(element(child).place, fmt::format("'root' ignores the element '{}'", brief(tag)),
+    report_.at("unknown-element"_code, element(child).place,
+               fmt::format("'root' ignores the element '{}'", brief(tag)),
                suggest(tag, kKnown, "elements of 'root'"), Severity::Warning);
   }
 
@@ -89,18 +90,19 @@ class TreeReader {
     const Attribute* format = find_attribute(attributes(0), "BTCPP_format");
     is_version_3_ = format == nullptr || format->value != "4";
     if (const Attribute* ours = find_attribute(attributes(0), "lockstep")) {
-      report_.at(ours->place,
+      report_.at("wrong-language"_code, ours->place,
                  is_main ? "this file says that it is in two languages"
                          : "this file is in lockstep's language",
                  is_main ? "with BTCPP_format it is for BehaviorTree.CPP: leave out 'lockstep'"
                          : "the file that includes it is for BehaviorTree.CPP; all files of a tree "
                            "are in the same language");
     } else if (format == nullptr) {
-      report_.at(element(0).place, "without 'BTCPP_format' this is read as a file of version 3",
+      report_.at("wrong-language"_code, element(0).place,
+                 "without 'BTCPP_format' this is read as a file of version 3",
                  "write <root BTCPP_format=\"4\">, or lockstep=\"1\" for lockstep's own language",
                  Severity::Warning);
     } else if (format->value != "4" && format->value != "3") {
-      report_.at_value(format->place,
+      report_.at_value("unknown-version"_code, format->place,
                        fmt::format("the format '{}' is not known", brief(format->value)),
                        "this program reads BTCPP_format=\"4\"");
     }
@@ -133,9 +135,10 @@ class TreeReader {
     const std::string_view id = id_of(tree);
     const Place place = element(tree).place;
     if (id.empty()) {
-      report_.at(place, "'BehaviorTree' needs the attribute 'ID'", "write <BehaviorTree ID=\"…\">");
+      report_.at("missing-attribute"_code, place, "'BehaviorTree' needs the attribute 'ID'",
+                 "write <BehaviorTree ID=\"…\">");
     } else if (catalog_.find(id) != nullptr) {
-      report_.at_value(find_attribute(attributes(tree), "ID")->place,
+      report_.at_value("bad-name"_code, find_attribute(attributes(tree), "ID")->place,
                        fmt::format("a tree cannot be called '{}', as a node is", brief(id)));
     }
     warn_of_attributes(tree);
@@ -144,13 +147,14 @@ class TreeReader {
     tree_.first_subtree = count(trees_.subtrees);
     tree_.root = count(trees_.nodes);
     if (root == element(tree).end) {
-      report_.at(place, fmt::format("the tree '{}' is empty", brief(id)), "put one node into it");
+      report_.at("empty-tree"_code, place, fmt::format("the tree '{}' is empty", brief(id)),
+                 "put one node into it");
       CheckedNode nothing;
       nothing.end = count(trees_.nodes) + 1;
       trees_.nodes.push_back(nothing);
     } else {
       if (const std::uint32_t second = element(root).end; second != element(tree).end) {
-        report_.at(element(second).place,
+        report_.at("several-roots"_code, element(second).place,
                    fmt::format("the tree '{}' has more than one root node", brief(id)),
                    "put them into a Sequence, a Fallback or a parallel node");
       }
@@ -169,7 +173,8 @@ class TreeReader {
       if (it.name == "ID" || is_mark || is_foreign) continue;
       if (report_.counted_only(Severity::Warning)) continue;
       report_.at(
-          it.place, fmt::format("'BehaviorTree' ignores the attribute '{}'", brief(it.name)),
+          "ignored-attribute"_code, it.place,
+          fmt::format("'BehaviorTree' ignores the attribute '{}'", brief(it.name)),
           it.name.starts_with('_')
               ? "write it at the first node of the tree, or at each SubTree that uses the tree"
               : "a default of a port belongs into TreeNodesModel: <SubTree ID=\"…\">"
@@ -183,7 +188,8 @@ class TreeReader {
     trees_.trees[id] = tree_;
     const auto [first, is_new] = places_.try_emplace(id, place);
     if (is_new) return;
-    report_.at(place, fmt::format("this tree '{}' replaces another one", brief(id)),
+    report_.at("duplicate-tree"_code, place,
+               fmt::format("this tree '{}' replaces another one", brief(id)),
                fmt::format("the other one is at {}",
                            to_text(project_.sources.locate(std::exchange(first->second, place)))),
                Severity::Warning);
@@ -214,7 +220,8 @@ class TreeReader {
       if (node.type != nullptr) read_content(element, self, node);
     }
     if (depth == kMaxLevels) {
-      report_.at(node.place, fmt::format("elements are nested deeper than {} levels", kMaxLevels));
+      report_.at("too-deep"_code, node.place,
+                 fmt::format("elements are nested deeper than {} levels", kMaxLevels));
     }
     path_size += node.name.size() + 1;
     tree_.paths_size += path_size;
@@ -276,7 +283,8 @@ class TreeReader {
       unknown(index, tag, nullptr);
     } else if (const Attribute* id = find_attribute(attributes(index), "ID");
                id != nullptr && type->category != NodeCategory::SubTree) {
-      report_.at(id->place, fmt::format("'{}' cannot have an ID", brief(tag)),
+      report_.at("unknown-attribute"_code, id->place,
+                 fmt::format("'{}' cannot have an ID", brief(tag)),
                  fmt::format("write name=\"{}\", or <{} ID=\"{}\">", brief(id->value),
                              explicit_tag(type->category), brief(tag)));
     }
@@ -287,7 +295,8 @@ class TreeReader {
     const std::string_view tag = element(index).tag;
     const Attribute* id = find_attribute(attributes(index), "ID");
     if (id == nullptr || id->value.empty()) {
-      report_.at(element(index).place, fmt::format("'{}' needs the attribute 'ID'", tag),
+      report_.at("missing-attribute"_code, element(index).place,
+                 fmt::format("'{}' needs the attribute 'ID'", tag),
                  fmt::format("write <{} ID=\"…\"/> with the ID of a node", tag));
       return nullptr;
     }
@@ -295,7 +304,7 @@ class TreeReader {
     if (type == nullptr) {
       unknown(index, id->value, id);
     } else if (tag != explicit_tag(type->category)) {
-      report_.at_value(id->place,
+      report_.at_value("wrong-category"_code, id->place,
                        fmt::format("'{}' is not of the kind '{}'", brief(id->value), tag),
                        fmt::format("it is a kind of {}: write <{}>", to_string(type->category),
                                    explicit_tag(type->category)),
@@ -309,9 +318,9 @@ class TreeReader {
     const std::string hint = hint_for_unknown(id);
     const std::string message = fmt::format("unknown node '{}'", brief(id));
     if (attribute == nullptr) {
-      report_.at(element(index).place, message, hint);
+      report_.at("unknown-node"_code, element(index).place, message, hint);
     } else {
-      report_.at_value(attribute->place, message, hint);
+      report_.at_value("unknown-node"_code, attribute->place, message, hint);
     }
   }
 
@@ -326,7 +335,8 @@ class TreeReader {
     if (hint.empty()) hint = did_you_mean(id, catalog_.ids());
     if (!hint.empty()) return hint;
     return fmt::format("if a plugin provides it, {}, or name it with <plugin name=\"…\"/>",
-                       worded("give that with --plugin", "add that to the project"));
+                       worded("give that with --plugin", "add that to the project")) +
+           worded("; --mock runs the tree without it", "");
   }
 
   bool is_tree(std::string_view id) const {

@@ -40,7 +40,7 @@ void check_outer(const Attribute& attribute, const Reporter& report) {
   if (!is_port_name(attribute.name) || attribute.name == "name" || attribute.name == "ID") return;
   if (attribute.value.empty() || !key_of(attribute.value, attribute.name).empty()) return;
   if (report.counted_only(Severity::Warning)) return;
-  report.at_value(attribute.place,
+  report.at_value("old-syntax"_code, attribute.place,
                   fmt::format("'{}' is a text here; before version 4 it could be an entry",
                               brief(attribute.value)),
                   fmt::format("for the entry write {}=\"{{{}}}\"", brief(attribute.name),
@@ -56,7 +56,7 @@ void check_dollar(Attribute& attribute, const Reporter& report) {
   attribute.value = value.substr(1);  // as if it were written so
   if (report.counted_only(Severity::Error)) return;
   const auto key = value.substr(2, value.size() - 3);
-  report.at_value(attribute.place, fmt::format("'{}' is no entry", brief(value)),
+  report.at_value("old-syntax"_code, attribute.place, fmt::format("'{}' is no entry", brief(value)),
                   fmt::format("since version 3 it is written {}=\"{{{}}}\"", brief(attribute.name),
                               brief(key)));
 }
@@ -82,7 +82,7 @@ std::vector<Attribute> attributes_since_4(std::string_view tag,
     const std::string_view before = attribute.name;
     attribute.name = attribute_since_4(type, before);
     if (before == kSharedBlackboard && attribute.name != before) {
-      report.at(attribute.place, "'__shared_blackboard' is read as '_autoremap'",
+      report.at("old-syntax"_code, attribute.place, "'__shared_blackboard' is read as '_autoremap'",
                 "the difference: keys that begin with '_' are not shared", Severity::Note);
     }
     if (is_subtree) check_outer(attribute, report);

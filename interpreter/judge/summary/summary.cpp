@@ -245,8 +245,12 @@ void write_text(std::span<const DecidingSummary> why_failed, std::string& out, b
 void write_text(const Summary& summary, std::string& out, bool color) {
   const auto result = styled(to_string(summary.result), style_of(summary.result), color);
   const std::string reason = why(summary);
-  out += fmt::format("{}{}{} after {}, {:.3f} s\n", result, reason.empty() ? "" : ": ", reason,
-                     counted(summary.ticks, "tick"), summary.seconds);
+  const auto when =
+      fmt::format(" after {}, {:.3f} s", counted(summary.ticks, "tick"), summary.seconds);
+  const std::string colon = reason.empty() ? "" : ": " + reason;
+  // A fault is a sentence.
+  const bool is_long = summary.reason == StopReason::Fault;
+  out += result + (is_long ? when + colon : colon + when) + '\n';
   write_text(summary.why_failed, out, color);
   out += timing(summary) + worst_tick(summary);
   write_over_budget(summary, out, color);

@@ -29,13 +29,15 @@ void ArgumentTable::declare(Document& document, std::uint32_t element) {
   const Attribute& named = *document.find_attribute(element, "name");
   const std::string name(named.value);
   if (!is_identifier(name))
-    return report_.at_value(named.place, fmt::format("'{}' is not an identifier", brief(name)),
+    return report_.at_value("bad-name"_code, named.place,
+                            fmt::format("'{}' is not an identifier", brief(name)),
                             "letters, digits and '_', not a digit first");
   const auto [entry, is_new] =
       by_name_.try_emplace(name, Where{declared_.size(), named.place, sound});
   if (!is_new)
     return report_.at_value(
-        named.place, fmt::format("argument '{}' is declared twice", brief(name)),
+        "duplicate-name"_code, named.place,
+        fmt::format("argument '{}' is declared twice", brief(name)),
         fmt::format("the first is at {}",
                     to_text(report_.sources().locate_value(entry->second.place))));
 
@@ -43,7 +45,7 @@ void ArgumentTable::declare(Document& document, std::uint32_t element) {
   const auto given = given_.find(name);
   if (given == given_.end() && !default_value) {
     entry->second.has_value = false;
-    report_.at(document.elements()[element].place,
+    report_.at("missing-argument"_code, document.elements()[element].place,
                fmt::format("argument '{}' has no default and is not given", brief(name)),
                worded(fmt::format("give it with --arg {}=value", brief(name)),
                       std::string("the project needs a value for it")));
@@ -88,7 +90,7 @@ std::optional<std::string> ArgumentTable::expand(const Attribute& attribute) {
     }
     const auto close = text.find('}', done);
     if (close == std::string_view::npos) {
-      report_.in_value(attribute.place, at, "'${' is not closed",
+      report_.in_value("bad-argument"_code, attribute.place, at, "'${' is not closed",
                        "write ${name}, or $${ for the characters themselves");
       return std::nullopt;
     }
@@ -96,8 +98,8 @@ std::optional<std::string> ArgumentTable::expand(const Attribute& attribute) {
     done = close + 1;
     const auto* where = find(name);
     if (!where && !report_.counted_only(Severity::Error))
-      report_.in_value(attribute.place, at, fmt::format("unknown argument '{}'", brief(name)),
-                       list_declared(name));
+      report_.in_value("unknown-argument"_code, attribute.place, at,
+                       fmt::format("unknown argument '{}'", brief(name)), list_declared(name));
     if (!where && ++unknown == kMaxUnknown) return std::nullopt;
     sound = sound && where && where->has_value;
     if (!sound) continue;
@@ -119,7 +121,7 @@ bool ArgumentTable::is_text(std::string_view text, std::size_t at) const {
 
 bool ArgumentTable::fits(std::size_t bytes, const Attribute& attribute) {
   const auto fail = [&](std::string message) {
-    report_.at_value(attribute.place, std::move(message));
+    report_.at_value("too-large"_code, attribute.place, std::move(message));
     return false;
   };
   if (bytes > kMaxValueMiB << 20u)
@@ -147,7 +149,8 @@ std::string ArgumentTable::list_declared(std::string_view near) const {
 void ArgumentTable::check_given() const {
   for (const auto& [name, value] : given_)
     if (!find(name))
-      report_.nowhere(fmt::format("unknown argument '{}'{}", brief(name), worded(" in --arg", "")),
+      report_.nowhere("unknown-argument"_code,
+                      fmt::format("unknown argument '{}'{}", brief(name), worded(" in --arg", "")),
                       list_declared(name));
 }
 

@@ -68,7 +68,7 @@ struct Document::Implementation {
     const auto location = source->locate(source->place_of(fault.offset));
     diagnostics.add({fault.is_warning ? Severity::Warning : Severity::Error, location,
                      std::move(fault.message), std::move(fault.hint),
-                     source->excerpt(location.line, location.column)});
+                     source->excerpt(location.line, location.column), "xml-syntax"_code});
   }
 
   bool check(Diagnostics& diagnostics);
@@ -78,7 +78,7 @@ struct Document::Implementation {
 bool Document::Implementation::check(Diagnostics& diagnostics) {
   const std::string_view text = source->text();
   if (text.size() > kMaxBytes) {
-    diagnostics.error({source->path()},
+    diagnostics.error("too-large"_code, {source->path()},
                       fmt::format("the file is larger than {} MiB", kMaxBytes >> 20u));
     return false;
   }
@@ -117,7 +117,7 @@ bool Document::Implementation::read_coded(Diagnostics& diagnostics) {
   text += "</r>";
   AnyTinyxml2 xml;
   if (xml->Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    diagnostics.error({source->path()}, "values that cannot be read");
+    diagnostics.error("xml-syntax"_code, {source->path()}, "values that cannot be read");
     return false;
   }
   const auto* read = xml->FirstChildElement()->FirstChildElement();

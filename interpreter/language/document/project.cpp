@@ -100,7 +100,8 @@ bool Loader::add(const Reading& file, std::string text) {
   if (!is_root(document)) {
     const Element& first = document.elements()[0];
     report_.at(
-        first.place, fmt::format("the first element must be 'root', not '{}'", brief(first.tag)),
+        "wrong-root"_code, first.place,
+        fmt::format("the first element must be 'root', not '{}'", brief(first.tag)),
         first.tag == "scenarios" ? "it has scenarios of a tree: `lockstep test` reads it" : "");
     return true;
   }
@@ -122,7 +123,7 @@ void Loader::include(Document& document, std::uint32_t element) {
   if (!from) return;
   const auto path = (*from / written).lexically_normal().string();
   const auto fail = [&](std::string message) {
-    report_.at_value(attribute.place, std::move(message));
+    report_.at_value("bad-include"_code, attribute.place, std::move(message));
   };
   const Reading next{path, file_identity(path)};
   if (const auto chain = cycle(next); !chain.empty()) return fail("include cycle: " + chain);
@@ -149,7 +150,8 @@ bool Loader::check_include(const Document& document, std::uint32_t element) {
     return check_vocabulary(document, element, kIncludeAttributes, 1, report_);
   }
   if (document.find_attribute(element, "path") != nullptr) return true;
-  report_.at(document.elements()[element].place, "'include' needs the attribute 'path'");
+  report_.at("missing-attribute"_code, document.elements()[element].place,
+             "'include' needs the attribute 'path'");
   return false;
 }
 
@@ -161,7 +163,7 @@ std::optional<fs::path> Loader::directory_of(const Document& document, std::uint
   if (!in_package || written.is_absolute())
     return fs::path(document.source()->path()).parent_path();
   if (auto share = packages_.find(package->value)) return share;
-  report_.at_value(package->place,
+  report_.at_value("unknown-package"_code, package->place,
                    fmt::format("the ROS package '{}' is not found", brief(package->value)),
                    worded(fmt::format("it is searched in AMENT_PREFIX_PATH; or give its share "
                                       "directory with --ros-package {}=DIR",
@@ -221,7 +223,7 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
   const std::string name = is_stdin ? "stdin" : path;
   if (!text) {
     const std::string verdict = name.empty() ? "'' cannot be read: " : "cannot be read: ";
-    diagnostics.error({name}, verdict + text.error().message);
+    diagnostics.error("unreadable-file"_code, {name}, verdict + text.error().message);
     return nullptr;
   }
   return load_project_text(name, std::move(*text), arguments, diagnostics, packages);

@@ -24,38 +24,39 @@ class Reporter {
     return true;
   }
 
-  void at(Place place, std::string message, std::string hint = {},
+  void at(MessageCode code, Place place, std::string message, std::string hint = {},
           Severity severity = Severity::Error) const {
     if (counted_only(severity)) return;
     const Source& source = sources_.of(place);
-    add(source, source.locate(place), std::move(message), std::move(hint), severity);
+    add(code, source, source.locate(place), std::move(message), std::move(hint), severity);
   }
   // At the value of the attribute that is at this place.
-  void at_value(Place attribute, std::string message, std::string hint = {},
+  void at_value(MessageCode code, Place attribute, std::string message, std::string hint = {},
                 Severity severity = Severity::Error) const {
     if (counted_only(severity)) return;
     const Source& source = sources_.of(attribute);
-    add(source, source.locate_value(attribute), std::move(message), std::move(hint), severity);
+    add(code, source, source.locate_value(attribute), std::move(message), std::move(hint),
+        severity);
   }
   // The same at a byte of the value, as it was read from the text.
-  void in_value(Place attribute, std::size_t byte, std::string message, std::string hint,
-                Severity severity = Severity::Error) const {
+  void in_value(MessageCode code, Place attribute, std::size_t byte, std::string message,
+                std::string hint, Severity severity = Severity::Error) const {
     if (counted_only(severity)) return;
     const Source& source = sources_.of(attribute);
-    add(source, source.locate_value(attribute, byte), std::move(message), std::move(hint),
+    add(code, source, source.locate_value(attribute, byte), std::move(message), std::move(hint),
         severity);
   }
   // Reports an error without a place in the texts, such as one in an option.
-  void nowhere(std::string message, std::string hint = {}) const {
-    diagnostics_.error({}, std::move(message), std::move(hint));
+  void nowhere(MessageCode code, std::string message, std::string hint = {}) const {
+    diagnostics_.error(code, {}, std::move(message), std::move(hint));
   }
 
  private:
-  void add(const Source& source, SourceLocation location, std::string message, std::string hint,
-           Severity severity) const {
+  void add(MessageCode code, const Source& source, SourceLocation location, std::string message,
+           std::string hint, Severity severity) const {
     Excerpt excerpt = source.excerpt(location.line, location.column);
-    diagnostics_.add(
-        {severity, std::move(location), std::move(message), std::move(hint), std::move(excerpt)});
+    diagnostics_.add({severity, std::move(location), std::move(message), std::move(hint),
+                      std::move(excerpt), code});
   }
 
   const Sources& sources_;

@@ -136,17 +136,18 @@ bool assign(Entry& entry, const Operand& value, const ScriptEnums* enums) {
   return true;
 }
 
-std::string refusal(const Entry& entry, const Operand& value, std::string_view name) {
+std::string refusal(const Entry& entry, const Operand& value, std::string_view shown,
+                    std::string_view name) {
   std::string what;
   if (value.kind == Operand::Kind::Empty) {
-    return fmt::format("cannot assign to '{}': the right side is {}", brief(name), value.shown());
+    return fmt::format("cannot assign to '{}': the right side is {}", brief(name), shown);
   }
   if (entry.typing != Typing::Any) {
     what = type_name(entry.type, entry.object);
   } else {
     what = to_string(static_cast<ValueType>(entry.value().index()));
   }
-  return fmt::format("cannot assign {} to '{}', which has the type {}", value.shown(), brief(name),
+  return fmt::format("cannot assign {} to '{}', which has the type {}", shown, brief(name),
                      what);
 }
 

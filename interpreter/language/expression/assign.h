@@ -20,7 +20,8 @@ std::optional<double> number_in_script(std::string_view text, const ScriptEnums*
 bool assign(Entry& entry, const Operand& value, const ScriptEnums* enums);
 // The same, where a number goes into an entry that has one of the same kind. False: it is not so.
 bool assign_number(Entry& entry, const Operand& value);
-// The error after that. `name`: of the entry.
-std::string refusal(const Entry& entry, const Operand& value, std::string_view name);
+// The error after that. `shown`: the value as messages show it. `name`: of the entry.
+std::string refusal(const Entry& entry, const Operand& value, std::string_view shown,
+                    std::string_view name);
 
 }  // namespace lockstep::host

@@ -54,6 +54,25 @@ bool take_condition(const Operand& operand, bool& holds) {
   return flag.has_value();
 }
 
+std::string without_value(std::string_view entry) {
+  return fmt::format("the entry '{}' without a value", brief(entry));
+}
+
+// An operand is empty only if an entry was: the `nth` such entry, from `end` of the instructions
+// back.
+std::string shown(const Operand& operand, const Expression& expression, Entry* const* entries,
+                  const Instruction* end, int nth = 0) {
+  if (operand.kind != Operand::Kind::Empty) return operand.shown();
+  for (const Instruction* it = end; it-- != expression.program().code.data();) {
+    const bool is_load = it->operation == Operation::Load ||
+                         it->operation == Operation::LoadCopy ||
+                         it->operation == Operation::LoadToCompare;
+    if (!is_load || !std::holds_alternative<NoValue>(entries[it->argument]->value())) continue;
+    if (nth-- == 0) return without_value(expression.names()[it->argument]);
+  }
+  return operand.shown();
+}
+
 // How far a program has run.
 struct Reached {
   const Instruction* at;
@@ -235,13 +254,19 @@ class Machine {
   }
   bool wrong_operand(const Operand& operand) {
     return fail(fmt::format("'{}' takes {}, not {}", sign_of(it_->operation, it_->relation),
-                            operands_of(it_->operation), operand.shown()));
+                            operands_of(it_->operation), shown(operand)));
   }
-  bool wrong_operands(const Operand& left, const Operand& right) {
+  bool wrong_operands(std::string_view left, std::string_view right) {
     return fail(fmt::format("'{}' takes {}, not {} and {}", sign_of(it_->operation, it_->relation),
-                            operands_of(it_->operation), left.shown(), right.shown()));
+                            operands_of(it_->operation), left, right));
   }
-  bool wrong_operands() { return wrong_operands(before_last(), last()); }
+  std::string shown(const Operand& operand, int nth = 0) const {
+    return host::shown(operand, expression_, entries_, it_, nth);
+  }
+  bool wrong_operands() {
+    const bool are_empty = last().kind == Operand::Kind::Empty;
+    return wrong_operands(shown(before_last(), are_empty ? 1 : 0), shown(last()));
+  }
   bool no_entry() {
     return fail(
         fmt::format("there is no entry '{}'; '{} := …' makes it", brief(name()), brief(name())));
@@ -404,7 +429,7 @@ class Machine {
   // The value of an assignment is what the entry then has.
   bool store(const Operand& value) {
     if (!assign(entry(), value, expression_.enums())) {
-      return fail(refusal(entry(), value, name()));
+      return fail(refusal(entry(), value, shown(value), name()));
     }
     last() = Operand::of(entry().value());
     return copy_text();
@@ -419,7 +444,10 @@ class Machine {
       return store(Operand::of(calculated(left, it_->operation, right)));
     }
     const bool are_texts = old.kind == Operand::Kind::Text && last().kind == Operand::Kind::Text;
-    if (it_->operation != Operation::AddTo || !are_texts) return wrong_operands(old, last());
+    if (it_->operation != Operation::AddTo || !are_texts) {
+      return wrong_operands(old.kind == Operand::Kind::Empty ? without_value(name()) : shown(old),
+                            shown(last()));
+    }
     std::string& joined = text_at(top_);
     joined = *old.text;
     joined += *last().text;
@@ -442,8 +470,8 @@ class Machine {
   return machine.run(from);
 }
 
-[[gnu::noinline]] std::string no_condition(const Operand& operand) {
-  return fmt::format("a condition is {}, not {}", kCondition, operand.shown());
+[[gnu::noinline]] std::string no_condition(std::string_view operand) {
+  return fmt::format("a condition is {}, not {}", kCondition, operand);
 }
 
 }  // namespace
@@ -479,7 +507,8 @@ Truth Evaluator::test(const Expression& expression, std::span<Entry* const> entr
   if (last == nullptr) return Truth::Error;
   bool holds = false;
   if (take_condition(*last, holds)) return holds ? Truth::Yes : Truth::No;
-  error_ = no_condition(*last);
+  const auto& code = expression.program().code;
+  error_ = no_condition(shown(*last, expression, entries.data(), code.data() + code.size()));
   return Truth::Error;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/core/wording.h"
 
 namespace lockstep::host {
@@ -27,6 +29,7 @@ std::string Operand::shown() const {
     case Kind::Whole:
       return fmt::format("{}", whole);
     case Kind::Real:
+      if (std::isnan(real)) return "NaN (such as 0/0)";  // fmt shows the sign that it may have
       return fmt::format("{}", real);
     case Kind::Text:
       return fmt::format("the text '{}'", brief(*text));
@@ -35,7 +38,7 @@ std::string Operand::shown() const {
     case Kind::Empty:
       break;
   }
-  return "an entry without value";
+  return "an entry without a value";
 }
 
 }  // namespace lockstep::host

@@ -35,7 +35,7 @@ std::vector<std::string> listed_in(const char* variable) {
 
 bool check_absolute(const std::string& path, std::string_view option, Diagnostics& diagnostics) {
   if (fs::path(path).is_absolute()) return true;
-  diagnostics.error({},
+  diagnostics.error("untrusted-path"_code, {},
                     fmt::format("{} {}: a program with more rights than its user refuses a "
                                 "relative path",
                                 option, path),
@@ -47,8 +47,9 @@ void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diag
   for (const std::string& directory : options.directories) {
     std::error_code error;
     if (fs::is_directory(directory, error)) continue;
-    diagnostics.warning({}, fmt::format("{} {}: there is no such directory",
-                                        worded("--plugin-path", "plugin path"), directory));
+    diagnostics.warning("missing-directory"_code, {},
+                        fmt::format("{} {}: there is no such directory",
+                                    worded("--plugin-path", "plugin path"), directory));
   }
 }
 
@@ -75,6 +76,11 @@ std::vector<std::string> plugin_directories(const PluginOptions& options) {
     directories.push_back((beside / "plugins").string());  // in a build directory
     directories.push_back((beside / LOCKSTEP_PLUGINS_FROM_BIN).lexically_normal().string());
   }
+  std::error_code none;
+  const bool may_search = !is_privileged() || fs::path(options.project_build).is_absolute();
+  if (may_search && fs::is_directory(options.project_build, none)) {
+    directories.push_back(options.project_build);
+  }
   return directories;
 }
 
@@ -82,7 +88,7 @@ bool check_plugin_options(const PluginOptions& options, Diagnostics& diagnostics
   warn_of_missing_directories(options, diagnostics);
   if (!is_privileged()) return true;
   if (std::getenv(kVariable) != nullptr) {
-    diagnostics.warning({},
+    diagnostics.warning("untrusted-path"_code, {},
                         fmt::format("{} is not read: this program has more rights than its "
                                     "user",
                                     kVariable),

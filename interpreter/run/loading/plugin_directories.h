@@ -14,7 +14,8 @@ namespace lockstep::host {
 std::filesystem::path program_directory(const PluginOptions& options);
 
 // --plugin-path, then LOCKSTEP_PLUGIN_PATH, then lib/lockstep/plugins of each prefix in
-// AMENT_PREFIX_PATH that has it, then where plugins are installed beside this program.
+// AMENT_PREFIX_PATH that has it, then where plugins are installed beside this program, then that of
+// the user's project.
 // Relative ones are left out when the program is privileged.
 std::vector<std::string> plugin_directories(const PluginOptions& options);
 

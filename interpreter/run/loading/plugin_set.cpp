@@ -24,7 +24,8 @@ namespace {
 // `refusal` continues "plugin 'x.so' ".
 bool refuse(const std::string& origin, Problem refusal, Diagnostics& diagnostics,
             SourceLocation where) {
-  diagnostics.error(std::move(where), fmt::format("plugin '{}' {}", brief(origin), refusal.message),
+  diagnostics.error("plugin-refused"_code, std::move(where),
+                    fmt::format("plugin '{}' {}", brief(origin), refusal.message),
                     std::move(refusal.hint));
   return false;
 }
@@ -157,7 +158,7 @@ bool PluginSet::load_file(const std::string& path, Diagnostics& diagnostics, Sou
 bool PluginSet::load_named(std::string_view name, std::span<const std::string> directories,
                            Diagnostics& diagnostics, SourceLocation where, Isolation isolation) {
   if (!is_plugin_name(name)) {
-    diagnostics.error(std::move(where),
+    diagnostics.error("bad-name"_code, std::move(where),
                       fmt::format("'{}' is not the name of a plugin", brief(name)),
                       "a plugin is named by letters, digits, '_' and '-', without path and '.so'");
     return false;
@@ -230,13 +231,13 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
   const std::string write_again =
       fmt::format("let 'lockstep plugin check --list --save {}' write it again", request.origin);
   if ((*opened)->is_file_stale()) {
-    diagnostics.warning(request.where,
+    diagnostics.warning("stale-leaf-file"_code, request.where,
                         fmt::format("plugin '{}' has other leaves than '{}' says",
                                     request.expected_name, leaves_file_of(request.origin)),
                         write_again);
   }
   if ((*opened)->is_file_older()) {
-    diagnostics.note(request.where,
+    diagnostics.note("stale-leaf-file"_code, request.where,
                      fmt::format("'{}' is older than the program: plugin '{}' may have "
                                  "other leaves now",
                                  leaves_file_of(request.origin), request.expected_name),
@@ -314,10 +315,13 @@ Diagnostic PluginSet::isolated_in_part(const Plugin& plugin, const Request& requ
     if (ids.empty()) why = refusal->message;
     ids.push_back(leaf->node_type.id);
   }
-  return {Severity::Warning, request.where,
+  return {Severity::Warning,
+          request.where,
           fmt::format("plugin '{}' is isolated only in part: {} {} in this process",
                       brief(request.origin), listed(ids), ids.size() == 1 ? "runs" : "run"),
-          fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2))};
+          fmt::format("{}; the two parts share nothing but ports", why.substr(why.find(": ") + 2)),
+          {},
+          "partly-isolated"_code};
 }
 
 bool PluginSet::initialize(Diagnostics& diagnostics) {

@@ -93,7 +93,7 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
   const auto directories = plugin_directories(options);
   for (const PluginRequest& request : requested_plugins(project, diagnostics)) {
     if (missing == MissingPlugins::AreTold && !is_there(request, directories, plugins)) {
-      diagnostics.warning(project.sources.locate_value(request.place),
+      diagnostics.warning("mocked-node"_code, project.sources.locate_value(request.place),
                           fmt::format("plugin '{}' is not found", brief(request.name)),
                           "its nodes are mocked");
       continue;
@@ -129,7 +129,8 @@ void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
         built_in_kinds(rules), [&](const NodeKind* kind) { return kind->type.id == type->id; });
     if (!is_shadowed) continue;
     diagnostics.warning(
-        {}, fmt::format("the leaf '{}' of plugin '{}' cannot be used here", type->id, type->plugin),
+        "hidden-leaf"_code, {},
+        fmt::format("the leaf '{}' of plugin '{}' cannot be used here", type->id, type->plugin),
         "the language of the tree has a node of that name; give the leaf another ID");
   }
 }

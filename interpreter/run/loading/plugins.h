@@ -24,6 +24,8 @@ struct PluginOptions {
   bool run_programs = false;
   // For programs that run no leaves: no code of a plugin enters this process.
   bool only_described = false;
+  // Searched after all others: that of the user's project. The command line sets it.
+  std::string project_build = {};
   // From where what is installed with lockstep is found; "": that of the running program.
   std::string program_directory;
 };

@@ -28,7 +28,7 @@ std::vector<Property> tree_properties(const Definition& definition, const Report
     auto property = Property::parse(it.text, names);
     if (!property) {
       const PropertyError& error = property.error();
-      report.in_value(it.place, error.offset, error.message, error.hint);
+      report.in_value("bad-property"_code, it.place, error.offset, error.message, error.hint);
       continue;
     }
     property->set_name(std::string(it.name));

@@ -57,8 +57,9 @@ class Adviser {
  private:
   const DefinitionNode& at(std::uint32_t node) const { return definition_.nodes[node]; }
 
-  void add(std::uint32_t node, Severity severity, std::string message, std::string hint) const {
-    report_.at(at(node).place, std::move(message), std::move(hint), severity);
+  void add(MessageCode code, std::uint32_t node, Severity severity, std::string message,
+           std::string hint) const {
+    report_.at(code, at(node).place, std::move(message), std::move(hint), severity);
   }
 
   // The properties of a node, or of all children of a node together.
@@ -140,7 +141,7 @@ class Adviser {
     const bool is_guess =
         std::ranges::any_of(nodes, [](const DefinitionNode& it) { return it.type->is_guess; });
     if (type.is_reactive) {
-      return add(earlier, is_guess ? Severity::Note : Severity::Warning,
+      return add("restarted"_code, earlier, is_guess ? Severity::Note : Severity::Warning,
                  fmt::format("'{}' is started again in every tick in which {}'{}'{} runs, and "
                              "halts it while it runs itself",
                              brief(at(earlier).name), is_namesake ? "the " : "",
@@ -149,7 +150,7 @@ class Adviser {
                           : "put the action before this node, in a Sequence, or let a condition "
                             "decide");
     }
-    add(earlier, Severity::Warning,
+    add("restarted"_code, earlier, Severity::Warning,
         fmt::format("'{}' is started again in every tick in which {}'{}'{} runs",
                     brief(at(earlier).name), is_namesake ? "the " : "", brief(at(later).name),
                     is_namesake ? " after it" : ""),
@@ -172,7 +173,7 @@ class Adviser {
       const Conduct& it = conduct_[child];
       if (!it.has_action || !(it.again_after_success || it.again_after_failure)) continue;
       if (can_run == it.can_run || told++ >= kMostTold) continue;
-      add(child, Severity::Warning,
+      add("restarted"_code, child, Severity::Warning,
           fmt::format("'{}' is started again after it has completed, as long as '{}' runs",
                       brief(at(child).name), brief(at(node).name)),
           fmt::format("without memory a {} also ticks children that completed: leave out "
@@ -194,7 +195,7 @@ class Adviser {
       }
       if (table[place] != 0) {
         return add(
-            child, Severity::Note,
+            "same-name"_code, child, Severity::Note,
             fmt::format("'{}' is also the name of a child before it", brief(it.name)),
             "paths tell them apart by '#2', which changes when the order does: give each its "
             "own name");
@@ -209,7 +210,7 @@ class Adviser {
     while (at(source).children == 1 && at(source).type->category != NodeCategory::Control) ++source;
     const NodeType& type = *at(source).type;
     if (type.category != NodeCategory::Action || type.has_progress) return;
-    add(source, Severity::Note,
+    add("no-progress"_code, source, Severity::Note,
         fmt::format("'{}' reports no progress: for '{}' it is at 0 until it succeeds",
                     brief(at(source).name), brief(at(keeper).name)),
         "the others wait for it at the first barrier, or within delta of 0");
@@ -236,7 +237,7 @@ class Adviser {
       if (told[entry] || may_be_empty(parameter, name)) return;
       told[entry] = true;
       if (report_.counted_only(Severity::Warning)) return;
-      report_.at_value(definition_.entries[entry].first_use,
+      report_.at_value("unwritten-entry"_code, definition_.entries[entry].first_use,
                        fmt::format("nothing writes '{{{}}}'", brief(name)),
                        unwritten_hint(&parameter, name, definition_.entries[entry].typing, valued),
                        Severity::Warning);
@@ -257,7 +258,7 @@ class Adviser {
       told[entry] = true;
       if (report_.counted_only(Severity::Warning)) return;
       const std::string& name = definition_.entries[entry].name;
-      report_.in_value(script.place, script.code->uses()[use].offset,
+      report_.in_value("unwritten-entry"_code, script.place, script.code->uses()[use].offset,
                        fmt::format("nothing writes '{}'", brief(name)),
                        unwritten_hint(nullptr, name, Typing::Strict, valued), Severity::Warning);
     });
@@ -282,7 +283,8 @@ class Adviser {
       std::string values;
       const auto wrong = [&](std::size_t offset, std::string message) {
         if (!told.emplace(script.place.byte, offset).second) return;
-        report_.in_value(script.place, offset, std::move(message), values, Severity::Warning);
+        report_.in_value("useless-value"_code, script.place, offset, std::move(message), values,
+                         Severity::Warning);
       };
       std::vector<Entry> entries;  // those that stay
       for (std::size_t name = 0; name < script.entries.size(); ++name) {
@@ -346,7 +348,7 @@ class Adviser {
       if (code[last].operation != Operation::Store) continue;
       if (script.code->uses()[code[last].argument].is_made) continue;
       if (report_.counted_only(Severity::Warning)) return;
-      report_.in_value(script.place, script.code->offsets()[last],
+      report_.in_value("assigning-condition"_code, script.place, script.code->offsets()[last],
                        "'=' assigns, and the condition is what was assigned", "'==' compares",
                        Severity::Warning);
     }
@@ -375,7 +377,7 @@ class Adviser {
       if (hint.empty())
         hint = fmt::format("'{} := …' makes it; so does a port that names it",
                            script.code->names()[name]);
-      report_.in_value(script.place, script.code->uses()[name].offset,
+      report_.in_value("missing-entry"_code, script.place, script.code->uses()[name].offset,
                        fmt::format("nothing makes the entry '{}'", brief(key)), std::move(hint),
                        Severity::Warning);
     });

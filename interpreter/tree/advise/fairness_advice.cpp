@@ -120,7 +120,7 @@ class FairnessAdviser {
   void report(const DefinitionGroup& pool, const Withheld& it, std::size_t others) const {
     const std::string more = others == 0 ? "" : fmt::format(", and to {} more", others);
     const std::uint32_t around = at(it.child).parent;
-    report_.at(at(it.member).place,
+    report_.at("unfair-pool"_code, at(it.member).place,
                fmt::format("'{}' is not fair to '{}', from which '{}' withholds ticks{}",
                            brief(at(pool.node).name), brief(at(it.member).name),
                            brief(at(it.holder).name), more),

@@ -87,7 +87,7 @@ class OpeningAdviser {
            std::uint32_t loop) const {
     if (report_.counted_only(Severity::Note)) return;
     const std::string name = brief(at(member).name);
-    report_.at(at(member).place,
+    report_.at("opens-early"_code, at(member).place,
                fmt::format("after a failure of '{}', '{}' does not wait for it while '{}' runs",
                            name, brief(at(barrier.node).name), brief(at(waits).name)),
                fmt::format("'{}' makes it idle, which idle=\"ignore\" leaves out; with "

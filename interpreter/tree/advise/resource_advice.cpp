@@ -33,7 +33,8 @@ class ResourceAdviser {
   }
 
   void starvation(const DefinitionNode& pool) const {
-    report_.at(pool.place, fmt::format("the members of '{}' may wait for ever", brief(pool.name)),
+    report_.at("starvation"_code, pool.place,
+               fmt::format("the members of '{}' may wait for ever", brief(pool.name)),
                "with increment=\"0\" the first in the tree always wins; leave it out, and nobody "
                "waits for long",
                Severity::Warning);
@@ -72,7 +73,7 @@ class ResourceAdviser {
       const std::string message =
           fmt::format("only this node uses the resource '{}' of '{}'",
                       brief(group.resources[resource]), brief(at(group.node).name));
-      report_.at(at(member).place, message, hint, Severity::Warning);
+      report_.at("lone-resource"_code, at(member).place, message, hint, Severity::Warning);
     }
   }
 

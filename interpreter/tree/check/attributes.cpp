@@ -28,9 +28,10 @@ std::string_view key_of(std::string_view text) {
 }
 
 void check_name(const Attribute& name, const Reporter& report) {
-  if (name.value.empty()) report.at_value(name.place, "the name is empty");
+  if (name.value.empty()) report.at_value("bad-name"_code, name.place, "the name is empty");
   if (name.value.find('/') != std::string_view::npos) {
-    report.at_value(name.place, fmt::format("the name '{}' contains '/'", brief(name.value)),
+    report.at_value("bad-name"_code, name.place,
+                    fmt::format("the name '{}' contains '/'", brief(name.value)),
                     "'/' separates the names in a node's path");
   }
 }
@@ -40,12 +41,13 @@ std::string_view checked_key(const Reporter& report, const NodeType& type,
                              const Parameter& parameter, Place place, std::string_view key) {
   if (parameter.constant) {
     report.at_value(
-        place, fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name, type.id),
+        "fixed-parameter"_code, place,
+        fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name, type.id),
         "it is fixed when the tree is loaded: write a value, or ${name} with an <arg>");
     return {};
   }
   if (is_identifier(key)) return key;
-  report.at_value(place, fmt::format("'{}' is not a key", brief(key)),
+  report.at_value("bad-key"_code, place, fmt::format("'{}' is not a key", brief(key)),
                   fmt::format("a key is {}", kIdentifierRule));
   return {};
 }
@@ -83,7 +85,7 @@ class AttributeChecker {
       if (is_common_attribute(name) || names_type || parameter(name) || is_hook(name)) continue;
       if (matches_any(node_.type->more_parameters, name)) continue;
       if (report_.counted_only(Severity::Error)) continue;
-      report_.at(attribute.place,
+      report_.at("unknown-port"_code, attribute.place,
                  fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(name)),
                  unknown_hint(attribute));
     }
@@ -136,7 +138,7 @@ class AttributeChecker {
     const Parameter& parameter = node_.type->parameters[place];
     if (!parameter.group.empty()) port.place = attribute.place;
     if (parameter.direction != Direction::Input && !is_guessed(*node_.type, parameter)) {
-      report_.at_value(attribute.place,
+      report_.at_value("needs-entry"_code, attribute.place,
                        fmt::format("the {} '{}' needs a blackboard entry",
                                    parameter.direction == Direction::Output ? "output" : "inout",
                                    parameter.name),
@@ -192,7 +194,7 @@ class AttributeChecker {
 
   void missing(const Parameter& parameter) const {
     if (is_misspelled(parameter)) return;
-    report_.at(element_.place,
+    report_.at("missing-port"_code, element_.place,
                fmt::format("'{}' needs the parameter '{}'", node_.type->id, parameter.name),
                parameters_hint(*node_.type));
   }
@@ -254,24 +256,24 @@ void report_no_value(const Attribute& attribute, const Reporter& report, const N
   const bool is_list = parameter.type == ValueType::DoubleList;
   const ListErrors errors = is_list ? list_errors(type, parameter, attribute.value) : ListErrors();
   const std::size_t others = errors.no_numbers.size();
-  report.at_value(attribute.place,
+  report.at_value("bad-value"_code, attribute.place,
                   fmt::format("'{}' is not {}, which '{}' must be", brief(attribute.value),
                               expected_text(parameter.type, parameter.object), parameter.name),
                   others == 0 ? why_no_object(parameter.object, attribute.value)
                               : fmt::format("no {}: {}", others == 1 ? "number" : "numbers",
                                             listed(errors.no_numbers)));
   for (const RuleBreak& it : errors.refused) {
-    report.at_value(attribute.place, it.message, it.hint);
+    report.at_value("bad-value"_code, attribute.place, it.message, it.hint);
   }
 }
 
 void report_refusal(const Attribute& attribute, const Reporter& report, const NodeType& type,
                     const Parameter& parameter, const RuleBreak& refused) {
   if (parameter.type != ValueType::DoubleList) {
-    return report.at_value(attribute.place, refused.message, refused.hint);
+    return report.at_value("bad-value"_code, attribute.place, refused.message, refused.hint);
   }
   for (const RuleBreak& it : list_errors(type, parameter, attribute.value).refused) {
-    report.at_value(attribute.place, it.message, it.hint);
+    report.at_value("bad-value"_code, attribute.place, it.message, it.hint);
   }
 }
 
@@ -292,11 +294,11 @@ void check_rule(const NodeElement& element, const Reporter& report, const Checke
   if (broken->parameter >= 0) {
     const auto& name = node.type->parameters[static_cast<unsigned>(broken->parameter)].name;
     if (const Attribute* attribute = find_attribute(element.attributes, name)) {
-      report.at_value(attribute->place, broken->message, broken->hint);
+      report.at_value("bad-value"_code, attribute->place, broken->message, broken->hint);
       return;
     }
   }
-  report.at(element.place, broken->message, broken->hint);
+  report.at("bad-value"_code, element.place, broken->message, broken->hint);
 }
 
 std::string parameters_hint(const NodeType& type) {
@@ -328,26 +330,28 @@ void check_subtree_attributes(const NodeElement& element, const Reporter& report
       const auto autoremap = parse_value(ValueType::Bool, value);
       subtree.autoremap = autoremap == Value(true);
       if (autoremap) continue;
-      report.at_value(place, fmt::format("'{}' is not true or false", brief(value)));
+      report.at_value("bad-value"_code, place,
+                      fmt::format("'{}' is not true or false", brief(value)));
     } else if (name.starts_with('_')) {
       if (report.counted_only(Severity::Error)) continue;
       const std::string hint = foreign_attribute_hint("SubTree", {name, value});
-      report.at(place, fmt::format("'SubTree' has no attribute '{}'", brief(name)),
+      report.at("unknown-attribute"_code, place,
+                fmt::format("'SubTree' has no attribute '{}'", brief(name)),
                 hint.empty() ? kOwnAttributes : hint);
     } else if (!is_identifier(name)) {
-      report.at(place, fmt::format("'{}' is not a key", brief(name)),
+      report.at("bad-key"_code, place, fmt::format("'{}' is not a key", brief(name)),
                 fmt::format("a key is {}", kIdentifierRule));
     } else {
       const auto key = key_of(value);
       trees.remappings.push_back({name, key.empty() ? value : key, !key.empty(), place});
       if (key.empty() || is_identifier(key)) continue;
-      report.at_value(place, fmt::format("'{}' is not a key", brief(key)),
+      report.at_value("bad-key"_code, place, fmt::format("'{}' is not a key", brief(key)),
                       fmt::format("a key is {}", kIdentifierRule));
     }
   }
   subtree.remappings = static_cast<std::uint32_t>(trees.remappings.size()) - subtree.first;
   if (subtree.id.empty()) {
-    report.at(element.place, "'SubTree' needs the attribute 'ID'",
+    report.at("missing-attribute"_code, element.place, "'SubTree' needs the attribute 'ID'",
               "write <SubTree ID=\"…\"/> with the ID of a BehaviorTree");
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/core/audience.h"
 #include "base/core/identifier.h"
 #include "base/core/pre_order.h"
 #include "base/core/suggest.h"
@@ -89,8 +90,8 @@ class TreeChecker {
         check_property(child);
       } else if (!is_read_elsewhere(tag)) {
         if (report_.counted_only(Severity::Error)) continue;
-        report_.at(element(child).place, fmt::format("unknown element '{}' in 'root'", brief(tag)),
-                   element_hint(tag));
+        report_.at("unknown-element"_code, element(child).place,
+                   fmt::format("unknown element '{}' in 'root'", brief(tag)), element_hint(tag));
       }
     }
   }
@@ -109,23 +110,25 @@ class TreeChecker {
       if (name == "lockstep") {
         versioned = true;
         if (value != "1") {
-          report_.at_value(place,
+          report_.at_value("unknown-version"_code, place,
                            fmt::format("version '{}' of the language is not known", brief(value)),
                            "this program reads lockstep=\"1\"");
         }
       } else if (const LanguageRules* other = language_marked(name)) {
         report_.at(
-            place, fmt::format("this file is for {}", other->title),
+            "wrong-language"_code, place, fmt::format("this file is for {}", other->title),
             "the file that includes it is in lockstep's language; all files of a tree are in "
             "the same");
         versioned = true;
       } else if (name != "main_tree_to_execute" && !is_schema_attribute(name)) {
-        report_.at(place, fmt::format("'root' has no attribute '{}'", brief(name)),
+        report_.at("unknown-attribute"_code, place,
+                   fmt::format("'root' has no attribute '{}'", brief(name)),
                    "attributes of 'root': lockstep, main_tree_to_execute");
       }
     }
     if (!versioned) {
-      report_.at(element(0).place, "'root' needs the attribute 'lockstep'",
+      report_.at("missing-attribute"_code, element(0).place,
+                 "'root' needs the attribute 'lockstep'",
                  "write <root lockstep=\"1\">: the version of the language");
     }
   }
@@ -134,7 +137,8 @@ class TreeChecker {
   void check_property(std::uint32_t index) {
     const Place place = element(index).place;
     if (element(index).end > index + 1) {
-      report_.at(element(index + 1).place, "'property' cannot contain elements");
+      report_.at("unexpected-element"_code, element(index + 1).place,
+                 "'property' cannot contain elements");
     }
     const Attribute* name = nullptr;
     const Attribute* text = nullptr;
@@ -145,16 +149,17 @@ class TreeChecker {
         name = &attribute;
         check_property_name(attribute);
       } else if (attribute.name != "_description") {
-        report_.at(attribute.place,
+        report_.at("unknown-attribute"_code, attribute.place,
                    fmt::format("'property' has no attribute '{}'", brief(attribute.name)),
                    "attributes of 'property': name");
       }
     }
     if (name == nullptr) {
-      report_.at(place, "'property' needs the attribute 'name'", "write <property name=\"…\">");
+      report_.at("missing-attribute"_code, place, "'property' needs the attribute 'name'",
+                 "write <property name=\"…\">");
     }
     if (text == nullptr) {
-      report_.at(place, "the property says nothing",
+      report_.at("bad-property"_code, place, "the property says nothing",
                  "write it as text: <property name=\"…\">never arm.failure</property>");
     }
     const bool is_of_main = document_ == project_.documents.front().get();
@@ -165,14 +170,15 @@ class TreeChecker {
 
   void check_property_name(const Attribute& name) {
     if (!is_identifier(name.value)) {
-      return report_.at_value(name.place,
+      return report_.at_value("bad-name"_code, name.place,
                               fmt::format("'{}' is not a name for 'property'", brief(name.value)),
                               fmt::format("such a name is {}", kIdentifierRule));
     }
     const auto [first, is_new] = property_places_.try_emplace(name.value, name.place);
     if (is_new || report_.counted_only(Severity::Error)) return;
     report_.at_value(
-        name.place, fmt::format("a property '{}' exists already", brief(name.value)),
+        "duplicate-name"_code, name.place,
+        fmt::format("a property '{}' exists already", brief(name.value)),
         fmt::format("the first is at {}", to_text(project_.sources.locate(first->second))));
   }
 
@@ -183,21 +189,24 @@ class TreeChecker {
       if (attribute.name == "ID") {
         named = &attribute;
       } else if (attribute.name != "_description") {
-        report_.at(attribute.place,
+        report_.at("unknown-attribute"_code, attribute.place,
                    fmt::format("'BehaviorTree' has no attribute '{}'", brief(attribute.name)),
                    "attributes of 'BehaviorTree': ID");
       }
     }
     const std::string_view id = named == nullptr ? std::string_view() : named->value;
     if (id.empty()) {
-      report_.at(place, "'BehaviorTree' needs the attribute 'ID'", "write <BehaviorTree ID=\"…\">");
+      report_.at("missing-attribute"_code, place, "'BehaviorTree' needs the attribute 'ID'",
+                 "write <BehaviorTree ID=\"…\">");
     } else if (id.find('/') != std::string_view::npos) {
-      report_.at_value(named->place, fmt::format("the ID '{}' contains '/'", brief(id)),
+      report_.at_value("bad-name"_code, named->place,
+                       fmt::format("the ID '{}' contains '/'", brief(id)),
                        "'/' separates the names in a node's path");
     }
     const std::uint32_t root = tree + 1;
     if (root == element(tree).end) {
-      report_.at(place, fmt::format("the tree '{}' is empty", brief(id)), "put one node into it");
+      report_.at("empty-tree"_code, place, fmt::format("the tree '{}' is empty", brief(id)),
+                 "put one node into it");
       enter_tree(named, place);  // so that references to it are not reported
       CheckedNode nothing;
       nothing.end = count(trees_.nodes) + 1;
@@ -205,7 +214,7 @@ class TreeChecker {
       return;
     }
     if (const std::uint32_t second = element(root).end; second != element(tree).end) {
-      report_.at(element(second).place,
+      report_.at("several-roots"_code, element(second).place,
                  fmt::format("the tree '{}' has more than one root node", brief(id)),
                  "put them into a Sequence, a Fallback or a parallel node");
     }
@@ -229,7 +238,8 @@ class TreeChecker {
       return &entry->second;
     }
     const auto first = to_text(project_.sources.locate(places_.at(id)));
-    report_.at_value(named->place, fmt::format("a tree '{}' exists already", brief(id)),
+    report_.at_value("duplicate-tree"_code, named->place,
+                     fmt::format("a tree '{}' exists already", brief(id)),
                      fmt::format("the first is at {}", first));
     return nullptr;
   }
@@ -243,7 +253,8 @@ class TreeChecker {
     const bool is_explicit = is_explicit_tag(element(index).tag);
     node.type = is_explicit ? find_explicit_type(index) : find_type(index);
     if (node.type != nullptr && node.type->category == NodeCategory::Group) {
-      report_.at(node.place, fmt::format("'{}' is no node of a tree", node.type->id),
+      report_.at("not-a-node"_code, node.place,
+                 fmt::format("'{}' is no node of a tree", node.type->id),
                  "it is declared in 'root', beside the trees");
       node.type = nullptr;
     }
@@ -317,7 +328,8 @@ class TreeChecker {
     const std::string_view tag = element(index).tag;
     const Attribute* id = find_attribute(attributes(index), "ID");
     if (id == nullptr) {
-      report_.at(element(index).place, fmt::format("'{}' needs the attribute 'ID'", tag),
+      report_.at("missing-attribute"_code, element(index).place,
+                 fmt::format("'{}' needs the attribute 'ID'", tag),
                  fmt::format("write <{} ID=\"…\"/> with the id of a node", tag));
       return nullptr;
     }
@@ -326,7 +338,8 @@ class TreeChecker {
       unknown(index, id->value, id);
     } else if (tag != explicit_tag(type->category)) {
       report_.at_value(
-          id->place, fmt::format("'{}' is not of the kind '{}'", id->value, tag),
+          "wrong-category"_code, id->place,
+          fmt::format("'{}' is not of the kind '{}'", id->value, tag),
           fmt::format("it is a kind of {}: write <{}>", to_string(type->category), id->value));
     }
     return type;
@@ -344,12 +357,13 @@ class TreeChecker {
       hint =
           "if a plugin provides it, name that with <plugin name=\"…\"/>; `lockstep nodes` "
           "lists the built-in nodes";
+      hint += worded(", and --mock runs the tree without it", "");
     }
     const std::string message = fmt::format("unknown node '{}'", brief(id));
     if (attribute == nullptr) {
-      report_.at(element(index).place, message, hint);
+      report_.at("unknown-node"_code, element(index).place, message, hint);
     } else {
-      report_.at_value(attribute->place, message, hint);
+      report_.at_value("unknown-node"_code, attribute->place, message, hint);
     }
   }
 

@@ -20,9 +20,9 @@ const NodeType* type_of_element(const NodeElement& element, const NodeType& type
   const auto& [parameter, why] = found.error();
   const Attribute* const blamed = find_attribute(element.attributes, parameter);
   if (blamed != nullptr) {
-    report.at_value(blamed->place, why.message, why.hint);
+    report.at_value("bad-type"_code, blamed->place, why.message, why.hint);
   } else {
-    report.at(element.place, why.message, why.hint);
+    report.at("bad-type"_code, element.place, why.message, why.hint);
   }
   return nullptr;
 }

@@ -85,7 +85,8 @@ class ModelReader {
       if (is_first) {
         read_all(child);
       } else {
-        report_.at(element(child).place, "a second 'TreeNodesModel'", "a file has at most one");
+        report_.at("bad-model"_code, element(child).place, "a second 'TreeNodesModel'",
+                   "a file has at most one");
       }
       is_first = false;
     }
@@ -100,7 +101,7 @@ class ModelReader {
       const Attribute* id = document_.find_attribute(child, "ID");
       if (!category || id == nullptr || id->value.empty()) {
         if (report_.counted_only(Severity::Warning)) continue;
-        report_.at(element(child).place,
+        report_.at("bad-model"_code, element(child).place,
                    category ? "a model without 'ID' is ignored"
                             : fmt::format("'{}' is no model", brief(element(child).tag)),
                    "models: Action, Condition, Control, Decorator and SubTree", Severity::Warning);
@@ -120,7 +121,7 @@ class ModelReader {
       if (!direction || name == nullptr) continue;
       const std::string_view plain = without_blanks_around(name->value);
       if (!is_subtree && plain != name->value) {
-        report_.at_value(name->place,
+        report_.at_value("whitespace"_code, name->place,
                          fmt::format("there are blanks around the port '{}'", brief(plain)),
                          fmt::format("it is read as name=\"{}\"", brief(plain)), Severity::Warning);
       }

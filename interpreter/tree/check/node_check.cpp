@@ -37,11 +37,11 @@ void check_arity(ElementOf element, const CheckedNode& node, const Reporter& rep
   const NodeType& type = *node.type;
   if (type.category == NodeCategory::SubTree) {
     if (node.children == 0) return;
-    report.at(element.all[element.index + 1].place, "'SubTree' cannot have children",
-              "its tree is the BehaviorTree that its ID names");
+    report.at("child-count"_code, element.all[element.index + 1].place,
+              "'SubTree' cannot have children", "its tree is the BehaviorTree that its ID names");
   } else if (node.children < type.arity.min) {
     const bool any_number = type.arity.min == 1 && type.arity.max > 1;
-    report.at(node.place,
+    report.at("child-count"_code, node.place,
               fmt::format("'{}' needs {}", type.id,
                           any_number ? "a child" : arity_text(type.arity.min, type.arity.max)),
               node.children == 0
@@ -53,7 +53,7 @@ void check_arity(ElementOf element, const CheckedNode& node, const Reporter& rep
     // The first child that is one too many.
     std::uint32_t extra = element.index + 1;
     for (std::uint32_t i = 0; i < type.arity.max; ++i) extra = element.all[extra].end;
-    report.at(element.all[extra].place,
+    report.at("child-count"_code, element.all[extra].place,
               type.arity.max == 0 ? fmt::format("'{}' cannot have children", type.id)
               : type.arity.max == 1
                   ? fmt::format("'{}' has more than one child", type.id)

@@ -23,7 +23,7 @@ bool is_file_name(std::string_view name) {
 
 void check_same(const PluginRequest& known, const PluginRequest& request, const Reporter& report) {
   if (known.program == request.program && known.hold == request.hold) return;
-  report.at_value(request.place,
+  report.at_value("plugin-conflict"_code, request.place,
                   fmt::format("plugin '{}' is a different one elsewhere", brief(request.name)),
                   "give all elements of a plugin the same program and hold");
 }
@@ -36,19 +36,21 @@ class RequestReader {
   std::optional<PluginRequest> read() {
     const Element& element = document_.elements()[index_];
     if (element.end > index_ + 1) {
-      report_.at(document_.elements()[index_ + 1].place, "'plugin' cannot contain elements");
+      report_.at("unexpected-element"_code, document_.elements()[index_ + 1].place,
+                 "'plugin' cannot contain elements");
     }
     for (const auto& attribute : document_.attributes(index_)) {
       read_attribute(attribute.name, attribute.value, attribute.place);
     }
     if (!request_.hold.empty() && request_.program.empty()) {
       report_.at(
-          element.place, "'hold' is for programs",
+          "bad-attributes"_code, element.place, "'hold' is for programs",
           "name the program: program=\"…\"; leaves of a shared object have a pause function");
     }
     if (!is_valid_) return std::nullopt;
     if (has_name_) return request_;
-    report_.at(element.place, "'plugin' needs the attribute 'name'", "write <plugin name=\"…\"/>");
+    report_.at("missing-attribute"_code, element.place, "'plugin' needs the attribute 'name'",
+               "write <plugin name=\"…\"/>");
     return std::nullopt;
   }
 
@@ -65,7 +67,8 @@ class RequestReader {
     } else if (name == "hold") {
       read_hold(value, place);
     } else {
-      report_.at(place, fmt::format("'plugin' has no attribute '{}'", brief(name)),
+      report_.at("unknown-attribute"_code, place,
+                 fmt::format("'plugin' has no attribute '{}'", brief(name)),
                  "attributes of 'plugin': name (a tree names plugins, never paths), isolate, "
                  "program and hold");
     }
@@ -76,14 +79,16 @@ class RequestReader {
     request_.isolate = isolate == Value(true);
     if (isolate) return;
     report_.at_value(
-        place, fmt::format("'{}' is not true or false, which 'isolate' must be", brief(value)));
+        "bad-value"_code, place,
+        fmt::format("'{}' is not true or false, which 'isolate' must be", brief(value)));
   }
 
   void read_program(std::string_view value, Place place) {
     request_.program = value;
     is_valid_ = is_file_name(value);
     if (is_valid_) return;
-    report_.at_value(place, fmt::format("'{}' is not the name of a file", brief(value)),
+    report_.at_value("bad-value"_code, place,
+                     fmt::format("'{}' is not the name of a file", brief(value)),
                      fmt::format("a program is searched where plugins are{}: a tree never names a "
                                  "path",
                                  worded(" (--plugin-path)", "")));
@@ -92,7 +97,8 @@ class RequestReader {
   void read_hold(std::string_view value, Place place) {
     request_.hold = value;
     if (std::ranges::find(kHolds, value) != std::end(kHolds)) return;
-    report_.at_value(place, fmt::format("'{}' is no way to hold a program", brief(value)),
+    report_.at_value("bad-value"_code, place,
+                     fmt::format("'{}' is no way to hold a program", brief(value)),
                      "signal (its process is stopped), message or none");
   }
 
@@ -118,7 +124,8 @@ std::vector<PluginRequest> requested_plugins(const Project& project, Diagnostics
       const auto known = std::ranges::find(requests, request->name, &PluginRequest::name);
       if (known == requests.end()) {
         if (requests.size() == kMaxPlugins) {
-          report.at(elements[child].place, fmt::format("more than {} plugins", kMaxPlugins));
+          report.at("too-large"_code, elements[child].place,
+                    fmt::format("more than {} plugins", kMaxPlugins));
           return requests;
         }
         requests.push_back(*request);

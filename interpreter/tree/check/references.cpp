@@ -102,13 +102,14 @@ class ReferenceChecker {
   }
 
   void too_large(const CheckedNode& root, std::string message, std::string hint) {
-    if (expandable_) report_.at(root.place, std::move(message), std::move(hint));
+    if (expandable_) report_.at("too-large"_code, root.place, std::move(message), std::move(hint));
     expandable_ = false;
   }
 
   void unknown(const CheckedSubTree& subtree) const {
     if (report_.counted_only(Severity::Error)) return;
-    report_.at_value(subtree.place, fmt::format("unknown tree '{}'", brief(subtree.id)),
+    report_.at_value("unknown-tree"_code, subtree.place,
+                     fmt::format("unknown tree '{}'", brief(subtree.id)),
                      suggest(subtree.id, trees_.ids, "trees in this project"));
   }
 
@@ -118,7 +119,7 @@ class ReferenceChecker {
     std::vector<std::string_view> circle(std::ranges::find(chain_, subtree.id), chain_.end());
     circle.push_back(subtree.id);
     report_.at_value(
-        subtree.place,
+        "recursive-tree"_code, subtree.place,
         fmt::format("the tree '{}' contains itself: {}", brief(subtree.id), chained(circle)),
         "use a decorator such as Repeat for a loop");
   }

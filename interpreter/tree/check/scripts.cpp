@@ -22,12 +22,13 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
     const bool is_known = attribute.value.find("${") == std::string_view::npos;
     if (!is_known && report.has_errors()) return nullptr;
     auto& error = code.error();
-    report.in_value(attribute.place, error.offset, std::move(error.message), std::move(error.hint));
+    report.in_value("script-syntax"_code, attribute.place, error.offset, std::move(error.message),
+                    std::move(error.hint));
     return nullptr;
   }
   for (const auto& remark : code->remarks()) {
-    report.in_value(attribute.place, remark.offset, remark.message, remark.hint,
-                    is_strict ? Severity::Error : Severity::Warning);
+    report.in_value("loose-script"_code, attribute.place, remark.offset, remark.message,
+                    remark.hint, is_strict ? Severity::Error : Severity::Warning);
   }
   if (is_strict && !code->remarks().empty()) return nullptr;
   const bool is_clean = code->remarks().empty();  // else each place has its messages

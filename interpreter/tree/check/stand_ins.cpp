@@ -263,7 +263,8 @@ class Builder {
       used_outputs_.insert(given->first);
       if (port.is_generic) return value_of_any_type(given->second);
       if (auto value = parse_value(port.type, given->second)) return *std::move(value);
-      report_.nowhere(fmt::format("--mock-output {}={}: '{}' of '{}' is {}", given->first,
+      report_.nowhere("bad-option"_code,
+                      fmt::format("--mock-output {}={}: '{}' of '{}' is {}", given->first,
                                   given->second, port.name, brief(id), expected_text(port.type)));
       return {};
     }
@@ -275,7 +276,8 @@ class Builder {
 
   void check_output(std::string_view port) const {
     if (used_outputs_.contains(port)) return;
-    report_.nowhere(fmt::format("--mock-output {}: no stand-in has such an output", brief(port)),
+    report_.nowhere("bad-option"_code,
+                    fmt::format("--mock-output {}: no stand-in has such an output", brief(port)),
                     "write PORT=VALUE, or ID.PORT=VALUE for one leaf");
   }
 
@@ -293,28 +295,32 @@ class Builder {
         hint = "it takes the ID of a leaf, not its name";
         if (!uses_.empty()) hint += fmt::format(": {}", listed(unknown_ids()));
       }
-      report_.nowhere(fmt::format("--mock-leaf {}: the tree has no such node", brief(id)),
+      report_.nowhere("bad-option"_code,
+                      fmt::format("--mock-leaf {}: the tree has no such node", brief(id)),
                       std::move(hint));
       return;
     }
     const NodeCategory category = catalog_.find(id)->category;
     if (category == NodeCategory::Action || category == NodeCategory::Condition) return;
-    report_.nowhere(fmt::format("--mock-leaf {}: only a leaf has a result", brief(id)),
+    report_.nowhere("bad-option"_code,
+                    fmt::format("--mock-leaf {}: only a leaf has a result", brief(id)),
                     "the result of other nodes comes from their children");
   }
 
   void tell(std::string_view id, Place place, bool has_model, bool is_guessed) const {
-    if (report_.counted_only(Severity::Note)) return;
     std::string hint =
         has_model ? "the model in the file is used as a hint" : hint_for_other_tools(id, catalog_);
-    if (hint.empty()) hint = did_you_mean(id, known_ids_);
+    const std::string near = hint.empty() ? did_you_mean(id, known_ids_) : "";
+    if (hint.empty()) hint = near;
+    const Severity severity = near.empty() ? Severity::Note : Severity::Warning;
+    if (report_.counted_only(severity)) return;
     if (hint.empty()) {
       hint = "its ports are not known, so they are not checked; --plugin loads a plugin";
     }
-    report_.at(place,
+    report_.at("mocked-node"_code, place,
                fmt::format("no plugin has '{}'{}", brief(id),
                            is_guessed ? "; it is taken for an action" : ""),
-               hint, Severity::Note);
+               hint, severity);
   }
 
   void tell_of_tree(std::string_view id, Place place) const {
@@ -322,12 +328,13 @@ class Builder {
     const Severity severity = is_elsewhere ? Severity::Note : Severity::Warning;
     if (report_.counted_only(severity)) return;
     if (is_elsewhere) {
-      report_.at_value(place, fmt::format("the tree '{}' is in another file", brief(id)),
+      report_.at_value("tree-elsewhere"_code, place,
+                       fmt::format("the tree '{}' is in another file", brief(id)),
                        "here it stands for an action", severity);
       return;
     }
     const std::vector<std::string_view> ids(trees_.begin(), trees_.end());
-    report_.at_value(place, fmt::format("unknown tree '{}'", brief(id)),
+    report_.at_value("unknown-tree"_code, place, fmt::format("unknown tree '{}'", brief(id)),
                      join_hints(did_you_mean(id, ids),
                                 "if another file has it, include that file; until then it stands "
                                 "for an action"),
@@ -341,7 +348,7 @@ class Builder {
       return uses_.at(one).place.byte < uses_.at(other).place.byte;
     };
     const std::string_view first = *std::ranges::min_element(guessed_, is_before);
-    report_.at(uses_.at(first).place,
+    report_.at("mocked-node"_code, uses_.at(first).place,
                fmt::format("no plugin has {}: taken for {}", listed(guessed_),
                            guessed_.size() == 1 ? "an action" : "actions"),
                fmt::format("a condition is written <Condition ID=\"{}\"/>", brief(first)),
@@ -366,8 +373,8 @@ class Builder {
     constexpr std::string_view kHint = "a model is a hint: if it is older than the leaf, update it";
     const auto warn = [&](auto report_at, Place place, std::string message, std::string hint) {
       if (report_.counted_only(Severity::Warning)) return;
-      (report_.*report_at)(place, std::move(message), join_hints(std::move(hint), kHint),
-                           Severity::Warning);
+      (report_.*report_at)("old-model"_code, place, std::move(message),
+                           join_hints(std::move(hint), kHint), Severity::Warning);
     };
     if (!is_as_modeled(use, model.category)) {
       warn(&Reporter::at, use.place,

@@ -100,7 +100,7 @@ class Expander {
       const bool may_be_used = trees_.names_at_run_time || scope.used(it.key);
       if (!it.is_written || may_be_used || report_.counted_only(Severity::Warning)) continue;
       report_.at(
-          it.place,
+          "unused-entry"_code, it.place,
           fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
           suggest(it.key, scope.open_keys(), "it also uses"), Severity::Warning);
     }
@@ -140,7 +140,7 @@ class Expander {
       const CheckedNode& group = trees_.groups[i];
       if (members_[i].empty()) {
         if (is_part_ || report_.has_errors()) continue;  // it may be for want of what they refuse
-        report_.at(group.place,
+        report_.at("unused-group"_code, group.place,
                    fmt::format("no node of '{}' uses the {} '{}'", brief(definition_.id),
                                group.type->id, brief(group.name)),
                    {}, Severity::Note);
@@ -190,8 +190,8 @@ class Expander {
       hint = fmt::format("declare it in 'root': <{} name=\"{}\" …/>", type, brief(name));
     const std::string origin =
         name == written ? "" : fmt::format(", which a SubTree gives for '{}'", brief(written));
-    report_.at_value(place, fmt::format("unknown {} '{}'{}", parameter.name, brief(name), origin),
-                     hint);
+    report_.at_value("unknown-group"_code, place,
+                     fmt::format("unknown {} '{}'{}", parameter.name, brief(name), origin), hint);
   }
 
   // Where nothing comes from an entry, all expansions of a tree share their ports.
@@ -324,7 +324,7 @@ class Expander {
     if (fits(parameter, entry) || !told_hints_.emplace(hint.node, parameter.name).second) return;
     if (report_.counted_only(Severity::Warning)) return;
     report_.at_value(
-        hint.place,
+        "entry-type"_code, hint.place,
         fmt::format("'{}' is {} for '{}' in the model of '{}', but {} elsewhere", brief(entry.name),
                     with_article(parameter.type, nullptr), parameter.name, brief(hint.node),
                     with_article(entry.type, entry.object)),
@@ -346,14 +346,14 @@ class Expander {
     } else if (entry.type == ValueType::Number && is_number(parameter.type)) {
       narrow(port.place, parameter, entry);
     } else if (!fits(parameter, entry)) {
-      report_.at_value(port.place,
+      report_.at_value("entry-type"_code, port.place,
                        fmt::format("'{{{}}}' is {} for '{}', but {} elsewhere", brief(port.key),
                                    with_article(parameter.type, parameter.object), parameter.name,
                                    with_article(entry.type, entry.object)),
                        other_use(entry));
     } else if (!can_cross(parameter, entry)) {
       report_.at_value(
-          port.place,
+          "process-border"_code, port.place,
           fmt::format("'{{{}}}' carries a {} between processes, but the plugin of one of its uses "
                       "has no to_bytes and from_bytes for it",
                       brief(port.key), entry.object->name()),
@@ -431,7 +431,7 @@ class Expander {
       return;
     }
     const std::string why = why_no_object(parameter.object, text);
-    report_.at_value(place,
+    report_.at_value("bad-start-value"_code, place,
                      fmt::format("the start value '{}' of '{}' is not {}, which '{}' must be",
                                  brief(text), brief(entry.name),
                                  expected_text(parameter.type, parameter.object), parameter.name),
@@ -462,7 +462,8 @@ class Expander {
     }
     for (const auto& [key, text] : values_) {
       if (scope.used(key)) continue;
-      report_.nowhere(fmt::format("{0} {1}: the main tree does not use '{{{1}}}'",
+      report_.nowhere("bad-option"_code,
+                      fmt::format("{0} {1}: the main tree does not use '{{{1}}}'",
                                   worded("--set", "start value of"), key),
                       suggest(key, keys, "entries of the main tree"));
     }

@@ -36,7 +36,7 @@ class GroupChecker {
   bool check_members(const DefinitionGroup& group) const {
     const auto& members = group.members;
     if (members.size() == 1) {
-      report_.at(at(members[0]).place,
+      report_.at("lone-member"_code, at(members[0]).place,
                  fmt::format("nobody else waits at the barrier '{}'", name(group.node)),
                  "a barrier needs a SyncProgress for each of those that wait for each other");
       return false;
@@ -52,7 +52,7 @@ class GroupChecker {
   bool can_meet(const DefinitionGroup& group, std::uint32_t one, std::uint32_t other) const {
     if (other < at(one).end) {
       report_.at(
-          at(other).place,
+          "deadlock"_code, at(other).place,
           fmt::format("a member of the barrier '{}' is inside another one", name(group.node)),
           fmt::format("the outer one, at {}, would wait for itself", where(one)));
       return false;
@@ -60,7 +60,7 @@ class GroupChecker {
     const std::uint32_t pair[] = {one, other};
     const std::uint32_t ancestor = definition_.common_ancestor(pair);
     if (at(ancestor).type->goes_on_after == Status::Idle || !definition_.waits(group)) return true;
-    report_.at(at(other).place,
+    report_.at("members-never-meet"_code, at(other).place,
                fmt::format("this member of the barrier '{}' never meets the one at {}",
                            name(group.node), where(one)),
                fmt::format("they are in different children of the {} '{}', which run one after the "
@@ -81,7 +81,7 @@ class GroupChecker {
                           where(link.sequence));
     }
     names.push_back(names.front());
-    report_.at(at(circle.front().group).place,
+    report_.at("deadlock"_code, at(circle.front().group).place,
                fmt::format("barriers wait for each other in a circle: {}", chained(names)), hint);
   }
 

@@ -56,20 +56,22 @@ class PoolResolver {
         fmt::format("the pool '{}' has no resource '{}'", brief(at(group.node).name), brief(name));
     const std::string hint = suggest(name, known, "its resources");
     for (const WrittenAttribute& attribute : definition_.attributes(node)) {
-      if (attribute.name == "resources") return report_.at_value(attribute.place, message, hint);
+      if (attribute.name == "resources")
+        return report_.at_value("unknown-resource"_code, attribute.place, message, hint);
     }
-    report_.at(node.place, message, hint);
+    report_.at("unknown-resource"_code, node.place, message, hint);
   }
 
   void check_count(const DefinitionGroup& group) const {
     const DefinitionNode& node = at(group.node);
     if (group.resources.empty()) {
       if (report_.has_errors()) return;  // it may come from these
-      report_.at(node.place, fmt::format("no resource of the pool '{}' is known", brief(node.name)),
+      report_.at("pool-size"_code, node.place,
+                 fmt::format("no resource of the pool '{}' is known", brief(node.name)),
                  "where only entries name them, declare them here: resources=\"left;right\"");
     } else if (group.resources.size() > kMaxResources) {
       report_.at(
-          node.place,
+          "pool-size"_code, node.place,
           fmt::format("the pool '{}' has {} resources", brief(node.name), group.resources.size()),
           fmt::format("the limit is {}: split it into several pools", kMaxResources));
     }
@@ -142,7 +144,7 @@ class PoolResolver {
 
   void add(std::uint32_t node, std::string message, std::string hint) {
     if (!reported_.emplace(at(node).place.byte, std::string_view()).second) return;
-    report_.at(at(node).place, std::move(message), std::move(hint));
+    report_.at("nested-pools"_code, at(node).place, std::move(message), std::move(hint));
   }
 
   Definition& definition_;

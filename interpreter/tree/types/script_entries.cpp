@@ -98,7 +98,7 @@ class Declarer {
       return;
     }
     report_.in_value(
-        script.place, script.code->uses()[name].offset,
+        "bad-start-value"_code, script.place, script.code->uses()[name].offset,
         fmt::format("the start value '{}' of '{}' is not {}, which this script makes "
                     "it",
                     brief(start->second), brief(it.name), expected_text(it.type, it.object)),
@@ -142,7 +142,7 @@ class Declarer {
       found = true;
       if (report_.counted_only(Severity::Error)) continue;
       report_.in_value(
-          script.place, script.code->uses()[i].offset,
+          "unknown-entry"_code, script.place, script.code->uses()[i].offset,
           is_outer ? fmt::format("'{}' is not a key", brief(key))
                    : fmt::format("nothing declares the entry '{}'", brief(key)),
           is_outer ? fmt::format("an attribute of the SubTree gives it an entry from outside: "
@@ -156,7 +156,7 @@ class Declarer {
   void check_types(std::size_t number, bool is_condition) {
     const BoundScript& script = definition_.scripts[number];
     const auto wrong = [&](std::size_t offset, std::string message) {
-      report_.in_value(script.place, offset, std::move(message), {});
+      report_.in_value("script-type"_code, script.place, offset, std::move(message), {});
     };
     const std::vector<StaticType> types = types_of(script);
     types_[number] =
@@ -185,7 +185,7 @@ class Declarer {
       if (may_be_yes_or_no(type) && parse_value(ValueType::Bool, text)) continue;
       const auto written = definition_.attributes(node);
       const auto place = std::ranges::find(written, "cases", &WrittenAttribute::name);
-      report_.at_value(place->place,
+      report_.at_value("unmatched-case"_code, place->place,
                        fmt::format("the case '{}' is never equal to {}, which '{}' is", brief(text),
                                    with_article(*type.type, type.object), script->name));
       return;

@@ -21,7 +21,7 @@ void add_advice(const Project& project, Definition definition, AdviceEffort effo
   const Tree tree = compile(definition);
   const Reporter reporter(project.sources, diagnostics);
   for (Advice& it : advice_of(tree, places, effort, std::move(stop_signal))) {
-    reporter.at(places[it.node], std::move(it.message), std::move(it.hint), it.severity);
+    reporter.at(it.code, places[it.node], std::move(it.message), std::move(it.hint), it.severity);
   }
 }
 

@@ -27,6 +27,13 @@ TEST_CASE("a diagnostic shows its place, the line, a caret and the hint") {
         "  hint: did you mean 'Sequence'?\n");
 }
 
+TEST_CASE("a message ends with its code") {
+  Diagnostics diagnostics;
+  diagnostics.error("unknown-node"_code, {"a.xml", 4, 3}, "unknown node 'Sequnce'", "a hint");
+  CHECK(render(diagnostics.all()[0], false) ==
+        "a.xml:4:3: error: unknown node 'Sequnce' [unknown-node]\n  hint: a hint\n");
+}
+
 TEST_CASE("what is not known of a place is not shown") {
   CHECK(render(error({"a.xml", 4, 0}, "<a/>"), false) ==
         "a.xml:4: error: unknown node 'Sequnce'\n  <a/>\n");
@@ -104,18 +111,18 @@ TEST_CASE("nothing raw reaches a terminal") {
 
 TEST_CASE("sorting is by file as first mentioned, then line, then column") {
   Diagnostics diagnostics;
-  diagnostics.error({"main.xml", 9, 1}, "1");
-  diagnostics.error({"a.xml", 1, 1}, "2");
-  diagnostics.error({"main.xml", 2, 8}, "3");
-  diagnostics.error({"main.xml", 2, 3}, "4");
-  diagnostics.error({"main.xml"}, "5");
+  diagnostics.error({}, {"main.xml", 9, 1}, "1");
+  diagnostics.error({}, {"a.xml", 1, 1}, "2");
+  diagnostics.error({}, {"main.xml", 2, 8}, "3");
+  diagnostics.error({}, {"main.xml", 2, 3}, "4");
+  diagnostics.error({}, {"main.xml"}, "5");
   diagnostics.sort();
   CHECK(messages(diagnostics) == std::vector<std::string>{"5", "4", "3", "1", "2"});
 }
 
 TEST_CASE("equal entries are one") {
   Diagnostics diagnostics;
-  for (const auto* message : {"b", "a", "b", "c", "a"}) diagnostics.error({"f", 1, 1}, message);
+  for (const auto* message : {"b", "a", "b", "c", "a"}) diagnostics.error({}, {"f", 1, 1}, message);
   diagnostics.add({Severity::Warning, {"f", 1, 1}, "a", {}, {}});
   diagnostics.sort();
   CHECK(messages(diagnostics) == std::vector<std::string>{"b", "a", "c", "a"});
@@ -126,7 +133,7 @@ TEST_CASE("at one place the order of reporting stays") {
   std::vector<std::string> reported;
   for (int i = 100; i > 0; --i) {
     reported.push_back(std::to_string(i));
-    diagnostics.error({"f", 1, 1}, reported.back());
+    diagnostics.error({}, {"f", 1, 1}, reported.back());
   }
   diagnostics.sort();
   CHECK(messages(diagnostics) == reported);
@@ -137,7 +144,7 @@ TEST_CASE("only errors are errors") {
   diagnostics.add({Severity::Warning, {}, "w", {}, {}});
   diagnostics.add({Severity::Note, {}, "n", {}, {}});
   CHECK_FALSE(diagnostics.has_errors());
-  diagnostics.error({}, "e");
+  diagnostics.error({}, {}, "e");
   CHECK(diagnostics.has_errors());
   CHECK(diagnostics.count(Severity::Warning) == 1);
   CHECK(render(diagnostics.all()[0], false) == "warning: w\n");
@@ -151,7 +158,7 @@ TEST_CASE("diagnostics beyond the thousandth of a severity are counted, not kept
   }
   CHECK_FALSE(diagnostics.has_errors());
   for (std::uint32_t line = 1; line <= 1002; ++line) {
-    diagnostics.error({"a.xml", line, 1}, "wrong");
+    diagnostics.error({}, {"a.xml", line, 1}, "wrong");
   }
   diagnostics.sort();
   CHECK(diagnostics.all().size() == 2000);

@@ -79,9 +79,9 @@ TEST_CASE(":= makes a missing entry without a type, others need it") {
       {kMissing, "0 ? (x := 1) : 2", "missing"},
       {any(), "x = 5", "5*1"},
       {any(), "x = 'a'", "'a'*1"},
-      {any(), "x = empty", "cannot assign to 'x': the right side is an entry without value"},
-      {kMissing, "x := x", "cannot assign to 'x': the right side is an entry without value"},
-      {any(), "x += 1", "'+=' takes two numbers or two texts, not an entry without value and 1"},
+      {any(), "x = empty", "cannot assign to 'x': the right side is the entry 'empty' without a value"},
+      {kMissing, "x := x", "cannot assign to 'x': the right side is the entry 'x' without a value"},
+      {any(), "x += 1", "'+=' takes two numbers or two texts, not the entry 'x' without a value and 1"},
   };
   check(rows);
 }
@@ -169,7 +169,7 @@ TEST_CASE("+= and its like calculate and then assign") {
       {any(std::int64_t{1}), "x += '1'",
        "'+=' takes two numbers or two texts, not 1 and the text '1'"},
       {any(std::int64_t{1}), "x += empty",
-       "'+=' takes two numbers or two texts, not 1 and an entry without value"},
+       "'+=' takes two numbers or two texts, not 1 and the entry 'empty' without a value"},
       {declared(ValueType::Int, std::int64_t{5}), "x /= 2", refused("2.5", "int")},
       {declared(ValueType::Bool, false), "x += 1", "true*1"},
       {any(std::int64_t{1}), "x += (x += 1)", "4*2"},
@@ -210,7 +210,7 @@ TEST_CASE("a strict entry holds values of its type only") {
       {strict(ValueType::Int, std::int64_t{1}), "x = 2.5", refused("2.5", "int")},
       {strict(ValueType::Double, 1.0), "x = 2", "2.0*1"},
       {strict(ValueType::Double, 1.0), "x = 1/0", refused("inf", "double")},
-      {strict(ValueType::Double), "x = 0/0", refused("-nan", "double")},
+      {strict(ValueType::Double), "x = 0/0", refused("NaN (such as 0/0)", "double")},
       {strict(ValueType::Bool, true), "x = 0", "false*1"},
       {strict(ValueType::Bool, true), "x = 2", refused("2", "bool")},
       {strict(ValueType::String), "x = 5", refused("5", "string")},

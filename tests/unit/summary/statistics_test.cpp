@@ -285,8 +285,8 @@ TEST_CASE("why a run stopped") {
   summary.result = RunResult::Fault;
   summary.reason = StopReason::Fault;
   summary.fault = "Test/a: broke";
-  CHECK(text_of(summary).starts_with("fault: Test/a: broke after 0 ticks"));
-  CHECK(text_of(summary, true).starts_with("\x1b[31mfault\x1b[0m: "));
+  CHECK(text_of(summary).starts_with("fault after 0 ticks, 0.000 s: Test/a: broke\n"));
+  CHECK(text_of(summary, true).starts_with("\x1b[31mfault\x1b[0m after "));
   CHECK(to_json(summary).starts_with(
       R"({"result":"fault","reason":"fault","fault":"Test/a: broke",)"));
 }

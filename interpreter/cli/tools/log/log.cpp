@@ -110,7 +110,7 @@ extern const Command kLogCommand{
     "open.\n"
     "\n"
     "Examples:\n"
-    "  lockstep run trees/door_pulling.xml --record run.jsonl\n"
+    "  lockstep run --example door_pulling --record run.jsonl\n"
     "  lockstep log info run.jsonl\n"
     "  lockstep log csv run.jsonl > run.csv\n"
     "  lockstep log cat --follow run.jsonl.zst | grep fault\n"
@@ -121,7 +121,7 @@ extern const Command kLogCommand{
     "  lockstep log page run.jsonl --out run.html\n"
     "  lockstep log diff run.jsonl again.jsonl\n"
     "  lockstep log check run.jsonl --property 'arm.held at most 200 ticks'\n"
-    "  lockstep log scenario run.jsonl --save trees/door_pulling.test.xml",
+    "  lockstep log scenario run.jsonl --save tree.test.xml",
     define_log};
 
 }  // namespace lockstep::host

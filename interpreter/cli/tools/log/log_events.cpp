@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/core/suggest.h"
+#include "cli/checks.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
@@ -103,7 +104,7 @@ LogSubcommand define_log_events(CLI::App& log) {
       "events", "One line for each start, result, halt, hold, fault, changed entry and log line");
   add_recording_file(*app, options->file);
   app->add_option("--format", options->format, "text, csv with a title, or json, an object a line")
-      ->check(CLI::IsMember({"text", "csv", "json"}))
+      ->check(one_of({"text", "csv", "json"}))
       ->capture_default_str();
   app->add_option(
          "--path", options->paths,
@@ -114,7 +115,7 @@ LogSubcommand define_log_events(CLI::App& log) {
   app->add_option("--event", options->kinds, "Only these, as --event hold --event release")
       ->type_name("EVENT")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"start", "success", "failure", "skipped", "halt", "hold", "release",
+      ->check(one_of({"start", "success", "failure", "skipped", "halt", "hold", "release",
                              "fault", "entry", "log", "lost", "end"}));
   add_tick_range(*app, options->range);
   return {app, [options] { return events(*options); }};

@@ -99,7 +99,7 @@ LogSubcommand define_log_export(CLI::App& log) {
   app->add_option("--format", options->format,
                   "mcap: for Foxglove and PlotJuggler; trace: JSON for ui.perfetto.dev and "
                   "chrome://tracing, a track for each node; btlog: the log that Groot2 replays")
-      ->check(CLI::IsMember({"mcap", "trace", "btlog"}))
+      ->check(one_of({"mcap", "trace", "btlog"}))
       ->required();
   app->add_option("--out", options->out, "The file")->type_name("FILE")->required();
   add_tick_range(*app, options->range);

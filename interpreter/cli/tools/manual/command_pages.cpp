@@ -6,25 +6,13 @@
 #include "cli/command.h"
 #include "cli/command_program.h"
 #include "cli/command_walk.h"
+#include "cli/help_text.h"
 #include "cli/tools/manual/footer.h"
 #include "cli/tools/manual/page.h"
 #include "cli/tools/manual/pages.h"
 
 namespace lockstep::host {
 namespace {
-
-// "wall|virtual" of "TEXT:wall|virtual", "HZ" of "HZ"
-std::string value_name(const CLI::Option& option) {
-  std::string type = option.get_type_name();
-  const std::size_t colon = type.find(':');
-  const bool is_list = colon != std::string::npos &&
-                       (type.find('|', colon) != std::string::npos || type[colon + 1] == '{');
-  if (is_list) type = type.substr(colon + 1);
-  type = type.substr(0, type.find(":INT"));  // the range that CLI11 adds
-  std::erase_if(type, [&](char c) { return is_list && (c == '{' || c == '}'); });
-  std::ranges::replace(type, ',', is_list ? '|' : ',');
-  return type;
-}
 
 std::string term_of(const CLI::Option& option) {
   if (option.get_positional()) return mdoc_argument(value_name(option));

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/load/tree_argument.h"
 #include "cli/outputs.h"
 #include "cli/tools/study/study_compare.h"
 #include "cli/tools/study/study_fault.h"
@@ -230,7 +231,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
                  "What is kept of each run: a row of runs.csv, of runs.csv.zst, or none: then its "
                  "cell has counts, means, and quartiles to 0.05 %, and memory does not grow with "
                  "the runs")
-      ->check(CLI::IsMember({"csv", "zst", "none"}))
+      ->check(one_of({"csv", "zst", "none"}))
       ->capture_default_str();
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")
       ->type_name("I/N");
@@ -238,7 +239,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
 
 std::function<int()> define_study(CLI::App& app) {
   const auto options = std::make_shared<StudyCommandOptions>();
-  app.add_option("tree", options->study.tree, "Tree file")->type_name("TREE.xml");
+  add_tree_argument(app, options->study.tree, "Tree file")->required(false);
   add_leaves_option(app, options->study.leaves);
   define_runs(app, options->study);
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
@@ -273,23 +274,23 @@ extern const Command kStudyCommand{
     "Writes runs.csv (a row per run, see --rows), summary.csv (box-plot numbers), study.json (how "
     "it was "
     "made)\n"
-    "and, with gnuplot, plots/; the summary goes to stdout. See docs/studies.md.\n"
+    "and, with gnuplot, plots/; the summary goes to stdout. See `lockstep docs studies`.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
     "refused, 5 leaf fault, 6 a plugin crashed or hung, 128 + N signal N, as 130 for SIGINT\n"
     "(finished runs are on disk: --resume).\n"
     "\n"
     "Examples:\n"
-    "  lockstep study trees/predictability.xml --runs 1000 --grid barriers=0,5,50 \\\n"
+    "  lockstep study --example predictability --runs 1000 --grid barriers=0,5,50 \\\n"
     "      --measure progress-distance --measure predictability:task@0.6\n"
-    "  lockstep study trees/paper/example6.xml --runs 1000 --grid delta=0:0.1:0.01\n"
-    "  lockstep study trees/paper/example6.xml --runs 1000 \\\n"
+    "  lockstep study --example paper/example6 --runs 1000 --grid delta=0:0.1:0.01\n"
+    "  lockstep study --example paper/example6 --runs 1000 \\\n"
     "      --grid noise,delta=0.01:0.02,0.02:0.05,0.05:0.1\n"
-    "  lockstep study trees/paper/example5.xml --runs 100 --paired \\\n"
+    "  lockstep study --example paper/example5 --runs 100 --paired \\\n"
     "      --grid barrier_count=5,10\n"
-    "  lockstep study trees/paper/example5.xml --runs 100000 --until-ci 2% \\\n"
+    "  lockstep study --example paper/example5 --runs 100000 --until-ci 2% \\\n"
     "      --grid noise=0,0.05\n"
-    "  lockstep study trees/paper/example5.xml --runs 10000000 --rows none\n"
-    "  lockstep study trees/predictability.xml --runs 1000 --shard 1/4 --out part-1\n"
+    "  lockstep study --example paper/example5 --runs 10000000 --rows none\n"
+    "  lockstep study --example predictability --runs 1000 --shard 1/4 --out part-1\n"
     "  lockstep study merge part-* --out study\n"
     "  lockstep study compare study-example5 --cells 0 1",
     define_study};

@@ -156,7 +156,7 @@ std::function<int()> define_compare(CLI::App& app) {
       "Says whether the cells differ by more than chance, and by how much: B - A is the shift\n"
       "of Hodges and Lehmann. Its 95 % interval are the shifts that the test does not reject,\n"
       "so it leaves out 0 when p is below 0.05. Of up to 40 pairs of a paired study both are\n"
-      "exact, with ties too. See docs/studies.md.\n"
+      "exact, with ties too. See `lockstep docs studies`.\n"
       "Exit code: 0 compared, 2 usage or a study that cannot be read or is not complete.\n"
       "\n"
       "Example:\n"

@@ -46,7 +46,7 @@ class StudyLoader {
 
  private:
   void error(std::string message, std::string hint = {}) {
-    diagnostics_.error({}, std::move(message), std::move(hint));
+    diagnostics_.error("bad-study"_code, {}, std::move(message), std::move(hint));
   }
   void read_measures();
   void read_shard();

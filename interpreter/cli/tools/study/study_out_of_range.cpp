@@ -17,7 +17,7 @@ void StudyOutOfRangeCount::add_to(Diagnostics& diagnostics) const {
   for (const auto& [path, leaf] : leaves_) {
     const auto& [row, progress] = leaf.first;
     const NodeType& type = *study_.cells[row.cell].tree.labels[progress.node].type;
-    diagnostics.warning({study_.plan.tree_file},
+    diagnostics.warning("bad-progress"_code, {study_.plan.tree_file},
                         fmt::format("the leaf '{}' ({} of plugin '{}') {}", path, type.id,
                                     type.plugin, out_of_range_text(progress.reported)),
                         fmt::format("first in run {} of cell {}; in {} in all", row.run, row.cell,

@@ -163,7 +163,7 @@ class TestCommand {
     }
     if (names.empty()) {
       print_error("there are no scenarios",
-                  "write NAME.test.xml beside a tree; docs/testing.md has an example");
+                  "write NAME.test.xml beside a tree; `lockstep docs testing` has an example");
     } else {
       print_error("no scenario is chosen by --filter",
                   options_.filters.size() == 1 ? suggest(options_.filters[0], names, "there are")
@@ -286,7 +286,7 @@ extern const Command kTestCommand{
     "  lockstep test\n"
     "  lockstep test trees --junit results.xml\n"
     "  lockstep test trees --coverage --fail-under 90\n"
-    "  lockstep test trees/door_pulling.test.xml --filter 'the arm slips'",
+    "  lockstep test tree.test.xml --filter 'the arm slips'",
     define_test};
 
 }  // namespace lockstep::host

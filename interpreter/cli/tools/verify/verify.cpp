@@ -13,6 +13,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
+#include "cli/load/tree_argument.h"
 #include "cli/properties.h"
 #include "cli/tools/verify/save_scenarios.h"
 #include "cli/tools/verify/verify_report.h"
@@ -87,7 +88,8 @@ class Places {
   std::string text(NodeIndex node) const { return to_text(sources_.locate(places_[node])); }
   void report(const std::vector<NodeProblem>& problems, Diagnostics& diagnostics) const {
     const Reporter reporter(sources_, diagnostics);
-    for (const NodeProblem& it : problems) reporter.at(places_[it.node], it.message, it.hint);
+    for (const NodeProblem& it : problems)
+      reporter.at("bad-leaf-model"_code, places_[it.node], it.message, it.hint);
   }
 
  private:
@@ -102,7 +104,7 @@ std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path,
   constexpr std::size_t kMost = std::size_t{16} << 20u;
   auto text = read_file(path, kMost, FileKinds::RegularOrPipe);
   if (!text) {
-    diagnostics.error({path}, text.error().message, text.error().hint);
+    diagnostics.error("unreadable-file"_code, {path}, text.error().message, text.error().hint);
     return std::nullopt;
   }
   auto file = read_leaf_file(path, std::move(*text), diagnostics);
@@ -142,11 +144,11 @@ class VerifyCommand {
   tl::expected<Loaded, LoadFailure> load() {
     auto loaded = load_given(options_.tree, options_.load, diagnostics_);
     if (loaded) return loaded;
-    const bool lacks_nodes = std::ranges::any_of(diagnostics_.all(), [](const Diagnostic& it) {
-      return it.message.starts_with("unknown node ");
-    });
+    const bool lacks_nodes = std::ranges::any_of(
+        diagnostics_.all(), [](const Diagnostic& it) { return it.code.text() == "unknown-node"; });
     if (lacks_nodes && !options_.load.mock) {
-      diagnostics_.note({}, "verify --mock takes nodes that no plugin has for leaves");
+      diagnostics_.note("mocked-node"_code, {},
+                        "verify --mock takes nodes that no plugin has for leaves");
     }
     print_diagnostics(diagnostics_, Severity::Note);
     code_ = exit_code_of(loaded.error());
@@ -288,7 +290,7 @@ int verify(const VerifyOptions& options) {
 
 std::function<int()> define_verify(CLI::App& app) {
   const auto options = std::make_shared<VerifyOptions>();
-  app.add_option("tree", options->tree, "Tree file; - is stdin")->type_name("TREE.xml")->required();
+  add_tree_argument(app, options->tree, "Tree file; - is stdin");
   app.add_option("--leaves", options->leaves,
                  "What the leaves may do (default: all that their contract allows)")
       ->type_name("FILE");
@@ -357,7 +359,7 @@ extern const Command kVerifyCommand{
     "128 + N signal N, likewise.\n"
     "\n"
     "Examples:\n"
-    "  lockstep verify trees/door_pulling.xml\n"
+    "  lockstep verify --example door_pulling\n"
     "  lockstep verify tree.xml --leaves tree.leaves.xml --out findings\n"
     "  lockstep run tree.xml --leaves findings/tree.trap.leaves --clock virtual",
     define_verify};

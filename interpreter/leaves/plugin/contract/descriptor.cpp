@@ -22,7 +22,7 @@ std::optional<Problem> check_handshake(const lockstep_plugin& entry, std::size_t
   if (exported_size != 0 && exported_size < kHandshakeSize) {
     return Problem{
         fmt::format("exports a constant of {} bytes, expected a lockstep_plugin", exported_size),
-        "define lockstep_plugin_entry as in docs/plugins.md"};
+        "define lockstep_plugin_entry as in `lockstep docs plugins`"};
   }
   if (entry.abi_major != LOCKSTEP_ABI_MAJOR) {
     return Problem{

@@ -46,7 +46,7 @@ bool is_cut_off(std::ifstream& file, const Header& header, std::uintmax_t size) 
 
 Problem not_a_shared_object(const char* what) {
   return {fmt::format("is not a shared object: {}", what),
-          "build it as a MODULE or SHARED library (docs/plugins.md)"};
+          "build it as a MODULE or SHARED library (`lockstep docs plugins`)"};
 }
 
 std::optional<Problem> inspect_header(std::ifstream& file, std::uintmax_t size) {

@@ -82,7 +82,7 @@ Result<ExportedConstant> find_constant(const SharedObject& object, const char* s
   ExportedConstant found{.address = dlsym(object.handle, symbol)};
   if (found.address == nullptr) {
     return problem(fmt::format("does not export '{}'", symbol),
-                   "is it a lockstep plugin? docs/plugins.md shows how one is built");
+                   "is it a lockstep plugin? `lockstep docs plugins` shows how one is built");
   }
   Dl_info info{};
   void* extra = nullptr;

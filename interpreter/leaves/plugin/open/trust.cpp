@@ -20,7 +20,7 @@ void warn_of(const std::string& path, std::string_view what, const SourceLocatio
              Diagnostics& diagnostics) {
   if (!is_world_writable(path)) return;
   diagnostics.warning(
-      where,
+      "writable-by-all"_code, where,
       fmt::format("everyone may write to the {} '{}' and so control this program", what, path),
       fmt::format("chmod o-w '{}'", path));
 }

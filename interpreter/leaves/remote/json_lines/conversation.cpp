@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "base/core/diagnostics.h"
+#include "base/core/shell_word.h"
 #include "base/core/wording.h"
 #include "leaves/plugin/contract/host.h"
+#include "leaves/remote/json_lines/guardian.h"
 
 namespace lockstep::host {
 namespace {
@@ -19,6 +22,13 @@ constexpr Nanoseconds kToFlush = std::chrono::milliseconds(1);
 
 std::string shown(std::string_view line) {
   return fmt::format("'{}'", brief(printable(line)));
+}
+
+std::string command_by_hand(const std::string& path, const std::string& leafhost) {
+  const std::string command = shell_word(path.find('/') == std::string::npos ? "./" + path : path);
+  if (!path.ends_with(".py")) return command;
+  const std::filesystem::path directory = std::filesystem::path(leafhost).parent_path();
+  return fmt::format("PYTHONPATH={} {}", shell_word(python_modules(directory).string()), command);
 }
 
 }  // namespace
@@ -33,6 +43,7 @@ std::optional<Nanoseconds> Conversation::hang_limit() const {
 }
 
 Result<std::string> Conversation::start(const std::string& path) {
+  by_hand_ = command_by_hand(path, options_.leafhost);
   if (auto failure = process_.start(options_.leafhost, path); !failure.empty()) {
     return problem(fmt::format("does not start: {}", failure),
                    "a program is executable, and a script begins with #! and its interpreter");
@@ -72,7 +83,7 @@ Result<std::string> Conversation::next_line(std::string_view what) {
       const auto death = process_.await_end(kToDie);
       return problem(death ? fmt::format("{} before it {}", *death, what)
                            : fmt::format("closed its output before it {}", what),
-                     "run it by hand to see what it prints");
+                     "run it by hand to see what it prints: " + by_hand_);
     }
   }
   return line_;

@@ -137,6 +137,7 @@ class Conversation {
 
   const IsolationOptions& options_;
   ProgramProcess process_;
+  std::string by_hand_;  // the command that starts it without lockstep
   bool is_listened_ = false;
   JsonReader reader_;  // these: of the thread that reads
   std::string line_;

@@ -41,16 +41,27 @@ void report(GuardianReport::What what, int number, int status = 0) {
   _exit(written == sizeof error ? 127 : 126);
 }
 
+}  // namespace
+
+std::filesystem::path python_modules(const std::filesystem::path& leafhost_directory) {
+  std::error_code error;
+  auto modules = leafhost_directory / "python";  // in a build directory
+  if (!std::filesystem::is_directory(modules, error)) {
+    modules = leafhost_directory / LOCKSTEP_PYTHON_FROM_LEAFHOST;
+  }
+  return modules.lexically_normal();
+}
+
+namespace {
+
 // So that a program in Python finds lockstep_leaf.py, behind all that its user has.
 void help_python() {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  fs::path modules = here / "python";  // in a build directory
-  if (!fs::is_directory(modules, error)) modules = here / LOCKSTEP_PYTHON_FROM_LEAFHOST;
   const char* const given = std::getenv("PYTHONPATH");
   const std::string before = given == nullptr || *given == '\0' ? "" : std::string(given) + ":";
-  setenv("PYTHONPATH", (before + modules.lexically_normal().string()).c_str(), 1);
+  setenv("PYTHONPATH", (before + python_modules(here).string()).c_str(), 1);
 }
 
 // The process, or nothing after a report why there is none.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace lockstep::host {
@@ -29,6 +30,9 @@ struct GuardianReport {
 struct GuardianOrder {
   std::int64_t nanoseconds;  // < 0: never
 };
+
+// Where lockstep_leaf.py is.
+std::filesystem::path python_modules(const std::filesystem::path& leafhost_directory);
 
 // The body of the guardian's process; returns its exit code. `is_guardian`: it was started by a
 // host.

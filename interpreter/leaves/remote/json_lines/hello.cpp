@@ -12,7 +12,8 @@
 namespace lockstep::host {
 namespace {
 
-constexpr const char* kHint = "docs/programs.md has what the first line of a program must be";
+constexpr const char* kHint =
+    "`lockstep docs programs` has what the first line of a program must be";
 
 }  // namespace
 

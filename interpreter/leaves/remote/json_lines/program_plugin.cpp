@@ -57,7 +57,7 @@ tl::expected<const lockstep_leaf_type*, ElementRefusal> ProgramPlugin::describe(
   } catch (const JsonError& error) {
     return tl::unexpected(
         undescribed(id, {fmt::format("answers describe wrongly: {}", error.what()),
-                         "docs/programs.md has the answers to describe"}));
+                         "`lockstep docs programs` has the answers to describe"}));
   }
 }
 

@@ -1,0 +1,41 @@
+#include "cli/load/tree_argument.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
+#include "cli/installed.h"
+
+namespace lockstep::host {
+namespace {
+
+std::string check_example(std::string& name) {
+  const std::vector<std::string> names = example_names();
+  if (std::ranges::find(names, name) != names.end()) return "";
+  if (names.empty()) return "the example trees are not installed";
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  return fmt::format("'{}' is not an example; {}", brief(name), suggest(name, known, "examples"));
+}
+
+}  // namespace
+
+CLI::Option* add_tree_argument(CLI::App& app, std::string& tree, const char* description) {
+  CLI::Option* const file =
+      app.add_option("tree", tree, description)->type_name("TREE.xml")->required();
+  app.add_option_function<std::string>(
+         "--example",
+         [&tree, file](const std::string& name) {
+           file->required(false);
+           tree = example_file(name).string();
+         },
+         "Use this example tree instead of a file; `lockstep examples` lists them")
+      ->type_name("NAME")
+      ->check(CLI::Validator(check_example, ""))
+      ->excludes(file);
+  return file;
+}
+
+}  // namespace lockstep::host
