@@ -53,7 +53,7 @@ std::string about_text() {
   };
   line("parts", parts());
   line("plugin contract", fmt::format("{}.{}", LOCKSTEP_ABI_MAJOR, LOCKSTEP_ABI_MINOR));
-  line("law", fmt::format("{}", kLawVersion));
+  line("semantics", fmt::format("{}", kLawVersion));
   line("recordings", fmt::format("{}", kRecordingVersion));
   line("compiler", compiler());
   line("system", fmt::format("{} {} {}", system.sysname, system.release, system.machine));

@@ -135,7 +135,7 @@ int check(const CheckOptions& options) {
   for (const std::string& tree : options.trees) {
     Diagnostics diagnostics;
     if (const std::string other = other_command(tree); !other.empty()) {
-      diagnostics.note("wrong-root"_code, {tree}, "is no tree file", other + " reads it");
+      diagnostics.note("wrong-root"_code, {tree}, "is not a tree file", other + " reads it");
       print_diagnostics(diagnostics, Severity::Note);
       continue;
     }

@@ -77,7 +77,7 @@ std::string lost_messages(std::chrono::nanoseconds patience) {
   if (lost.lines == 0) return {};
   return fmt::format("{} {} of stderr {} lost: {}", lost.lines, lost.lines == 1 ? "line" : "lines",
                      lost.lines == 1 ? "is" : "are",
-                     lost.reason == 0 ? "nobody read them" : std::strerror(lost.reason));
+                     lost.reason == 0 ? "no process read them" : std::strerror(lost.reason));
 }
 
 void keep_stdout_for_results() {

@@ -9,10 +9,12 @@
 namespace lockstep::host {
 
 std::span<const NodeGroup> node_groups() {
-  static constexpr NodeGroup kGroups[] = {
-      {NodeCategory::Control, "Control nodes"}, {NodeCategory::Decorator, "Decorators"},
-      {NodeCategory::SubTree, "Subtrees"},      {NodeCategory::Action, "Actions"},
-      {NodeCategory::Condition, "Conditions"},  {NodeCategory::Group, "Beside the trees, in root"}};
+  static constexpr NodeGroup kGroups[] = {{NodeCategory::Control, "Control nodes"},
+                                          {NodeCategory::Decorator, "Decorators"},
+                                          {NodeCategory::SubTree, "Subtrees"},
+                                          {NodeCategory::Action, "Actions"},
+                                          {NodeCategory::Condition, "Conditions"},
+                                          {NodeCategory::Group, "Outside the trees, in root"}};
   return kGroups;
 }
 
@@ -28,10 +30,11 @@ std::span<const CommonAttribute> common_attributes() {
 std::span<const CommonAttribute> script_attributes() {
   static constexpr CommonAttribute kScripts[] = {
       {"failure_if",
-       "A script that is asked when an activation begins. True: a Failure, without a tick."},
+       "A script that is evaluated when an activation begins. True: a Failure, without a tick."},
       {"success_if", "The same; true: a Success."},
       {"skip_if", "The same; true: skipped, as if the node were not there in this tick."},
-      {"while", "A script that is asked before each tick. False: the node is halted and skipped."},
+      {"while",
+       "A script that is evaluated before each tick. False: the node is halted and skipped."},
       {"on_success", "A script that runs when the node has succeeded."},
       {"on_failure", "A script that runs when it has failed."},
       {"on_end", "A script that runs when it has succeeded or failed, after those."},

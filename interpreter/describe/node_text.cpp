@@ -105,7 +105,8 @@ std::string node_as_text(const NodeType& type) {
     text += "\n  It works in real time: on the virtual clock no tick waits for it.\n";
   }
   const std::string behavior = behavior_text(type);
-  if (!behavior.empty()) text += "\n" + wrapped("As its plugin says, for verify: " + behavior, 2);
+  if (!behavior.empty())
+    text += "\n" + wrapped("As its plugin declares, for verify: " + behavior, 2);
   const auto parameters = rows(type);
   return parameters.empty() ? text : text + "\n" + table(parameters, 2);
 }

@@ -48,7 +48,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
   </xs:simpleType>
 
   <xs:group name="nothing">
-    <xs:annotation><xs:documentation>No elements, but blanks and comments.</xs:documentation></xs:annotation>
+    <xs:annotation><xs:documentation>No elements, but whitespace and comments.</xs:documentation></xs:annotation>
     <xs:sequence><xs:element ref="_nothing" minOccurs="0"/></xs:sequence>
   </xs:group>
   <xs:element name="_nothing" abstract="true"/>
@@ -108,7 +108,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
           <xs:complexType><xs:group ref="nothing"/><xs:attribute name="path" type="word" use="required"/></xs:complexType>
         </xs:element>
         <xs:element name="property">
-          <xs:annotation><xs:documentation>What each run of the main tree is to satisfy, as text: never arm.failure. `lockstep run` checks it.</xs:documentation></xs:annotation>
+          <xs:annotation><xs:documentation>A property that each run of the main tree must satisfy, as text: never arm.failure. `lockstep run` checks it.</xs:documentation></xs:annotation>
           <xs:complexType>
             <xs:simpleContent>
               <xs:extension base="xs:string">
@@ -121,7 +121,7 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
           </xs:complexType>
         </xs:element>
         <xs:element name="scenario">
-          <xs:annotation><xs:documentation>What is to come of the tree when its leaves do this: `lockstep test` plays it. schema/scenarios.xsd has its words.</xs:documentation></xs:annotation>
+          <xs:annotation><xs:documentation>The expected results when the leaves of the tree do this: `lockstep test` plays it. schema/scenarios.xsd defines the elements.</xs:documentation></xs:annotation>
           <xs:complexType mixed="true">
             <xs:sequence><xs:any processContents="skip" minOccurs="0" maxOccurs="unbounded"/></xs:sequence>
             <xs:anyAttribute processContents="skip"/>

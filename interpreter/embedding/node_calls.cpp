@@ -8,8 +8,7 @@ std::optional<Status> NodeCalls::before_tick(NodeIndex node) {
   const Status status = context_.status(node);
   const auto decided = call(node, LOCKSTEP_BEFORE_TICK, status);
   if (!decided || *decided != Status::Running) return decided;
-  context_.set_fault(node,
-                     "who watches it has returned running before its tick, which is no result");
+  context_.set_fault(node, "its watcher returned running before its tick, which is not a result");
   return Status::Failure;
 }
 

@@ -298,7 +298,7 @@ bool lockstep_run_recover(lockstep_run* run) {
     if (!run->run.recover()) return fail(fault_text(*run, fault));
     if (!fault.message.empty()) {
       run->leaf_log()(tree_of(*run).path(fault.node), LOCKSTEP_LOG_WARNING,
-                      fault.message + "; the run goes on");
+                      fault.message + "; the run continues");
     }
     Ticker& ticker = run->run.ticker();
     run->warnings.tell(ticker, ticker.take_tolerated(), ticker.tick_number());

@@ -99,8 +99,9 @@ void GrootPublisher::watch_hooks() {
   hooks.set_absent(is_absent);
   const auto node = is_absent ? hooks.paused_at() : std::nullopt;
   if (!node) return;
-  print_(fmt::format("warning: --groot2: the run is paused at '{}', and nobody has asked for {} s",
-                     shape_.nodes[*node].path, kAbsent.count()));
+  print_(fmt::format(
+      "warning: --groot2: the run is paused at '{}', and no program has connected for {} s",
+      shape_.nodes[*node].path, kAbsent.count()));
 }
 
 }  // namespace lockstep::host

@@ -30,7 +30,7 @@ class Reader {
     const Element& root = document_.elements()[0];
     if (root.tag != "leaves") {
       report_.at("wrong-root"_code, root.place,
-                 fmt::format("'{}' is no leaf file", brief(root.tag)),
+                 fmt::format("'{}' is no leaf model", brief(root.tag)),
                  "it begins with <leaves lockstep=\"1\">");
       return false;
     }
@@ -137,7 +137,7 @@ class Reader {
       row.sets.push_back({std::string(part.substr(0, sign)), std::string(to), it.place});
     } else {
       report_.at_value("bad-leaf-model"_code, it.place,
-                       fmt::format("'{}' does not say what becomes of a fact", brief(part)),
+                       fmt::format("'{}' does not set a fact", brief(part)),
                        "write charged=true, or charged=true;seen=false");
     }
   }

@@ -17,7 +17,7 @@ struct Word {
 };
 
 inline constexpr Word kRoot[] = {
-    {"lockstep", "1", "The version of the leaf file.", true},
+    {"lockstep", "1", "The version of the leaf model.", true},
     {"rate", R"([0-9]*\.?[0-9]+)", "Ticks per second."},
 };
 inline constexpr Word kFact[] = {
@@ -32,13 +32,13 @@ inline constexpr Word kLeaf[] = {
     {"result", "(success|failure|skipped|fault)(;(success|failure|skipped|fault))*",
      "The results that may come."},
     {"ticks", R"([0-9]+(\.\.([0-9]+|inf))?)",
-     "Ticks that an activation gets until it completes; 1..inf when nothing is said."},
+     "Ticks that an activation gets until it completes; 1..inf when absent."},
     {"ends", "yes|no",
      "yes: an activation that is ticked again and again ends some time, which is assumed; no: it "
-     "may run for ever."},
+     "may run indefinitely."},
     {"progress", "none|cuts|grid:[1-9][0-9]*",
-     "What is told apart: cuts (what the barriers and properties compare it with) or parts of the "
-     "same size."},
+     "Which values are distinguished: cuts (what the barriers and properties compare it with) or "
+     "parts of the same size."},
     {"step", R"(-?[0-9]+(\.\.(-?[0-9]+|inf))?)",
      "How far a tick may take the progress, in cuts or parts."},
     {"finish", "full|any", "full: it succeeds only by reaching 1."},
@@ -47,8 +47,7 @@ inline constexpr Word kLeaf[] = {
     {"fact", "[A-Za-z_][A-Za-z0-9_]*", "Its result is this fact."},
     {"sets", "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
      "Facts that its success makes true or false."},
-    {"writes", "success|start|tick",
-     "When it writes its outputs; on success when nothing is said."},
+    {"writes", "success|start|tick", "When it writes its outputs; on success when absent."},
 };
 // A leaf also has "out.PORT".
 inline constexpr std::string_view kOutput = kOutputWord;
@@ -57,8 +56,8 @@ inline constexpr Word kAccept[] = {
     {"because", "", "Why it is as it should be.", true},
 };
 inline constexpr Word kTree[] = {
-    {"ends", "yes|no", "no: the tree is to run for ever, so that it does not end is no finding.",
-     true},
+    {"ends", "yes|no",
+     "no: the tree is meant to run indefinitely, so a run without an end is not a finding.", true},
 };
 
 struct Tag {

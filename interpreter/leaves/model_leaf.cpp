@@ -258,7 +258,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   if (may_fault && choice-- == 0) {
     mark.faulted = mark.ended = true;
     mark.result = Status::Failure;
-    slots_[leaf].error = "fails as a program, which the leaf file allows";
+    slots_[leaf].error = "fails as a program, which the leaf model allows";
     return Status::Idle;  // no loop of leaves goes on after it, so the error is seen
   }
   set_level(leaf, reach.first + static_cast<std::int32_t>(choice));

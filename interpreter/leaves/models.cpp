@@ -139,7 +139,7 @@ class ModelMaker {
       const auto leaf = std::ranges::find(
           tree_.leaves, id, [](const LeafNode& it) { return std::string_view(it.type->id); });
       models_.declared.push_back(
-          fmt::format("{} does as plugin '{}' says:{}", id, leaf->type->plugin, line));
+          fmt::format("{} behaves as plugin '{}' declares:{}", id, leaf->type->plugin, line));
     }
   }
 
@@ -294,12 +294,11 @@ class ModelMaker {
         }
         problems_.push_back(
             {model.node,
-             fmt::format(
-                 "'{}' writes the entry '{}', which the tree or a property reads, and nothing says "
-                 "which values",
-                 type.id, tree_.slots[slot].name),
-             fmt::format("say them in the leaf file: <leaf of=\"{}\" out.{}=\"…|…\"/>", type.id,
-                         type.parameters[port].name)});
+             fmt::format("'{}' writes the entry '{}', which the tree or a property reads, and "
+                         "nothing declares which values",
+                         type.id, tree_.slots[slot].name),
+             fmt::format("declare them in the leaf model: <leaf of=\"{}\" out.{}=\"…|…\"/>",
+                         type.id, type.parameters[port].name)});
       }
       std::erase_if(model.outputs, [&](const auto& it) { return !matters[it.slot]; });
     }
@@ -439,7 +438,7 @@ class ModelMaker {
            fmt::format("its plugin declares progress in parts of 1/{}, of which the delta {} is no "
                        "multiple",
                        way.parts, delta),
-           fmt::format("say in the leaf file: progress=\"grid:{}\"", parts_for(deltas))});
+           fmt::format("write in the leaf model: progress=\"grid:{}\"", parts_for(deltas))});
     }
   }
 

@@ -118,9 +118,8 @@ constexpr Field kHeaderFields[] = {
      &RecordingHeader::file},
     {"version", "Text", kAlways, "the version of lockstep", &RecordingHeader::version},
     {"law", "Whole", kMaybe,
-     "the [version of the law](nodes-and-attributes.md#versions-of-the-semantics) that the run "
-     "followed; 1 when it "
-     "is absent",
+     "the [version of the semantics](nodes-and-attributes.md#versions-of-the-semantics) that the "
+     "run followed; 1 when it is absent",
      &RecordingHeader::law},
     {"rate_hz", "Real", kAlways, "ticks per second", &RecordingHeader::rate_hz},
     {"clock", "Clock", kAlways, "`wall` or `virtual`", &RecordingHeader::clock},
@@ -129,11 +128,11 @@ constexpr Field kHeaderFields[] = {
      &RecordingHeader::arguments},
     {"values", "Texts", kMaybe,
      "only if there are any: the start values of blackboard entries that the run was given, as "
-     "strings; by `--set`, say",
+     "strings, such as by `--set`",
      &RecordingHeader::values},
     {"nodes", "HeaderNode[]", kAlways,
-     "every node in pre-order, and behind the nodes of the tree what stands beside it: barriers "
-     "and pools of resources",
+     "every node in pre-order, and behind the nodes of the tree what is outside the trees: "
+     "barriers and pools of resources",
      &RecordingHeader::nodes},
     {"entries", "HeaderEntry[]", kMaybe,
      "only if there are any: the blackboard entries in the recording. `--record-entries` chooses "
@@ -155,15 +154,16 @@ constexpr Field kHeaderNodeFields[] = {
     {"kind", "Text", kAlways, "its tag"},
     {"name", "Text", kAlways, "its name"},
     {"parent", "Index | null", kAlways,
-     "an index; `null` for the root and for what stands beside the tree"},
+     "an index; `null` for the root and for what is outside the trees"},
     {"barriers", "Progress[] | null", kMaybe,
-     "of a ParallelAbsolute and of a barrier beside the tree; `null` if the value is a blackboard "
-     "entry"},
-    {"delta", "Progress | null", kMaybe, "of a ParallelRelative, and likewise"},
+     "of a ParallelAbsolute and of a barrier outside the trees; `null` if the value is a "
+     "blackboard entry"},
+    {"delta", "Progress | null", kMaybe,
+     "of a ParallelRelative; `null` if the value is a blackboard entry"},
     {"idle", "IdleMembers", kMaybe, "`ignore` for a barrier that leaves out idle members"},
     {"resources", "Text[]", kMaybe, "of a pool of resources: their names"},
     {"members", "Index[]", kMaybe,
-     "of what stands beside the tree: the nodes that the SyncProgress nodes of a barrier hold, or "
+     "of what is outside the trees: the nodes that the SyncProgress nodes of a barrier hold, or "
      "the children of the UseResources nodes of a pool"},
     {"guard", "Yes", kMaybe,
      "for a child of a parallel, and for the child of a SyncProgress, that contains no action: it "
@@ -216,17 +216,15 @@ constexpr Field kTickFields[] = {
      "happened to it after the `moments`"},
     {"faults", "Fault[]", kMaybe,
      "only if there are any: {} for each fault of a leaf that counted as its Failure, so that the "
-     "run went on. A message has "
-     "at most 4096 bytes"},
+     "run continued. A message has at most 4096 bytes"},
     {"entries", "EntryValue[]", kMaybe,
      "only if there are any: {} for each entry whose value differs from the line before; the value "
      "is text, as in a tree. "
      "`null`: a value longer than 256 bytes was written"},
     {"logs", "LogLine[]", kMaybe,
      "only if there are any: {} for each line that a leaf logged since the line before: the path "
-     "of the leaf or the name of "
-     "its plugin (of a standstill that is reported or ended in this tick: the path of the node; of "
-     "a property that the tick violates: `property` and its name), "
+     "of the leaf or the name of its plugin (of a stall that is reported or ended in this tick: "
+     "the path of the node; of a property that the tick violates: `property` and its name), "
      "`debug`, `info` or `warning`, the text. At most 64 KiB for each tick; the closing `notes` "
      "count the rest. `--log-level` has no effect"},
     {"whole", "EntryValue[]", kMaybe,
@@ -270,8 +268,8 @@ constexpr Field kEndFields[] = {
     {"signal", "Whole", kMaybe, "only after a signal: its number", &RecordedEnd::signal},
     {"ticks", "Whole", kAlways, "how many ticks there were", &RecordedEnd::ticks},
     {"time_s", "Seconds", kAlways,
-     "how long they took. On the virtual clock the last one, too, lasts until the next would "
-     "begin: ticks / rate",
+     "how long they took. On the virtual clock the last one also lasts until the next would begin: "
+     "ticks / rate",
      &RecordedEnd::time},
     {"overruns", "Whole", kAlways, "ticks that ended too late", &RecordedEnd::overruns},
     {"skipped", "Whole", kAlways, "the deadlines that were skipped because of them",
@@ -296,7 +294,7 @@ constexpr Field kLostLineFields[] = {
 constexpr Object kLostLine{"LostLine", kLostLineFields};
 constexpr Field kContinuedLineFields[] = {
     {"continued", "Continued", kAlways,
-     "the last line of a [part](#parts): the run goes on in the next one"},
+     "the last line of a [part](#parts): the run continues in the next one"},
 };
 constexpr Object kContinuedLine{"ContinuedLine", kContinuedLineFields};
 constexpr Field kEndLineFields[] = {

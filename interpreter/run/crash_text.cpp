@@ -138,7 +138,7 @@ void put_event(const Crash& crash, SignalText& text) {
 
 void put_hints(const Crash& crash, SignalText& text) {
   if (crash.kind == CrashKind::Fork) {
-    text << "  hint: a child must call exec or _exit; the run goes on without it\n";
+    text << "  hint: a child must call exec or _exit; the run continues without it\n";
     return;
   }
   if (crash.run.number != CallMark::kNoRun) {

@@ -100,9 +100,11 @@ Status Run::tick_again_if_asked(Status status, bool exactly_once) {
     if (node && exactly_once && !exactly_once_) wake_up_.wake();  // for who waits after this tick
     if (!node || exactly_once || status != Status::Running || ticker_.faulted()) return status;
     if (count == kMostTicksAtOnce) {
-      ticker_.set_fault(*node, fmt::format("asked for another tick {} times in one period: what it "
-                                           "repeats completes at once",
-                                           count));
+      ticker_.set_fault(
+          *node,
+          fmt::format(
+              "requested another tick {} times in one period: what it repeats completes at once",
+              count));
       return status;
     }
     status = ticker_.tick_root_again();

@@ -67,7 +67,7 @@ std::string to_page(std::span<const CoveredTree> trees) {
         fmt::format("<h2>{}: {:.1f} %</h2>\n<p>{} of {}{}.</p>\n<table><tr><th>node</th>",
                     xsd_escaped(tree.file), percent(std::span(&tree, 1)), tree.shown(), tree.all(),
                     tree.is_proved ? ", of what verify proves possible"
-                                   : ", of what is usual: verify cannot tell");
+                                   : ", of what is usual: verify cannot determine it");
     for (const std::string_view it : kAspects) text += fmt::format("<th class=\"a\">{}</th>", it);
     text += "<th>barriers</th><th></th></tr>\n";
     for (const CoveredNode& node : tree.nodes) text += page_row(node);

@@ -29,7 +29,7 @@ std::string rest_text(const CoveredTree& tree) {
   return fmt::format("{:.1f} % ({} of {}){}", percent(std::span(&tree, 1)), tree.shown(),
                      tree.all(),
                      tree.is_proved ? ", of what verify proves possible"
-                                    : ", of what is usual: verify cannot tell");
+                                    : ", of what is usual: verify cannot determine it");
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ void ExpectationReader::read(std::uint32_t element, Scenario& into) const {
   }
   if (kinds.size() != 1) {
     report_.at("bad-scenario"_code, place,
-               expect ? "an expectation says one thing" : "the expectation says nothing",
+               expect ? "an expectation has one condition" : "the expectation has no condition",
                "write result (with ticks, time), order, same-as, a property or a measure as text, "
                "or path with in.PORT");
     return;

@@ -64,9 +64,9 @@ class Auditor {
     const double moved = state.progress - leaf.progress;
     if (leaf.was_held && !model.drifts() && std::abs(moved) > kProgressEpsilon && leaf.ticks > 0) {
       add(tick, leaf,
-          fmt::format("moved from {:g} to {:g} while it was held, the leaf file says "
-                      "held=\"still\"",
-                      leaf.progress, state.progress));
+          fmt::format(
+              "moved from {:g} to {:g} while it was held, the leaf model has held=\"still\"",
+              leaf.progress, state.progress));
     }
     leaf.progress = state.progress;
     leaf.was_held = state.held;
@@ -84,18 +84,18 @@ class Auditor {
     const bool has_result = has_ended(status);
     if (has_result && !may_have(model.results, status)) {
       add(tick, leaf,
-          fmt::format("had the result {}, which the leaf file does not allow", to_string(status)));
+          fmt::format("had the result {}, which the leaf model does not allow", to_string(status)));
     }
     const bool is_early = has_result && leaf.ticks < model.least_ticks;
     const bool is_late = model.most_ticks != 0 && leaf.ticks == model.most_ticks + 1;
     if (is_early) {
       add(tick, leaf,
-          fmt::format("took {}, the leaf file says {}",
+          fmt::format("took {}, the leaf model allows {}",
                       counted(static_cast<std::uint64_t>(leaf.ticks), "tick"),
                       allowed_ticks(model)));
     } else if (is_late) {
       add(tick, leaf,
-          fmt::format("takes more than {}, the leaf file says {}",
+          fmt::format("takes more than {}, the leaf model allows {}",
                       counted(static_cast<std::uint64_t>(model.most_ticks), "tick"),
                       allowed_ticks(model)));
     }

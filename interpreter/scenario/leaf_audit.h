@@ -13,7 +13,7 @@ namespace lockstep::host {
 struct LeafBreach {
   std::string path;
   std::uint64_t tick = 0;
-  std::string message;  // "took 7 ticks, the leaf file says 2 to 5"
+  std::string message;  // "took 7 ticks, the leaf model says 2 to 5"
 };
 
 // Reads to the end; then check reader.error(). At most `most` of each leaf.

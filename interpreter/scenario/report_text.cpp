@@ -77,7 +77,7 @@ std::string to_text(const ScenarioReport& report, std::size_t width, bool color,
   if (has_failed || it.outcome == ScenarioOutcome::Passed) text += "  " + what_came(it);
   const std::string errors = render_errors(report.errors, color);
   const bool is_told = !errors.empty() && errors == render_errors(told, color);
-  if (is_told) text += "  likewise";
+  if (is_told) text += "  the same";
   while (text.ends_with(' ')) text.pop_back();
   text += '\n';
   if (!is_told) text += errors;

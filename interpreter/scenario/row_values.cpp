@@ -22,7 +22,7 @@ RowValues::RowValues(Document& document, std::uint32_t scenario, const Reporter&
     rows_.push_back({child});
     if (document.attributes(child).empty()) {
       report_.at("bad-scenario"_code, elements[child].place, "a row without values",
-                 "write <row name=\"value\"/>, and ${name} where it is to be");
+                 "write <row name=\"value\"/>, and ${name} where it is used");
       are_good_ = false;
     }
   }

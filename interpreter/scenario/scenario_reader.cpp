@@ -77,7 +77,7 @@ class Reader {
       if (elements_[child].tag != "scenario") continue;
       report_.at("bad-scenario"_code, elements_[child].place,
                  fmt::format("a file for {} has no scenarios", document_.rules().title),
-                 "put them into a file beside it, NAME.test.xml");
+                 "put them into a file next to it, NAME.test.xml");
     }
     return true;
   }
@@ -127,7 +127,7 @@ class Reader {
     if (scenario.is_verified && says_one_run) {
       report_.at("bad-scenario"_code, elements_[at].place,
                  "a scenario with verify=\"yes\" is about all behaviors, not about one run",
-                 "say what leaves may do in a leaf file: leaves=\"NAME.leaves.xml\"");
+                 "declare what leaves may do in a leaf model: leaves=\"NAME.leaves.xml\"");
     }
     if (scenario.expectations.empty() && !scenario.is_verified && !says_expect) {
       report_.at("bad-scenario"_code, elements_[at].place, "the scenario expects nothing",

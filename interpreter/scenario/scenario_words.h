@@ -18,21 +18,21 @@ inline constexpr Word kScenarios[] = {
     {"lockstep", "1", "The version of scenarios.", true},
     {"tree", "", "The tree file, from the directory of this file."},
     {"main", "", "The BehaviorTree to run."},
-    {"leaves", "", "A leaf file: leaves without a row do what it allows, by chance."},
-    {"rate", kRate, "Ticks per second; 10 when nothing is said."},
+    {"leaves", "", "A leaf model: leaves without a row do what it allows, by chance."},
+    {"rate", kRate, "Ticks per second; 10 when absent."},
 };
 inline constexpr Word kScenario[] = {
     {"name", "", "What it is about, in a few words. No other in the file has this name.", true},
     {"tree", "", "The tree file, from the directory of this file."},
     {"main", "", "The BehaviorTree to run."},
-    {"leaves", "", "A leaf file: leaves without a row do what it allows, by chance."},
-    {"rate", kRate, "Ticks per second; 10 when nothing is said."},
+    {"leaves", "", "A leaf model: leaves without a row do what it allows, by chance."},
+    {"rate", kRate, "Ticks per second; 10 when absent."},
     {"max-ticks", kCount,
-     "The run ends after so many ticks. When nothing is said, a run that does "
-     "not end within 10000 is a failure."},
+     "The run ends after so many ticks. When absent, a run that does not end within 10000 is a "
+     "failure."},
     {"seed", kCount, "Of the random numbers of the first run; each run after it has the next."},
-    {"runs", kCount, "So many runs, each of which is to be as expected."},
-    {"verify", "yes|no", "yes: all behaviors that the leaf file allows, as `lockstep verify`."},
+    {"runs", kCount, "The number of runs, each of which must be as expected."},
+    {"verify", "yes|no", "yes: all behaviors that the leaf model allows, as `lockstep verify`."},
 };
 inline constexpr Word kArgument[] = {
     {"name", "", "An argument of the tree.", true},
@@ -40,8 +40,8 @@ inline constexpr Word kArgument[] = {
 };
 inline constexpr Word kSet[] = {
     {"key", "", "An entry of the blackboard.", true},
-    {"value", "", "Its value from then on, until somebody writes it.", true, true},
-    {"tick", kCount, "Before this tick, counted from 0; before the first when nothing is said."},
+    {"value", "", "Its value from then on, until it is written.", true, true},
+    {"tick", kCount, "Before this tick, counted from 0; before the first when absent."},
     {"time", kRate, "Before the first tick at this time or after it, in seconds."},
 };
 inline constexpr Word kLate[] = {
@@ -55,8 +55,7 @@ inline constexpr Word kLeaf[] = {
     {"each", "", "The same, from the first word on in each activation."},
     {"result", "success|failure|skipped|fault|running", "How each activation ends."},
     {"ticks", kCount,
-     "After so many ticks that it gets, its progress rising evenly; 1 when nothing "
-     "is said."},
+     "After so many ticks that it gets, its progress rising evenly; 1 when absent."},
     {"seconds", kRate, "After so many seconds of such ticks."},
     {"from", "", "plugin: it is the plugin's; or a recording, in which it does the same."},
 };
@@ -83,8 +82,8 @@ inline constexpr Tag kTags[] = {
     {"substitutions", kSubstitutions,
      "The substitution rules of BehaviorTree.CPP: what leaves do, by name, ID or path."},
     {"expect", kExpect,
-     "What is to come of it. As text: a property, as 'never arm.failure' or 'finally {n} == 3', or "
-     "a measure with its limit, as 'spread < 0.1'."},
+     "What is expected. As text: a property, as 'never arm.failure' or 'finally {n} == 3', or a "
+     "measure with its limit, as 'spread < 0.1'."},
 };
 // An expect may also have "in.PORT".
 inline constexpr std::string_view kInput = "in.";

@@ -44,7 +44,7 @@ std::string make_scenario_xsd() {
   text += choice("scenario");
   for (const auto& word : scenario_words::kScenarios) text += xsd_attribute(word);
   text += "    </xs:complexType>\n  </xs:element>\n  <xs:element name=\"scenario\">\n    " +
-          xsd_documented("A tree, what its leaves do, and what is to come of it.") +
+          xsd_documented("A tree, what its leaves do, and the expected results.") +
           "\n    <xs:complexType>\n";
   text += choice(scenario_words::kRow);
   for (const auto& word : scenario_words::kScenario) text += xsd_attribute(word, kOfRow);

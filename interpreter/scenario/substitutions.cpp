@@ -103,7 +103,7 @@ Result<Substitutions> read_substitutions(const std::string& path) {
   for (const auto& [pattern, id] : rules.rules) {
     const auto node = rules.nodes.find(id);
     if (node == rules.nodes.end()) {
-      found.notes.push_back(fmt::format("'{}' is replaced by '{}', which is no test node",
+      found.notes.push_back(fmt::format("'{}' is replaced by '{}', which is not a test node",
                                         brief(pattern), brief(id)));
       continue;
     }

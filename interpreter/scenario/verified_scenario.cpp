@@ -76,7 +76,7 @@ std::vector<Surprise> verify_scenario(const BoundScenario& bound, const Fixture&
                          fmt::format("not verified: nothing found in the first {}, and there are "
                                      "more states",
                                      counted(found.complete_depth(), "tick")),
-                         {"a lower rate or a leaf file makes them fewer"}});
+                         {"a lower rate or a leaf model makes them fewer"}});
   }
   return surprises;
 }

@@ -59,7 +59,7 @@ bool RowReader::read_header() {
   const std::string header = row_header(plan_);
   if (!read_line(header.size())) return false;
   if (line_ != header) {
-    error_ = fmt::format("'{}' begins with other columns than its study.json says", path_);
+    error_ = fmt::format("'{}' begins with other columns than its study.json lists", path_);
     return false;
   }
   bytes_ = line_.size();

@@ -23,7 +23,7 @@ std::optional<CellTotals> TotalsReader::next() {
   line += '\n';
   bytes_ += line.size();
   if (cells_ == cell_count(plan_)) {
-    error_ = fmt::format("'{}' has more cells than its study.json says", path_);
+    error_ = fmt::format("'{}' has more cells than its study.json lists", path_);
     return std::nullopt;
   }
   auto totals = read_totals_line(std::move(line), plan_, cells_, true);

@@ -11,7 +11,7 @@ std::string out_of_range_text(double reported) {
 }
 
 std::string went_on_text(double from, double to) {
-  return fmt::format("went on while it was held: its progress rose from {:.6g} to {:.6g}", from,
+  return fmt::format("continued while it was held: its progress rose from {:.6g} to {:.6g}", from,
                      to);
 }
 

@@ -131,22 +131,22 @@ class DeadlockText {
     for (const WaitLink& link : chain.links) names.push_back(tree_.labels[link.node].name);
     names.push_back(names.front());
     return {"deadlock"_code, chain.links.front().waiting, Severity::Warning,
-            fmt::format("held nodes may wait for each other in a circle: {}", chained(names)),
-            explained(chain)};
+            fmt::format("held nodes may deadlock: {}", chained(names)), explained(chain)};
   }
 
   Advice idle(const WaitLink& link, NodeIndex decider) const {
     return {"waits-for-idle"_code, link.awaited, Severity::Note,
-            fmt::format("the others at '{}' wait for '{}' for ever if '{}' does not run it",
+            fmt::format("the others at '{}' wait for '{}' indefinitely if '{}' does not run it",
                         name(link.node), name(link.awaited), name(decider)),
             "idle=\"ignore\" waits only for members that run"};
   }
 
   Advice hold(const WaitChain& chain) const {
     const WaitLink& first = chain.links.front();
-    return {"endless-pause"_code, first.waiting, Severity::Note,
-            fmt::format("'{}' may be held by '{}' for ever", name(first.waiting), name(first.node)),
-            explained(chain)};
+    return {
+        "endless-pause"_code, first.waiting, Severity::Note,
+        fmt::format("'{}' may be held by '{}' indefinitely", name(first.waiting), name(first.node)),
+        explained(chain)};
   }
 
   std::string name(NodeIndex node) const { return brief(tree_.labels[node].name); }

@@ -130,7 +130,7 @@ class Certainties {
       return;
     }
     certainties_.push_back({"deadlock"_code, 0, Severity::Warning,
-                            "this tree can never end: whatever its leaves do, it stands still",
+                            "this tree can never end: whatever its leaves do, it deadlocks",
                             std::move(why_it_stands_)});
   }
 

@@ -55,7 +55,7 @@ class PlainRun {
       const auto asks = ticker_.take_request();
       if (!asks) break;
       if (more == Run::kMostTicksAtOnce) {
-        ticker_.set_fault(*asks, "asked for another tick 10,000 times in one period");
+        ticker_.set_fault(*asks, "requested another tick 10,000 times in one period");
       } else {
         status = ticker_.tick_root_again();
       }

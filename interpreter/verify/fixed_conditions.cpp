@@ -19,7 +19,7 @@ constexpr std::size_t kMostConditions = 6;
 struct Decider {
   NodeIndex node;
   Status fixed;
-  std::string how;  // "false for ever: {}"
+  std::string how;  // "always false: {}"
   std::set<std::uint32_t> slots = {};
   std::string fact = {};
   std::vector<std::string> readings = {};
@@ -65,7 +65,7 @@ class FixedConditions {
   static constexpr const char* kOthers = "\n";  // no text of a value
 
   void add_condition(NodeIndex node, const LeafModels& models) {
-    Decider it{node, Status::Failure, "false for ever: {}"};
+    Decider it{node, Status::Failure, "always false: {}"};
     const NodeType& type = *tree_.labels[node].type;
     if (type.leaf != nullptr) {
       const std::uint32_t leaf = tree_.nodes[node].params;
@@ -90,7 +90,7 @@ class FixedConditions {
   void add_hook(const HookedNode& hooked, Hook hook) {
     if (hooked.script(hook) == HookedNode::kNoScript) return;
     Decider it{hooked.node, Status::Skipped,
-               fmt::format("skipped for ever: {{}}, by its {}", attribute_of(hook, *tree_.rules))};
+               fmt::format("always skipped: {{}}, by its {}", attribute_of(hook, *tree_.rules))};
     add_script(hooked.script(hook), it);
     add(std::move(it));
   }

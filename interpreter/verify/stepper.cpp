@@ -202,7 +202,7 @@ Status Stepper::go_round(Status status) {
 }
 
 void Stepper::fault(NodeIndex asks) {
-  ticker_.set_fault(asks, "asked for another tick 10,000 times in one period");
+  ticker_.set_fault(asks, "requested another tick 10,000 times in one period");
 }
 
 const StateBytes& Stepper::fold() {

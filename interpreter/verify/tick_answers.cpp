@@ -115,7 +115,7 @@ std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
 
 std::uint32_t TickAnswers::repeat(std::uint32_t asker) {
   const Digit& digit = digits_[repeats_from_ + repeated_.size() % (at_ - repeats_from_)];
-  if (digit.asker != asker) throw std::logic_error("a round asks for something else");
+  if (digit.asker != asker) throw std::logic_error("a round requests something else");
   repeated_.push_back({asker, digit.value});
   return digit.value;
 }
@@ -169,7 +169,7 @@ std::uint32_t TickAnswers::given(std::uint32_t asker, std::uint32_t count) {
   std::size_t& next = next_given_[asker];
   while (next < given_.size() && given_[next].asker != asker) ++next;
   if (next == given_.size() || given_[next].value >= count) {
-    throw std::logic_error("a tick asks for more than it did before");
+    throw std::logic_error("a tick requests more than it did before");
   }
   return given_[next++].value;
 }

@@ -158,7 +158,9 @@ class VerdictMaker {
       }
     }
     if (ticks == 0) {
-      trap.more.push_back("if it is to run for ever, say so in the leaf file: <tree ends=\"no\"/>");
+      trap.more.push_back(
+          "if it is meant to run indefinitely, declare that in the leaf model: <tree "
+          "ends=\"no\"/>");
     }
     say("can always end", "NO: " + trap.message);
     verdict_.findings.push_back(std::move(trap));
@@ -263,7 +265,7 @@ class VerdictMaker {
     }
     Finding finding{.name = "cycle", .message = {}};
     const std::string round = counted(add_lasso(cycle.front().from, cycle, finding), "tick");
-    finding.message = fmt::format("it may go on for ever: from tick {} on it repeats a cycle of {}",
+    finding.message = fmt::format("it may never end: from tick {} on it repeats a cycle of {}",
                                   *finding.repeats, round);
     finding.more = standstill_of(finding);
     finding.more.push_back(what_happens(finding));
@@ -355,7 +357,7 @@ class VerdictMaker {
       finding.node = child;
       const StateId start = endless->cycle.front().from;
       add_lasso(start, endless->cycle, finding, trail_for(child, endless->child, start));
-      finding.message = fmt::format("{} may be held for ever by '{}'", at(child),
+      finding.message = fmt::format("{} may be held indefinitely by '{}'", at(child),
                                     tree_.labels[held_[i].holder].name);
       finding.more = why_it_stands(finding);
       verdict_.findings.push_back(std::move(finding));
@@ -423,7 +425,7 @@ class VerdictMaker {
       if (!hold) {
         if (models_.tree_ends) say(name, not_known("--time"));
       } else if (!hold->longest) {
-        say(name, hold->for_ever ? "may be held for ever" : "as long as others take");
+        say(name, hold->for_ever ? "may be held indefinitely" : "as long as others take");
       } else {
         say(name, *hold->longest == 0 ? "never"
                                       : fmt::format("at most {}", counted(*hold->longest, "tick")));
@@ -491,7 +493,7 @@ class VerdictMaker {
       }
       const std::size_t round = add_lasso(cycle.front().from, cycle, finding);
       finding.message =
-          fmt::format("property '{}' waits for ever: from tick {} on a cycle of {} repeats", name,
+          fmt::format("property '{}' is never decided: from tick {} on a cycle of {} repeats", name,
                       *finding.repeats, counted(round, "tick"));
     }
     say(fmt::format("property '{}'", name), "NO");
@@ -573,7 +575,7 @@ class VerdictMaker {
       parts.insert(model.parts);
     }
     if (held > 0 && !held_.empty()) {
-      assumed.push_back(fmt::format("held leaves stand still ({})", counted(held, "action")));
+      assumed.push_back(fmt::format("held leaves make no progress ({})", counted(held, "action")));
     }
     if (ends) assumed.push_back("an action that is ticked again and again ends");
     for (const std::uint32_t it : parts) {

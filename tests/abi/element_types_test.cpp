@@ -101,8 +101,8 @@ TEST_CASE("an element that its plugin refuses is an error at the text to blame")
   }
   for (const Link& link : {kLinks[0], kLinks[1], kLinks[4]}) {
     CHECK(Shapes(R"(<Shape kind="nameless"/>)", link).errors() ==
-          Strings{"2:1: 'Shape' cannot be described, and gives no reason | ask the author of the "
-                  "plugin what it needs"});
+          Strings{"2:1: 'Shape' cannot be described, and gives no reason | the author of the "
+                  "plugin knows what it needs"});
   }
 }
 

@@ -31,17 +31,17 @@ std::string in(const std::string& node, const std::string& leaves) {
 TEST_CASE("a leaf that may be held is asked what its robot does then") {
   const std::string undecided = "<Probe name=\"a\"/>\n<Sequence><Probe name=\"b\"/></Sequence>";
   CHECK(advice(in("ParallelAbsolute barriers=\"0.5\"", undecided)) ==
-        Strings{"1: 'a' may be held by 'ParallelAbsolute', and does not say what the robot does "
-                "then | give hold; `lockstep nodes Probe` has the ways",
-                "2: 'b' may be held by 'ParallelAbsolute', and does not say what the robot does "
-                "then | give hold; `lockstep nodes Probe` has the ways"});
+        Strings{"1: 'a' may be held by 'ParallelAbsolute', and does not declare what the robot "
+                "does then | give hold; `lockstep nodes Probe` has the ways",
+                "2: 'b' may be held by 'ParallelAbsolute', and does not declare what the robot "
+                "does then | give hold; `lockstep nodes Probe` has the ways"});
   CHECK(advice(in("Parallel", undecided)).empty());
 }
 
 TEST_CASE("a robot that goes on is named, one that is held is not") {
   const std::string decided = "<Probe name=\"a\" hold=\"nothing\"/><Probe hold=\"cancel\"/>";
   CHECK(advice(in("ParallelRelative delta=\"0.1\"", decided)) ==
-        Strings{"1: while 'ParallelRelative' holds 'a', the robot goes on: hold=\"nothing\" | "});
+        Strings{"1: while 'ParallelRelative' holds 'a', the robot continues: hold=\"nothing\" | "});
 }
 
 TEST_CASE("a member of a barrier may be held, too") {
@@ -49,8 +49,8 @@ TEST_CASE("a member of a barrier may be held, too") {
                "<SyncProgress barrier=\"half\"><Probe name=\"a\"/></SyncProgress>"
                "<SyncProgress barrier=\"half\"><Probe name=\"b\" hold=\"cancel\"/></SyncProgress>"
                "</Parallel></BehaviorTree>") ==
-        Strings{"1: 'a' may be held by 'half', and does not say what the robot does then | give "
-                "hold; `lockstep nodes Probe` has the ways"});
+        Strings{"1: 'a' may be held by 'half', and does not declare what the robot does then | "
+                "give hold; `lockstep nodes Probe` has the ways"});
 }
 
 }  // namespace

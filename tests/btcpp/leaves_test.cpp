@@ -172,16 +172,16 @@ TEST_CASE("leaves for BehaviorTree.CPP: a type without a conversion says so, by 
   const Outcome check = run_lockstep({"check", literal, "--plugin", plugin("first")});
   CHECK(
       contains(check.err, "error: 'a' is not the text of a " + type + ", which 'places' must be"));
-  CHECK(contains(check.err, "hint: its plugin says: " + lacks));
+  CHECK(contains(check.err, "hint: its plugin reports: " + lacks));
   const auto start = directory.file("start.xml", tree_of("<Look places=\"{p}\"/>"));
-  CHECK(contains(run_tree(start, "first", {"--set", "p=1"}).err, "its plugin says: " + lacks));
+  CHECK(contains(run_tree(start, "first", {"--set", "p=1"}).err, "its plugin reports: " + lacks));
   const auto text = directory.file(
       "text.xml", tree_of("<Sequence><Think text=\"{p}\"/><Look places=\"{p}\"/></Sequence>"));
   CHECK(contains(run_tree(text, "first").out, "Main/Sequence/Look: " + lacks));
   // One that refuses a text says why.
   const auto wrong = directory.file("wrong.xml", tree_of("<Move goal=\"1\"/>"));
   CHECK(contains(run_lockstep({"check", wrong, "--plugin", plugin("first")}).err,
-                 "hint: its plugin says: a position is two numbers"));
+                 "hint: its plugin reports: a position is two numbers"));
 }
 
 TEST_CASE(

@@ -56,7 +56,7 @@ const Claim kClaims[] = {
      "there are no queues: let a leaf take the next item",
      {"convert"},
      foreign("<LoopInt queue=\"1;2\" value=\"{v}\"><AlwaysSuccess/></LoopInt>"),
-     "this 'LoopInt' cannot be said in lockstep's language"},
+     "this 'LoopInt' cannot be expressed in lockstep's language"},
     {"studies.md",
      "There is no `--shard`",
      {"study", "--runs", "9", "--until-ci", "5%", "--shard", "1/2"},

@@ -104,7 +104,7 @@ TEST_CASE("barrier: a run explains it like a synchronized node, and its recordin
   const BarrierRun recorded(kBarrierX1);
   CHECK(recorded.run.code == 0);
   CHECK(contains(recorded.run.err, "base: waits for arm at barrier 0.5 of 'lift'"));
-  CHECK(contains(recorded.run.err, "base: goes on after 0.030 s"));
+  CHECK(contains(recorded.run.err, "base: continues after 0.030 s"));
   CHECK(of_barrier(recorded.run.out) ==
         "  Main/lift (barrier, 10 ticks)\n"
         "    progress distance 2.1, mean 0.21 a tick\n"

@@ -84,7 +84,7 @@ TEST_CASE("a run whose recording nobody reads ends all the same, and says so") {
   const Outcome outcome = process.finish();
   INFO(outcome.err.substr(0, 2000));
   CHECK(outcome.code == 124);
-  CHECK(contains(outcome.err, "nobody took anything for 0.1 s at the end of the run"));
+  CHECK(contains(outcome.err, "no process read anything for 0.1 s at the end of the run"));
   CHECK(contains(outcome.out, "cannot write"));
 }
 

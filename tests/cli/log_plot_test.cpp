@@ -126,7 +126,7 @@ TEST_CASE("log measure tells which name it does not know") {
        "'Main/pull' is not a child of a synchronized node, of a SyncProgress or of a UseResources, "
        "so it is never held"},
       {"held-by:arm", "expected 'held-by:A:B', two names"},
-      {"held-by:base:arn", "no child beside 'Main/pull/base' named 'arn', did you mean 'arm'?"},
+      {"held-by:base:arn", "no child next to 'Main/pull/base' named 'arn', did you mean 'arm'?"},
       {"held-by:pull:arm", "'Main/pull' is not a child of a synchronized node"},
       {"waits", "expected 'waits:NODE'"},
       {"waits:arm", "no UseResources 'arm'"},

@@ -31,11 +31,11 @@ TEST_CASE("plugin check: the plugins that ship keep the contract, control nodes 
 TEST_CASE("plugin check: a plugin is found by its name, and asked all that a run may ask") {
   const Outcome outcome = check_plugin("motion", {"--plugin-path", LOCKSTEP_BINARY_DIR "/plugins"});
   CHECK(outcome.code == 0);
-  for (const std::string line :
-       {"ok    has 'Advance', 'Profile'",
-        "ok    'Advance' answers 20 ticks; it is running, progress ",
-        "ok    'Advance' is halted while it is held\n", "ok    'Advance' runs beside another one\n",
-        " sets of values of its ports", "ok    is deinitialized\n"}) {
+  for (const std::string line : {"ok    has 'Advance', 'Profile'",
+                                 "ok    'Advance' answers 20 ticks; it is running, progress ",
+                                 "ok    'Advance' is halted while it is held\n",
+                                 "ok    'Advance' runs alongside another one\n",
+                                 " sets of values of its ports", "ok    is deinitialized\n"}) {
     INFO(line << "\n" << outcome.out);
     CHECK(contains(outcome.out, line));
   }
@@ -69,7 +69,7 @@ TEST_CASE("plugin check: a leaf that ends its process is named, and the others a
   const Outcome outcome = check_plugin(LOCKSTEP_BINARY_DIR "/tests/cli/edgy.so");
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 4);
-  CHECK(contains(outcome.out, "ok    'Divides' goes on after it was held\n"));
+  CHECK(contains(outcome.out, "ok    'Divides' continues after it was held\n"));
   CHECK(
       contains(outcome.out,
                "wrong 'Divides' with parts=0: its process ended with exit code 6; the report is on "
@@ -79,7 +79,7 @@ TEST_CASE("plugin check: a leaf that ends its process is named, and the others a
                  "wrong 'Ends' is halted while it is held: its process ended with exit code 6"));
   CHECK(contains(outcome.err, "(Ends of plugin 'edgy') called exit()"));
   CHECK(contains(outcome.out, "wrong 'Percent' reported the progress 37"));
-  CHECK(contains(outcome.out, "ok    'Sound' runs beside another one\n"));
+  CHECK(contains(outcome.out, "ok    'Sound' runs alongside another one\n"));
   CHECK(!contains(outcome.out, "wrong 'Sound'"));
   const Outcome hung =
       check_plugin(LOCKSTEP_BINARY_DIR "/tests/cli/stuck.so", {"--hang-limit", "0.2"});

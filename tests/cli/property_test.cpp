@@ -267,8 +267,8 @@ TEST_CASE("check reports a mistake in a property at its place in the tree file")
                  "tree.xml:2:50: error: progress is never 1.5"));
   CHECK(contains(refused("<property>never arm.held</property>"),
                  "tree.xml:2:1: error: 'property' needs the attribute 'name'"));
-  CHECK(contains(refused("<property name=\"p\"/>"),
-                 "tree.xml:2:1: error: the property says nothing"));
+  CHECK(
+      contains(refused("<property name=\"p\"/>"), "tree.xml:2:1: error: the property has no text"));
   CHECK(contains(refused("<property name=\"a b\">never arm.held</property>"),
                  "tree.xml:2:17: error: 'a b' is not a name for 'property'"));
   CHECK(contains(refused("<property name=\"p\" x=\"1\">never arm.held</property>"),

@@ -93,7 +93,7 @@ TEST_CASE("plugin check finds what a program does against the protocol, and save
   chmod(leaves.directory.file("grip.py", "#!/bin/sh\necho hello\n").c_str(), 0755);
   const Outcome wrong = run_lockstep({"plugin", "check", leaves.program});
   CHECK(wrong.code == 4);
-  CHECK(contains(wrong.out, "wrong it does not say what leaves it has: not JSON"));
+  CHECK(contains(wrong.out, "wrong it does not list its leaves: not JSON"));
   CHECK(nodes().code == 0);  // it was not run
 }
 

@@ -218,7 +218,7 @@ TEST_CASE("a replay is drawn anew when the window gets another size, also while 
   redrawn(40, 90);
   process.resize(40, 30);  // the keys do not fit any more
   REQUIRE(process.wait_for("\x1b[H\x1b[2J"));
-  REQUIRE(process.wait_for("space go on"));
+  REQUIRE(process.wait_for("space continue"));
   process.type("n");
   REQUIRE(process.wait_for("tick 1 of 3"));
   process.type("q");

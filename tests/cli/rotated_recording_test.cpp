@@ -111,7 +111,8 @@ TEST_CASE("each part of a recording is one that opens alone") {
   CHECK(all == rows);
   const std::string third = parts.path(files[2]);
   CHECK(contains(output_of({"log", "info"}, third), "a part that begins with tick 2000\n"));
-  CHECK(contains(output_of({"log", "info"}, third), "until 30.000 s; the run goes on in the next"));
+  CHECK(
+      contains(output_of({"log", "info"}, third), "until 30.000 s; the run continues in the next"));
   // Of what a part does not have.
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"replay", "--print", "--at", "5", third},

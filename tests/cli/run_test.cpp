@@ -190,7 +190,7 @@ TEST_CASE("run --stall names who stands still while others wait") {
   const auto err = [&](const std::string& stall) {
     return it.run({"--stall", stall, "--max-ticks", "500", "--view", "none"}).err;
   };
-  CHECK(contains(err("2"), "warning: Main/pair/arm stands still at 0 "));
+  CHECK(contains(err("2"), "warning: Main/pair/arm makes no progress at 0 "));
   CHECK(err("0").empty());
   CHECK(err("10").empty());
 }
@@ -205,7 +205,7 @@ TEST_CASE("who stood still is in the notes of the summary") {
   REQUIRE(notes.size() == 1);
   CHECK(outcome.err == "warning: " + notes[0].get<std::string>() + "\n");
   CHECK(contains(it.run({"--stall", "2", "--max-ticks", "500", "--view", "none"}).out,
-                 "note: Main/pair/arm stands still at 0 "));
+                 "note: Main/pair/arm makes no progress at 0 "));
 }
 
 TEST_CASE(

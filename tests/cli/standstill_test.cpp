@@ -96,11 +96,11 @@ std::string pull(const std::string& arm) {
 
 TEST_CASE("standstill: a circle of barriers is one warning, with its links") {
   CHECK(StandingProject(kNestedBarriers).warnings({"--stall", "1"}) ==
-        "warning: a circle stands still since 0.100 s: coarse -> fine -> coarse\n"
+        "warning: a deadlock since 0.100 s: coarse -> fine -> coarse\n"
         "  'coarse' holds 'c2' at 0.525 until 'c1' comes, which is at 0.25 and has 'f1' in it\n"
         "  'fine' holds 'f1' at 0.25 until 'f2' comes, which is at 0.05 and is inside of 'c2'\n");
   CHECK(StandingProject(kThroughSynchronized).warnings({"--stall", "1"}) ==
-        "warning: a circle stands still since 0.140 s: r -> g -> h -> r\n"
+        "warning: a deadlock since 0.140 s: r -> g -> h -> r\n"
         "  'r' holds 's' at 0.625 until 'g1' comes, which is at 0.5\n"
         "  'g' holds 'g1' at 0.5 until 'g2' comes, which does not run and comes after 'h2'\n"
         "  'h' holds 'h2' at 0.5 until 'h1' comes, which is at 0.25 and is inside of 's'\n");
@@ -108,14 +108,14 @@ TEST_CASE("standstill: a circle of barriers is one warning, with its links") {
 
 TEST_CASE("standstill: a circle through a pool names the owner") {
   CHECK(StandingProject(kKept).warnings({"--stall", "1"}) ==
-        "warning: a circle stands still since 0.050 s: r -> arms -> r\n"
+        "warning: a deadlock since 0.050 s: r -> arms -> r\n"
         "  'r' holds 'u1' at 0.25 until 'u2' comes, which is at 0\n"
         "  'arms' keeps left from 'u2' until 'u1' gives it back, which is at 0.25\n");
-  CHECK(StandingProject(kKeptAtBarrier).warnings({"--stall", "1"}) ==
-        "warning: a circle stands still since 0.100 s: arms -> b -> arms\n"
-        "  'arms' keeps left from 'u2' until 'u1' gives it back, which is at 0.5 and has 'm1' in "
-        "it\n"
-        "  'b' holds 'm1' at 0.5 until 'm2' comes, which does not run and is inside of 'u2'\n");
+  CHECK(
+      StandingProject(kKeptAtBarrier).warnings({"--stall", "1"}) ==
+      "warning: a deadlock since 0.100 s: arms -> b -> arms\n"
+      "  'arms' keeps left from 'u2' until 'u1' gives it back, which is at 0.5 and has 'm1' in it\n"
+      "  'b' holds 'm1' at 0.5 until 'm2' comes, which does not run and is inside of 'u2'\n");
 }
 
 TEST_CASE("standstill: what ends by itself is none") {
@@ -149,7 +149,7 @@ TEST_CASE("standstill: nodes that wait for the same one are one warning, with th
            sync("o2", "one", advance("a", "0.25")) + sync("t2", "two", advance("slow", "0")) +
            "</Parallel>"));
   CHECK(project.warnings({"--stall", "1"}) ==
-        "warning: Main/Parallel/t2/slow stands still at 0 since 0.050 s and holds the other "
+        "warning: Main/Parallel/t2/slow makes no progress at 0 since 0.050 s and holds the other "
         "members of 'two' back\n"
         "  'one' holds 'o2' at 0.5 until 'o1' comes, which is at 0.25 and has 't1' in it\n");
 }
@@ -175,7 +175,7 @@ TEST_CASE("standstill: the summary has it, and the exit code is that of the run"
   const Outcome outcome = StandingProject(kNestedBarriers).run({"--stall", "1", "--view", "none"});
   CHECK(outcome.code == 124);
   CHECK(contains(outcome.out,
-                 "note: a circle stands still since 0.100 s: coarse -> fine -> coarse\n"
+                 "note: a deadlock since 0.100 s: coarse -> fine -> coarse\n"
                  "  'coarse' holds 'c2' at 0.525 until"));
 }
 
@@ -211,10 +211,10 @@ TEST_CASE("standstill: --stall-fail ends it, and a Retry begins again") {
   CHECK(outcome.code == 1);
   // base is held from tick 5 of each attempt on.
   CHECK(outcome.err ==
-        "warning: Main/Retry/pull is halted and fails: Main/Retry/pull/arm stands still at 0 since "
-        "0.050 s and holds the other children of 'pull' back\n"
-        "warning: Main/Retry/pull is halted and fails: Main/Retry/pull/arm stands still at 0 since "
-        "1.120 s and holds the other children of 'pull' back\n");
+        "warning: Main/Retry/pull is halted and fails: Main/Retry/pull/arm makes no progress at 0 "
+        "since 0.050 s and holds the other children of 'pull' back\n"
+        "warning: Main/Retry/pull is halted and fails: Main/Retry/pull/arm makes no progress at 0 "
+        "since 1.120 s and holds the other children of 'pull' back\n");
   CHECK(contains(outcome.out, "failure after 214 ticks"));
   CHECK(contains(outcome.out, "pull (ParallelAbsolute): failure, it stood still (--stall-fail)\n"));
   CHECK(contains(outcome.out, "Main/Retry/pull was halted and failed at 2.130 s\n"));

@@ -151,7 +151,7 @@ TEST_CASE("a reader who stops reading stderr holds nothing up") {
     CHECK(outcome.code == 124);
     const json summary = parse_json(outcome.out);
     CHECK(summary["ticks"] > 100);
-    CHECK(contains(summary["notes"].dump(), "of stderr are lost: nobody read them"));
+    CHECK(contains(summary["notes"].dump(), "of stderr are lost: no process read them"));
     CHECK(contains(lines(read_file(shell.path("stuck.jsonl"))).back(), "\"reason\":\"timeout\""));
   }
 }

@@ -308,8 +308,8 @@ TEST_CASE("a leaf that goes on while it is held is reported, once in a run") {
   runtime::Run run(project, settings);
   for (int round = 0; round < 2; ++round) {
     for (int i = 0; i < 7; ++i) run.tick(i * 0.125);
-    CHECK(lines == Strings{"Main/ParallelAbsolute/GoesOn: went on while it was held: its progress "
-                           "rose from 0.25 to 0.5"});
+    CHECK(lines == Strings{"Main/ParallelAbsolute/GoesOn: continued while it was held: its "
+                           "progress rose from 0.25 to 0.5"});
     lines.clear();
     run.restart(0);
   }
@@ -613,7 +613,7 @@ TEST_CASE("after a fault a run recovers: its next tick begins the tree") {
   CHECK(calls.empty());  // all was halted
   CHECK(run.get<double>("step") == 0.5);
   CHECK(run.tick(2) == Status::Running);
-  CHECK(told == Strings{"cannot go back; the run goes on"});
+  CHECK(told == Strings{"cannot go back; the run continues"});
   run.recover();  // no fault: as halt
   CHECK(calls == Strings{"halt", "halt"});
   CHECK(run.tick(3) == Status::Running);

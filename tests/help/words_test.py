@@ -1,7 +1,10 @@
-"""The pages in DONE have the terms of docs/glossary.md and short sentences: words_test.py SOURCES [PAGE...].
+"""The pages in DONE have the terms of docs/glossary.md and short sentences, and messages and help have these terms:
+words_test.py SOURCES [PAGE...].
 
-Refuses the words in REFUSED and sentences that are too long. Code, output and links are not read. A page that was revised is added
-to DONE. With PAGE it reads that page instead, to see what is left to do."""
+Refuses the words in REFUSED, and in pages sentences that are too long. Code, output and links are not read. A page that was revised
+is added to DONE. Messages and help are the texts in the sources of interpreter/. With PAGE it reads that page instead, to see what is
+left to do."""
+import glob
 import os
 import re
 import sys
@@ -38,6 +41,7 @@ DONE = [
     "docs/language.md",
     "docs/language_server.md",
     "docs/late_progress.md",
+    "docs/messages.md",
     "docs/monitor.md",
     "docs/new.md",
     "docs/nodes-and-attributes.md",
@@ -96,6 +100,22 @@ LONGEST = 27  # words in a sentence
 EXCEPTIONS = [("docs/glossary.md", f"| {old} |", "the column of the terms that messages still use")
               for old in ("trap", "circle", "leaf file", "law", "standstill")]
 EXCEPTIONS += [("docs/btcpp.md", "does not ask again after a halt", "the name of a row, which a test compares")]
+IN_MESSAGES = [("cli/tools/verify/verify.cpp", "trap", "the name of a finding"),
+               ("study/plots/box_plot.cpp", "circle", "the sign in a plot")]
+TEXT = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')
+
+
+def messages():
+    """(file, line number, text) of each text of several words in the sources of the program, without comments."""
+    for path in glob.glob(os.path.join(SOURCES, "interpreter/**/*.[ch]*"), recursive=True):
+        if not path.endswith((".cpp", ".h")) or "/page/" in path:
+            continue
+        with open(path, encoding="utf-8") as file:
+            source = re.sub(r"^\s*//.*$|(?<=[;{},)]) *// .*$", "", file.read(), flags=re.M)
+        for match in TEXT.finditer(source):
+            text = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', match[0])).replace("\\n", " ")
+            if " " in text.strip():
+                yield os.path.relpath(path, os.path.join(SOURCES, "interpreter")), source.count("\n", 0, match.start()) + 1, text
 
 
 def prose(page):
@@ -155,6 +175,12 @@ for page in sys.argv[2:] or DONE:
             words = len(sentence.split())
             if words > LONGEST:
                 wrong.append(f"{page}:{number}: a sentence of {words} words, at most {LONGEST}\n    {sentence[:100]}…")
+for file, number, raw in [] if sys.argv[2:] else messages():
+    text = plain(raw)
+    for pattern, instead in REFUSED.items():
+        for match in re.finditer(pattern, text, re.I):
+            if not any(where == file and word in match[0] for where, word, _ in IN_MESSAGES):
+                wrong.append(f"interpreter/{file}:{number}: '{match[0].strip()}': write {instead}\n    …{text[:200]}…")
 if not sys.argv[2:]:
     wrong += [f"an exception that nothing needs: {EXCEPTIONS[at]}" for at in range(len(EXCEPTIONS)) if at not in used]
 if wrong:

@@ -54,7 +54,7 @@ TEST_CASE("hints") {
       {R"(<Wait second="1"/>)", "parameters of 'Wait': 'seconds'"},
       {R"(<Inverter/>)", "it is a decorator: put a node into it"},
       {R"(<IfThenElse><AlwaysSuccess/></IfThenElse>)",
-       "it has 1; `lockstep nodes IfThenElse` says what they are for"},
+       "it has 1; `lockstep nodes IfThenElse` describes them"},
       {R"(<Timeout seconds="0"><AlwaysSuccess/></Timeout>)", "it must be more than 0, at most"},
       {R"(<ParallelAbsolute barriers="0.5;0.2"><AlwaysSuccess/></ParallelAbsolute>)",
        "write '0.2;0.5'"},

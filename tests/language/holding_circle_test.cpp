@@ -174,7 +174,7 @@ constexpr Row kRows[] = {
 // What is told, without the place.
 std::string circle_of(const Pipeline& pipeline) {
   const std::string told = pipeline.told();
-  constexpr std::string_view kWarning = "held nodes may wait for each other in a circle: ";
+  constexpr std::string_view kWarning = "held nodes may deadlock: ";
   const auto at = told.find(kWarning);
   return at == std::string::npos ? told : told.substr(at + kWarning.size());
 }

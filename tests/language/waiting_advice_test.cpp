@@ -38,33 +38,27 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 <UseResources name="u1" pool="pool" resources="A" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
 </ParallelRelative>)",
-       "3:1 warning: held nodes may wait for each other in a circle: "
-       "ParallelRelative -> pool -> ParallelRelative",
+       "3:1 warning: held nodes may deadlock: ParallelRelative -> pool -> ParallelRelative",
        "running"},
       {"below its children", kPool, R"(<ParallelAbsolute barriers="0.5">
 <Parallel><UseResources name="u1" pool="pool" resources="A;B" keep="true"><Advance step="0.05"/>
 </UseResources></Parallel>
 <ForceSuccess><UseResources name="u2" pool="pool" resources="B;C"><Advance step="0.05"/>
 </UseResources></ForceSuccess></ParallelAbsolute>)",
-       "3:1 warning: held nodes may wait for each other in a circle: "
-       "ParallelAbsolute -> pool -> ParallelAbsolute",
+       "3:1 warning: held nodes may deadlock: ParallelAbsolute -> pool -> ParallelAbsolute",
        "running"},
       {"each has a member of a barrier in it", kBoth, R"(<Parallel>
 <UseResources name="u1" pool="pool" resources="A" keep="true"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources></Parallel>)",
-       "5:1 warning: held nodes may wait for each other in a circle: "
-       "pool -> b -> pool",
-       "running"},
+       "5:1 warning: held nodes may deadlock: pool -> b -> pool", "running"},
       {"each is in a member of a barrier", kBoth, R"(<Parallel>
 <SyncProgress barrier="b"><UseResources name="u1" pool="pool" resources="A" keep="true">
 <Advance step="0.05"/></UseResources></SyncProgress>
 <SyncProgress barrier="b"><UseResources name="u2" pool="pool" resources="A">
 <Advance step="0.05"/></UseResources></SyncProgress></Parallel>)",
-       "5:27 warning: held nodes may wait for each other in a circle: "
-       "pool -> b -> pool",
-       "running"},
+       "5:27 warning: held nodes may deadlock: pool -> b -> pool", "running"},
       {"not without keep: each gets its turn", kBoth, R"(<Parallel>
 <UseResources name="u1" pool="pool" resources="A"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources>
@@ -98,8 +92,7 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 <Sequence memory="true"><Advance step="0.05"/>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources></Sequence>
 </ParallelAbsolute>)",
-       "3:1 warning: held nodes may wait for each other in a circle: "
-       "ParallelAbsolute -> pool -> ParallelAbsolute",
+       "3:1 warning: held nodes may deadlock: ParallelAbsolute -> pool -> ParallelAbsolute",
        "running"},
       {"not where it has given them back before the barrier", kPool,
        R"(<ParallelAbsolute barriers="0.75">
@@ -114,15 +107,13 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 <UseResources name="u1" pool="pool" resources="{r}" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
 </ParallelRelative>)",
-       "3:1 warning: held nodes may wait for each other in a circle: "
-       "ParallelRelative -> pool -> ParallelRelative",
+       "3:1 warning: held nodes may deadlock: ParallelRelative -> pool -> ParallelRelative",
        "running", "set.r=A"},
       {"limits from an entry may be anywhere", kPool, R"(<ParallelAbsolute barriers="{b}">
 <UseResources name="u1" pool="pool" resources="A" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
 </ParallelAbsolute>)",
-       "3:1 warning: held nodes may wait for each other in a circle: "
-       "ParallelAbsolute -> pool -> ParallelAbsolute",
+       "3:1 warning: held nodes may deadlock: ParallelAbsolute -> pool -> ParallelAbsolute",
        "running", "set.b=0.5"},
       {"not known: resources from an entry without a value",
        R"(<resources name="pool" resources="A"/>)",
@@ -144,8 +135,8 @@ TEST_CASE("keep: without it and with increment=0, the first in the tree always w
 </UseResources>
 <UseResources pool="pool" resources="A"><SyncProgress barrier="b">
 <Advance step="0.05"/></SyncProgress></UseResources></Parallel>)",
-       "1:65 warning: the members of 'pool' may wait for ever\n"
-       "6:1 warning: held nodes may wait for each other in a circle: pool -> b -> pool",
+       "1:65 warning: the members of 'pool' may wait indefinitely\n"
+       "6:1 warning: held nodes may deadlock: pool -> b -> pool",
        "running"},
   };
   check_rows(kRows);
@@ -197,7 +188,7 @@ TEST_CASE("members that may never run: the others wait for them for ever") {
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <IfThenElse name="if"><IsOpen open="false"/><SyncProgress name="m" barrier="b"><Advance step="0.1"/>
 </SyncProgress><AlwaysSuccess/></IfThenElse></Parallel>)",
-       "4:45 note: the others at 'b' wait for 'm' for ever if 'if' does not run it", "running"},
+       "4:45 note: the others at 'b' wait for 'm' indefinitely if 'if' does not run it", "running"},
       {"not the condition", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <IfThenElse><SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress><AlwaysSuccess/>
@@ -207,18 +198,18 @@ TEST_CASE("members that may never run: the others wait for them for ever") {
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <WhileDoElse name="w"><IsOpen open="false"/><SyncProgress name="m" barrier="b"><Advance step="0.1"/>
 </SyncProgress><AlwaysSuccess/></WhileDoElse></Parallel>)",
-       "4:45 note: the others at 'b' wait for 'm' for ever if 'w' does not run it", "running"},
+       "4:45 note: the others at 'b' wait for 'm' indefinitely if 'w' does not run it", "running"},
       {"a branch of Switch, also the first", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <Switch name="s" on="1" cases="0">
 <Sequence><SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Sequence>
 <AlwaysSuccess/></Switch></Parallel>)",
-       "5:11 note: the others at 'b' wait for 'm' for ever if 's' does not run it", "running"},
+       "5:11 note: the others at 'b' wait for 'm' indefinitely if 's' does not run it", "running"},
       {"a later child of a Fallback", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <Fallback name="f" memory="true"><AlwaysSuccess/>
 <SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Fallback></Parallel>)",
-       "5:1 note: the others at 'b' wait for 'm' for ever if 'f' does not run it", "running"},
+       "5:1 note: the others at 'b' wait for 'm' indefinitely if 'f' does not run it", "running"},
       {"not the first child of a Fallback", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <Fallback memory="true"><SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
@@ -228,7 +219,7 @@ TEST_CASE("members that may never run: the others wait for them for ever") {
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <RunOnce name="o"><SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></RunOnce>
 </Parallel></Repeat>)",
-       "4:19 note: the others at 'b' wait for 'm' for ever if 'o' does not run it", "running"},
+       "4:19 note: the others at 'b' wait for 'm' indefinitely if 'o' does not run it", "running"},
       {"not a RunOnce that is not", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <RunOnce><SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress></RunOnce></Parallel>)",
@@ -238,12 +229,12 @@ TEST_CASE("members that may never run: the others wait for them for ever") {
 <Rate name="r" seconds="900">
 <SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Rate>
 </Parallel></Repeat>)",
-       "5:1 note: the others at 'b' wait for 'm' for ever if 'r' does not run it", "running"},
+       "5:1 note: the others at 'b' wait for 'm' indefinitely if 'r' does not run it", "running"},
       {"a script that ends it", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <Sequence name="s" success_if="true"><SyncProgress name="m" barrier="b"><Advance step="0.1"/>
 </SyncProgress></Sequence></Parallel>)",
-       "4:38 note: the others at 'b' wait for 'm' for ever if 's' does not run it", "running"},
+       "4:38 note: the others at 'b' wait for 'm' indefinitely if 's' does not run it", "running"},
       {"not a script that skips it", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <SyncProgress barrier="b" skip_if="true"><Advance step="0.1"/></SyncProgress></Parallel>)",

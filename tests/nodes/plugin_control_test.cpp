@@ -77,7 +77,7 @@ TEST_CASE("a control node that breaks the contract is at fault, by name of what 
   CHECK(fault_of("Breach[what=twice](a b)") == "ticks child 0 twice in one tick");
   CHECK(fault_of("Breach[what=index](a b)") == "ticks child 7, but has 2 children, counted from 0");
   CHECK(fault_of("Breach[what=tick_in_start](a b)") == "ticks a child outside of its tick");
-  CHECK(fault_of("Breach[what=](a b)") == "asks for child 2, but has 2 children, counted from 0");
+  CHECK(fault_of("Breach[what=](a b)") == "requests child 2, but has 2 children, counted from 0");
   CHECK(fault_of("Breach[what=status](a b)") ==
         "returned status 0, expected one of lockstep/leaf.h");
 }

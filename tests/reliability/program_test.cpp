@@ -94,13 +94,13 @@ struct ProgramMisdeed {
 
 const ProgramMisdeed kProgramMisdeeds[] = {
     {"garbage",
-     "was killed, since it wrote 'Traceback (most recent call last):', which is no answer: not "
+     "was killed, since it wrote 'Traceback (most recent call last):', which is not an answer: not "
      "JSON when it was to answer tick of 'Main/Parallel/bad'"},
     {"half", "ended with exit code 3 in the middle of a line when it was to answer tick of"},
     {"endless", "was killed, since it wrote a line of more than 1 MiB when it was to answer tick"},
     {"twice",
-     "was killed, since it answered a status for 'Main/Parallel/bad', which was not asked"},
-    {"wrong_order", "it answered 'done' for 'Main/Parallel/bad', which is to answer tick"},
+     "was killed, since it answered a status for 'Main/Parallel/bad', which has no open request"},
+    {"wrong_order", "it answered 'done' for 'Main/Parallel/bad', which must answer tick first"},
     {"foreign", "since it spoke of leaf 77, which it does not have"},
     {"status", "the status is 'fine', expected running, success, failure or skipped"},
     {"list", "which is no answer: expected a JSON object"},
@@ -110,9 +110,9 @@ const ProgramMisdeed kProgramMisdeeds[] = {
     {"silent", "did not answer", "2"},
     {"error", "Misbehave of plugin 'hostile'"},
     {"error", "the driver is gone"},
-    {"own_error", "has said: the bus is gone"},
+    {"own_error", "has reported: the bus is gone"},
     {"wrong_type", "set 'width', a port of type double, to another type"},
-    {"no_port", "set 'depth', which is no port of it"},
+    {"no_port", "set 'depth', which is not one of its ports"},
     {"progress", "'progress' is not a number"},
     {"nothing", "expected one of 'status', 'done', 'log' and 'error', or 'progress' alone"},
     {"deep", "which is no answer: expected a JSON object"},

@@ -48,7 +48,8 @@ TEST_CASE("unread: time limits and signals end a run, its recording is closed") 
   }
   const Outcome outcome = process.end_by(SIGINT);
   CHECK(outcome.code == 130);
-  CHECK(contains(parse_json(outcome.out)["notes"].dump(), "of stderr are lost: nobody read them"));
+  CHECK(contains(parse_json(outcome.out)["notes"].dump(),
+                 "of stderr are lost: no process read them"));
 }
 
 TEST_CASE("unread: a fault, a crash and a hang have their codes") {

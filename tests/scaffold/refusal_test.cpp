@@ -43,7 +43,7 @@ TEST_CASE("names that are illegal or taken are refused, and nothing is made") {
         {"plugin arm --leaf wave", "'wave' begins with a small letter"},
         {"plugin arm --lang cobol", "cobol"},
         {"tree ''", "'' cannot be the name of a tree"},
-        {"leaf Open", "there is no source of a plugin"},
+        {"leaf Open", "there is not the source of a plugin"},
         {"leaf Open --in nowhere", "there is no 'nowhere'"}}) {
     check_refused(row, directory);
   }
@@ -79,7 +79,7 @@ TEST_CASE("a leaf that cannot be is refused, and the source stays as it was") {
         {"leaf Open --port out:x:number", "the output 'x' cannot be a number"},
         {"leaf Open --port x:int --port x:bool", "two ports are called 'x'"},
         {"leaf Open --doc $'a\\nb'", "more than one line"},
-        {"leaf Open --in arm/README.md", "'arm/README.md' is no source of a plugin"}}) {
+        {"leaf Open --in arm/README.md", "'arm/README.md' is not the source of a plugin"}}) {
     check_refused(row, directory);
   }
   CHECK(read_file(directory.path("arm/arm.cpp")) == source);

@@ -298,7 +298,7 @@ TEST_CASE("an error that several scenarios have is reported once") {
   INFO(it.out);
   CHECK(it.code == 3);
   CHECK(it.out.find("error:") == it.out.rfind("error:"));
-  CHECK(contains(it.out, "BAD   b  likewise"));
+  CHECK(contains(it.out, "BAD   b  the same"));
 }
 
 TEST_CASE("results do not overwrite what is tested") {

@@ -263,7 +263,7 @@ meet_stuck_reader() {
   stop_reader
   finish 124 whole
   send KILL "$reader"
-  grep -q "lost: nobody read them" "$work/summary.json" || fail "the loss of messages is not told"
+  grep -q "lost: no process read them" "$work/summary.json" || fail "the loss of messages is not told"
 }
 meet_reader_who_leaves() {
   read_messages

@@ -29,15 +29,12 @@ constexpr Row kRows[] = {
   {"a circle of barriers that may be, but need not", "Parallel(SyncProgress[barrier=coarse](SyncProgress[barrier=fine](a)) "
    "SyncProgress[barrier=coarse](Sequence[memory=true](b SyncProgress[barrier=fine](c)))) "
    "barrier[name=coarse barriers=.5] barrier[name=fine barriers=.25]",
-   "held nodes may wait for each other in a circle: coarse -> fine -> coarse: 'coarse' holds 'Sequence' at 0.5 until "
-   "'SyncProgress' comes, which is at 0.25 and has 'a' in it; 'fine' holds 'a' at 0.25 until 'c' comes, which is at 0 "
-   "and is inside of 'Sequence'\n"},
+   "held nodes may deadlock: coarse -> fine -> coarse: 'coarse' holds 'Sequence' at 0.5 until 'SyncProgress' comes, which is at 0.25 and has 'a' in it; 'fine' holds 'a' at 0.25 until 'c' comes, which is at 0 and is inside of 'Sequence'\n"},
   {"a barrier that waits for what never comes",
    "Sequence(Parallel(ForceSuccess(SyncProgress[barrier=g](a)) SyncProgress[barrier=g](AlwaysRunning)) b) "
    "barrier[name=g barriers=.5]",
    "'b' can never run, whatever the leaves do: 'Parallel' before it never succeeds\n"
-   "this tree can never end: whatever its leaves do, it stands still: 'g' holds 'a' at 0.5 until "
-   "'AlwaysRunning' comes, which is at 0\n"},
+"this tree can never end: whatever its leaves do, it deadlocks: 'g' holds 'a' at 0.5 until 'AlwaysRunning' comes, which is at 0\n"},
   {"a hook reads what only a later node writes",
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
    "'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "

@@ -197,10 +197,10 @@ TEST_CASE("what cannot be verified is reported with its place") {
   CHECK(contains(it.err, "navigate.xml:15:5: error: 'RecoveryNode' is a control node of plugin"));
   const Outcome entry = run_lockstep({"verify", LOCKSTEP_SOURCE_DIR "/trees/replanning.xml"});
   CHECK(entry.code == 3);
-  CHECK(contains(entry.err, "say them in the leaf file: <leaf of=\"Replan\" out.barriers="));
+  CHECK(contains(entry.err, "declare them in the leaf model: <leaf of=\"Replan\" out.barriers="));
 }
 
-TEST_CASE("a leaf file with mistakes is refused") {
+TEST_CASE("a leaf model with mistakes is refused") {
   const TemporaryDirectory directory;
   const std::string leaves =
       directory.file("l.xml", "<leaves lockstep=\"1\">\n<leaf of=\"Advanc\"/></leaves>");
@@ -297,7 +297,7 @@ TEST_CASE("which findings count is what --only says") {
   CHECK_FALSE(contains(dead.out, "finding cycle"));
 }
 
-TEST_CASE("run --leaves with a leaf file does what that allows, as the seed chooses") {
+TEST_CASE("run --leaves with a leaf model does what that allows, as the seed chooses") {
   const TemporaryDirectory directory;
   const std::string tree =
       directory.file("t.xml",

@@ -60,18 +60,18 @@ TEST_CASE("a leaf does what its plugin declares, and the verdict says so") {
   CHECK(model.finishes_full);
   CHECK(model.least_drift == -1);
   CHECK(made.models.declared ==
-        std::vector<std::string>{"Scripted does as plugin 'arm' says: result=\"success\" "
-                                 "ticks=\"2..40\" progress=\"grid:4\" step=\"0..1\" "
-                                 "finish=\"full\" held=\"-1..0\""});
+        std::vector<std::string>{
+            "Scripted behaves as plugin 'arm' declares: result=\"success\" ticks=\"2..40\" "
+            "progress=\"grid:4\" step=\"0..1\" finish=\"full\" held=\"-1..0\""});
 }
 
-TEST_CASE("a leaf file wins over a plugin, statement by statement") {
+TEST_CASE("a leaf model wins over a plugin, statement by statement") {
   const Declaring declaring{{"result", "success"}, {"ticks", "2..40"}};
   const Made made = make(declaring, "Sequence(a)", R"(<leaf path="*" result="failure"/>)");
   CHECK(made.models.leaves.at(0).results == ResultSet{false, true, false, false});
   CHECK(made.models.leaves.at(0).most_ticks == 40);
   CHECK(made.models.declared ==
-        std::vector<std::string>{"Scripted does as plugin 'arm' says: ticks=\"2..40\""});
+        std::vector<std::string>{"Scripted behaves as plugin 'arm' declares: ticks=\"2..40\""});
   const Made all = make(declaring, "Sequence(a)", R"(<leaf path="*" result="failure" ticks="1"/>)");
   CHECK(all.models.declared.empty());
 }
@@ -88,7 +88,7 @@ TEST_CASE("parts of a plugin that a delta does not fit are a problem of the node
   const Declaring declaring{{"progress", "grid:4"}};
   const Made made = make(declaring, "ParallelRelative[delta=.2](a b)", "");
   REQUIRE(made.problems.size() == 2);
-  CHECK(made.problems[0].hint == "say in the leaf file: progress=\"grid:10\"");
+  CHECK(made.problems[0].hint == "write in the leaf model: progress=\"grid:10\"");
   CHECK(make(declaring, "ParallelRelative[delta=.2](a b)", R"(<leaf path="*" progress="grid:10"/>)")
             .problems.empty());
 }

@@ -62,7 +62,7 @@ constexpr Row kRows[] = {
    R"(<tree ends="no"/><leaf path="*" result="success"/>)", ""},
   {"a branch that never runs", "Fallback(AlwaysSuccess Sequence(a b))", "",
    "never-ticked/Main/Fallback/Sequence"},
-  {"a fault that the leaf file allows", "Sequence[memory=true](a b)",
+  {"a fault that the leaf model allows", "Sequence[memory=true](a b)",
    R"(<leaf path="*/b" result="success;fault"/>)", "fault/Main/Sequence/b"},
   {"also below a node that goes on after a failure", "Fallback[memory=true](a b)",
    R"(<leaf path="*/a" result="failure" ticks="1"/><leaf path="*/b" result="fault" ticks="2"/>)",
@@ -99,7 +99,7 @@ TEST_CASE("a trap says who waits for whom") {
   CHECK(trap->run.size() > *trap->repeats);
 }
 
-TEST_CASE("in an endless tree a child may be held for ever") {
+TEST_CASE("in an endless tree a child may be held indefinitely") {
   // Those who come first in the tree take the fork in turns.
   const auto table = [](std::string_view increment) {
     return "Parallel(Repeat(UseResources[pool=p resources=A](a)) "
@@ -186,7 +186,7 @@ TEST_CASE("a trap names the conditions that are false for ever, and the entries 
   REQUIRE(it.finding("trap") != nullptr);
   const auto& more = it.finding("trap")->more;
   const auto line = std::ranges::find_if(
-      more, [](const std::string& text) { return text.starts_with("false for ever: "); });
+      more, [](const std::string& text) { return text.starts_with("always false: "); });
   REQUIRE(line != more.end());
   CHECK(line->ends_with("Check, which reads {open} (false)"));
   // Not one that a leaf may still make true.
@@ -195,7 +195,7 @@ TEST_CASE("a trap names the conditions that are false for ever, and the entries 
       "Repeat(Inverter(a[on_success=open=true]))))",
       R"(<tree ends="yes"/>)");
   if (const Finding* trap = other.finding("trap")) {
-    for (const std::string& text : trap->more) CHECK_FALSE(text.starts_with("false for ever: "));
+    for (const std::string& text : trap->more) CHECK_FALSE(text.starts_with("always false: "));
   }
 }
 

@@ -53,7 +53,7 @@ constexpr Mistake kMistakes[] = {
   {R"(<leaf path="*" fact="day"/>)", "2:22", "unknown fact 'day'", "declare it: <fact name=\"day\"/>"},
   {R"(<fact name="day"/><leaf path="*" fact="dya"/>)", "2:40", "unknown fact 'dya'", "did you mean 'day'?"},
   {R"(<fact name="day"/><fact name="day"/>)", "2:31", "fact 'day' is declared twice", ""},
-  {R"(<leaf path="*" sets="day"/>)", "2:22", "'day' does not say what becomes of a fact", "write charged=true, or charged=true;seen=false"},
+  {R"(<leaf path="*" sets="day"/>)", "2:22", "'day' does not set a fact", "write charged=true, or charged=true;seen=false"},
   {R"(<leaf path="*" out.x="1"/>)", "2:16", "'Scripted' has no output 'x'", ""},
   {R"(<accept finding="trap"/>)", "2:1", "'accept' needs the attribute 'because'", ""},
   {R"(<tree ends=""/>)", "2:13", "'ends' is empty", ""},
@@ -62,7 +62,7 @@ constexpr Mistake kMistakes[] = {
 
 }  // namespace
 
-TEST_CASE("a mistake in a leaf file is reported at its place") {
+TEST_CASE("a mistake in a leaf model is reported at its place") {
   for (const Mistake& it : kMistakes) {
     INFO(it.rows);
     Read read = test::read(it.rows, "Sequence(a)");
@@ -76,7 +76,7 @@ TEST_CASE("a mistake in a leaf file is reported at its place") {
   }
 }
 
-TEST_CASE("what begins with another element is no leaf file") {
+TEST_CASE("what begins with another element is no leaf model") {
   Diagnostics diagnostics;
   CHECK(read_leaf_file("t.xml", "<root lockstep=\"1\"/>", diagnostics) == nullptr);
   CHECK(diagnostics.has_errors());
@@ -126,7 +126,7 @@ TEST_CASE("below a delta progress goes in steps, of which the delta is a multipl
             .diagnostics.has_errors());
 }
 
-TEST_CASE("an empty leaf file is the most general leaf") {
+TEST_CASE("an empty leaf model is the most general leaf") {
   const LeafModel model = model_of("", "Sequence(a)");
   CHECK(model.results == ResultSet{});
   CHECK(model.least_ticks == 1);

@@ -132,7 +132,7 @@ TEST_CASE("each refusal is JSON, with its error") {
   CHECK(error_of(post(port, "/control", R"({"do":"halt"})")) == "the token is missing or wrong");
   CHECK(error_of(post(port, "/control", R"({"do":"halt"})",
                       "Origin: http://evil.example\r\n" + it.token())) ==
-        "pages of other hosts may not ask");
+        "pages of other hosts are rejected");
   CHECK(error_of(post(port, "/control", std::string(4097, ' '), it.token())) ==
         "the body is too large");
   CHECK_FALSE(error_of(post(port, "/control", "?", it.token())).empty());

@@ -226,7 +226,8 @@ class Converter {
     report_.at_value(
         "bad-name"_code, id->place,
         fmt::format("BehaviorTree.CPP 4.8.4 and later refuse the ID '{}'", brief(id->value)),
-        "an ID there has no blanks and none of <>&\"'/\\:*?|., and is not Root", Severity::Warning);
+        "an ID there has no whitespace and none of <>&\"'/\\:*?|., and is not Root",
+        Severity::Warning);
   }
 
   void check_tree(std::uint32_t tree) const {
@@ -244,7 +245,8 @@ class Converter {
   void cannot(Place place, std::string_view what, std::string hint = {}) const {
     if (report_.counted_only(Severity::Error)) return;
     report_.at("not-convertible"_code, place,
-               fmt::format("{} cannot be said in {}", what, conversion_.to.title), std::move(hint));
+               fmt::format("{} cannot be expressed in {}", what, conversion_.to.title),
+               std::move(hint));
   }
 
   void convert_node(std::uint32_t element, const XmlToken& token) {
@@ -402,7 +404,7 @@ class Converter {
     if (report_.counted_only(Severity::Error)) return;
     report_.in_value(
         "not-convertible"_code, attribute.place, script.error().offset,
-        fmt::format("{} cannot be said in {}", script.error().message, conversion_.to.title),
+        fmt::format("{} cannot be expressed in {}", script.error().message, conversion_.to.title),
         script.error().hint);
   }
 

@@ -229,7 +229,7 @@ Result<TextEdit> format(const Document& document, const FormatOptions& options) 
   const auto after = Document::parse(document.source()->path(),
                                      edit.apply(document.source()->text()), diagnostics);
   if (after == nullptr || !has_same_elements(document, *after)) {
-    return problem("cannot be formatted: it would not say the same",
+    return problem("cannot be formatted: its meaning would change",
                    "this is a bug in lockstep; please report it with the file");
   }
   return edit;

@@ -80,12 +80,12 @@ Result<PluginSource> find_plugin_source(const fs::path& where) {
   if (!fs::is_directory(where, error)) {
     PluginSource source = read_source(where);
     if (source.language != nullptr) return source;
-    return problem(fmt::format("'{}' is no source of a plugin", where.string()),
+    return problem(fmt::format("'{}' is not the source of a plugin", where.string()),
                    "lockstep new plugin NAME makes one");
   }
   std::vector<PluginSource> found = sources_below(where);
   if (found.empty()) {
-    return problem(fmt::format("there is no source of a plugin in '{}'", where.string()),
+    return problem(fmt::format("there is not the source of a plugin in '{}'", where.string()),
                    "lockstep new plugin NAME makes one; --in FILE names one elsewhere");
   }
   if (found.size() == 1) return std::move(found.front());
@@ -93,8 +93,7 @@ Result<PluginSource> find_plugin_source(const fs::path& where) {
   for (const PluginSource& source : found) {
     names += fmt::format("{}'--in {}'", names.empty() ? "" : ", ", source.path.string());
   }
-  return problem(fmt::format("there are {} plugins here", found.size()),
-                 "say into which: " + names);
+  return problem(fmt::format("there are {} plugins here", found.size()), "name one: " + names);
 }
 
 }  // namespace lockstep::host

@@ -92,7 +92,7 @@ Result<void> check_node_id(std::string_view id) {
                    "sources or trees have that word already");
   }
   if (!is_upper(id[0])) {
-    return problem(fmt::format("'{}' begins with a small letter, and is to be a class", id),
+    return problem(fmt::format("'{}' begins with a lowercase letter, but it becomes a class", id),
                    fmt::format("call it '{}'", as_class_name(id)));
   }
   if (is_like_a_macro(id)) {

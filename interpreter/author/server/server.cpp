@@ -71,7 +71,7 @@ void Server::handle_request(Message& message) {
     connection_.send(refusal(message.id, error, why));
   };
   if (connection_.was_cancelled(message.id))
-    return refuse(RpcError::RequestCancelled, "the request was cancelled");
+    return refuse(RpcError::RequestCancelled, "the request was canceled");
   if (!is_initialized_ && message.method != "initialize")
     return refuse(RpcError::NotInitialized, "the first request must be 'initialize'");
   if (is_shut_down_) return refuse(RpcError::InvalidRequest, "the server was shut down");
@@ -148,7 +148,7 @@ Json Server::shutdown(Message&) {
 void Server::cancel(Message& message) {
   const RequestId id = cancelled_id(connection_.reader(), message);
   if (std::erase_if(waiting_, [&](const Message& it) { return it.id == id; }) == 0) return;
-  connection_.send(refusal(id, RpcError::RequestCancelled, "the request was cancelled"));
+  connection_.send(refusal(id, RpcError::RequestCancelled, "the request was canceled"));
 }
 
 // Files that trees include, and plugins, may change without the editor.

@@ -128,7 +128,7 @@ bool says(const Behavior& behavior, std::string_view word) {
 }
 
 std::string suggested_behavior_word(std::string_view word) {
-  return suggest(word, kWords, "words beside out.PORT");
+  return suggest(word, kWords, "words next to out.PORT");
 }
 
 std::optional<Problem> add_statement(std::string_view word, std::string_view value,

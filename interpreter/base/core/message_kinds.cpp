@@ -54,8 +54,8 @@ std::span<const MessageKind> message_kinds() {
        "Group children with a `Sequence` or a parallel node, or add the missing child."},
       {"dead-node", "A node can never run, whatever the leaves return.",
        "Remove the node, or change the node before it that decides."},
-      {"deadlock", "Nodes wait for each other in a circle, so none of them can continue.",
-       "Break the circle that the message shows. deadlocks.md has examples."},
+      {"deadlock", "Nodes wait for each other, so none of them can continue.",
+       "Break the chain of nodes that the message shows. deadlocks.md has examples."},
       {"duplicate-name", "Two declarations have the same name.", "Rename one of them."},
       {"duplicate-tree", "Two trees have the same `ID`.", "Rename one of the trees."},
       {"empty-tree", "A `BehaviorTree` contains no node.", "Put one node into the tree."},
@@ -139,7 +139,7 @@ std::span<const MessageKind> message_kinds() {
        "Write what the hint shows."},
       {"opens-early",
        "After a failure of one member, a barrier may open for the others although the failed "
-       "member is to try again.",
+       "member will try again.",
        "Retry above the barrier, or read the hint. deadlocks.md has examples."},
       {"partly-isolated",
        "Some leaves of an isolated plugin run in the process of lockstep, because they use what "

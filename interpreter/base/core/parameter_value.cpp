@@ -64,7 +64,7 @@ std::string why_no_object(const ObjectType* object, std::string_view text) {
   if (object == nullptr || !object->has_from_text()) return {};
   const auto made = object->from_text(text);
   if (made || made.error().message.empty()) return {};
-  return "its plugin says: " + made.error().message;
+  return "its plugin reports: " + made.error().message;
 }
 
 std::optional<RuleBreak> refuse_value(const Parameter& parameter, const Value& value) {

@@ -25,7 +25,7 @@ namespace lockstep::host {
 namespace {
 
 const char* text_of_reason(int reason) {
-  return reason == 0 ? "nobody read them" : strerrordesc_np(reason);
+  return reason == 0 ? "no process read them" : strerrordesc_np(reason);
 }
 
 std::uint64_t lines_of(std::string_view text) {

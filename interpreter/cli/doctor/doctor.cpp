@@ -58,13 +58,12 @@ int doctor(const DoctorOptions& options) {
 
 std::function<int()> define_doctor(CLI::App& app) {
   const auto options = std::make_shared<DoctorOptions>();
-  app.add_option("--rate", options->patient.rate,
-                 "The rate that is to be kept, in ticks per second")
+  app.add_option("--rate", options->patient.rate, "The rate to keep, in ticks per second")
       ->type_name("HZ")
       ->check(number_between(0.001, 100000.0))
       ->capture_default_str();
   app.add_flag("--realtime", options->patient.realtime,
-               "The run is to be one with `run --realtime`: what that lacks is trouble");
+               "Check also what `run --realtime` needs: if it is missing, it is a problem");
   app.add_option("--plugin-path", options->patient.plugins.directories,
                  "Search plugins in this directory first; may be repeated")
       ->type_name("DIR")
@@ -77,10 +76,10 @@ std::function<int()> define_doctor(CLI::App& app) {
 
 extern const Command kDoctorCommand{
     "doctor", "Look at what on this machine could keep a run from its rate, and what is missing",
-    "Each line is ok, note (no harm to the run that is asked about) or trouble, with what to do.\n"
+    "Each line is ok, note (harmless for this run) or problem, with what to do.\n"
     "It measures for a quarter of a second how late the machine wakes a thread.\n"
     "\n"
-    "Exit code: 0 no trouble, 1 trouble, 2 usage.\n"
+    "Exit code: 0 no problem, 1 problem, 2 usage.\n"
     "\n"
     "Examples:\n"
     "  lockstep doctor\n"

@@ -51,7 +51,7 @@ Symptom look_at_clock() {
   if (is_slow)
     return {"clock source", Grade::Trouble, source + ": to read the time is slow",
             "boot with clocksource=tsc tsc=reliable, if the processor's counter is good"};
-  return {"clock source", Grade::Good, source.empty() ? "the system does not tell" : source};
+  return {"clock source", Grade::Good, source.empty() ? "the system does not report it" : source};
 }
 
 Symptom look_at_resolution() {
@@ -85,7 +85,7 @@ Symptom look_at_kernel(const Patient& patient) {
 Symptom look_at_load() {
   double loads[1] = {0};
   const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
-  if (getloadavg(loads, 1) != 1) return {"load", Grade::Note, "the system does not tell"};
+  if (getloadavg(loads, 1) != 1) return {"load", Grade::Note, "the system does not report it"};
   const std::string text = fmt::format("{} on {} processor{}", rounded(loads[0]), processors,
                                        processors == 1 ? "" : "s");
   if (loads[0] <= processors) return {"load", Grade::Good, text};

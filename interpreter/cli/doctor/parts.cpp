@@ -52,7 +52,7 @@ void look_at_leafhost(const Patient& patient, Symptoms& symptoms) {
     symptoms.push_back({"isolation", Grade::Good, leafhost});
   else
     symptoms.push_back({"isolation", Grade::Trouble, fmt::format("there is no {}", leafhost),
-                        "--isolate and plugins that are programs need it: install lockstep whole"});
+                        "--isolate and process plugins need it: install all of lockstep"});
 }
 
 bool is_program(const char* name) {

@@ -110,8 +110,8 @@ void add_plugin_options(CLI::App& app, PluginOptions& options) {
 
 void add_program_option(CLI::App& app, PluginOptions& options) {
   app.add_flag("--run-programs", options.run_programs,
-               "Start plugins that are programs, to learn what leaves they have; else that is read "
-               "from a file beside the program, grip.leaves.json for grip.py");
+               "Start process plugins to learn which leaves they have. Otherwise the leaves are "
+               "read from a file next to the plugin: grip.leaves.json for grip.py");
 }
 
 void add_load_options(CLI::App& app, LoadCommandOptions& options) {

@@ -68,13 +68,13 @@ void define_loop_options(CLI::App& app, RunCommandOptions& options) {
       ->type_name("S")
       ->check(number_between(0.0, 1e9));
   app.add_option("--stall", options.stall,
-                 "Report a child that stands still for S seconds while others wait for it, and "
-                 "barriers that wait for each other; 0 = never")
+                 "Report a child that makes no progress for S seconds while others wait for it, "
+                 "and barriers that wait for each other; 0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e9))
       ->capture_default_str();
   app.add_option("--stall-fail", options.stall_fail,
-                 "After S seconds of such a standstill, halt the node that stands still; it fails; "
+                 "After S seconds of such a stall, halt the node that makes no progress; it fails; "
                  "0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e9))
@@ -102,10 +102,9 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                              {"fail", OverrunPolicy::Fail}},
                             "When a tick ends after the next deadline: skip the missed "
                             "deadlines, run the missed ticks at once, or end the run");
-  add_choice<bool>(
-      app, "--tick", options.exactly_once, {{"once", false}, {"exactly-once", true}},
-      "When a node of a tree for BehaviorTree.CPP asks for another tick: tick the tree "
-      "again at once, or in the next period");
+  add_choice<bool>(app, "--tick", options.exactly_once, {{"once", false}, {"exactly-once", true}},
+                   "When a node of a tree for BehaviorTree.CPP requests another tick: tick the "
+                   "tree again at once, or in the next period");
   app.add_option("--tick-budget", options.tick_budget_ms,
                  "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
                  "(default: the period)")
@@ -160,10 +159,9 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
 void define_property_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Properties");
   add_property_options(app, options.properties);
-  add_choice<bool>(app, "--on-violation", options.ends_on_violation,
-                   {{"warn", false}, {"end", true}},
-                   "When the run violates a property: say so, or also end the run, with exit code "
-                   "10");
+  add_choice<bool>(
+      app, "--on-violation", options.ends_on_violation, {{"warn", false}, {"end", true}},
+      "When the run violates a property: warn, or also end the run, with exit code 10");
 }
 
 void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
@@ -173,7 +171,7 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
       ->type_name("[ADDRESS:PORT]");
   app.add_option("--monitor-socket", options.monitor_socket,
                  "Without --monitor: make a socket through which `lockstep monitor --attach` opens "
-                 "one while the run goes on")
+                 "one while the run continues")
       ->type_name("PATH");
   app.add_flag("--monitor-control", options.monitor_control,
                "Let those who have the link pause the run, tick it step by step, halt it and set "
@@ -183,7 +181,7 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
   app.add_flag("--monitor-open", options.opens_browser, "Open the page of the run in the browser");
   app.add_option("--monitor-linger", options.monitor_linger,
                  "After the end, serve the page as long as a browser has it open, at most S "
-                 "seconds; a signal ends it (default: 600 on a terminal, else 0)")
+                 "seconds; a signal ends it (default: 600 on a terminal, otherwise 0)")
       ->type_name("S")
       ->check(number_between(0.0, 1e6));
 }
@@ -247,7 +245,7 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Watching");
   app.add_option("--view", options.view,
                  "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
-                 "terminal, else plain")
+                 "terminal, otherwise plain")
       ->check(one_of({"auto", "live", "plain", "none"}))
       ->capture_default_str();
   add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
@@ -261,8 +259,8 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
   define_monitor_options(app, options);
   define_groot_options(app, options);
   app.add_flag("--notify", options.notifies,
-               "Tell systemd that the run has begun, that it goes on (WatchdogSec=), and that it "
-               "ends: for a service with Type=notify");
+               "Notify systemd that the run has begun, that it continues (WatchdogSec=), and that "
+               "it ends: for a service with Type=notify");
 }
 
 // What one expert needs, or needs once.

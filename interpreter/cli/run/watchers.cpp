@@ -13,7 +13,8 @@ namespace {
 
 std::optional<Problem> misuse(const RunCommandOptions& options) {
   if (options.begins_paused && !options.monitor_control) {
-    return Problem{"--monitor-paused needs --monitor-control", "else nobody can let it go on"};
+    return Problem{"--monitor-paused needs --monitor-control",
+                   "otherwise nothing can resume the run"};
   }
   if (options.monitor_control && !options.monitor && !options.monitor_socket) {
     return Problem{"--monitor-control needs --monitor or --monitor-socket"};

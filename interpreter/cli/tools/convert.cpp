@@ -100,7 +100,8 @@ std::function<int()> define_convert(CLI::App& app) {
 
 extern const Command kConvertCommand{
     "convert", "Print a tree file in the other language: lockstep's, or that of BehaviorTree.CPP",
-    "Comments, blanks and order stay. What cannot be said in the other language is an error.\n"
+    "Comments, whitespace and order stay. Anything that the other language cannot express is an "
+    "error.\n"
     "Files that it includes are converted one by one. Nodes of plugins are copied.\n"
     "Exit code: 0 printed, 2 usage, 3 the file cannot be read or converted.\n"
     "\n"

@@ -76,7 +76,7 @@ class FormatRun {
       return std::nullopt;
     if (is_foreign) {
       fail(name, fmt::format("its root is '{}'", brief(document->elements()[0].tag)),
-           "trees have 'root', scenarios 'scenarios', leaf files 'leaves'");
+           "trees have 'root', scenarios 'scenarios', leaf models 'leaves'");
       return std::nullopt;
     }
     if (document == nullptr || found.has_errors()) {
@@ -200,8 +200,8 @@ std::function<int()> define_fmt(CLI::App& app) {
 }  // namespace
 
 extern const Command kFmtCommand{
-    "fmt", "Bring tree files, scenarios and leaf files into the canonical layout",
-    "Blanks and line ends between tags change, nothing else: values, comments, quotes stay, and\n"
+    "fmt", "Bring tree files, scenarios and leaf models into the canonical layout",
+    "Only whitespace and line ends between tags change: values, comments and quotes stay, and\n"
     "an empty line between elements. The file with an error in it is not touched. Of a folder,\n"
     "all .xml files in it and below whose root is 'root', 'scenarios' or 'leaves'.\n"
     "Exit code: 0 all is well, 1 --check found files, 2 usage, or a file that cannot be written,\n"

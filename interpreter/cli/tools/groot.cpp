@@ -38,10 +38,10 @@ Result<std::unique_ptr<GrootListener>> listen(const std::string& address,
   auto& [requests, events] = *pair;
   GrootSockets sockets(std::move(requests.socket), std::move(events.socket));
   if (!requests.is_loopback) {
-    messages().say(fmt::format(
-        "lockstep: warning: --groot2: '{}' can be reached from other machines, and its protocol "
-        "asks nobody for a password\n",
-        requests.address));
+    messages().say(
+        fmt::format("lockstep: warning: --groot2: '{}' can be reached from other machines, and its "
+                    "protocol has no password\n",
+                    requests.address));
   }
   messages().say(fmt::format("groot2: {}\n", requests.address));
   return std::make_unique<Listener>(std::move(*shown), std::move(sockets));

@@ -21,7 +21,7 @@ struct LspOptions {
 int serve(const LspOptions& options) {
   if (is_terminal(STDIN_FILENO)) {
     print_note("this waits for an editor, which starts it and talks to it over stdin and stdout",
-               "`lockstep docs language_server` says how; Ctrl-D ends it");
+               "see `lockstep docs language_server`; Ctrl-D ends it");
   }
   keep_stdout_for_results();  // what plugins print is no message of the protocol
   Server server({options.plugins, {}, !options.no_plugins}, STDIN_FILENO, results_file());

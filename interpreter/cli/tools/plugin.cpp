@@ -136,17 +136,16 @@ int check_plugin(const PluginCheckOptions& options) {
 std::function<int()> define_plugin(CLI::App& app) {
   const auto options = std::make_shared<PluginCheckOptions>();
   app.require_subcommand(1);
-  CLI::App* check = app.add_subcommand(
-      "check",
-      "Load a plugin in another process, or start it if it is a program, and ask each of its "
-      "leaves all that a run may ask");
+  CLI::App* check =
+      app.add_subcommand("check",
+                         "Load a plugin in another process, or start a process plugin, and make "
+                         "each call to its leaves that a run may make");
   check->add_option("plugin", options->file, "The file of the plugin, or a name to search for")
       ->type_name("FILE|NAME")
       ->required();
-  check->add_flag(
-      "--save", options->save,
-      "Write what leaves a program has to a file beside it, grip.leaves.json for grip.py, "
-      "which commands read that run no programs");
+  check->add_flag("--save", options->save,
+                  "Write the leaves of a process plugin to a file next to it, grip.leaves.json for "
+                  "grip.py, for commands that do not start it");
   check
       ->add_option(
           "--tree", options->trees,
@@ -155,9 +154,8 @@ std::function<int()> define_plugin(CLI::App& app) {
       ->type_name("FILE")
       ->needs("--save")
       ->allow_extra_args(false);
-  check->add_flag(
-      "--list", options->only_leaves,
-      "Only ask a program what leaves it has: none of them is started, so nothing moves");
+  check->add_flag("--list", options->only_leaves,
+                  "Only list the leaves of a process plugin: no leaf is started, so nothing moves");
   check
       ->add_option("--plugin-path", options->plugins.directories,
                    "Search the plugin in this directory first; may be repeated")
@@ -165,7 +163,7 @@ std::function<int()> define_plugin(CLI::App& app) {
       ->allow_extra_args(false);
   check
       ->add_option("--hang-limit", options->plugins.hang_limit,
-                   "Wait for an answer, or a call, so many seconds; 0 = for ever")
+                   "The longest wait for an answer or a call, in seconds; 0 = no limit")
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();

@@ -34,7 +34,7 @@ std::function<int()> define_schema(CLI::App& app) {
   app.add_flag("--strict", options->strict,
                "Reject unknown nodes; name every plugin of the trees with --plugin");
   app.add_flag("--leaves", options->leaves,
-               "The schema of leaf files instead, which `lockstep verify --leaves` takes");
+               "The schema of leaf models instead, which `lockstep verify --leaves` takes");
   app.add_flag("--tests", options->tests,
                "The schema of scenarios instead, which `lockstep test` plays");
   add_plugin_options(app, options->plugins);

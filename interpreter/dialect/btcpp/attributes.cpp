@@ -167,7 +167,7 @@ class PortChecker {
     if (value_from_text(parameter.type, parameter.object, attribute.value)) return true;
     report_.at_value(
         "whitespace"_code, attribute.place,
-        fmt::format("there are blanks around the entry '{}'",
+        fmt::format("there is whitespace around the entry '{}'",
                     brief(without_blanks_around(attribute.value))),
         fmt::format("write {}=\"{}\"", parameter.name, without_blanks_around(attribute.value)));
     return false;

@@ -37,9 +37,9 @@ constexpr Difference kRounds[] = {
      "period; in lockstep's language each round takes a tick"}};
 constexpr Difference kDecides[] = {
     {"for BehaviorTree.CPP, it decides after each child; in lockstep's language when all were "
-     "ticked, and conditions are asked in every tick"}};
+     "ticked, and conditions are evaluated in every tick"}};
 constexpr Difference kStands[] = {
-    {"while it is held, the time of a Wait stands still; that of a Sleep goes on", When::IsHeld}};
+    {"while it is held, the time of a Wait stops; that of a Sleep continues", When::IsHeld}};
 constexpr Difference kSkipped = {
     "for BehaviorTree.CPP, a condition that is skipped is an error; in lockstep's language the "
     "node is skipped then",
@@ -234,7 +234,7 @@ std::string_view hint_of(Conversions conversion) {
     case Conversions::Rounds:
       return "only a positive number, or -1, can";
     case Conversions::Attempts:
-      return "only a positive number can; a Repeat between two Inverters tries for ever";
+      return "only a positive number can; a Repeat between two Inverters tries without limit";
     default:
       return "only a number of children from 1 on can";
   }

@@ -90,12 +90,12 @@ class TreeReader {
     const Attribute* format = find_attribute(attributes(0), "BTCPP_format");
     is_version_3_ = format == nullptr || format->value != "4";
     if (const Attribute* ours = find_attribute(attributes(0), "lockstep")) {
-      report_.at("wrong-language"_code, ours->place,
-                 is_main ? "this file says that it is in two languages"
-                         : "this file is in lockstep's language",
-                 is_main ? "with BTCPP_format it is for BehaviorTree.CPP: leave out 'lockstep'"
-                         : "the file that includes it is for BehaviorTree.CPP; all files of a tree "
-                           "are in the same language");
+      report_.at(
+          "wrong-language"_code, ours->place,
+          is_main ? "this file declares two languages" : "this file is in lockstep's language",
+          is_main ? "with BTCPP_format it is for BehaviorTree.CPP: leave out 'lockstep'"
+                  : "the file that includes it is for BehaviorTree.CPP; all files of a tree "
+                    "are in the same language");
     } else if (format == nullptr) {
       report_.at("wrong-language"_code, element(0).place,
                  "without 'BTCPP_format' this is read as a file of version 3",

@@ -92,14 +92,15 @@ inline double progress_of_branch(NodeContext& context, NodeIndex self) {
 
 template <Rule kRule>
 constexpr NodeKind kIf{
-    .type = {.id = "IfThenElse",
-             .category = NodeCategory::Control,
-             .doc = "Ticks its first child until it completes, then the second if it succeeded, "
-                    "else the third. The result is that of the branch; Failure without a third "
-                    "child.",
-             .arity = {2, 3},
-             .begins_child_once = kRule == Rule::Plain,
-             .has_branches = true},
+    .type =
+        {.id = "IfThenElse",
+         .category = NodeCategory::Control,
+         .doc =
+             "Ticks its first child until it completes, then the second if it succeeded, otherwise "
+             "the third. The result is that of the branch; Failure without a third child.",
+         .arity = {2, 3},
+         .begins_child_once = kRule == Rule::Plain,
+         .has_branches = true},
     .tick = tick_if<kRule>,
     .progress = progress_of_branch,
     .state_size = sizeof(BranchState),
@@ -107,20 +108,19 @@ constexpr NodeKind kIf{
     .if_moved = IfMoved::FromChild};
 
 template <Rule kRule>
-constexpr NodeKind kWhile{
-    .type = {.id = "WhileDoElse",
-             .category = NodeCategory::Control,
-             .doc = "Asks its first child in every tick: while it succeeds, ticks the second "
-                    "child, else the third. The branch that is left is halted. Failure without a "
-                    "third child.",
-             .arity = {2, 3},
-             .keeps_first_child = kRule == Rule::Strict,
-             .has_branches = true},
-    .tick = tick_while<kRule>,
-    .progress = progress_of_branch,
-    .state_size = sizeof(BranchState),
-    .fold = fold::dead_when_idle,
-    .passes_over_branches = kRule == Rule::Strict,
-    .if_moved = IfMoved::FromChild};
+constexpr NodeKind kWhile{.type = {.id = "WhileDoElse",
+                                   .category = NodeCategory::Control,
+                                   .doc = "Ticks its first child in every tick: while it succeeds, "
+                                          "ticks the second child, otherwise the third. The branch "
+                                          "that is left is halted. Failure without a third child.",
+                                   .arity = {2, 3},
+                                   .keeps_first_child = kRule == Rule::Strict,
+                                   .has_branches = true},
+                          .tick = tick_while<kRule>,
+                          .progress = progress_of_branch,
+                          .state_size = sizeof(BranchState),
+                          .fold = fold::dead_when_idle,
+                          .passes_over_branches = kRule == Rule::Strict,
+                          .if_moved = IfMoved::FromChild};
 
 }  // namespace lockstep::host::branches

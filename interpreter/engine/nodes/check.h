@@ -23,7 +23,7 @@ inline Status tick(NodeContext& context, NodeIndex self) {
 constexpr NodeKind kind(std::string_view id) {
   return {.type = {.id = id,
                    .category = NodeCategory::Condition,
-                   .doc = "Success when its script is true, else Failure.",
+                   .doc = "Success when its script is true, otherwise Failure.",
                    .arity = {0, 0},
                    .parameters = kParameters},
           .tick = tick,

@@ -11,7 +11,7 @@ constexpr std::int64_t kForever = 0;  // the cell of an absent number
 constexpr Parameter kRepeatParameters[] = {
     {.name = "times",
      .type = ValueType::Int,
-     .doc = "How often the child must succeed; for ever when absent.",
+     .doc = "How often the child must succeed; without limit when absent.",
      .range = {.min = 1}},
 };
 

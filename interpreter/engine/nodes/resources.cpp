@@ -14,7 +14,7 @@ constexpr Parameter kResourcesParameters[] = {
     {.name = "increment",
      .type = ValueType::Int,
      .doc = "What the priority of a member grows by in a tick in which it waits; 0: the first in "
-            "the tree always wins, and the others may wait for ever.",
+            "the tree always wins, and the others may wait indefinitely.",
      .default_text = "1",
      .range = {.min = 0, .max = 1000000},
      .constant = true},

@@ -77,9 +77,9 @@ double progress_of_switch(NodeContext& context, NodeIndex self) {
 const NodeKind kSwitch{
     .type = {.id = "Switch",
              .category = NodeCategory::Control,
-             .doc = "Ticks the child of the first case that equals a value, else the child after "
-                    "those of the cases; Failure if there is none. When the value chooses another "
-                    "child, the one that runs is halted.",
+             .doc = "Ticks the child of the first case that equals a value, otherwise the child "
+                    "after those of the cases; Failure if there is none. When the value chooses "
+                    "another child, the one that runs is halted.",
              .arity = {1},
              .parameters = kSwitchParameters,
              .rule = rule_of_switch},

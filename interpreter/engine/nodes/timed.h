@@ -26,8 +26,8 @@ inline constexpr Parameter kClockParameter{
     .name = "clock",
     .type = ValueType::String,
     .doc =
-        "Which time counts: active stands still while the node is held; wall goes on, and what is "
-        "due happens in the next tick that the node receives.",
+        "Which time counts: active stops while the node is held; wall continues, and what is due "
+        "happens in the next tick that the node receives.",
     .default_text = "active",
     .choices = kClocks};
 

@@ -100,8 +100,8 @@ Status tick_use_resources(NodeContext& context, NodeIndex self) {
 const NodeKind kUseResources{
     .type = {.id = "UseResources",
              .category = NodeCategory::Decorator,
-             .doc = "Ticks its child in the ticks in which it owns all of its resources, which "
-                    "nobody else owns then; in the others the child is held, and this is Running.",
+             .doc = "Ticks its child in the ticks in which it owns all of its resources, which no "
+                    "other member owns then; in the others the child is held, and this is Running.",
              .arity = {1, 1},
              .parameters = kUseResourcesParameters,
              .rule = rule_of_use_resources,

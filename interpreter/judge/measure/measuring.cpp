@@ -208,7 +208,7 @@ void Measuring::add_pair(const MeasureSpec& spec, const Shape& tree) {
   }
   const Choice others = neighbors(tree, *kept);
   const auto other =
-      found(find_path(others.paths, spec.other, "child beside '" + path + "' named"));
+      found(find_path(others.paths, spec.other, "child next to '" + path + "' named"));
   if (!other) return;
   needs_flags_ = true;
   MeasureTarget target = target_of(tree, kept->keeper);

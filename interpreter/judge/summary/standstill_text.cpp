@@ -57,7 +57,7 @@ class StandstillText {
     std::vector<std::string> names;
     for (const WaitLink& link : links_) names.push_back(name(link.node));
     names.push_back(names.front());
-    return fmt::format("a circle stands still since {:.3f} s: {}", to_seconds(standstill_.since),
+    return fmt::format("a deadlock since {:.3f} s: {}", to_seconds(standstill_.since),
                        chained(std::vector<std::string_view>(names.begin(), names.end())));
   }
 
@@ -83,7 +83,7 @@ class StandstillText {
         break;
     }
     if (head.awaited_at >= standstill_.best - kProgressEpsilon) {
-      return fmt::format("{} stands still at {:.6g} {}", who, head.awaited_at, hold);
+      return fmt::format("{} makes no progress at {:.6g} {}", who, head.awaited_at, hold);
     }
     return fmt::format(
         "{} moves, but is at {:.6g} and has not come beyond {:.6g} since {:.3f} s, "

@@ -33,7 +33,7 @@ void Standstills::failed(const Standstill& standstill, NodeIndex node) {
   auto lines = standstill_lines(shape_, standstill);
   StandstillSummary* known = find(standstill);
   if (known != nullptr) {
-    lines = {fmt::format("{} is halted and fails: it stands still since {:.3f} s", path,
+    lines = {fmt::format("{} is halted and fails: no progress since {:.3f} s", path,
                          to_seconds(standstill.since))};
   } else {
     lines[0] = fmt::format("{} is halted and fails: {}", path, lines[0]);

@@ -136,7 +136,7 @@ std::vector<std::string> progress_notes(const Shape& shape, const LiveRun& run) 
   };
   add(run.out_of_range(), "reported such a progress",
       [](const OutOfRange& it) { return out_of_range_text(it.reported); });
-  add(run.went_on(), "went on while they were held",
+  add(run.went_on(), "continued while they were held",
       [](const WentOn& it) { return went_on_text(it.from, it.to); });
   return notes;
 }

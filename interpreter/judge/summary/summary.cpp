@@ -212,7 +212,7 @@ void append_fall_notes(const FallWatch& falls, std::span<const std::string> path
                                 paths[fall->child], what, to_seconds(fall->time), consequence));
   };
   add(falls.while_ticked(), "fell", "the spread has no bound then");
-  add(falls.while_held(), "fell while it was held", "the others may wait for ever then");
+  add(falls.while_held(), "fell while it was held", "the others may then wait indefinitely");
   add(falls.rise_before(), "rose in a period with several ticks", "the spread has no bound then");
   add(falls.rise_while_held(), "rose while it was held", "the spread has no bound then");
 }

@@ -128,7 +128,7 @@ std::optional<XmlFault> skip_instruction(Cursor& at) {
   if (is_same_word(target, "xml"))
     return XmlFault{begin, fmt::format("a processing instruction cannot be named '{}'", target)};
   if (at.position() != end && !at.skip_blanks())
-    return XmlFault{at.position(), fmt::format("expected a blank after '<?{}'", brief(target))};
+    return XmlFault{at.position(), fmt::format("expected whitespace after '<?{}'", brief(target))};
   at.go_to(end + 2);
   return std::nullopt;
 }

@@ -85,7 +85,7 @@ XmlToken Scanner::inside_tag() {
     const auto found = rest().substr(0, utf8_length(rest()));
     return fail(begin, fmt::format("unexpected '{}' in the tag '<{}'", found, brief(tag_)), hint);
   }
-  if (!blanks && !is_lenient_) return fail(begin, "expected a blank before the attribute");
+  if (!blanks && !is_lenient_) return fail(begin, "expected whitespace before the attribute");
   return attribute(begin, name);
 }
 

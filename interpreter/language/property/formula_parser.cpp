@@ -142,7 +142,7 @@ void FormulaParser::node_term() {
       }
       check_quotes(name);
       throw PropertyError{
-          fmt::format("'{}' says nothing of a tick", brief(path)),
+          fmt::format("'{}' is not about a tick", brief(path)),
           fmt::format("add what of the node is meant: '{}.running'; also {}", brief(path),
                       joined(std::span(kPropertyFields).subspan(1), ", ")),
           name.offset};

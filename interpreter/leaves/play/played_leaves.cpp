@@ -47,7 +47,7 @@ class PlayedLeaf final : public RemoteLeaf {
     }
     if (at_ + 1 < words_->size()) ++at_;
     if (word->kind == Kind::Fault) {
-      fail("fails as a program, which the leaf file allows");
+      fail("fails as a program, which the leaf model allows");
       return LOCKSTEP_FAILURE;
     }
     if (word->kind == Kind::Held) {

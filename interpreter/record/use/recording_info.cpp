@@ -19,9 +19,9 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
   out += fmt::format("{} from {}, recorded by lockstep {}\n",
                      styled(printable(header.id), Style::Strong, color), printable(header.file),
                      printable(header.version));
-  out +=
-      fmt::format("  {}, {} Hz, {} clock, seed {}, law {}\n", counted(header.nodes.size(), "node"),
-                  header.rate_hz, printable(header.clock), header.seed, header.law);
+  out += fmt::format("  {}, {} Hz, {} clock, seed {}, semantics {}\n",
+                     counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
+                     header.seed, header.law);
   if (!header.verify.empty()) {
     out += fmt::format("  found by verify: {}\n", printable(header.verify));
   }
@@ -60,7 +60,7 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
     return;
   }
   if (reader.goes_on()) {
-    out += fmt::format("  {}, until {:.3f} s; the run goes on in the next part\n",
+    out += fmt::format("  {}, until {:.3f} s; the run continues in the next part\n",
                        counted(ticks, "tick"), time);
     return;
   }
@@ -89,7 +89,7 @@ void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::st
   }
   if (faults > 0) {
     out += fmt::format("  {}\n",
-                       styled(counted(faults, "fault") + " of leaves after which the run went on",
+                       styled(counted(faults, "fault") + " of leaves after which the run continued",
                               Style::Warning, color));
   }
 }

@@ -164,7 +164,7 @@ void GrowingFile::give_up(const char* what, Failure failure) {
   failed_ = true;
   if (failure == Failure::Silent) return;
   fail(what, patience_.is_over
-                 ? fmt::format("nobody took anything for {:.2g} s at the end of the run",
+                 ? fmt::format("no process read anything for {:.2g} s at the end of the run",
                                to_seconds(patience_.most.load()))
                  : std::generic_category().message(reason));
 }

@@ -232,7 +232,7 @@ bool PluginSet::open_program(const Request& request, Hold hold, Diagnostics& dia
       fmt::format("let 'lockstep plugin check --list --save {}' write it again", request.origin);
   if ((*opened)->is_file_stale()) {
     diagnostics.warning("stale-leaf-file"_code, request.where,
-                        fmt::format("plugin '{}' has other leaves than '{}' says",
+                        fmt::format("plugin '{}' has other leaves than '{}' lists",
                                     request.expected_name, leaves_file_of(request.origin)),
                         write_again);
   }
@@ -329,8 +329,8 @@ bool PluginSet::initialize(Diagnostics& diagnostics) {
     if (plugin->initialized) continue;
     if (std::string failure = plugin->initialize(); !failure.empty()) {
       return refuse(plugin->origin,
-                    {std::move(failure), "ask the author of the plugin what it needs"}, diagnostics,
-                    {});
+                    {std::move(failure), "the author of the plugin knows what it needs"},
+                    diagnostics, {});
     }
     plugin->initialized = true;
   }

@@ -177,7 +177,7 @@ void ConsolePlain::tell_end_of_wait(const Moment& moment, Watched& node, std::si
   if (!wait.told) {
     ++short_waits_;
   } else if (moment.ticked(it)) {
-    tell(it, fmt::format("goes on after {:.3f} s", to_seconds(now - wait.since)));
+    tell(it, fmt::format("continues after {:.3f} s", to_seconds(now - wait.since)));
   }
 }
 

@@ -40,7 +40,7 @@ std::optional<WebAnswer> Gate::refuse(const WebRequest& request) const {
     return refusal(421, {"this is the monitor of lockstep, not that host"});
   }
   if (request.origin && *request.origin != "http://" + *request.host) {
-    return refusal(403, {"pages of other hosts may not ask"});
+    return refusal(403, {"pages of other hosts are rejected"});
   }
   const bool is_open = token_.empty() || (request.path == "/" && request.method == "GET");
   if (!is_open && !is_token(token_, request.token.value_or(""))) {

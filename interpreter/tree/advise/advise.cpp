@@ -197,8 +197,7 @@ class Adviser {
         return add(
             "same-name"_code, child, Severity::Note,
             fmt::format("'{}' is also the name of a child before it", brief(it.name)),
-            "paths tell them apart by '#2', which changes when the order does: give each its "
-            "own name");
+            "their paths differ by '#2', which changes with the order: give each its own name");
       }
       table[place] = child;
     }

@@ -47,16 +47,17 @@ class HoldAdviser {
     const std::string_view by = definition_.nodes[holder].name;
     const Value* const hold = definition_.constant(leaf, "hold");
     if (hold == nullptr) {
-      report_.at("unstated-hold"_code, leaf.place,
-                 fmt::format("'{}' may be held by '{}', and does not say what the robot does then",
-                             leaf.name, by),
-                 fmt::format("give hold; `lockstep nodes {}` has the ways", leaf.type->id),
-                 Severity::Warning);
-    } else if (*hold == Value("nothing")) {
       report_.at(
-          "moves-while-paused"_code, leaf.place,
-          fmt::format("while '{}' holds '{}', the robot goes on: hold=\"nothing\"", by, leaf.name),
-          {}, Severity::Note);
+          "unstated-hold"_code, leaf.place,
+          fmt::format("'{}' may be held by '{}', and does not declare what the robot does then",
+                      leaf.name, by),
+          fmt::format("give hold; `lockstep nodes {}` has the ways", leaf.type->id),
+          Severity::Warning);
+    } else if (*hold == Value("nothing")) {
+      report_.at("moves-while-paused"_code, leaf.place,
+                 fmt::format("while '{}' holds '{}', the robot continues: hold=\"nothing\"", by,
+                             leaf.name),
+                 {}, Severity::Note);
     }
   }
 

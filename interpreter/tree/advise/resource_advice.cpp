@@ -34,8 +34,8 @@ class ResourceAdviser {
 
   void starvation(const DefinitionNode& pool) const {
     report_.at("starvation"_code, pool.place,
-               fmt::format("the members of '{}' may wait for ever", brief(pool.name)),
-               "with increment=\"0\" the first in the tree always wins; leave it out, and nobody "
+               fmt::format("the members of '{}' may wait indefinitely", brief(pool.name)),
+               "with increment=\"0\" the first in the tree always wins; without it, no member "
                "waits for long",
                Severity::Warning);
   }

@@ -159,7 +159,7 @@ class TreeChecker {
                  "write <property name=\"…\">");
     }
     if (text == nullptr) {
-      report_.at("bad-property"_code, place, "the property says nothing",
+      report_.at("bad-property"_code, place, "the property has no text",
                  "write it as text: <property name=\"…\">never arm.failure</property>");
     }
     const bool is_of_main = document_ == project_.documents.front().get();
@@ -254,8 +254,8 @@ class TreeChecker {
     node.type = is_explicit ? find_explicit_type(index) : find_type(index);
     if (node.type != nullptr && node.type->category == NodeCategory::Group) {
       report_.at("not-a-node"_code, node.place,
-                 fmt::format("'{}' is no node of a tree", node.type->id),
-                 "it is declared in 'root', beside the trees");
+                 fmt::format("'{}' is not a node of a tree", node.type->id),
+                 "declare it in 'root', outside the trees");
       node.type = nullptr;
     }
     for ([[maybe_unused]] const auto child : children_in(elements_, index)) ++node.children;

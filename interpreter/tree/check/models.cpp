@@ -122,7 +122,7 @@ class ModelReader {
       const std::string_view plain = without_blanks_around(name->value);
       if (!is_subtree && plain != name->value) {
         report_.at_value("whitespace"_code, name->place,
-                         fmt::format("there are blanks around the port '{}'", brief(plain)),
+                         fmt::format("there is whitespace around the port '{}'", brief(plain)),
                          fmt::format("it is read as name=\"{}\"", brief(plain)), Severity::Warning);
       }
       if (plain.empty()) continue;

@@ -41,14 +41,14 @@ void check_arity(ElementOf element, const CheckedNode& node, const Reporter& rep
               "'SubTree' cannot have children", "its tree is the BehaviorTree that its ID names");
   } else if (node.children < type.arity.min) {
     const bool any_number = type.arity.min == 1 && type.arity.max > 1;
-    report.at("child-count"_code, node.place,
-              fmt::format("'{}' needs {}", type.id,
-                          any_number ? "a child" : arity_text(type.arity.min, type.arity.max)),
-              node.children == 0
-                  ? fmt::format("it is a {}: put {} into it", to_string(type.category),
-                                type.arity.min == 1 ? "a node" : "nodes")
-                  : fmt::format("it has {}; `lockstep nodes {}` says what they are for",
-                                node.children, type.id));
+    report.at(
+        "child-count"_code, node.place,
+        fmt::format("'{}' needs {}", type.id,
+                    any_number ? "a child" : arity_text(type.arity.min, type.arity.max)),
+        node.children == 0
+            ? fmt::format("it is a {}: put {} into it", to_string(type.category),
+                          type.arity.min == 1 ? "a node" : "nodes")
+            : fmt::format("it has {}; `lockstep nodes {}` describes them", node.children, type.id));
   } else if (node.children > type.arity.max) {
     // The first child that is one too many.
     std::uint32_t extra = element.index + 1;

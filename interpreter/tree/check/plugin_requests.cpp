@@ -98,7 +98,7 @@ class RequestReader {
     request_.hold = value;
     if (std::ranges::find(kHolds, value) != std::end(kHolds)) return;
     report_.at_value("bad-value"_code, place,
-                     fmt::format("'{}' is no way to hold a program", brief(value)),
+                     fmt::format("'{}' is not a way to hold a process plugin", brief(value)),
                      "signal (its process is stopped), message or none");
   }
 

@@ -37,7 +37,7 @@ class GroupChecker {
     const auto& members = group.members;
     if (members.size() == 1) {
       report_.at("lone-member"_code, at(members[0]).place,
-                 fmt::format("nobody else waits at the barrier '{}'", name(group.node)),
+                 fmt::format("no other node waits at the barrier '{}'", name(group.node)),
                  "a barrier needs a SyncProgress for each of those that wait for each other");
       return false;
     }
@@ -82,7 +82,7 @@ class GroupChecker {
     }
     names.push_back(names.front());
     report_.at("deadlock"_code, at(circle.front().group).place,
-               fmt::format("barriers wait for each other in a circle: {}", chained(names)), hint);
+               fmt::format("barriers wait for each other: {}", chained(names)), hint);
   }
 
   const Definition& definition_;

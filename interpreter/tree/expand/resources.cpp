@@ -109,7 +109,7 @@ class PoolResolver {
     add(inner,
         fmt::format("the pool '{}' is used inside of '{}' here, and the other way elsewhere",
                     brief(at(pool).name), brief(at(outer_pool).name)),
-        "two nodes may wait for each other for ever: nest pools in one order, or make them one");
+        "two nodes may deadlock: nest pools in one order, or make them one");
   }
 
   // Whether a pool is used inside of another one, also through third ones.

@@ -31,7 +31,8 @@ TEST_CASE("a message ends with its code") {
   Diagnostics diagnostics;
   diagnostics.error("unknown-node"_code, {"a.xml", 4, 3}, "unknown node 'Sequnce'", "a hint");
   CHECK(render(diagnostics.all()[0], false) ==
-        "a.xml:4:3: error: unknown node 'Sequnce' [unknown-node]\n  hint: a hint\n");
+        "a.xml:4:3: error: unknown node 'Sequnce' [unknown-node]\n"
+        "  hint: a hint\n");
 }
 
 TEST_CASE("what is not known of a place is not shown") {

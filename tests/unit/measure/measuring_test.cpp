@@ -118,7 +118,7 @@ TEST_CASE("a member of a barrier is held by a member of the same barrier") {
   // The barrier's node is in the parallel, too, which holds nobody.
   CHECK(measured("held-by:ParallelRelative/SyncProgress:c", tree, leaves) == 0);
   CHECK(error_of("held-by:b:c", tree, leaves) ==
-        "no child beside 'Test/ParallelRelative/SyncProgress/b' named 'c', there are: "
+        "no child next to 'Test/ParallelRelative/SyncProgress/b' named 'c', there are: "
         "'Test/ParallelRelative/Sequence/SyncProgress/a', "
         "'Test/ParallelRelative/Sequence/SyncProgress'");
 }
@@ -128,9 +128,9 @@ TEST_CASE("who holds whom needs two children of one synchronized node") {
              *leaves = "arm=R base=R other=R";
   CHECK(error_of("held-by:arn:base", tree, leaves) == "no node 'arn', did you mean 'arm'?");
   CHECK(error_of("held-by:arm:bas", tree, leaves) ==
-        "no child beside 'Test/Parallel/ParallelRelative/arm' named 'bas', did you mean 'base'?");
+        "no child next to 'Test/Parallel/ParallelRelative/arm' named 'bas', did you mean 'base'?");
   CHECK(error_of("held-by:arm:arm", tree, leaves) ==
-        "no child beside 'Test/Parallel/ParallelRelative/arm' named 'arm', there are: "
+        "no child next to 'Test/Parallel/ParallelRelative/arm' named 'arm', there are: "
         "'Test/Parallel/ParallelRelative/base'");
   CHECK(error_of("held-by:other:arm", tree, leaves) ==
         "'Test/Parallel/other' is not a child of a synchronized node or of a SyncProgress, so no "

@@ -35,7 +35,7 @@ TEST_CASE("each mistake in a property is reported at its column") {
       {"never arm.running", 7, "'arm' is the end of 2 paths",
        "write more of the one that is meant: 'left/arm', 'right/arm'"},
       {"never base.runing", 12, "a node has no 'runing'", "did you mean 'running'?"},
-      {"never base", 7, "'base' says nothing of a tick", ""},
+      {"never base", 7, "'base' is not about a tick", ""},
       {"base.running", 13,
        "expected 'and', 'or', 'leads to', 'only after', 'at most' or 'until' instead of the end",
        ""},

@@ -204,7 +204,8 @@ TEST_CASE("faults that the run went on after are in their tick, and counted") {
   std::istringstream in(text);
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
-  CHECK(info.find("\n  2 faults of leaves after which the run went on\n") != std::string::npos);
+  CHECK(info.find("\n"
+                  "  2 faults of leaves after which the run continued\n") != std::string::npos);
   CHECK(csv_of(text).find("broke") == std::string::npos);
 }
 
@@ -329,7 +330,7 @@ TEST_CASE("info measures a recording as the run was measured") {
   const std::string info = info_text(reader);
   CHECK(info ==
         "Test from trees/a.xml, recorded by lockstep 0.1.0\n"
-        "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615, law 3\n"
+        "  3 nodes, 10 Hz, virtual clock, seed 18446744073709551615, semantics 3\n"
         "  argument barriers = 0.5;1\n"
         "  the tree after tick 3:\n"
         "    ParallelAbsolute (ParallelAbsolute barriers=0.5;1): success\n"

@@ -272,10 +272,9 @@ TEST_CASE("a child that comes back from the call is reported and ends there") {
     });
     CHECK(ended.exit_code == 1);
     CHECK(ended.said ==
-          "lockstep: warning: the leaf 'Main/arm' (Advance of plugin 'motion') "
-          "forked in its halt function (tick 12), and the child came back from "
-          "the call; the child was ended\n"
-          "  hint: a child must call exec or _exit; the run goes on without it\n");
+          "lockstep: warning: the leaf 'Main/arm' (Advance of plugin 'motion') forked in its halt "
+          "function (tick 12), and the child came back from the call; the child was ended\n"
+          "  hint: a child must call exec or _exit; the run continues without it\n");
   }
 }
 

@@ -113,11 +113,11 @@ TEST_CASE("outlet: whoever speaks does not wait for a reader, who is told what i
   outlet.say(line_of(2 * kPage));
   pipe.wait_for_text();  // from now on the thread waits for us
   for (std::size_t i = 0; i < kLines; ++i) outlet.say(line_of(1024));
-  const std::string text = pipe.read_to("nobody read them\n");
+  const std::string text = pipe.read_to("no process read them\n");
   const std::size_t arrived = 2 * kPage + kQueued * 1024;
   REQUIRE(text.size() > arrived);
   CHECK(text.substr(arrived) == "lockstep: warning: " + std::to_string(kLines - kQueued) +
-                                    " lines are lost here: nobody read them\n");
+                                    " lines are lost here: no process read them\n");
   CHECK(outlet.lost().lines == kLines - kQueued);
   outlet.say("goes on\n");
   CHECK(pipe.read_to("goes on\n") == "goes on\n");

@@ -183,14 +183,14 @@ TEST_CASE("leaves whose progress was out of range are noted, a few by name") {
   CHECK(summary.notes[5] == "6 leaves in all reported such a progress");
 }
 
-TEST_CASE("leaves that went on while they were held are noted and counted") {
+TEST_CASE("leaves that continued while they were held are noted and counted") {
   WatchedRun run("ParallelAbsolute[barriers=.5](a b)", "a=R.1RRRRRS b=R~0,.6,.7,.8,.9");
   const Summary summary = summary_of(run);
   CHECK(summary.went_on == 1);
   REQUIRE(!summary.notes.empty());
   CHECK(summary.notes[0] ==
-        "the leaf 'Test/ParallelAbsolute/b' went on while it was held: its progress rose from 0.6 "
-        "to 0.8");
+        "the leaf 'Test/ParallelAbsolute/b' continued while it was held: its progress rose from "
+        "0.6 to 0.8");
   CHECK(to_json(summary).find(R"("went_on_while_held":1,)") != std::string::npos);
 }
 

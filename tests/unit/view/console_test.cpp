@@ -30,7 +30,7 @@ TEST_CASE("plain lines tell who waits for whom") {
         "     0.000 s  tick 0       Test/ParallelAbsolute/a: started\n"
         "     0.000 s  tick 0       Test/ParallelAbsolute/b: started\n"
         "     0.100 s  tick 1       Test/ParallelAbsolute/b: waits for a at barrier 0.5\n"
-        "     0.500 s  tick 5       Test/ParallelAbsolute/b: goes on after 0.400 s\n"
+        "     0.500 s  tick 5       Test/ParallelAbsolute/b: continues after 0.400 s\n"
         "     0.500 s  tick 5       Test/ParallelAbsolute/b: success\n"
         "     0.900 s  tick 9       Test/ParallelAbsolute/a: success\n"
         "     0.900 s  tick 9       run ends: success (completed) after 10 ticks\n");
@@ -47,21 +47,23 @@ TEST_CASE("of waits that follow each other at once, only the first is reported, 
   CHECK(text.find("     0.100 s  tick 1       Test/ParallelRelative/b: waits for a, 0.00 ahead "
                   "(delta 0)\n") != std::string::npos);
   CHECK(text.find("b: waits") == text.rfind("b: waits"));
-  CHECK(text.find("     0.200 s  tick 2       Test/ParallelRelative/b: goes on after 0.100 s\n") !=
-        std::string::npos);
+  CHECK(
+      text.find("     0.200 s  tick 2       Test/ParallelRelative/b: continues after 0.100 s\n") !=
+      std::string::npos);
   CHECK(text.find("... 15 short waits left out\n") != std::string::npos);
 }
 
 TEST_CASE("a wait that follows another at once is reported when it lasts, with its true time") {
   const std::string text =
       plain("ParallelRelative[delta=.1](a b)", "a=R.1R.1R.2R.2R.2R.2R.4S b=R.15R.25R.35RRS");
-  CHECK(text.find("     0.200 s  tick 2       Test/ParallelRelative/b: waits for a, 0.15 ahead "
-                  "(delta 0.1)\n"
-                  "     0.300 s  tick 3       Test/ParallelRelative/b: goes on after 0.100 s\n"
-                  "     0.500 s  tick 5       Test/ParallelRelative/b: waits for a, 0.15 ahead "
-                  "(delta 0.1), since 0.400 s\n"
-                  "     0.700 s  tick 7       Test/ParallelRelative/b: goes on after 0.300 s\n") !=
-        std::string::npos);
+  CHECK(
+      text.find("     0.200 s  tick 2       Test/ParallelRelative/b: waits for a, 0.15 ahead "
+                "(delta 0.1)\n"
+                "     0.300 s  tick 3       Test/ParallelRelative/b: continues after 0.100 s\n"
+                "     0.500 s  tick 5       Test/ParallelRelative/b: waits for a, 0.15 ahead "
+                "(delta 0.1), since 0.400 s\n"
+                "     0.700 s  tick 7       Test/ParallelRelative/b: continues after 0.300 s\n") !=
+      std::string::npos);
   CHECK(text.find("left out") == std::string::npos);
 }
 

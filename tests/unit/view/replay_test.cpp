@@ -331,7 +331,7 @@ TEST_CASE("below the tree: where the replay is, what is missing, which keys ther
   };
   CHECK(status(24) ==
         "paused  tick 6 of 22  0.600 of 2.200 s  speed 1  3 ticks lost before this\n"
-        "space go on  p n step  g go to tick  home end  + - speed  q quit\n");
+        "space continue  p n step  g go to tick  home end  + - speed  q quit\n");
   played.press("g12");
   CHECK(status(6).ends_with("\ngo to tick: 12_\n"));
   played.press("\r ");

@@ -106,8 +106,8 @@ class Hints {
     const std::uint64_t parts = parts_of(*parent);
     if (parts < 2) return;
     const std::size_t behind_tag = tree_.offset_of(element.tag) + element.tag.size();
-    add(behind_tag, fmt::format("1/{}", parts), "its share of the progress of what is around it",
-        true);
+    add(behind_tag, fmt::format("1/{}", parts),
+        "its fraction of the progress of the node around it", true);
   }
 
   // The number of equal parts of its progress; 0: there are none.

@@ -54,7 +54,7 @@ Result<ProjectEdit> renamed_of_main_tree(const ProjectTexts& texts, std::string_
                                          std::string_view new_name) {
   if (texts.main_tree().empty()) {
     return problem(fmt::format("'{}' is an entry of the main tree", brief(marked)),
-                   "this file does not say which tree that is: main_tree_to_execute");
+                   "this file does not name its main tree: main_tree_to_execute");
   }
   if (new_name.starts_with('@')) new_name.remove_prefix(1);
   return rename_entry(texts, texts.main_tree(), marked.substr(1), new_name);

@@ -30,14 +30,14 @@ constexpr Word kInclude[] = {
 constexpr Word kPlugin[] = {
     {"name", "", "The name of the plugin; files are searched, never named by their paths.", true},
     {"isolate", "true|false", "true: it lives in a separate process."},
-    {"program", "", "The file of a plugin that is a program."},
+    {"program", "", "The file of a process plugin."},
     {"hold", "signal|message|none", "How a program is held."},
 };
 constexpr Word kProperty[] = {
     {"name", "", "What messages call it.", true},
 };
 constexpr Tag kScenario{"scenario", scenario_words::kScenario,
-                        "What the leaves do, and what is to come of it."};
+                        "What the leaves do, and the expected results."};
 constexpr Tag kTree[] = {
     {"BehaviorTree", kBehaviorTree, "A tree, with one node in it."},
     {"plugin", kPlugin, "The nodes of a plugin can be used in the file."},

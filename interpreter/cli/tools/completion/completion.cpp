@@ -37,7 +37,7 @@ std::function<int()> define_completion(CLI::App& app) {
     });
   }
   CLI::App* const words = app.add_subcommand(
-      "words", "Print what could stand at the end of the line that follows; the scripts ask it");
+      "words", "Print the words that may end the line that follows; the scripts call this");
   words->prefix_command();
   return [words, text] {
     return *text != nullptr ? write_results(*text) : print_candidates(words->remaining());
@@ -48,7 +48,7 @@ std::function<int()> define_completion(CLI::App& app) {
 
 extern const Command kCompletionCommand{
     "completion", "Print a script that makes a shell complete the command line",
-    "The script asks lockstep for the commands, options and values that could stand next. Values\n"
+    "The script gets from lockstep the commands, options and values that could stand next. Values\n"
     "come from the tree or the recording on the line; no plugin is loaded for that.\n"
     "\n"
     "Exit code: 0 printed, 2 usage.\n"

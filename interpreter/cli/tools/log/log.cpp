@@ -101,9 +101,8 @@ std::function<int()> define_log(CLI::App& app) {
 
 extern const Command kLogCommand{
     "log", "Read recordings of `lockstep run --record`",
-    "A recording that ends early, as after a kill, is read up to its last "
-    "whole line; a message on\n"
-    "stderr says so.\n"
+    "A truncated recording, such as after a kill, is read up to its last whole line; a message on\n"
+    "stderr reports it.\n"
     "Exit code: 0 read, 1 two recordings differ or a property is violated, 2 usage, a file that "
     "cannot\n"
     "be read, or a plot without gnuplot, 3 not a recording or a damaged one, 124 a property is "

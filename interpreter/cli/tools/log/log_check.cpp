@@ -102,7 +102,7 @@ int check_leaves(const LogCheckOptions& options) {
     for (const LeafBreach& it : breaches) {
       text += fmt::format("{}: in tick {}: {}\n", printable(it.path), it.tick, it.message);
     }
-    if (breaches.empty()) text = "the leaves did what the leaf file allows\n";
+    if (breaches.empty()) text = "the leaves did what the leaf model allows\n";
     return first_failure(write_results_of(reader, text),
                          breaches.empty() ? kExitSuccess : kExitFailure);
   });
@@ -122,7 +122,7 @@ LogSubcommand define_log_check(CLI::App& log) {
   add_recording_file(*app, options->file);
   add_property_options(*app, options->properties);
   app->add_option("--leaves", options->leaves,
-                  "A leaf file: where did leaves what it does not allow?")
+                  "A leaf model: report where leaves did what it does not allow")
       ->type_name("FILE");
   app->add_option("--tree-file", options->tree,
                   "The tree file, whose properties are checked too, or whose leaves are with "
@@ -134,8 +134,8 @@ LogSubcommand define_log_check(CLI::App& log) {
   app->footer(
       "Without a property and --leaves it checks the properties of the tree file.\n"
       "holds: whatever comes; violated; open: the run was ended before it was decided.\n"
-      "Exit code: 0 all hold, 1 one is violated, or a leaf broke the leaf file, 2 usage or a "
-      "mistake in a property, 3 not a\n"
+      "Exit code: 0 all hold, 1 one is violated, or a leaf contradicts the leaf model, 2 usage or "
+      "a mistake in a property, 3 not a\n"
       "recording or a damaged one, 124 none is violated, one is open.\n"
       "\n"
       "Examples:\n"

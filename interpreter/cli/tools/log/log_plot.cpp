@@ -116,8 +116,8 @@ LogSubcommand define_log_plot(CLI::App& log) {
       "plot", "Draw the progress of the children of each synchronized node over time (gnuplot)");
   add_recording_file(*app, options->file);
   app->add_option("--out", options->out,
-                  "The image, .svg or .png; its data and its gnuplot script are "
-                  "written beside it. With several nodes, -NAME is added to it")
+                  "The image, .svg or .png; its data and its gnuplot script are written next to "
+                  "it. With several nodes, -NAME is added to it")
       ->type_name("FILE")
       ->required();
   app->add_option("--node", options->node, "Only this node: its path, or the end of it")

@@ -73,8 +73,7 @@ LogSubcommand define_log_scenario(CLI::App& log) {
       "4 plugin refused.\n"
       "\n"
       "Example:\n"
-      "  lockstep log scenario run.jsonl --save tree.test.xml --name 'the jam of "
-      "Monday'");
+      "  lockstep log scenario run.jsonl --save tree.test.xml --name 'the jam of Monday'");
   return {app, [options] { return scenario(*options); }};
 }
 

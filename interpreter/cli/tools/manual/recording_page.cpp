@@ -54,7 +54,8 @@ ManualFile recording_page(std::string_view date) {
   }
   page.section("EXAMPLES");
   page.literal(
-      "lockstep run --example door_pulling --record run.jsonl\nlockstep log info run.jsonl");
+      "lockstep run --example door_pulling --record run.jsonl\n"
+      "lockstep log info run.jsonl");
   page.section("SEE ALSO");
   page.line(
       ".Xr lockstep 1 ,\n.Xr lockstep-log 1 ,\n.Xr lockstep-replay 1 ,\n.Xr lockstep-run 1 ,\n"

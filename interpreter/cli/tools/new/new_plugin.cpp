@@ -111,7 +111,7 @@ NewPart define_new_plugin(CLI::App& app) {
   const auto options = std::make_shared<PluginOptionsOfNew>();
   CLI::App* command = app.add_subcommand("plugin",
                                          "A plugin with a leaf, a tree and scenarios: in a "
-                                         "project, in its folders, else in a new folder");
+                                         "project, in its folders, otherwise in a new folder");
   command->add_option("name", options->name, "Its name")->type_name("NAME")->required();
   add_options(*command, *options);
   command->footer("Example: lockstep new plugin gripper --lang python --leaf Grip");

@@ -50,7 +50,7 @@ int new_tree(const TreeOptions& options) {
 NewPart define_new_tree(CLI::App& app) {
   const auto options = std::make_shared<TreeOptions>();
   CLI::App* command = app.add_subcommand(
-      "tree", "A tree and its scenarios: in the folder trees, if there is one, else here");
+      "tree", "A tree and its scenarios: in the folder trees if there is one, otherwise here");
   command->add_option("name", options->name, "Of the files: NAME.xml and NAME.test.xml")
       ->type_name("NAME")
       ->required();
@@ -59,9 +59,9 @@ NewPart define_new_tree(CLI::App& app) {
       ->check(one_of({"lockstep", "btcpp4"}))
       ->capture_default_str();
   command
-      ->add_option(
-          "--plugin", options->plugin,
-          "The plugin whose leaves it is to have; of a program the name of the file: grip.py")
+      ->add_option("--plugin", options->plugin,
+                   "The plugin whose leaves the tree uses; for a process plugin the name of the "
+                   "file: grip.py")
       ->type_name("NAME");
   add_dry_run(*command, options->is_dry_run);
   command->footer("Example: lockstep new tree patrol");

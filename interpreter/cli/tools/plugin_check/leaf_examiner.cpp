@@ -44,7 +44,7 @@ const std::vector<Exercise>& exercises() {
       {"is halted after its first tick, and begins again", {Tick, Halt, Tick}},
       {"is halted before it began", {Halt, Tick}},
       {"is halted while it is held", {Tick, Pause, Halt, Tick}},
-      {"goes on after it was held", {Tick, Pause, Tick, Pause, Tick, Halt}},
+      {"continues after it was held", {Tick, Pause, Tick, Pause, Tick, Halt}},
       {"begins a run again while it runs", {Tick, Restart, Tick, Tick}},
       {"is destroyed while it is held", {Tick, Pause}},
   };
@@ -134,7 +134,8 @@ class Examiner {
       }
       if (!survives_values(*tree)) return;
       tree = tree_of(child, 2);
-      if (!tree || !passes(*tree, "runs beside another one", std::vector<Do>(kTicks, Do::Tick))) {
+      if (!tree ||
+          !passes(*tree, "runs alongside another one", std::vector<Do>(kTicks, Do::Tick))) {
         return;
       }
     }

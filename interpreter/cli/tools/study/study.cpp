@@ -218,12 +218,12 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->type_name("MEASURE")
       ->allow_extra_args(false);
   app.add_option("--rate", options.rate,
-                 "Ticks per second of the virtual clock (default: that of --leaves, else 100)")
+                 "Ticks per second of the virtual clock (default: that of --leaves, otherwise 100)")
       ->type_name("HZ")
       ->check(number_between(kLeastRate, kMostRate));
   app.add_option("--max-ticks", options.max_ticks,
                  fmt::format("End a run after this many ticks, with the result 'limit' (default: "
-                             "the length of the script of --leaves, else {})",
+                             "the length of the script of --leaves, otherwise {})",
                              kMostVirtualTicks))
       ->type_name("N")
       ->transform(whole_number(1));
@@ -272,8 +272,7 @@ std::function<int()> define_study(CLI::App& app) {
 extern const Command kStudyCommand{
     "study", "Run a tree many times, over a grid of arguments, and measure it",
     "Writes runs.csv (a row per run, see --rows), summary.csv (box-plot numbers), study.json (how "
-    "it was "
-    "made)\n"
+    "it was made)\n"
     "and, with gnuplot, plots/; the summary goes to stdout. See `lockstep docs studies`.\n"
     "Exit code: 0 made, 2 usage or a directory that cannot be used, 3 invalid tree, 4 plugin\n"
     "refused, 5 leaf fault, 6 a plugin crashed or hung, 128 + N signal N, as 130 for SIGINT\n"

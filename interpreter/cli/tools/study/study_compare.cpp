@@ -153,7 +153,7 @@ std::function<int()> define_compare(CLI::App& app) {
       ->required();
   app.add_flag("--json", options->json, "Print the comparison as JSON");
   app.footer(
-      "Says whether the cells differ by more than chance, and by how much: B - A is the shift\n"
+      "Reports whether the cells differ by more than chance, and by how much: B - A is the shift\n"
       "of Hodges and Lehmann. Its 95 % interval are the shifts that the test does not reject,\n"
       "so it leaves out 0 when p is below 0.05. Of up to 40 pairs of a paired study both are\n"
       "exact, with ties too. See `lockstep docs studies`.\n"

@@ -163,7 +163,7 @@ class TestCommand {
     }
     if (names.empty()) {
       print_error("there are no scenarios",
-                  "write NAME.test.xml beside a tree; `lockstep docs testing` has an example");
+                  "write NAME.test.xml next to a tree; `lockstep docs testing` has an example");
     } else {
       print_error("no scenario is chosen by --filter",
                   options_.filters.size() == 1 ? suggest(options_.filters[0], names, "there are")
@@ -221,7 +221,7 @@ class TestCommand {
   // Only where all is as expected without a change.
   int mutate() const {
     if (counts_.failed > 0 || counts_.invalid > 0 || StopSignals::received() != 0) {
-      print_error("--mutate: the scenarios are to be as expected first");
+      print_error("--mutate: the scenarios must pass first");
       return kExitFailure;
     }
     const auto trees = run_mutations(

@@ -208,7 +208,7 @@ class VerifyCommand {
     const int failed = write_results(written(report));
     if (!report.internal_error.empty()) {
       print_error(report.internal_error,
-                  "this is a bug in lockstep: please report it with the tree and the leaf file");
+                  "this is a bug in lockstep: please report it with the tree and the leaf model");
       return kExitInternal;
     }
     if (!has_files) return kExitUsage;
@@ -252,7 +252,7 @@ class VerifyCommand {
       report.files[finding.name] = *files;
       if (!files->contradiction.empty() && report.internal_error.empty()) {
         report.internal_error =
-            fmt::format("internal error: the run that is to show the finding {} contradicts it: {}",
+            fmt::format("internal error: the run that shows the finding {} contradicts it: {}",
                         finding.name, files->contradiction);
       }
     }
@@ -295,7 +295,7 @@ std::function<int()> define_verify(CLI::App& app) {
                  "What the leaves may do (default: all that their contract allows)")
       ->type_name("FILE");
   app.add_option("--rate", options->rate,
-                 "Ticks per second (default: that of the leaf file, else 10)")
+                 "Ticks per second (default: that of the leaf model, otherwise 10)")
       ->type_name("HZ")
       ->check(number_between(0.001, 100000.0));
   app.add_option("--states", options->states, "Stop after N states")
@@ -334,11 +334,11 @@ std::function<int()> define_verify(CLI::App& app) {
                      {"sarif", "junit is for a workflow, and json for other programs"}))
       ->capture_default_str();
   app.add_flag("--compact", options->compact,
-               "Keep a hash of 64 bits in place of each state: less memory, and no proof, since a "
-               "state may be missed, with a probability that the verdict says");
+               "Keep a hash of 64 bits in place of each state: less memory, but not a proof: a "
+               "state may be missed, with a probability that the verdict reports");
   app.add_flag_callback(
       "--no-symmetry", [options] { options->symmetry = false; },
-      "Count states that differ only in which equal child does what, each for itself");
+      "Count separately the states that differ only in which symmetric child does what");
   app.add_flag("--json", options->json, "The same as --format json");
   add_mock_option(app, options->load);
   add_load_options(app, options->load);
@@ -349,14 +349,14 @@ std::function<int()> define_verify(CLI::App& app) {
 }  // namespace
 
 extern const Command kVerifyCommand{
-    "verify", "Look at every behavior of a tree: what can it do with any results of its leaves",
-    "The verdict goes to stdout, messages go to stderr. Of each finding there is a recording, and "
-    "a\n"
-    "script of the leaves with which `lockstep run --leaves` does the same again.\n"
-    "Exit code: 0 all is verified, 1 there are findings, 2 usage, 3 invalid tree or leaf file, or\n"
+    "verify", "Check every behavior of a tree, with any results of its leaves",
+    "The verdict goes to stdout, messages go to stderr. Each finding comes with a recording,\n"
+    "and with a script of the leaves with which `lockstep run --leaves` repeats it.\n"
+    "Exit code: 0 all is verified, 1 there are findings, 2 usage, 3 invalid tree or leaf model, "
+    "or\n"
     "something that cannot be verified, 4 plugin refused, 9 a run contradicts the search (a bug\n"
     "in lockstep), 124 a limit was reached and nothing was found, or nothing with --compact,\n"
-    "128 + N signal N, likewise.\n"
+    "128 + N signal N.\n"
     "\n"
     "Examples:\n"
     "  lockstep verify --example door_pulling\n"

@@ -58,7 +58,7 @@ std::string to_text(const VerifyReport& report) {
   std::string text = fmt::format(
       "verify {}: {}, {}\n  {}\n", report.tree,
       report.leaf_count == 1 ? "1 leaf" : fmt::format("{} leaves", report.leaf_count),
-      report.leaves.empty() ? std::string("no leaf file") : "leaf file " + report.leaves,
+      report.leaves.empty() ? std::string("no leaf model") : "leaf model " + report.leaves,
       size_text(report.found));
   std::size_t width = 0;
   for (const VerdictLine& it : report.verdict.facts) width = std::max(width, it.name.size());

@@ -10,13 +10,13 @@ using ordered::Memory;
 
 const NodeKind kSequence = ordered::kind<Status::Success, Memory::Always>(
     "Sequence",
-    "Ticks its children from the left, going on where it stopped. Running or "
-    "Failure of a child is its result; Success when all succeed.");
+    "Ticks its children from the left, and continues where it stopped. Running or Failure of a "
+    "child is its result; Success when all succeed.");
 
 const NodeKind kFallback = ordered::kind<Status::Failure, Memory::Always>(
     "Fallback",
-    "Ticks its children from the left, going on where it stopped. Running or "
-    "Success of a child is its result; Failure when all fail.");
+    "Ticks its children from the left, and continues where it stopped. Running or Success of a "
+    "child is its result; Failure when all fail.");
 
 const NodeKind kReactiveSequence = ordered::kind<Status::Success, Memory::Never>(
     "ReactiveSequence",

@@ -154,19 +154,18 @@ const NodeKind kParallel{
     .state_per_child = sizeof(double),
     .fold = fold_parallel};
 
-const NodeKind kParallelAll{
-    .type = {.id = "ParallelAll",
-             .category = NodeCategory::Control,
-             .doc = "Ticks its children until all have completed. Failure when max_failures of "
-                    "them failed, else Success.",
-             .arity = {1},
-             .parameters = kAllParameters,
-             .rule = all_rule,
-             .sign = "⇉",
-             .latches = true},
-    .tick = tick_all,
-    .progress = least_progress,
-    .state_size = sizeof(Tally),
-    .fold = fold_parallel};
+const NodeKind kParallelAll{.type = {.id = "ParallelAll",
+                                     .category = NodeCategory::Control,
+                                     .doc = "Ticks its children until all have completed. Failure "
+                                            "when max_failures of them failed, otherwise Success.",
+                                     .arity = {1},
+                                     .parameters = kAllParameters,
+                                     .rule = all_rule,
+                                     .sign = "⇉",
+                                     .latches = true},
+                            .tick = tick_all,
+                            .progress = least_progress,
+                            .state_size = sizeof(Tally),
+                            .fold = fold_parallel};
 
 }  // namespace lockstep::host::btcpp

@@ -14,12 +14,12 @@ constexpr std::int64_t kEndless = -1;
 constexpr Parameter kRepeatParameters[] = {
     {.name = "num_cycles",
      .type = ValueType::Int,
-     .doc = "How often the child must succeed; -1: for ever.",
+     .doc = "How often the child must succeed; -1: without limit.",
      .required = true}};
 constexpr Parameter kRetryParameters[] = {
     {.name = "num_attempts",
      .type = ValueType::Int,
-     .doc = "How often the child may fail before the node fails; -1: for ever.",
+     .doc = "How often the child may fail before the node fails; -1: without limit.",
      .required = true}};
 
 // The rounds that are over. Kept while the child is skipped, so not cleared by a first tick.

@@ -12,7 +12,7 @@ constexpr unsigned kThenSkip = 0;
 constexpr Parameter kRunOnceParameters[] = {
     {.name = "then_skip",
      .type = ValueType::Bool,
-     .doc = "Be skipped once the child has completed; else return its result again.",
+     .doc = "Be skipped once the child has completed; otherwise return its result again.",
      .default_text = "true"}};
 
 Status tick_or_skip(NodeContext& context, NodeIndex self) {

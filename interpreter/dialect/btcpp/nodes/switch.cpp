@@ -111,8 +111,8 @@ template <std::uint32_t kCases>
 constexpr NodeKind kind_of_switch(std::string_view id) {
   return {.type = {.id = id,
                    .category = NodeCategory::Control,
-                   .doc = "Ticks the child of the first case that equals the variable, else the "
-                          "last child.",
+                   .doc = "Ticks the child of the first case that equals the variable, otherwise "
+                          "the last child.",
                    .arity = {kCases + 1, kCases + 1},
                    .parameters = kSwitchParameters<kCases>,
                    .reads_ports = true},

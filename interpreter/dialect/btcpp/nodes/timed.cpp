@@ -24,7 +24,7 @@ constexpr Parameter kSleepParameters[] = {milliseconds("msec", "How long to slee
 constexpr Parameter kDelayParameters[] = {
     milliseconds("delay_msec", "How long to wait before the child is ticked.")};
 constexpr Parameter kTimeoutParameters[] = {
-    milliseconds("msec", "How long the child may run; 0: for ever.")};
+    milliseconds("msec", "How long the child may run; 0: without limit.")};
 
 Nanoseconds time_of(const NodeContext& context, NodeIndex self) {
   return std::chrono::milliseconds(context.parameter(self, kTime).integer);

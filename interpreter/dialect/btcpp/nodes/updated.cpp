@@ -49,20 +49,19 @@ Status tick_condition(NodeContext& context, NodeIndex self) {
 
 }  // namespace
 
-const NodeKind kSkipUnlessUpdated{
-    .type = {.id = "SkipUnlessUpdated",
-             .category = NodeCategory::Decorator,
-             .doc = "Ticks its child when the entry was written since the last time; else it is "
-                    "skipped.",
-             .arity = {1, 1},
-             .parameters = kUpdatedParameters,
-             .reads_ports = true},
-    .tick = tick_updated<Status::Skipped>,
-    .progress = decorator::child_progress,
-    .state_size = sizeof(UpdatedState),
-    .halt = halt_updated,
-    .fold = fold::live,
-    .counts_writes = true};
+const NodeKind kSkipUnlessUpdated{.type = {.id = "SkipUnlessUpdated",
+                                           .category = NodeCategory::Decorator,
+                                           .doc = "Ticks its child when the entry was written "
+                                                  "since the last time; otherwise it is skipped.",
+                                           .arity = {1, 1},
+                                           .parameters = kUpdatedParameters,
+                                           .reads_ports = true},
+                                  .tick = tick_updated<Status::Skipped>,
+                                  .progress = decorator::child_progress,
+                                  .state_size = sizeof(UpdatedState),
+                                  .halt = halt_updated,
+                                  .fold = fold::live,
+                                  .counts_writes = true};
 
 const NodeKind kWaitValueUpdate{
     .type = {.id = "WaitValueUpdate",
@@ -83,7 +82,7 @@ const NodeKind kWaitValueUpdate{
 const NodeKind kWasEntryUpdated{
     .type = {.id = "WasEntryUpdated",
              .category = NodeCategory::Condition,
-             .doc = "Success when the entry was written since this node asked last.",
+             .doc = "Success when the entry was written since the last tick of this node.",
              .arity = {0, 0},
              .parameters = kUpdatedParameters,
              .reads_ports = true},

@@ -67,7 +67,7 @@ const NodeKind kAsyncFallback = kind_of_yielding<Status::Failure, Place::Forgott
 
 const NodeKind kSequenceWithMemory = kind_of_yielding<Status::Success, Place::Kept>(
     "SequenceWithMemory",
-    "An AsyncSequence that goes on with the child that failed, or was halted, when "
-    "it is ticked again.");
+    "An AsyncSequence that continues with the child that failed, or was halted, when it is ticked "
+    "again.");
 
 }  // namespace lockstep::host::btcpp

@@ -101,12 +101,12 @@ void pause(const lockstep_caller* caller, std::uint32_t child) {
 }
 
 lockstep_status status(const lockstep_caller* caller, std::uint32_t child) {
-  if (!may(caller, ChildAccess::Look, "asks for", child)) return LOCKSTEP_RUNNING;
+  if (!may(caller, ChildAccess::Look, "requests", child)) return LOCKSTEP_RUNNING;
   return static_cast<lockstep_status>(caller->run->node_context->status(caller->child(child)));
 }
 
 double progress(const lockstep_caller* caller, std::uint32_t child) {
-  if (!may(caller, ChildAccess::Look, "asks for", child)) return 0;
+  if (!may(caller, ChildAccess::Look, "requests", child)) return 0;
   LeafSlot& slot = *caller->slot;
   const ChildAccess access = std::exchange(slot.access, ChildAccess::None);
   const InEngine scope(caller->run->lock);

@@ -107,7 +107,7 @@ class DescribedTypes final : public ElementTypes {
       type = leaf_.type.describe(table.rows.data(), static_cast<std::uint32_t>(table.rows.size()),
                                  &why);
     });
-    constexpr const char* kHint = "ask the author of the plugin what it needs";
+    constexpr const char* kHint = "the author of the plugin knows what it needs";
     if (!thrown.empty()) {
       return undescribed(fmt::format("'{}{}: its describe {}", leaf_.type.id, kUndescribed, thrown),
                          kHint);

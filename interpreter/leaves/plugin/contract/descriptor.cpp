@@ -48,7 +48,7 @@ std::optional<Problem> describe(lockstep_plugin& plugin) {
   const char* const name = plugin.name == nullptr ? "" : plugin.name;
   const MarkedCall mark(CallSite::of_plugin(name), PluginFunction::Describe);
   const std::string thrown = thrown_by([&] { described = plugin.describe(&why); });
-  constexpr const char* kHint = "ask the author of the plugin what it needs";
+  constexpr const char* kHint = "the author of the plugin knows what it needs";
   if (!thrown.empty()) return Problem{"cannot be used: its describe " + thrown, kHint};
   if (described == nullptr) {
     return Problem{fmt::format("cannot be used: {}", why == nullptr ? "it gives no reason" : why),

@@ -28,7 +28,7 @@ std::optional<Problem> check_output(const Behavior::Named& output,
   while (true) {
     const std::string_view part = rest.substr(0, rest.find('|'));
     if (!parse_value(port->type, part)) {
-      return Problem{fmt::format("has '{}', which is no value of '{}'", brief(part), port->name),
+      return Problem{fmt::format("has '{}', which is not a value of '{}'", brief(part), port->name),
                      fmt::format("expected {}", expected_text(port->type))};
     }
     if (part.size() == rest.size()) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<Problem> check_behavior(const lockstep_leaf_type& leaf,
                    suggested_behavior_word(it.word)});
     }
     if (!words.insert(it.word).second) {
-      return told({fmt::format("has '{}' twice", brief(it.word)), "say it once"});
+      return told({fmt::format("has '{}' twice", brief(it.word)), "write it once"});
     }
     if (const auto wrong = add_statement(it.word, it.value, behavior)) {
       return told({fmt::format("has a wrong '{}': {}", it.word, wrong->message), wrong->hint});

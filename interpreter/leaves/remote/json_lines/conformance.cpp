@@ -149,7 +149,7 @@ class Examiner {
     std::vector<std::string_view> ids;
     for (const auto& leaf : descriptors_.leaves) ids.push_back(leaf->type.id);
     return note(!ids.empty(),
-                fmt::format("says after {} ms that it has {}", took.count() / 1'000'000,
+                fmt::format("reports after {} ms that it has {}", took.count() / 1'000'000,
                             ids.empty() ? "no leaves" : listed(ids)));
   }
 
@@ -202,7 +202,7 @@ class Examiner {
     two.leaf().start();
     for (Trial* it : {&one, &two}) {
       it->leaf().tick();
-      if (!passed(*it, "answers a tick beside the other")) return false;
+      if (!passed(*it, "answers a tick alongside the other")) return false;
     }
     for (Trial* it : {&one, &two}) {
       it->leaf().halt();
@@ -250,7 +250,7 @@ class Examiner {
     trial.leaf().resume();
     trial.leaf().tick();
     trial.leaf().halt();
-    return passed(trial, "goes on after pause and resume");
+    return passed(trial, "continues after pause and resume");
   }
 
   void end() {

@@ -48,7 +48,7 @@ Result<std::string> Conversation::start(const std::string& path) {
     return problem(fmt::format("does not start: {}", failure),
                    "a program is executable, and a script begins with #! and its interpreter");
   }
-  return next_line("said what leaves it has");
+  return next_line("listed its leaves");
 }
 
 Result<std::string> Conversation::ask(std::string_view line, std::string_view what) {
@@ -65,17 +65,16 @@ Result<std::string> Conversation::ask(std::string_view line, std::string_view wh
 // A line, or the problem that it has before it has done `what`.
 Result<std::string> Conversation::next_line(std::string_view what) {
   const auto end = monotonic_now() + options_.hang_limit;
-  const bool is_first = what == "said what leaves it has";
-  const char* const hint = is_first
-                               ? "its first line says what leaves it has; is its output buffered?"
-                               : "is its output buffered?";
+  const bool is_first = what == "listed its leaves";
+  const char* const hint = is_first ? "its first line lists its leaves; is its output buffered?"
+                                    : "is its output buffered?";
   while (!process_.lines.next(line_)) {
     const auto left = hang_limit() ? std::optional(end - monotonic_now()) : std::nullopt;
     const bool is_late = left && *left <= Nanoseconds(0);
     if (is_late || process_.lines.is_too_long()) {
       return problem(is_late
-                         ? fmt::format("says nothing for {:g} s", to_seconds(options_.hang_limit))
-                         : "says more than a line of 1 MiB",
+                         ? fmt::format("prints nothing for {:g} s", to_seconds(options_.hang_limit))
+                         : "prints more than a line of 1 MiB",
                      hint);
     }
     if (!process_.await_output(left)) continue;
@@ -376,7 +375,7 @@ std::string Conversation::blamed() {
 void Conversation::take_line() {
   const std::string wrong = read_reply(reader_, line_, reply_);
   if (!wrong.empty()) {
-    give_up(fmt::format("was killed, since it wrote {}, which is no answer: {}{}", shown(line_),
+    give_up(fmt::format("was killed, since it wrote {}, which is not an answer: {}{}", shown(line_),
                         wrong, blamed()));
     return;
   }
@@ -396,7 +395,7 @@ std::string Conversation::take_reply() {
     return {};
   }
   if (reply_.what == Reply::What::Error && reply_.leaf == 0) {
-    return fmt::format("has said: {}", brief(reply_.text));
+    return fmt::format("has reported: {}", brief(reply_.text));
   }
   if (leaf == nullptr) {
     return fmt::format("was killed, since it spoke of leaf {}, which it does not have",
@@ -439,10 +438,11 @@ std::string Conversation::take_answer(Leaf& leaf) {
   // An error that nobody asked for may have come just before the tick, and counted as its answer.
   if (is_status && owed != Asked::Tick && std::exchange(leaf.has_erred, false)) return {};
   if (owed == Asked::Nothing || is_status != (owed == Asked::Tick)) {
-    return fmt::format(
-        "was killed, since it answered {} for '{}', which {}", is_status ? "a status" : "'done'",
-        leaf.caller == nullptr ? "" : leaf.caller->who,
-        owed == Asked::Nothing ? "was not asked" : fmt::format("is to answer {}", name_of(owed)));
+    return fmt::format("was killed, since it answered {} for '{}', which {}",
+                       is_status ? "a status" : "'done'",
+                       leaf.caller == nullptr ? "" : leaf.caller->who,
+                       owed == Asked::Nothing ? "has no open request"
+                                              : fmt::format("must answer {} first", name_of(owed)));
   }
   const bool is_halted = std::exchange(leaf.owes_tick, false);  // meanwhile
   if (is_halted && !leaf.is_condition) return {};

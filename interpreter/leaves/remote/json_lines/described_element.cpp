@@ -64,7 +64,7 @@ tl::expected<const lockstep_leaf_type*, ElementRefusal> read_described(
   });
   if (is_refused && refusal.why.message.empty()) {
     refusal.why = {fmt::format("'{}' cannot be described, and gives no reason", base.id),
-                   "ask the author of the plugin what it needs"};
+                   "the author of the plugin knows what it needs"};
   }
   if (is_refused) return tl::unexpected(std::move(refusal));
   if (!has_ports) throw JsonError("expected 'ports' or 'refused'");

@@ -94,7 +94,7 @@ Result<std::unique_ptr<Hello>> Hello::read(std::string line, const std::string& 
   try {
     JsonReader().read(line, [&](JsonObject object) { reader.read(object); });
   } catch (const JsonError& error) {
-    return problem(fmt::format("does not say what leaves it has: {}", error.what()), kHint);
+    return problem(fmt::format("does not list its leaves: {}", error.what()), kHint);
   }
   hello->tables_.plugin.name = hello->tables_.keep(plugin);
   hello->line_ = std::move(line);

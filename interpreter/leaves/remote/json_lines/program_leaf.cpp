@@ -195,7 +195,7 @@ void ProgramLeaf::set_ports(std::string line) {
   const auto set = [&](std::string_view name, JsonValue value) {
     const auto port = std::ranges::find(caller_.ports, name, &BoundPort::name);
     if (port == caller_.ports.end()) {
-      if (wrong.empty()) wrong = fmt::format("set '{}', which is no port of it", name);
+      if (wrong.empty()) wrong = fmt::format("set '{}', which is not one of its ports", name);
       return value.skip();
     }
     const auto index = static_cast<std::uint32_t>(port - caller_.ports.begin());

@@ -102,8 +102,8 @@ std::unique_ptr<Conversation> ProgramPlugin::acquire(std::string& failure) {
     failure = line.error().message;
   } else if (*line != hello_->line()) {
     failure =
-        "says now that it has other leaves than when it was loaded: let 'lockstep plugin check "
-        "--save' write them down";
+        "now lists other leaves than when it was loaded: write the file again with 'lockstep "
+        "plugin check --save'";
   } else {
     return conversation;
   }

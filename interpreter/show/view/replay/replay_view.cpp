@@ -87,7 +87,7 @@ void add_keys(TextLine& line, const ReplayPlayer& player, const DrawOptions& opt
     line.add(player.notice(), Style::Warning);
   } else {
     line.add(fmt::format("space {}  {} step  g go to tick  home end  + - speed  q quit",
-                         player.paused() ? "go on" : "pause", options.unicode ? "← →" : "p n"),
+                         player.paused() ? "continue" : "pause", options.unicode ? "← →" : "p n"),
              Style::Dim);
   }
 }
