@@ -19,7 +19,8 @@ constexpr const char* kHelp =
     "\n"
     "It is started by lockstep ('lockstep run --isolate', or <plugin name=\"...\" "
     "isolate=\"true\"/>\n"
-    "in a tree), one for each plugin and run, and ends with it. With --program it starts a process\n"
+    "in a tree), one for each plugin and run, and ends with it. With --program it starts a "
+    "process\n"
     "plugin, and ends it. Do not start it yourself.\n";
 
 }  // namespace

@@ -28,15 +28,15 @@ Program::Program(const std::vector<std::string>& words, Options options)
       "Print the version and exit");
   verbose->needs(version);
   app_->footer(
-      "Exit code: 0 all is well, 1 the run failed or what was compared differs, 2 usage, or a file "
-      "of an option that cannot be used, 3 a tree that is invalid or cannot be read, 4 plugin "
-      "refused, 5 leaf fault, 6 a plugin crashed or hung, 9 lockstep failed, 124 a limit was "
-      "reached, 128 + N signal N. The help of a command has those that it uses.\n"
+      "Exit code: 0 success, 1 the run failed or a comparison found a difference, 2 wrong usage, 3 "
+      "a tree is invalid or cannot be read, 4 plugin refused, 5 leaf fault, 6 a plugin crashed or "
+      "hung, 9 lockstep failed, 124 a limit was reached, 128 + N signal N. The help of a command "
+      "lists its codes.\n"
       "\n"
       "Example: lockstep run --example door_pulling\n"
       "\n"
       "`lockstep help COMMAND` shows the options of a command and examples. `lockstep docs "
-      "tutorial` is the beginning, `lockstep docs glossary` explains the words.");
+      "tutorial` is the tutorial, `lockstep docs glossary` defines the terms.");
   for (const Command* command : commands()) {
     CLI::App* subcommand = app_->add_subcommand(command->name, command->summary);
     const bool is_named = std::ranges::find(words, command->name) != words.end();

@@ -85,7 +85,7 @@ std::function<int()> define_monitor(CLI::App& app) {
       "Print the link of the run; one that has only a socket (run --monitor-socket) gets a "
       "monitor");
   app.add_option("--at", options->address,
-                 "Where that monitor is reached; one that is there already stays where it is")
+                 "The address of that monitor; an existing monitor keeps its address")
       ->type_name("ADDRESS:PORT")
       ->capture_default_str();
   app.add_option("run", options->run,
@@ -97,11 +97,11 @@ std::function<int()> define_monitor(CLI::App& app) {
 }  // namespace
 
 extern const Command kMonitorCommand{
-    "monitor", "List your runs that have a monitor, open the page of one, or give it one",
-    "A row for each run of `lockstep run --monitor` or --monitor-socket: "
-    "the number of its process,\n"
+    "monitor", "List your runs that have a monitor, open the page of one, or attach a monitor",
+    "A row for each run of `lockstep run --monitor` or --monitor-socket: the number of its "
+    "process,\n"
     "the link of its page, its tree.\n"
-    "Exit code: 0 there is one, 2 usage, or there is none.\n"
+    "Exit code: 0 a run was found, 2 usage, or no run was found.\n"
     "\n"
     "Examples:\n"
     "  lockstep monitor\n"

@@ -72,8 +72,8 @@ class PropertyReader {
 
 void add_property_options(CLI::App& app, PropertyOptions& options) {
   app.add_option("--property", options.texts,
-                 "A property, as 'grip: never grip.running and not gripper.held'; may be repeated. "
-                 "`lockstep docs properties` has the language")
+                 "A property, such as 'grip: never grip.running and not gripper.held'; may be "
+                 "repeated. See `lockstep docs properties`")
       ->type_name("TEXT")
       ->allow_extra_args(false);
   app.add_option("--property-file", options.files,

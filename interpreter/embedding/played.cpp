@@ -18,10 +18,9 @@ std::optional<std::vector<LeafWord>> words_of(std::string_view text) {
     const std::string_view it = text.substr(at, end - at);
     auto word = parse_leaf_word(it);
     if (!word) {
-      fail(
-          fmt::format("'{}' is no word of a leaf: there are R0.5, S, F, K, X, ~0.5 and "
-                      "S[port=value]",
-                      brief(it)));
+      fail(fmt::format(
+          "'{}' is not a word of a leaf: there are R0.5, S, F, K, X, ~0.5 and S[port=value]",
+          brief(it)));
       return std::nullopt;
     }
     words.push_back(std::move(*word));

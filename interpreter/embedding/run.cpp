@@ -98,8 +98,8 @@ int32_t reason_of(StopReason reason) {
 // Nothing: an option is wrong.
 std::optional<RunLimits> limits_of(const lockstep_run_options& options) {
   const auto budget = time_from(options.tick_budget), hang = time_from(options.hang_limit);
-  if (!budget) fail("tick_budget is no number of seconds");
-  if (budget && !hang) fail("hang_limit is no number of seconds");
+  if (!budget) fail("tick_budget is not a number of seconds");
+  if (budget && !hang) fail("hang_limit is not a number of seconds");
   if (!budget || !hang) return std::nullopt;
   RunLimits limits;
   if (*budget > Nanoseconds(0)) limits.budget = budget;
@@ -114,7 +114,7 @@ std::optional<RunLimits> limits_of(const lockstep_run_options& options) {
 
 bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end) {
   if (given.overrun < LOCKSTEP_OVERRUN_SKIP || given.overrun > LOCKSTEP_OVERRUN_FAIL) {
-    return fail("overrun is none of the LOCKSTEP_OVERRUN_ constants");
+    return fail("overrun is not one of the LOCKSTEP_OVERRUN_ constants");
   }
   if (run.run.ticker().tick_number() != 0) {
     return fail("the run has been ticked already: restart it before the loop");
@@ -125,7 +125,7 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   if (given.max_ticks != 0) options.max_ticks = given.max_ticks;
   if (given.timeout != 0) {
     options.timeout = time_from(given.timeout);
-    if (!options.timeout) return fail("the timeout is no number of seconds");
+    if (!options.timeout) return fail("the timeout is not a number of seconds");
   }
   if (given.virtual_clock && !options.max_ticks) options.max_ticks = kMostVirtualTicks;
   if (given.stop != nullptr) {
@@ -168,7 +168,7 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
     if (options.tick_period != 0) {
       const auto period = time_from(options.tick_period);
       if (!period || period->count() < 1) {
-        fail("tick_period is no number of seconds");
+        fail("tick_period is not a number of seconds");
         return nullptr;
       }
       run_options.period = *period;
@@ -237,7 +237,7 @@ lockstep_status tick(lockstep_run* run, double seconds, bool exactly_once) {
   const bool is_good = guarded([&] {
     const auto time = time_from(seconds);
     if (run == nullptr) return fail("an argument is NULL");
-    if (!time) return fail("the time is no number of seconds");
+    if (!time) return fail("the time is not a number of seconds");
     if (*time < run->last) return fail("the time is before that of the last tick");
     const Busy busy(*run);
     if (busy.is_refused()) return false;

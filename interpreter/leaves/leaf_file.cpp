@@ -30,7 +30,7 @@ class Reader {
     const Element& root = document_.elements()[0];
     if (root.tag != "leaves") {
       report_.at("wrong-root"_code, root.place,
-                 fmt::format("'{}' is no leaf model", brief(root.tag)),
+                 fmt::format("'{}' is not a leaf model", brief(root.tag)),
                  "it begins with <leaves lockstep=\"1\">");
       return false;
     }

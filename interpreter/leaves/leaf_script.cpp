@@ -96,7 +96,7 @@ std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts) {
   for (std::string it; text >> it;) {
     auto word = parse_leaf_word(it);
     if (!word) {
-      return Problem{fmt::format("'{}' is no word of a leaf", brief(it)),
+      return Problem{fmt::format("'{}' is not a word of a leaf", brief(it)),
                      "there are R0.5 (running, with its progress), S, F, K (skipped), X (a fault), "
                      "~0.5 (held), each with what it writes: S[port=value]"};
     }

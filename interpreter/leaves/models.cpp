@@ -255,7 +255,7 @@ class ModelMaker {
       const auto value = parse_value(parameter.type, part);
       if (!value) {
         report().at_value("bad-value"_code, named.place,
-                          fmt::format("'{}' is no value of '{}'", brief(part), parameter.name),
+                          fmt::format("'{}' is not a value of '{}'", brief(part), parameter.name),
                           fmt::format("expected {}", expected_text(parameter.type)));
         return {};
       }
@@ -424,7 +424,7 @@ class ModelMaker {
     for (const double delta : deltas) {
       if (is_whole(delta * way.parts)) continue;
       report().at("inexact-progress"_code, place,
-                  fmt::format("delta {} is no multiple of 1/{}", delta, way.parts),
+                  fmt::format("delta {} is not a multiple of 1/{}", delta, way.parts),
                   fmt::format("write progress=\"grid:{}\"", parts_for(deltas)));
     }
   }
@@ -435,8 +435,8 @@ class ModelMaker {
       if (is_whole(delta * way.parts)) continue;
       problems_.push_back(
           {node,
-           fmt::format("its plugin declares progress in parts of 1/{}, of which the delta {} is no "
-                       "multiple",
+           fmt::format("its plugin declares progress in parts of 1/{}, of which the delta {} is "
+                       "not a multiple",
                        way.parts, delta),
            fmt::format("write in the leaf model: progress=\"grid:{}\"", parts_for(deltas))});
     }

@@ -130,7 +130,7 @@ void BindingReader::read_words(const Attribute& it, BindingRow& row) const {
   row.source = it.place;
   if (!all.wrong.empty()) {
     report_.in_value("bad-scenario"_code, it.place, all.offset,
-                     fmt::format("'{}' is no word of a leaf", brief(all.wrong)),
+                     fmt::format("'{}' is not a word of a leaf", brief(all.wrong)),
                      "there are R.5 (running, with its progress), S, F, K (skipped), X (a fault), "
                      "~.5 (held), S[port=value] (it writes), R.5*3 (three times)");
   } else if (all.words.empty()) {
@@ -170,7 +170,7 @@ std::uint64_t BindingReader::count(const Attribute& it, std::uint64_t least) con
     return static_cast<std::uint64_t>(*number);
   }
   report_.at_value("bad-value"_code, it.place,
-                   fmt::format("'{}' is no whole number from {}", brief(it.value), least));
+                   fmt::format("'{}' is not a whole number from {}", brief(it.value), least));
   return least;
 }
 
@@ -190,7 +190,8 @@ NumberRange BindingReader::range(const Attribute& it, std::string_view as) const
   const bool fits =
       least && *least >= 0 && parts.size() <= 2 && (is_open || (most && *most >= *least));
   if (fits) return {*least, is_open ? std::nullopt : most};
-  report_.at_value("bad-scenario"_code, it.place, fmt::format("'{}' is no range", brief(it.value)),
+  report_.at_value("bad-scenario"_code, it.place,
+                   fmt::format("'{}' is not a range", brief(it.value)),
                    fmt::format("write {}", as));
   return {};
 }

@@ -112,7 +112,7 @@ class ScenarioBinder {
     if (!value) {
       return report_.at_value(
           "bad-value"_code, change.value_place,
-          fmt::format("'{}' is no value of '{}'", brief(change.value), change.key),
+          fmt::format("'{}' is not a value of '{}'", brief(change.value), change.key),
           fmt::format("expected {}", expected_text(slot->type)));
     }
     const auto place = static_cast<std::uint32_t>(slot - tree_.slots.begin());
@@ -226,7 +226,7 @@ class ScenarioBinder {
       if (!value) {
         return report_.at_value(
             "bad-value"_code, input.place,
-            fmt::format("'{}' is no value of the port '{}'", brief(input.text), input.name),
+            fmt::format("'{}' is not a value of the port '{}'", brief(input.text), input.name),
             fmt::format("expected {}", expected_text(port->type)));
       }
       text = to_text(*value);

@@ -40,7 +40,7 @@ class Reader {
     if (root.tag == "root") return read_tree();
     if (root.tag != "scenarios") {
       report_.at("wrong-root"_code, root.place,
-                 fmt::format("'{}' is no file of scenarios", brief(root.tag)),
+                 fmt::format("'{}' is not a file of scenarios", brief(root.tag)),
                  "it begins with <scenarios lockstep=\"1\">");
       return false;
     }

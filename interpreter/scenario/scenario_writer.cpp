@@ -94,7 +94,7 @@ Result<void> add_to_scenario_file(const std::string& path, const std::string& tr
     if (!before) return problem(fmt::format("cannot read '{}': {}", path, before.error().message));
     const auto end = before->rfind(kEnd);
     if (end == std::string::npos) {
-      return problem(fmt::format("'{}' is no file of scenarios", path),
+      return problem(fmt::format("'{}' is not a file of scenarios", path),
                      "it ends with </scenarios>");
     }
     const auto there = names_in(*before);

@@ -317,7 +317,8 @@ TEST_CASE("project edits: what nodes cannot say is not inlined") {
   };
   const std::string script = "<Script code=\"k := 1\"/>";
   CHECK(inlined("<SubTree ID=\"B\" k=\"5\"/>", script) == "the entry 'k' has a start value here");
-  CHECK(inlined("<SubTree ID=\"B\" table=\"x\"/>", script) == "'table' is no entry of the tree");
+  CHECK(inlined("<SubTree ID=\"B\" table=\"x\"/>", script) ==
+        "'table' is not an entry of the tree");
   CHECK(inlined("<SubTree ID=\"B\" while=\"k\"/>", "<Script code=\"k := 1\" while=\"true\"/>") ==
         "the SubTree has 'while', and the first node has 'while'");
   CHECK(inlined("<SubTree ID=\"B\" success_if=\"k == 1\"/>",

@@ -69,6 +69,9 @@ TEST_CASE("leaves of plugins are listed with their ports, found by file and by n
   CHECK(by_file[0]["parameters"][0]["blackboard"] == true);
   CHECK(by_file[0]["parameters"][0]["direction"] == "in");
   CHECK(listed({"--plugin", "motion"}).size() > listed({}).size());
+  const std::string text = run_lockstep({"nodes", "--plugin", "motion"}).out;
+  CHECK(contains(text, "\n  Advance ("));
+  CHECK_FALSE(contains(text, "Sequence ("));
 }
 
 TEST_CASE("LOCKSTEP_PLUGIN_PATH is searched, after --plugin-path") {

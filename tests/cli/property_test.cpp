@@ -107,7 +107,7 @@ TEST_CASE("log check: a mistake in a property is reported at its column") {
   CHECK(outcome.code == 2);
   CHECK(outcome.out.empty());
   CHECK(contains(outcome.err,
-                 "--property:1:11: error: a node has no 'runing'\n"
+                 "--property:1:11: error: a node has no 'runing' [bad-property]\n"
                  "  never arm.runing\n"
                  "            ^\n"
                  "  hint: did you mean 'running'?\n"));

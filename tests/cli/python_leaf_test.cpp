@@ -200,7 +200,7 @@ TEST_CASE("a program is found by its name, or it is said what to type") {
   }
   const Outcome none = ask({"plugin", "check", "grap"});
   CHECK(none.code == 2);
-  CHECK(contains(none.err, "'grap' is no plugin"));
+  CHECK(contains(none.err, "'grap' is not a plugin"));
   const std::string tree = leaves.directory.file(
       "tree.xml",
       "<root lockstep=\"1\"><plugin name=\"grip\"/><BehaviorTree ID=\"Main\"><Grip/>"

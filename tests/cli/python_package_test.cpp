@@ -42,12 +42,12 @@ except lockstep.Error as error:
   const Outcome outcome =
       python({script, LOCKSTEP_SOURCE_DIR, directory.path("run.jsonl")}, kPackage);
   INFO(outcome.err);
-  CHECK(outcome.out ==
-        "success 0\n"
-        "True ['held', 'node', 'path', 'progress', 'results', 'status', 'tick', 'ticked', "
-        "'time_s']\n"
-        "6 ['failure', 'failure', 'failure', 'success', 'success', 'success']\n"
-        "3 none.xml: error: cannot be read: No such file or directory\n");
+  CHECK(
+      outcome.out ==
+      "success 0\n"
+      "True ['held', 'node', 'path', 'progress', 'results', 'status', 'tick', 'ticked', 'time_s']\n"
+      "6 ['failure', 'failure', 'failure', 'success', 'success', 'success']\n"
+      "3 none.xml: error: cannot be read: No such file or directory [unreadable-file]\n");
 }
 
 #if !defined(__SANITIZE_THREAD__)  // whose runtime cannot be loaded into Python

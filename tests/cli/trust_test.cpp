@@ -166,6 +166,12 @@ TEST_CASE("a program with more rights than its user takes no relative path and n
   const Outcome file = check({"--plugin", "./motion.so"}, "");
   CHECK(file.code == 4);
   CHECK(contains(file.err, "--plugin ./motion.so: a program with more rights"));
+
+  fs::create_directory(it.plugins + "/build");
+  fs::copy_file(it.plugin, it.plugins + "/build/motion.so");
+  const Outcome project = check({}, "");
+  CHECK(project.code == 4);
+  CHECK(contains(project.err, "plugin 'motion' is not found"));
 }
 
 TEST_CASE("a program with more rights than its user takes gnuplot from where the system has it") {

@@ -57,7 +57,7 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
       {{"run", "--rate", "nan", "t.xml"}, "--rate: 'nan' is not a number from 0.001", "see `"},
       {{"run", "--rate", "0.0009", "t.xml"}, "--rate: '0.0009' is not a number from", "see `"},
       {{"run", "--cpu", "4096", "t.xml"},
-       "--cpu: '4096' is no list of processors, as 3 or 0-1,3",
+       "--cpu: '4096' is not a list of processors, as 3 or 0-1,3",
        ""},
       {{"run", "--timeout", "1e10", "t.xml"}, "--timeout: '1e10' is not a number from 0 to", ""},
       {{"run", "--clock", "virtaul", "t.xml"},

@@ -221,10 +221,10 @@ TEST_CASE("time that goes back, is negative or no number is refused at each call
     CHECK(lockstep_run_tick(run.get(), 1) == LOCKSTEP_RUNNING);
     CHECK(why() == "the time is before that of the last tick");
   }
-  CHECK(error_of([&] { run.tick(-1); }) == "the time is no number of seconds");
-  CHECK(error_of([&] { run.tick(std::nan("")); }) == "the time is no number of seconds");
+  CHECK(error_of([&] { run.tick(-1); }) == "the time is not a number of seconds");
+  CHECK(error_of([&] { run.tick(std::nan("")); }) == "the time is not a number of seconds");
   CHECK(lockstep_run_tick(run.get(), -1) == LOCKSTEP_RUNNING);
-  CHECK(why() == "the time is no number of seconds");
+  CHECK(why() == "the time is not a number of seconds");
   CHECK(observed == 1);
   CHECK(run.node(0).progress == 0.125);
   // The run goes on, and an error is of the last call.

@@ -15,9 +15,9 @@ def run(*words, **environment):
 def findings(*words, **environment):
     done = run("doctor", "--json", *words, **environment)
     found = json.loads(done.stdout)["findings"]
-    assert all(it["grade"] in ("ok", "note", "trouble") for it in found)
-    assert all(it["remedy"] for it in found if it["grade"] == "trouble"), found
-    assert done.returncode == (1 if any(it["grade"] == "trouble" for it in found) else 0), done
+    assert all(it["grade"] in ("ok", "note", "problem") for it in found)
+    assert all(it["remedy"] for it in found if it["grade"] == "problem"), found
+    assert done.returncode == (1 if any(it["grade"] == "problem" for it in found) else 0), done
     return found
 
 
@@ -28,16 +28,16 @@ for subject in ("governor", "clock source", "timers", "kernel", "load", "latenes
                 "gnuplot", "python3"):
     assert subject in subjects, subject
 missing = findings("--rate", "0.05", LOCKSTEP_PLUGIN_PATH="/nowhere/plugins")
-assert {"subject": "plugin path", "grade": "trouble", "found": "/nowhere/plugins: there is no such directory",
+assert {"subject": "plugin path", "grade": "problem", "found": "/nowhere/plugins: there is no such directory",
         "remedy": "mend --plugin-path or LOCKSTEP_PLUGIN_PATH"} in missing, missing
 alone = findings("--rate", "0.05", PATH="/nowhere")
 assert [it["grade"] for it in alone if it["subject"] == "gnuplot"] == ["note"]
 assert [it["remedy"] for it in alone if it["subject"] == "gnuplot"] == ["sudo apt-get install gnuplot-nox"]
-# Without rights, --realtime is trouble for those who want it only.
+# Without rights, --realtime is a problem for those who want it only.
 limited = ["prlimit", "--rtprio=0", "--memlock=0", "setpriv", "--reuid=65534", "--clear-groups", "--bounding-set=-all",
            "--inh-caps=-all", LOCKSTEP, "doctor", "--json", "--rate", "0.05"]
 if os.geteuid() == 0:
-    for more, grade in ([], "note"), (["--realtime"], "trouble"):
+    for more, grade in ([], "note"), (["--realtime"], "problem"):
         done = subprocess.run(limited + more, capture_output=True, text=True, cwd="/")
         grades = [it["grade"] for it in json.loads(done.stdout)["findings"] if it["subject"] == "--realtime"]
         # Of the priority and of memory, which a sanitizer does not lock.
@@ -48,7 +48,7 @@ if os.geteuid() == 0:
         boxed = subprocess.run(limited + more, capture_output=True, text=True, cwd="/", env={**os.environ, "container": "podman"})
         assert [it["grade"] for it in json.loads(boxed.stdout)["findings"] if it["remedy"] == advice] == [grade], boxed
 text = run("doctor", "--rate", "0.05").stdout
-assert all(re.match(r"(ok|note|trouble) +\S|  +-> ", line) for line in text.splitlines()), text
+assert all(re.match(r"(ok|note|problem) +\S|  +-> ", line) for line in text.splitlines()), text
 assert run("doctor", "--rate", "0").returncode == 2
 
 about = run("--version", "--verbose")

@@ -345,7 +345,7 @@ class Features(Session):
         # The entry of the tree that is called so stays.
         own = text.replace("; g :=", "; g| :=")
         self.assertEqual(text.replace("; g :=", "; own :="), self.renamed(own, "own"))
-        self.assertIn("does not say which", self.renamed(marked.replace(" main_tree_to_execute=\"Main\"", ""), "all"))
+        self.assertIn("does not name its main tree", self.renamed(marked.replace(" main_tree_to_execute=\"Main\"", ""), "all"))
 
     def test_words_of_scripts_are_no_entries(self):
         text = HEAD + "<Script code=\"w := tr|ue\"/>" + TAIL

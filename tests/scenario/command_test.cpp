@@ -135,7 +135,7 @@ const Law kLaws[] = {
   {"no such input", R"(<scenario name="a"><expect path="left" in.stp="1"/></scenario>)", 3,
    "'Advance' has no input 'stp'"},
   {"no value of the input", R"(<scenario name="a"><expect path="left" in.step="x"/></scenario>)", 3,
-   "'x' is no value of the port 'step'"},
+   "'x' is not a value of the port 'step'"},
   {"inputs of no leaf", R"(<scenario name="a"><expect path="lift" in.step="1"/></scenario>)", 3,
    "the tree has no leaf 'lift'"},
   {"inputs of a leaf that is the plugin's", R"(<scenario name="a"><leaf path="left" from="plugin"/>
@@ -204,7 +204,7 @@ TEST_CASE("a value in a later tick declares an entry, which is unset before") {
         // Too late: the entry is unset where it is read.
         Row{R"(<set key="k" value="3" tick="3"/>)", "without a value", 3, 1},
         Row{R"(<set key="k" value="3" tick="1"/><set key="k" value="x" tick="2"/>)",
-            "'x' is no value of 'k'", 3, 3},
+            "'x' is not a value of 'k'", 3, 3},
         Row{R"(<set key="j" value="3" tick="1"/>)", "nothing declares the entry 'k'", 3, 3}}) {
     const Folder folder(R"(<scenario name="a">)" + std::string(row.set) +
                             R"(<expect result="success" ticks=")" + std::to_string(row.ticks) +
@@ -380,7 +380,7 @@ TEST_CASE("what is wrong with scenarios is said at its place") {
     {R"(<scenario name="a"><leaf path="lefd" does="S"/><expect result="success"/></scenario>)",
      "2:32: error: the tree has no leaf 'lefd'"},
     {R"(<scenario name="a"><leaf path="left" does="R Q"/><expect result="success"/></scenario>)",
-     "2:46: error: 'Q' is no word of a leaf"},
+     "2:46: error: 'Q' is not a word of a leaf"},
     {R"(<scenario name="a"><leaf path="left" does="S[x=1]"/><expect result="success"/></scenario>)",
      "'Advance' has no output 'x'"},
     {R"(<scenario name="a"><expect>never lefd.held</expect></scenario>)", "no node 'lefd'"},

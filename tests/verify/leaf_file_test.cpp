@@ -44,11 +44,11 @@ constexpr Mistake kMistakes[] = {
   {R"(<leaf result="failure"/>)", "2:1", "give exactly one of 'of' and 'path'", ""},
   {R"(<leaf of="b"/>)", "2:11", "the tree has no leaf of type 'b'", "its leaves: 'Scripted'"},
   {R"(<leaf path="*/aa"/>)", "2:13", "no leaf has the path '*/aa'", ""},
-  {R"(<leaf path="*" result="succes"/>)", "2:24", "'succes' is no result", "did you mean 'success'?"},
-  {R"(<leaf path="*" ticks="0"/>)", "2:23", "'0' is no range", "write 1..5, 3 or 2..inf"},
-  {R"(<leaf path="*" ticks="5..2"/>)", "2:23", "'5..2' is no range", "write 1..5, 3 or 2..inf"},
+  {R"(<leaf path="*" result="succes"/>)", "2:24", "'succes' is not a result", "did you mean 'success'?"},
+  {R"(<leaf path="*" ticks="0"/>)", "2:23", "'0' is not a range", "write 1..5, 3 or 2..inf"},
+  {R"(<leaf path="*" ticks="5..2"/>)", "2:23", "'5..2' is not a range", "write 1..5, 3 or 2..inf"},
   {R"(<leaf path="*" ends="maybe"/>)", "2:22", "'ends' cannot be 'maybe'", "it can be: 'yes', 'no'"},
-  {R"(<leaf path="*" progress="grid:0"/>)", "2:26", "'grid:0' is no kind of progress", "write none, cuts, or grid:10 (at most 1000 parts)"},
+  {R"(<leaf path="*" progress="grid:0"/>)", "2:26", "'grid:0' is not a kind of progress", "write none, cuts, or grid:10 (at most 1000 parts)"},
   {R"(<leaf path="*" held="0..inf"/>)", "2:22", "'held' has no end", "still or -1..0"},
   {R"(<leaf path="*" fact="day"/>)", "2:22", "unknown fact 'day'", "declare it: <fact name=\"day\"/>"},
   {R"(<fact name="day"/><leaf path="*" fact="dya"/>)", "2:40", "unknown fact 'dya'", "did you mean 'day'?"},
@@ -161,9 +161,9 @@ TEST_CASE("a mistake in a script has its line") {
     std::string_view text, message;
   };
   constexpr Row kRows[] = {
-      {"\nM/a = R0 Q", "2: 'Q' is no word of a leaf"},
-      {"M/a = R2", "1: 'R2' is no word of a leaf"},
-      {"M/a = S[x]", "1: 'S[x]' is no word of a leaf"},
+      {"\nM/a = R0 Q", "2: 'Q' is not a word of a leaf"},
+      {"M/a = R2", "1: 'R2' is not a word of a leaf"},
+      {"M/a = S[x]", "1: 'S[x]' is not a word of a leaf"},
       {"M/a R", "1: expected the path of a leaf, ' = ' and its words"},
       {"# x\nM/a = R0\nM/a = S", "3: 'M/a' is there twice"},
       {"@rats 3", "1: unknown setting '@rats'"},

@@ -133,7 +133,7 @@ class Inliner {
     const bool is_used = std::ranges::count(uses_, name, &EntryUse::key) != 0;
     if (!is_hook && name != "name" && name != "_description") {
       if (!is_remapping(texts_, name) || is_used) return std::nullopt;
-      return Problem{fmt::format("'{}' is no entry of the tree", brief(name)),
+      return Problem{fmt::format("'{}' is not an entry of the tree", brief(name)),
                      "remove it, or rename the barrier in the tree"};
     }
     // One node runs its scripts otherwise than two do, one around the other.

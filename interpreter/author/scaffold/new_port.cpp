@@ -42,7 +42,7 @@ Result<ValueType> parse_type(std::string_view word) {
   const std::string hint = other == kOtherWords.end()
                                ? suggest(word, words, "the types")
                                : fmt::format("did you mean '{}'?", other->second);
-  return problem(fmt::format("'{}' is no type of a port", word), hint);
+  return problem(fmt::format("'{}' is not a type of a port", word), hint);
 }
 
 // The part up to the next colon, which is taken from `text`.
@@ -97,7 +97,7 @@ Result<NewPort> parse_port(std::string_view text) {
   }
   port.name = word;
   if (rest.empty()) {
-    return problem(fmt::format("'{}' is no port", text), fmt::format("a port is {}", kForm));
+    return problem(fmt::format("'{}' is not a port", text), fmt::format("a port is {}", kForm));
   }
   const auto type = parse_type(rest);
   if (!type) return tl::unexpected(type.error());

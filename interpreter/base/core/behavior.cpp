@@ -40,7 +40,7 @@ std::optional<Problem> read_range(std::string_view value, std::optional<std::int
       is_small(into->most.value_or(0))) {
     return std::nullopt;
   }
-  return Problem{fmt::format("'{}' is no range", brief(value)), fmt::format("write {}", as)};
+  return Problem{fmt::format("'{}' is not a range", brief(value)), fmt::format("write {}", as)};
 }
 
 std::optional<Problem> read_held(std::string_view value, std::optional<WholeRange>& into) {
@@ -61,7 +61,7 @@ std::optional<Problem> read_results(std::string_view value, std::optional<Result
     const std::string_view part = value.substr(0, value.find(';'));
     const auto* const word = std::ranges::find(kResults, part);
     if (word == kResults.end()) {
-      return Problem{fmt::format("'{}' is no result", brief(part)),
+      return Problem{fmt::format("'{}' is not a result", brief(part)),
                      suggest(part, kResults, "results")};
     }
     has[static_cast<std::size_t>(word - kResults.begin())] = true;
@@ -85,7 +85,7 @@ std::optional<Problem> read_progress(std::string_view value, std::optional<Progr
   if (value == "none" || value == "cuts" || (into && parts && into->parts == *parts)) {
     return std::nullopt;
   }
-  return Problem{fmt::format("'{}' is no kind of progress", brief(value)),
+  return Problem{fmt::format("'{}' is not a kind of progress", brief(value)),
                  "write none, cuts, or grid:10 (at most 1000 parts)"};
 }
 

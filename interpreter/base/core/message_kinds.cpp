@@ -56,6 +56,8 @@ std::span<const MessageKind> message_kinds() {
        "Remove the node, or change the node before it that decides."},
       {"deadlock", "Nodes wait for each other, so none of them can continue.",
        "Break the chain of nodes that the message shows. deadlocks.md has examples."},
+      {"doubtful-result", "The summary of a study has a value that may mislead.",
+       "Read the warning. studies.md describes the summary."},
       {"duplicate-name", "Two declarations have the same name.", "Rename one of them."},
       {"duplicate-tree", "Two trees have the same `ID`.", "Rename one of the trees."},
       {"empty-tree", "A `BehaviorTree` contains no node.", "Put one node into the tree."},

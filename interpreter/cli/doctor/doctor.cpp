@@ -22,7 +22,7 @@ struct DoctorOptions {
 
 const char* name_of(Grade grade) {
   if (grade == Grade::Good) return "ok";
-  return grade == Grade::Note ? "note" : "trouble";
+  return grade == Grade::Note ? "note" : "problem";
 }
 
 std::string as_text(const Symptoms& symptoms) {
@@ -51,9 +51,9 @@ int doctor(const DoctorOptions& options) {
   look_at_rights(options.patient, symptoms);
   look_at_parts(options.patient, symptoms);
   const int code = write_results(options.json ? as_json(symptoms) : as_text(symptoms));
-  const bool is_trouble =
+  const bool is_problem =
       std::ranges::any_of(symptoms, [](const auto& it) { return it.grade == Grade::Trouble; });
-  return first_failure(code, is_trouble ? kExitFailure : kExitSuccess);
+  return first_failure(code, is_problem ? kExitFailure : kExitSuccess);
 }
 
 std::function<int()> define_doctor(CLI::App& app) {
@@ -75,7 +75,7 @@ std::function<int()> define_doctor(CLI::App& app) {
 }  // namespace
 
 extern const Command kDoctorCommand{
-    "doctor", "Look at what on this machine could keep a run from its rate, and what is missing",
+    "doctor", "Check whether this machine can keep the rate of a run, and what is missing",
     "Each line is ok, note (harmless for this run) or problem, with what to do.\n"
     "It measures for a quarter of a second how late the machine wakes a thread.\n"
     "\n"

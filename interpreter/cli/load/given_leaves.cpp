@@ -12,8 +12,8 @@ namespace lockstep::host {
 void add_leaves_option(CLI::App& app, std::string& file) {
   app.add_option(
          "--leaves", file,
-         "What the leaves do in place of plugins: a script, as `lockstep verify` writes it, whose "
-         "rate and length are those of the run; or a leaf model, from which the seed chooses")
+         "Replace the plugins: a script of the leaves as `lockstep verify` writes it, which sets "
+         "the rate and the length of the run, or a leaf model, from which the seed chooses")
       ->type_name("FILE");
 }
 

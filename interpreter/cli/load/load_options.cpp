@@ -73,10 +73,16 @@ Mocks parse_mocks(const LoadCommandOptions& options, Diagnostics& diagnostics) {
 }  // namespace
 
 void note_project_plugins(const PluginSet& plugins, const PluginOptions& options) {
+  const auto is_build = [&](const std::string& directory) {
+    std::error_code none;
+    return std::filesystem::equivalent(directory, options.project_build, none);
+  };
+  if (std::ranges::any_of(options.directories, is_build)) return;  // the user knows
   const std::vector<PluginSet::Info> list = plugins.list();
   std::vector<std::string_view> names;
   for (const PluginSet::Info& it : list) {
-    if (std::filesystem::path(it.path).parent_path() == options.project_build) {
+    const bool is_given = std::ranges::find(options.plugins, it.path) != options.plugins.end();
+    if (!is_given && std::filesystem::path(it.path).parent_path() == options.project_build) {
       names.push_back(it.name);
     }
   }
@@ -126,10 +132,9 @@ void add_load_options(CLI::App& app, LoadCommandOptions& options) {
                  "The start value of a blackboard entry {KEY}; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  app.add_option(
-         "--ros-package", options.ros_packages,
-         "The share directory of the ROS package NAME, for <include ros_pkg=\"NAME\">; may be "
-         "repeated (default: what AMENT_PREFIX_PATH has)")
+  app.add_option("--ros-package", options.ros_packages,
+                 "The share directory of the ROS package NAME, for <include ros_pkg=\"NAME\">; may "
+                 "be repeated (default: search AMENT_PREFIX_PATH)")
       ->type_name("NAME=DIR")
       ->allow_extra_args(false);
   add_plugin_options(app, options.plugins);
@@ -139,8 +144,8 @@ namespace {
 
 void add_mock_output(CLI::App& app, LoadCommandOptions& options) {
   app.add_option("--mock-output", options.mock_outputs,
-                 "With --mock: what leaves that succeed write to this output; ID.PORT=VALUE is "
-                 "for one leaf; may be repeated")
+                 "With --mock: the value that leaves write to this output when they succeed; "
+                 "ID.PORT=VALUE is for one leaf; may be repeated")
       ->type_name("PORT=VALUE")
       ->allow_extra_args(false);
 }
@@ -154,12 +159,11 @@ void add_mock_option(CLI::App& app, LoadCommandOptions& options) {
 
 void add_mock_options(CLI::App& app, LoadCommandOptions& options) {
   app.add_flag("--mock", options.mock,
-               "Let nodes that no plugin has take part: an action succeeds after a second, a "
-               "condition at once; outputs get 0, false or an empty text");
-  app.add_option(
-         "--mock-leaf", options.mock_leaves,
-         "With --mock: what the leaf ID returns, success, failure or running, and after how "
-         "many seconds; also instead of a leaf of a plugin; may be repeated")
+               "Replace nodes that no plugin has by mocks: an action succeeds after one second, a "
+               "condition at once; outputs are 0, false or an empty text");
+  app.add_option("--mock-leaf", options.mock_leaves,
+                 "With --mock: the result of the leaf ID (success, failure or running) and the "
+                 "seconds until then; also replaces a leaf of a plugin; may be repeated")
       ->type_name("ID=RESULT[:S]")
       ->allow_extra_args(false);
   add_mock_output(app, options);

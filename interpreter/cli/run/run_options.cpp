@@ -89,7 +89,7 @@ void add_processors(CLI::App& app, const std::string& name, std::optional<Proces
            to = Processors::parse(text);
            if (to) return;
            throw CLI::ValidationError(name,
-                                      "'" + text + "' is no list of processors, as 3 or 0-1,3");
+                                      "'" + text + "' is not a list of processors, as 3 or 0-1,3");
          },
          help)
       ->type_name("LIST");
@@ -119,13 +119,13 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
       ->needs("--realtime")
       ->capture_default_str();
   add_processors(app, "--cpu", options.realtime.processors,
-                 "Tick on these processors only, counted from 0, as 3 or 0-1,3");
-  add_processors(app, "--helper-cpu", options.helper_processors,
-                 "Where lockstep's other threads run, which record, watch and serve (default: as "
-                 "the system likes)");
+                 "Tick on these processors only, counted from 0, such as 3 or 0-1,3");
+  add_processors(
+      app, "--helper-cpu", options.helper_processors,
+      "The processors of lockstep's other threads, which record, watch and serve (default: any)");
   app.add_option("--spin", options.spin_us,
-                 "Before each tick, look at the clock for the last US microseconds instead of "
-                 "sleeping: less late, for a processor that is busy")
+                 "Before each tick, poll the clock for the last US microseconds instead of "
+                 "sleeping: ticks are less late, but the processor is busy")
       ->type_name("US")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
@@ -136,21 +136,22 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
   add_choice<FaultPolicy>(
       app, "--on-fault", options.on_fault,
       {{"stop", FaultPolicy::Stop}, {"fail", FaultPolicy::Fail}},
-      "When a leaf fails as a program (it throws, crashes in a separate process, "
-      "returns an invalid status): stop the run, or count it as Failure");
+      "When a leaf has a fault (it throws, crashes in a separate process, returns an invalid "
+      "status): stop the run, or count the fault as Failure");
   app.add_option("--halt-limit", options.load.plugins.halt_limit,
-                 "Report a leaf that does not return from halt within S seconds, and end a program "
-                 "that does not answer it; 0 = never")
+                 "Report a leaf that does not return from halt within S seconds, and end a process "
+                 "plugin that does not answer it; 0 = never")
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
-  app.add_option("--condition-wait", options.load.plugins.condition_wait,
-                 "On the wall clock, wait S seconds in each tick for conditions of programs; then "
-                 "they keep their last result (default: a fifth of the period, at most 0.002)")
+  app.add_option(
+         "--condition-wait", options.load.plugins.condition_wait,
+         "On the wall clock, wait S seconds in each tick for conditions of process plugins; then "
+         "they keep their last result (default: a fifth of the period, at most 0.002)")
       ->type_name("S")
       ->check(number_between(0.0, 10.0));
   app.add_option("--condition-age", options.load.plugins.condition_age,
-                 "How old that result may be: after S seconds the condition is Running, with a "
+                 "The longest age of that result: after S seconds the condition is Running, with a "
                  "warning (default: 5 periods)")
       ->type_name("S")
       ->check(number_between(0.0, 1e6));
@@ -173,14 +174,14 @@ void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
                  "Without --monitor: make a socket through which `lockstep monitor --attach` opens "
                  "one while the run continues")
       ->type_name("PATH");
-  app.add_flag("--monitor-control", options.monitor_control,
-               "Let those who have the link pause the run, tick it step by step, halt it and set "
-               "entries");
+  app.add_flag(
+      "--monitor-control", options.monitor_control,
+      "Allow users of the link to pause the run, tick it step by step, halt it and set entries");
   app.add_flag("--monitor-paused", options.begins_paused,
                "With --monitor-control: pause before the first tick");
   app.add_flag("--monitor-open", options.opens_browser, "Open the page of the run in the browser");
   app.add_option("--monitor-linger", options.monitor_linger,
-                 "After the end, serve the page as long as a browser has it open, at most S "
+                 "After the end, serve the page as long as it is open in a browser, at most S "
                  "seconds; a signal ends it (default: 600 on a terminal, otherwise 0)")
       ->type_name("S")
       ->check(number_between(0.0, 1e6));
@@ -190,8 +191,9 @@ void define_groot_options(CLI::App& app, RunCommandOptions& options) {
   app.add_option("--groot2", options.groot2,
                  "Show the run in Groot2 (default: 127.0.0.1:1667; it also takes the next port)")
       ->type_name("[ADDRESS:PORT]");
-  app.add_flag("--groot2-control", options.groot2_control,
-               "Let everyone who reaches that address pause the run, by the breakpoints of Groot2");
+  app.add_flag(
+      "--groot2-control", options.groot2_control,
+      "Allow every user who reaches that address to pause the run with the breakpoints of Groot2");
 }
 
 void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
@@ -202,7 +204,7 @@ void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
            options.rotation = *rotation_from(text);
            options.rotation.keep = keep;
          },
-         "Begin another file after so much: 500MB, 2GiB, 30min, 8h. FILE.jsonl becomes "
+         "Begin another file after this size or time: 500MB, 2GiB, 30min, 8h. FILE.jsonl becomes "
          "FILE.0001.jsonl, FILE.0002.jsonl, …")
       ->type_name("SIZE|TIME")
       ->check([](const std::string& text) {
@@ -213,7 +215,7 @@ void define_rotation_options(CLI::App& app, RunCommandOptions& options) {
       })
       ->needs("--record");
   app.add_option("--record-keep", options.rotation.keep,
-                 "With --record-rotate: keep so many files, the last ones (default: all)")
+                 "With --record-rotate: keep only the last N files (default: all)")
       ->type_name("N")
       ->transform(whole_number(1))
       ->needs("--record-rotate");
@@ -230,15 +232,15 @@ void define_record_options(CLI::App& app, RunCommandOptions& options) {
                "Compress the recording with zstd, whatever its name")
       ->needs("--record");
   define_rotation_options(app, options);
-  app.add_option(
-         "--record-entries", options.record_entries,
-         "Blackboard entries in the recording: all, none, or KEY,KEY,… (for a value that is "
-         "longer than 256 bytes, only that it changed)")
+  app.add_option("--record-entries", options.record_entries,
+                 "Blackboard entries in the recording: all, none, or KEY,KEY,… (of a value longer "
+                 "than 256 bytes, only the change is recorded)")
       ->type_name("KEYS")
       ->capture_default_str();
   add_choice<bool>(app, "--on-record-error", options.stop_on_record_error,
                    {{"stop", true}, {"go-on", false}},
-                   "When the recording cannot be written any more, as on a full disk");
+                   "When the recording cannot be written any more, such as on a full disk: stop "
+                   "the run, or continue without it");
 }
 
 void define_view_options(CLI::App& app, RunCommandOptions& options) {
@@ -248,13 +250,13 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
                  "terminal, otherwise plain")
       ->check(one_of({"auto", "live", "plain", "none"}))
       ->capture_default_str();
-  add_choice<lockstep_log_level>(app, "--log-level", options.log_level,
-                                 {{"debug", LOCKSTEP_LOG_DEBUG},
-                                  {"info", LOCKSTEP_LOG_INFO},
-                                  {"warning", LOCKSTEP_LOG_WARNING},
-                                  {"none", kNoLogs}},
-                                 "What leaves log that is shown on stderr, in any view: this "
-                                 "level and what is more urgent");
+  add_choice<lockstep_log_level>(
+      app, "--log-level", options.log_level,
+      {{"debug", LOCKSTEP_LOG_DEBUG},
+       {"info", LOCKSTEP_LOG_INFO},
+       {"warning", LOCKSTEP_LOG_WARNING},
+       {"none", kNoLogs}},
+      "Show log lines of leaves on stderr, in any view: this level and more urgent ones");
   app.add_flag("--json", options.json, "Print the summary as JSON");
   define_monitor_options(app, options);
   define_groot_options(app, options);

@@ -99,7 +99,7 @@ std::function<int()> define_convert(CLI::App& app) {
 }  // namespace
 
 extern const Command kConvertCommand{
-    "convert", "Print a tree file in the other language: lockstep's, or that of BehaviorTree.CPP",
+    "convert", "Convert a tree file to the other language: lockstep's, or that of BehaviorTree.CPP",
     "Comments, whitespace and order stay. Anything that the other language cannot express is an "
     "error.\n"
     "Files that it includes are converted one by one. Nodes of plugins are copied.\n"

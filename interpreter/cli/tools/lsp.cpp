@@ -46,21 +46,19 @@ std::function<int()> define_lsp(CLI::App& app) {
       ->type_name("S")
       ->check(number_between(0.0, 1e6))
       ->capture_default_str();
-  app.add_flag("--no-plugins", options->no_plugins,
-               "Load no plugin, as in a workspace that is not trusted");
-  app.add_flag("--stdio", options->stdio,
-               "Accepted, since many editors give it: stdin and stdout are always used");
+  app.add_flag("--no-plugins", options->no_plugins, "Load no plugin, as in an untrusted workspace");
+  app.add_flag("--stdio", options->stdio, "Has no effect: stdin and stdout are always used");
   return [options] { return serve(*options); };
 }
 
 }  // namespace
 
 extern const Command kLspCommand{
-    "lsp", "Serve an editor: messages, completion and more while a tree is written",
+    "lsp", "Serve an editor: messages, completion and more while you write a tree",
     "Speaks the Language Server Protocol 3.17 on stdin and stdout; editors start it. Plugins are\n"
     "loaded in other processes; programs are not started.\n"
-    "Exit code: 0 after the editor has ended the session, 1 it vanished, 2 usage or what is no\n"
-    "message of the protocol.\n"
+    "Exit code: 0 after the editor has ended the session, 1 the editor vanished, 2 usage or\n"
+    "a message that is not of the protocol.\n"
     "\n"
     "Examples, the second in the init.lua of Neovim 0.8 or later:\n"
     "  lockstep lsp --plugin-path build/plugins\n"

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
+#include <vector>
 
 #include "base/core/suggest.h"
 #include "cli/checks.h"
@@ -33,8 +36,14 @@ std::string models(NodeTypes types) {
 
 std::string as_text(const NodesOptions& options, NodeTypes types) {
   if (options.format == "json") return nodes_as_json(types);
-  if (options.format == "markdown") return nodes_as_markdown(types);
   if (options.format == "btcpp") return models(types);
+  std::vector<const NodeType*> of_plugins;
+  if (options.id.empty() && !options.plugins.plugins.empty()) {  // the others are known
+    std::ranges::copy_if(types, std::back_inserter(of_plugins),
+                         [](const NodeType* type) { return !type->plugin.empty(); });
+    types = of_plugins;
+  }
+  if (options.format == "markdown") return nodes_as_markdown(types);
   return options.id.empty() ? nodes_as_text(types) : node_as_text(*types.front());
 }
 
@@ -75,6 +84,8 @@ extern const Command kNodesCommand{
     "nodes", "List the nodes that trees are made of, with their parameters or ports",
     "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused,\n"
     "6 a plugin crashed or hung.\n"
+    "With --plugin, text and markdown have the leaves of these plugins only; json and btcpp have "
+    "all.\n"
     "\n"
     "Examples:\n"
     "  lockstep nodes\n"

@@ -86,7 +86,7 @@ int refuse_file(const PluginCheckOptions& options) {
     print_error(fmt::format("there is no file '{}'", printable(options.file)));
     return kExitUsage;
   }
-  print_error(fmt::format("'{}' is no plugin", printable(options.file)),
+  print_error(fmt::format("'{}' is not a plugin", printable(options.file)),
               "give a shared object, or an executable file, with chmod +x and #! in the first line "
               "of a script; or the name of one in a directory of --plugin-path or "
               "LOCKSTEP_PLUGIN_PATH");
@@ -173,7 +173,7 @@ std::function<int()> define_plugin(CLI::App& app) {
 
 }  // namespace
 
-extern const Command kPluginCommand{"plugin", "Check a plugin, a shared object or a program",
+extern const Command kPluginCommand{"plugin", "Check a plugin: a shared object or a process plugin",
                                     "Exit code: 0 it keeps the contract, 4 it does not, or does "
                                     "not start, 3 a tree of --tree is wrong, 2 usage.\n"
                                     "\n"

@@ -49,7 +49,7 @@ std::function<int()> define_show(CLI::App& app) {
 }  // namespace
 
 extern const Command kShowCommand{
-    "show", "Draw a tree as it will run: subtrees in place, arguments substituted",
+    "show", "Draw a tree as it will run, with subtrees expanded and arguments replaced",
     "The text is drawn with ASCII when the locale is not UTF-8.\n"
     "Exit code: 0 drawn, 3 invalid tree, 4 plugin refused, 2 usage, 6 a plugin\n"
     "crashed or hung.\n"

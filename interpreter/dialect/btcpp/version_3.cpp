@@ -56,7 +56,8 @@ void check_dollar(Attribute& attribute, const Reporter& report) {
   attribute.value = value.substr(1);  // as if it were written so
   if (report.counted_only(Severity::Error)) return;
   const auto key = value.substr(2, value.size() - 3);
-  report.at_value("old-syntax"_code, attribute.place, fmt::format("'{}' is no entry", brief(value)),
+  report.at_value("old-syntax"_code, attribute.place,
+                  fmt::format("'{}' is not an entry", brief(value)),
                   fmt::format("since version 3 it is written {}=\"{{{}}}\"", brief(attribute.name),
                               brief(key)));
 }

@@ -87,8 +87,8 @@ class PropertyParser {
     }
     if (parser_.take_word("until")) return both(Pattern::Until);
     parser_.expected("'and', 'or', 'leads to', 'only after', 'at most' or 'until'",
-                     "what holds in a tick is no property yet; or write 'never', 'sometimes' or "
-                     "'finally' before it");
+                     "a condition of a tick is not a property yet; or write 'never', 'sometimes' "
+                     "or 'finally' before it");
   }
 
   void need(std::string_view word) {
@@ -119,7 +119,7 @@ class PropertyParser {
     if (number.kind != Kind::Number) parser_.expected("a number of ticks");
     if (!(number.number >= 0) || number.number > kMostTicks ||
         number.number != std::floor(number.number)) {
-      throw PropertyError{fmt::format("'{}' is no number of ticks", brief(number.text)),
+      throw PropertyError{fmt::format("'{}' is not a number of ticks", brief(number.text)),
                           "write a whole number from 0 to 1000000000", number.offset};
     }
     parser_.take();

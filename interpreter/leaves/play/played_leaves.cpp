@@ -263,7 +263,7 @@ std::optional<Problem> check_written(const NodeType& type, const LeafWord& word)
     }
     if (!parse_value(port->type, text)) {
       return Problem{
-          fmt::format("'{}' is no value of the port '{}' of '{}'", brief(text), name, type.id),
+          fmt::format("'{}' is not a value of the port '{}' of '{}'", brief(text), name, type.id),
           fmt::format("expected {}", expected_text(port->type))};
     }
   }

@@ -103,7 +103,7 @@ class ModelReader {
         if (report_.counted_only(Severity::Warning)) continue;
         report_.at("bad-model"_code, element(child).place,
                    category ? "a model without 'ID' is ignored"
-                            : fmt::format("'{}' is no model", brief(element(child).tag)),
+                            : fmt::format("'{}' is not a model", brief(element(child).tag)),
                    "models: Action, Condition, Control, Decorator and SubTree", Severity::Warning);
         continue;
       }

@@ -204,8 +204,7 @@ TEST_CASE("faults that the run went on after are in their tick, and counted") {
   std::istringstream in(text);
   RecordingReader reader(in, "run.jsonl");
   const std::string info = info_text(reader);
-  CHECK(info.find("\n"
-                  "  2 faults of leaves after which the run continued\n") != std::string::npos);
+  CHECK(info.find("\n  2 faults of leaves after which the run continued\n") != std::string::npos);
   CHECK(csv_of(text).find("broke") == std::string::npos);
 }
 

@@ -56,14 +56,14 @@ Result<std::size_t> FrameReader::read_length(std::string_view header) const {
     header.remove_prefix(std::min(end + 2, header.size()));
     const auto colon = line.find(':');
     if (colon == line.npos)
-      return problem(fmt::format("'{}' is no header of a message", brief(printable(line))));
+      return problem(fmt::format("'{}' is not a header of a message", brief(printable(line))));
     if (!is_same_word(trimmed(line.substr(0, colon)), "Content-Length")) continue;
     const std::string_view digits = trimmed(line.substr(colon + 1));
     std::size_t number = 0;
     const auto [rest, failure] =
         std::from_chars(digits.data(), digits.data() + digits.size(), number);
     if (failure != std::errc() || rest != digits.data() + digits.size() || number > kMaxBytes)
-      return problem(fmt::format("'{}' is no length of a message", brief(printable(digits))));
+      return problem(fmt::format("'{}' is not a length of a message", brief(printable(digits))));
     length = number;
   }
   if (!length) return problem("a message has no Content-Length");

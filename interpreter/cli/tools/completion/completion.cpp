@@ -47,7 +47,7 @@ std::function<int()> define_completion(CLI::App& app) {
 }  // namespace
 
 extern const Command kCompletionCommand{
-    "completion", "Print a script that makes a shell complete the command line",
+    "completion", "Print a script for the completion of the command line in a shell",
     "The script gets from lockstep the commands, options and values that could stand next. Values\n"
     "come from the tree or the recording on the line; no plugin is loaded for that.\n"
     "\n"

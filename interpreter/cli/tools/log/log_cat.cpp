@@ -100,7 +100,7 @@ LogSubcommand define_log_cat(CLI::App& log) {
       "cat", "Print the lines of the recording as they are, also of a compressed one");
   add_recording_file(*app, options->file);
   app->add_flag("--follow,-f", options->follows,
-                "Also those that are written from now on, until the run ends");
+                "Also print the lines that are written from now on, until the run ends");
   return {app, [options] { return cat(*options); }};
 }
 

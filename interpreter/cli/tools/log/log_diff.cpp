@@ -70,8 +70,9 @@ LogSubcommand define_log_diff(CLI::App& log) {
       ->type_name("X")
       ->check(number_between(0, 1))
       ->capture_default_str();
-  app->add_flag("--ignore-time", options->diff.ignore_time,
-                "Do not compare times and overruns: on the wall clock no two runs have the same");
+  app->add_flag(
+      "--ignore-time", options->diff.ignore_time,
+      "Do not compare times and overruns, which differ between all runs on the wall clock");
   app->add_flag("--json", options->json, "Print one line of JSON");
   app->footer(
       "Compares the headers, the ticks up to the first that differs, the lengths and the ends,\n"

@@ -103,20 +103,21 @@ LogSubcommand define_log_events(CLI::App& log) {
   CLI::App* app = log.add_subcommand(
       "events", "One line for each start, result, halt, hold, fault, changed entry and log line");
   add_recording_file(*app, options->file);
-  app->add_option("--format", options->format, "text, csv with a title, or json, an object a line")
+  app->add_option("--format", options->format,
+                  "text, csv with a header, or json with one object a line")
       ->check(one_of({"text", "csv", "json"}))
       ->capture_default_str();
-  app->add_option(
-         "--path", options->paths,
-         "Only of these nodes, entries and leaves that log: the end of a path or a key, in "
-         "which * stands for any part; may be repeated")
+  app->add_option("--path", options->paths,
+                  "Only events of these nodes, entries and logging leaves: the end of a path or "
+                  "key, in which * stands for any part; may be repeated")
       ->type_name("PATTERN")
       ->allow_extra_args(false);
-  app->add_option("--event", options->kinds, "Only these, as --event hold --event release")
+  app->add_option("--event", options->kinds,
+                  "Only events of this kind, such as --event hold --event release")
       ->type_name("EVENT")
       ->allow_extra_args(false)
-      ->check(one_of({"start", "success", "failure", "skipped", "halt", "hold", "release",
-                             "fault", "entry", "log", "lost", "end"}));
+      ->check(one_of({"start", "success", "failure", "skipped", "halt", "hold", "release", "fault",
+                      "entry", "log", "lost", "end"}));
   add_tick_range(*app, options->range);
   return {app, [options] { return events(*options); }};
 }

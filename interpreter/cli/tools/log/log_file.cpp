@@ -85,7 +85,7 @@ void add_tick_range(CLI::App& app, TickRange& range) {
   app.add_option("--from", range.from, "The first tick")
       ->type_name("TICK")
       ->transform(whole_number());
-  app.add_option("--to", range.to, "The last one; what is behind it is not read")
+  app.add_option("--to", range.to, "The last tick; the rest is not read")
       ->type_name("TICK")
       ->transform(whole_number())
       ->check([&range](const std::string& text) {

@@ -153,7 +153,7 @@ LogSubcommand define_log_page(CLI::App& log) {
   CLI::App* app = log.add_subcommand(
       "page", "Write a web page that shows the recording, as one file that needs no server");
   add_recording_file(*app, options->file);
-  app->add_option("--out", options->out, "The page, to be opened in any browser")
+  app->add_option("--out", options->out, "The page, for any browser")
       ->type_name("FILE.html")
       ->required();
   add_tick_range(*app, options->range);

@@ -123,11 +123,11 @@ LogSubcommand define_log_plot(CLI::App& log) {
   app->add_option("--node", options->node, "Only this node: its path, or the end of it")
       ->type_name("NODE");
   app->add_option("--width", options->size.width,
-                  "In pixels, at least 360; a PNG has twice as many")
+                  "The width in pixels, at least 360; a PNG has twice as many")
       ->transform(whole_number(PlotSize::kLeastWidth, PlotSize::kMost))
       ->capture_default_str();
   app->add_option("--height", options->size.height,
-                  "In pixels, at least 240; a PNG has twice as many")
+                  "The height in pixels, at least 240; a PNG has twice as many")
       ->transform(whole_number(PlotSize::kLeastHeight, PlotSize::kMost))
       ->capture_default_str();
   return {app, [options] { return plot(*options); }};

@@ -59,16 +59,17 @@ LogSubcommand define_log_scenario(CLI::App& log) {
   add_recording_file(*app, options->file);
   app->add_option("tree", options->tree, "The tree file (default: as the recording names it)")
       ->type_name("TREE.xml");
-  app->add_option("--name", options->name, "What the scenario is called")->type_name("NAME");
-  app->add_option("--save", options->save,
-                  "Add it to the end of this file, or make it, instead of stdout")
+  app->add_option("--name", options->name, "The name of the scenario")->type_name("NAME");
+  app->add_option(
+         "--save", options->save,
+         "Append the scenario to this file, which is made if it is missing, instead of stdout")
       ->type_name("FILE.test.xml");
   add_plugin_options(*app, options->plugins);
   add_program_option(*app, options->plugins);
   app->footer(
       "A bug on the robot becomes a test: `lockstep test` plays it, and expects that it ends as "
       "it\n"
-      "did. Change that to what should come of it.\n"
+      "did. Change that to the result that you expect.\n"
       "Exit code: 0 written, 2 usage, 3 not a recording or a damaged one, or an invalid tree,\n"
       "4 plugin refused.\n"
       "\n"

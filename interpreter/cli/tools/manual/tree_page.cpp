@@ -75,7 +75,7 @@ ManualFile tree_page(std::string_view date) {
       "is "
       "an entry of the blackboard.");
   page.paragraph();
-  page.text("The elements that are no nodes:");
+  page.text("The elements that are not nodes:");
   page.begin_list();
   for (const Part& it : kParts) page.item(mdoc_word(it.element), it.about);
   page.end_list();

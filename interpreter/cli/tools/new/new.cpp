@@ -14,12 +14,12 @@
 namespace lockstep::host {
 
 void add_dry_run(CLI::App& app, bool& is_dry_run) {
-  app.add_flag("--dry-run", is_dry_run, "Write nothing: only list the files");
+  app.add_flag("--dry-run", is_dry_run, "Only list the files, and write nothing");
 }
 
 void add_language(CLI::App& app, std::string& language) {
   app.add_option("--lang", language,
-                 "Of the plugin: c++, c, python, rust, or btcpp: C++ nodes for BehaviorTree.CPP")
+                 "The language of the plugin; btcpp: C++ nodes for BehaviorTree.CPP")
       ->check(one_of({"c++", "cpp", "c", "python", "rust", "btcpp"}))
       ->capture_default_str();
 }

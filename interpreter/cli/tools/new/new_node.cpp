@@ -116,10 +116,11 @@ void add_options(CLI::App& app, NodeOptions& options, const std::vector<std::str
                  "TYPE is bool, int, double, string, number, or 'list of' one of the first four; "
                  "may be repeated")
       ->type_name("PORT");
-  app.add_option("--doc", options.doc, "A sentence about it (default: the words of its ID)")
+  app.add_option("--doc", options.doc,
+                 "A sentence that describes the node (default: the words of its ID)")
       ->type_name("TEXT");
   app.add_option("--in", options.where,
-                 "The source of the plugin, or a folder that has one of them")
+                 "The source of the plugin, or a folder with one such source")
       ->type_name("FILE|DIR")
       ->capture_default_str();
   app.add_flag("--print", options.prints, "Print the source of the node, and change nothing");

@@ -88,7 +88,7 @@ int new_project(const PluginOptionsOfNew& options) {
 void add_options(CLI::App& app, PluginOptionsOfNew& options) {
   add_language(app, options.language);
   app.add_option("--leaf", options.leaf,
-                 "The leaf that the plugin begins with (default: Move and the name)")
+                 "The first leaf of the plugin (default: Move and the name)")
       ->type_name("ID");
   add_dry_run(app, options.is_dry_run);
 }

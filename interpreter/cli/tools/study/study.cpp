@@ -50,7 +50,7 @@ int print_summary(const StudyCommandOptions& options, const StudyPlan& plan,
                                                  : summary_table(plan, rows, results_width()));
   Diagnostics notes;
   for (std::string& warning : summary_warnings(plan, rows)) {
-    notes.warning({}, std::move(warning));
+    notes.warning("doubtful-result"_code, {}, std::move(warning));
   }
   print_diagnostics(notes, Severity::Warning);
   return written;
@@ -193,7 +193,7 @@ void define_merge(CLI::App& app, const std::shared_ptr<StudyCommandOptions>& opt
 }
 
 void define_runs(CLI::App& app, StudyOptions& options) {
-  app.add_option("-n,--runs", options.runs, "How often each cell of the grid is run")
+  app.add_option("-n,--runs", options.runs, "The number of runs for each cell of the grid")
       ->type_name("N")
       ->transform(whole_number(1));
   app.add_option("--until-ci", options.until_ci,
@@ -206,7 +206,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
       ->transform(whole_number())
       ->capture_default_str();
   app.add_flag("--paired", options.paired,
-               "Give run R the same seed in all cells, to compare the cells with less chance");
+               "Give run R the same seed in all cells, so that chance affects the cells alike");
   app.add_option("--grid", options.grid,
                  "An <arg> of the tree, or seed, or rate, and its values; or a range, "
                  "NAME=FIRST:LAST:STEP; or names whose values belong together, "
@@ -227,10 +227,10 @@ void define_runs(CLI::App& app, StudyOptions& options) {
                              kMostVirtualTicks))
       ->type_name("N")
       ->transform(whole_number(1));
-  app.add_option("--rows", options.rows,
-                 "What is kept of each run: a row of runs.csv, of runs.csv.zst, or none: then its "
-                 "cell has counts, means, and quartiles to 0.05 %, and memory does not grow with "
-                 "the runs")
+  app.add_option(
+         "--rows", options.rows,
+         "The rows to keep: one for each run in runs.csv or runs.csv.zst, or none. With none a "
+         "cell has counts, means and quartiles to 0.05 %, and memory does not grow with the runs")
       ->check(one_of({"csv", "zst", "none"}))
       ->capture_default_str();
   app.add_option("--shard", options.shard, "Make part I of N only; see `lockstep study merge`")

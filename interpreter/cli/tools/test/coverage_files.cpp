@@ -23,12 +23,15 @@ bool write_coverage_file(std::string_view option, const std::string& path,
 
 void define_coverage_options(CLI::App& app, CoverageOptions& options) {
   app.add_flag("--coverage", options.table,
-               "Print what the scenarios show of each node, of what is possible");
-  app.add_option("--coverage-html", options.page, "Write it as a page")->type_name("FILE");
-  app.add_option("--lcov", options.lcov, "Write it as lcov does: lines of XML, and branches")
+               "Print the coverage: which of the possible results and halts of each node the "
+               "scenarios show");
+  app.add_option("--coverage-html", options.page, "Write the coverage as an HTML page")
+      ->type_name("FILE");
+  app.add_option("--lcov", options.lcov,
+                 "Write the coverage in the format of lcov: lines of XML, and branches")
       ->type_name("FILE");
   app.add_option("--fail-under", options.least,
-                 "Exit with code 1 if less than this share is shown, in percent")
+                 "Exit with code 1 if the coverage is less than P percent")
       ->type_name("P")
       ->check(number_between(0.0, 100.0));
 }

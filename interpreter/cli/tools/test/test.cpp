@@ -274,12 +274,11 @@ std::function<int()> define_test(CLI::App& app) {
 }  // namespace
 
 extern const Command kTestCommand{
-    "test", "Play scenarios: trees tested without a robot",
-    "A line for each scenario goes to stdout, and what is known of each failure: what was "
-    "expected,\n"
-    "what came, where, and a recording of it. Messages about files go to stderr.\n"
-    "Exit code: 0 all is as expected, 1 a scenario failed, or --fail-under, 2 usage, or there are "
-    "no scenarios,\n"
+    "test", "Play scenarios: test trees without a robot",
+    "stdout gets one line for each scenario, and for each failure what was expected, the result,\n"
+    "the place and a recording. Messages about files go to stderr.\n"
+    "Exit code: 0 all scenarios passed, 1 a scenario failed, or --fail-under, 2 usage, or there "
+    "are no scenarios,\n"
     "3 invalid scenarios or trees, 4 plugin refused, 128 + N signal N.\n"
     "\n"
     "Examples:\n"

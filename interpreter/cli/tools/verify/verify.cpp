@@ -291,8 +291,9 @@ int verify(const VerifyOptions& options) {
 std::function<int()> define_verify(CLI::App& app) {
   const auto options = std::make_shared<VerifyOptions>();
   add_tree_argument(app, options->tree, "Tree file; - is stdin");
-  app.add_option("--leaves", options->leaves,
-                 "What the leaves may do (default: all that their contract allows)")
+  app.add_option(
+         "--leaves", options->leaves,
+         "A leaf model: what the leaves may do (default: everything that their contract allows)")
       ->type_name("FILE");
   app.add_option("--rate", options->rate,
                  "Ticks per second (default: that of the leaf model, otherwise 10)")
@@ -309,7 +310,7 @@ std::function<int()> define_verify(CLI::App& app) {
   app.add_option("--time", options->time, "Stop after S seconds")
       ->type_name("S")
       ->check(number_between(0.0, 1e9));
-  app.add_option("--depth", options->depth, "Look at the first N ticks only")
+  app.add_option("--depth", options->depth, "Search only the first N ticks")
       ->type_name("N")
       ->transform(whole_number(1, 1'000'000'000));
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
@@ -318,16 +319,17 @@ std::function<int()> define_verify(CLI::App& app) {
       ->transform(whole_number(1, 1024))
       ->capture_default_str();
   app.add_option("--out", options->out,
-                 "Where recordings and scripts of what was found are written")
+                 "The directory for the recordings and scripts of the findings")
       ->type_name("DIR")
       ->capture_default_str();
   app.add_option("--save", options->save,
-                 "Add what was found to this file of scenarios, or make it, for `lockstep test`")
+                 "Add the findings to this file of scenarios for `lockstep test`; it is made if it "
+                 "is missing")
       ->type_name("FILE.test.xml");
   add_property_options(app, options->properties);
-  app.add_option(
-         "--only", options->only,
-         "Findings that count: a name as 'trap', in which * stands for any part (repeatable)")
+  app.add_option("--only", options->only,
+                 "Report only these findings: a name such as 'trap', in which * stands for any "
+                 "part; may be repeated")
       ->type_name("FINDING");
   app.add_option("--format", options->format, "text, json or junit (a test for each question)")
       ->check(one_of({"text", "json", "junit"},

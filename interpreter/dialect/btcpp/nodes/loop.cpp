@@ -69,7 +69,7 @@ Status if_empty(NodeContext& context, NodeIndex self) {
   const auto* text = word == nullptr ? nullptr : std::get_if<std::string>(word);
   const auto* const it = text == nullptr ? std::end(kResults) : std::ranges::find(kResults, *text);
   if (it != std::end(kResults)) return static_cast<Status>(it - std::begin(kResults) + 1);
-  context.set_fault(self, "'if_empty' is none of RUNNING, SUCCESS, FAILURE, SKIPPED");
+  context.set_fault(self, "'if_empty' is not one of RUNNING, SUCCESS, FAILURE, SKIPPED");
   return Status::Failure;
 }
 

@@ -58,8 +58,8 @@ std::optional<Problem> check_fixed(const lockstep_port& port) {
   const bool has_entry = port.direction != LOCKSTEP_INPUT || port.type == LOCKSTEP_OBJECT ||
                          (port.flags & LOCKSTEP_DEFAULT_ENTRY) != 0;
   if (!has_entry) return std::nullopt;
-  return Problem{fmt::format("('{}') is fixed, but is no input with a constant", port.name),
-                 "LOCKSTEP_FIXED is for inputs that are no objects and have no default entry"};
+  return Problem{fmt::format("('{}') is fixed, but is not an input with a constant", port.name),
+                 "LOCKSTEP_FIXED is for inputs that are not objects and have no default entry"};
 }
 
 bool has_default_entry(const lockstep_port& port) {
