@@ -54,7 +54,7 @@ class WordMaker {
     }
     if (!tick.faults.empty()) {
       note(Lacks::Faults,
-           "the run went on after the fault in tick {}, as with '--on-fault fail': "
+           "the run continued after the fault in tick {}, as with '--on-fault fail': "
            "the scenario ends with it",
            tick.tick);
     }

@@ -178,6 +178,8 @@ for page in sys.argv[2:] or DONE:
 for file, number, raw in [] if sys.argv[2:] else messages():
     text = plain(raw)
     for pattern, instead in REFUSED.items():
+        if instead in ("For, or the subject first", "Therefore, or leave it out"):
+            continue  # a message need not be a sentence
         for match in re.finditer(pattern, text, re.I):
             if not any(where == file and word in match[0] for where, word, _ in IN_MESSAGES):
                 wrong.append(f"interpreter/{file}:{number}: '{match[0].strip()}': write {instead}\n    …{text[:200]}…")

@@ -38,6 +38,8 @@ std::span<const MessageKind> message_kinds() {
        "The text of a property is not in the language of properties, or names a node or an entry "
        "that the tree does not have.",
        "Correct the text at the marked place. properties.md describes the language."},
+      {"bad-reading", "A script reads what a node or a resource does not have.",
+       "Correct the name of the node, the resource or what is read of it."},
       {"bad-scenario", "A scenario cannot be played as it is written.",
        "Correct the element that the message names. testing.md describes scenarios."},
       {"bad-start-value",
@@ -50,6 +52,9 @@ std::span<const MessageKind> message_kinds() {
        "Correct the value that the message names."},
       {"bad-value", "The value of an attribute does not have the type or the range of its port.",
        "Write a value as the message describes it, or a blackboard entry: `{key}`."},
+      {"begins-apart",
+       "A barrier at 0 does not wait for idle members, so its members do not begin together.",
+       "Remove `idle=\"ignore\"`, or the barrier at 0."},
       {"child-count", "A node has too many or too few children.",
        "Group children with a `Sequence` or a parallel node, or add the missing child."},
       {"dead-node", "A node can never run, whatever the leaves return.",

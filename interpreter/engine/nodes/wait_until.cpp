@@ -11,8 +11,9 @@ constexpr unsigned kWaitsFor = 1;
 constexpr Parameter kWaitUntilParameters[] = {
     {.name = "timeout",
      .type = ValueType::Double,
-     .doc = "How long to wait at most, without the time during which it is held; for ever when "
-            "absent.",
+     .doc =
+         "How long to wait at most, without the time during which it is held; without limit when "
+         "absent.",
      .unit = "s",
      .range = {.min = 0, .max = 1e9, .min_excluded = true}},
     {.name = "code",

@@ -124,7 +124,7 @@ class Lexer {
     while (!is_quoted && end > begin && kBlanks.find(text_[end - 1]) != std::string_view::npos)
       --end;
     if (begin == end) {
-      return fail(fmt::format("'{}()' does not say of what", row.name),
+      return fail(fmt::format("'{}()' does not name a node or a pool", row.name),
                   is_owner ? "write a resource: owner(dock)"
                            : fmt::format("write a node: {}(arm)", row.name));
     }

@@ -37,7 +37,7 @@ class OpeningAdviser {
     const Value* value = definition_.constant(node, "barriers");
     const auto* list = value == nullptr ? nullptr : std::get_if<std::vector<double>>(value);
     if (list == nullptr || list->empty() || list->front() != 0) return;
-    report_.at(node.place,
+    report_.at("begins-apart"_code, node.place,
                fmt::format("the members of '{}' do not begin together", brief(node.name)),
                "its barrier at 0 does not wait for idle members: leave out idle=\"ignore\"",
                Severity::Warning);

@@ -13,7 +13,7 @@ void DeclaredGroups::check(const Document& document, std::uint32_t index, const 
   const Element& element = document.elements()[index];
   const auto attributes = document.attributes(index);
   if (element.end > index + 1) {
-    report_.at(document.elements()[index + 1].place,
+    report_.at("unexpected-element"_code, document.elements()[index + 1].place,
                fmt::format("'{}' cannot contain elements", type.id));
   }
   CheckedNode group;
@@ -23,10 +23,11 @@ void DeclaredGroups::check(const Document& document, std::uint32_t index, const 
   keep_written({group.place, attributes, false}, group, trees_);
   const Attribute* name = find_attribute(attributes, "name");
   if (name == nullptr) {
-    report_.at(group.place, fmt::format("'{}' needs the attribute 'name'", type.id),
+    report_.at("missing-attribute"_code, group.place,
+               fmt::format("'{}' needs the attribute 'name'", type.id),
                fmt::format("write <{} name=\"…\">: the nodes of the trees refer to it", type.id));
   } else if (!is_identifier(name->value)) {
-    report_.at_value(name->place,
+    report_.at_value("bad-name"_code, name->place,
                      fmt::format("'{}' is not a name for '{}'", brief(name->value), type.id),
                      fmt::format("such a name is {}", kIdentifierRule));
   } else {
@@ -42,7 +43,8 @@ void DeclaredGroups::enter(const CheckedNode& group, Place name) {
     return;
   }
   report_.at_value(
-      name, fmt::format("the name '{}' is declared already", brief(group.name)),
+      "duplicate-name"_code, name,
+      fmt::format("the name '{}' is declared already", brief(group.name)),
       fmt::format("the first is at {}", to_text(project_.sources.locate(first->second))));
 }
 

@@ -104,7 +104,7 @@ class ReadingResolver {
   // Once, however often a SubTree is used.
   void tell(const BoundScript& script, const Reading& reading, const Problem& wrong) {
     if (!told_.emplace(script.place.byte, reading.offset).second) return;
-    report_.in_value(script.place, reading.offset,
+    report_.in_value("bad-reading"_code, script.place, reading.offset,
                      fmt::format("{}: {}", shown(reading), wrong.message), wrong.hint);
   }
 

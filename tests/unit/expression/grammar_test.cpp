@@ -153,8 +153,8 @@ TEST_CASE("what is not a script is refused, with the place and a hint") {
       {"progress > 1", 0, "", ""},  // an entry
       {"status(a) == RUNNING && status(a) != idle || status(a) == status(b)", 0, "", ""},
       {"owner(dock) == none", 0, "", ""},
-      {"progress()", 0, "'progress()' does not say of what", "write a node: progress(arm)"},
-      {"owner( )", 0, "'owner()' does not say of what", "write a resource: owner(dock)"},
+      {"progress()", 0, "'progress()' does not name a node or a pool", "write a node: progress(arm)"},
+      {"owner( )", 0, "'owner()' does not name a node or a pool", "write a resource: owner(dock)"},
       {"held(a", 0, "')' is missing after 'held('", "write held(arm), or the name in quotes"},
       {"held('a)", 0, "')' is missing after 'held('", "write held(arm), or the name in quotes"},
       {"status(a) == runing", 13, "'runing' is no status", "did you mean 'running'?"},
