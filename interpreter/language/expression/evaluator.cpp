@@ -60,12 +60,11 @@ std::string without_value(std::string_view entry) {
 
 // An operand is empty only if an entry was: the `nth` such entry, from `end` of the instructions
 // back.
-std::string shown(const Operand& operand, const Expression& expression, Entry* const* entries,
-                  const Instruction* end, int nth = 0) {
+std::string described(const Operand& operand, const Expression& expression, Entry* const* entries,
+                      const Instruction* end, int nth = 0) {
   if (operand.kind != Operand::Kind::Empty) return operand.shown();
   for (const Instruction* it = end; it-- != expression.program().code.data();) {
-    const bool is_load = it->operation == Operation::Load ||
-                         it->operation == Operation::LoadCopy ||
+    const bool is_load = it->operation == Operation::Load || it->operation == Operation::LoadCopy ||
                          it->operation == Operation::LoadToCompare;
     if (!is_load || !std::holds_alternative<NoValue>(entries[it->argument]->value())) continue;
     if (nth-- == 0) return without_value(expression.names()[it->argument]);
@@ -261,7 +260,7 @@ class Machine {
                             operands_of(it_->operation), left, right));
   }
   std::string shown(const Operand& operand, int nth = 0) const {
-    return host::shown(operand, expression_, entries_, it_, nth);
+    return described(operand, expression_, entries_, it_, nth);
   }
   bool wrong_operands() {
     const bool are_empty = last().kind == Operand::Kind::Empty;
@@ -508,7 +507,7 @@ Truth Evaluator::test(const Expression& expression, std::span<Entry* const> entr
   bool holds = false;
   if (take_condition(*last, holds)) return holds ? Truth::Yes : Truth::No;
   const auto& code = expression.program().code;
-  error_ = no_condition(shown(*last, expression, entries.data(), code.data() + code.size()));
+  error_ = no_condition(described(*last, expression, entries.data(), code.data() + code.size()));
   return Truth::Error;
 }
 
