@@ -264,7 +264,7 @@ TEST_CASE(
     CHECK(contains(call({"--mock-output", "level=high"}).err, "'level' of 'Look' is a number"));
   }
   std::vector<std::string> verify{"verify", tree, "--mock", "--out", directory.path("out")};
-  CHECK(contains(run_lockstep(verify).err, "nothing says which values"));
+  CHECK(contains(run_lockstep(verify).err, "nothing declares which values"));
   verify.insert(verify.end(), said.begin(), said.end());
   const Outcome verified = run_lockstep(verify);
   INFO(verified.out << verified.err);
@@ -309,7 +309,7 @@ TEST_CASE("what asks for another tick for ever is a fault, unless a period is on
   const Outcome endless = run_mocked(tree, {});
   CHECK(endless.code == 5);
   CHECK(contains(endless.err, "'Main tree/RetryUntilSuccessful'"));
-  CHECK(contains(endless.err, "asked for another tick 10000 times in one period"));
+  CHECK(contains(endless.err, "requested another tick 10000 times in one period"));
   CHECK(run_mocked(tree, {"--tick", "exactly-once", "--max-ticks", "5"}).code == 124);
 }
 

@@ -145,9 +145,10 @@ TEST_CASE("check --format github is a workflow command for each message") {
   const auto slash = name.rfind('/');
   const std::string file = name.substr(0, slash) + "/a%2Cb%3Ac%25.xml";
   CHECK(told[0] == "::error file=" + file +
-                       ",line=3,col=1,title=lockstep::unknown node "
+                       ",line=3,col=1,title=lockstep unknown-node::unknown node "
                        "'Advnce'%0Ahint: did you mean 'Advance'?");
-  CHECK(told[1].starts_with("::error file=" + file + ",line=4,col=16,title=lockstep::'5%25"));
+  CHECK(told[1].starts_with("::error file=" + file +
+                            ",line=4,col=16,title=lockstep bad-value::'5%25"));
   CHECK(contains(told[1], "'5%25\\x0A::error::6' is not a number"));
   const Outcome fine = run_lockstep(
       {"check", "--format", "github", directory.file("fine.xml", tree_text("<Advance/>"))});
@@ -167,8 +168,8 @@ TEST_CASE("a directory for plugins that is not there is warned of") {
     const Outcome outcome = run_lockstep(arguments);
     INFO(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(
-        contains(outcome.err, "warning: --plugin-path " + lost + ": there is no such directory\n"));
+    CHECK(contains(outcome.err, "warning: --plugin-path " + lost +
+                                    ": there is no such directory [missing-directory]\n"));
     CHECK(lines(outcome.err).size() == 1);
   }
 }
