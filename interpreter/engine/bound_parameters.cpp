@@ -99,6 +99,7 @@ std::string BoundParameters::take_values(const BoundNode& node, Values& values) 
   const NodeType& type = node.kind->type;
   std::optional<unsigned> absent;  // the first that only an entry gives, which has no value
   for (unsigned i = 0; i < values.values.size(); ++i) {
+    if (type.parameters[i].direction == Direction::Output) continue;
     const PortBinding& port = tree_.ports[node.first_port + i];
     const Entry* entry = port.slot == PortBinding::kUnbound ? nullptr : &board_.entries[port.slot];
     const bool written = entry != nullptr && entry->has_value();
@@ -190,7 +191,8 @@ void BoundParameters::set_cells(const BoundNode& node, Values& values) {
     if (parameters[i].is_script) continue;
     const auto* list = std::get_if<std::vector<double>>(&values.values[i]);
     if (parameters[i].of_pool) {
-      cells[i] = resource_cell(pool_of(node), values.values[i]);
+      const auto& names = std::get<std::string>(values.values[i]);
+      set_list(cells[i], values.space[i], resource_list(names, pool_of(node)).request());
     } else if (list == nullptr) {
       cells[i] = scalar_cell(parameters[i], values.values[i]);
     } else {
@@ -200,7 +202,7 @@ void BoundParameters::set_cells(const BoundNode& node, Values& values) {
 }
 
 // A list that has outgrown its place gets a new one of twice the size at the end.
-void BoundParameters::set_list(Cell& cell, std::uint32_t& space, const std::vector<double>& list) {
+void BoundParameters::set_list(Cell& cell, std::uint32_t& space, std::span<const double> list) {
   const auto count = static_cast<std::uint32_t>(list.size());
   if (count > space) {
     space = std::max(count, 2 * space);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,7 @@ class BoundParameters {
                                             const Value& value) const;
   std::string refusal(const BoundNode& node, unsigned parameter, const RuleBreak& why) const;
   void set_cells(const BoundNode& node, Values& values);
-  void set_list(Cell& cell, std::uint32_t& space, const std::vector<double>& list);
+  void set_list(Cell& cell, std::uint32_t& space, std::span<const double> list);
 
   const Tree& tree_;
   const Node* const nodes_;  // of the tree

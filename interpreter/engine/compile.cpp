@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <string>
 #include <unordered_map>
 
 #include "base/core/pre_order.h"
+#include "base/core/resource_set.h"
 #include "engine/bound_node.h"
 #include "engine/node_context.h"
 #include "engine/node_scripts.h"
@@ -269,7 +271,8 @@ class Compiler {
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       if (!parameters[i].of_pool) continue;
       const DefinitionGroup& pool = definition_.groups[group_of(self)];
-      tree_.cells[node.params + i] = resource_cell(pool.resources, *definition_.constant(from, i));
+      const auto& names = std::get<std::string>(*definition_.constant(from, i));
+      tree_.cells[node.params + i] = list_cell(resource_list(names, pool.resources).request());
     }
   }
 
@@ -431,10 +434,13 @@ class Compiler {
       return {.integer = static_cast<std::int64_t>(tree_.constants.size() - 1)};
     }
     const auto* list = std::get_if<std::vector<double>>(&value);
-    if (list == nullptr) return scalar_cell(parameter, value);
+    return list == nullptr ? scalar_cell(parameter, value) : list_cell(*list);
+  }
+
+  Cell list_cell(std::span<const double> list) {
     const auto first = static_cast<std::uint32_t>(tree_.numbers.size());
-    tree_.numbers.insert(tree_.numbers.end(), list->begin(), list->end());
-    return {.list = {first, static_cast<std::uint32_t>(list->size())}};
+    tree_.numbers.insert(tree_.numbers.end(), list.begin(), list.end());
+    return {.list = {first, static_cast<std::uint32_t>(list.size())}};
   }
 
   void add_labels() {

@@ -31,6 +31,12 @@ class NodePorts {
     const std::uint32_t slot = binding(node, index).slot;
     return slot == PortBinding::kUnbound ? nullptr : &entries_[slot];
   }
+  // The same of a node whose parameters may be entries (Tree::bound).
+  Entry* entry_of_bound(NodeIndex node, unsigned index) {
+    const BoundNode& bound = tree_.bound[tree_.place_in_front(node, FrontCell::Bound)];
+    const std::uint32_t slot = tree_.ports[bound.first_port + index].slot;
+    return slot == PortBinding::kUnbound ? nullptr : &entries_[slot];
+  }
   // Null: it has no value.
   const Value* value(NodeIndex node, unsigned index) const;
   // The entry that a port names (Parameter::is_key), which may not be present. Null if this tree

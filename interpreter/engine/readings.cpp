@@ -14,7 +14,7 @@ std::optional<NodeIndex> owner(NodeContext& context, const BoundReading& it) {
   const ResourceSet wanted = ResourceSet{1} << it.resource;
   for (const Member& member : context.tree().members_of(it.node)) {
     const auto& use = context.state<ResourceUse>(member.node);
-    if (resources::owned_in_last_tick(context, use, wanted) &&
+    if (resources::owned_in_last_tick(use, wanted) &&
         context.status(member.node) == Status::Running)
       return member.node;
   }

@@ -15,70 +15,121 @@ bool is_open(NodeContext& context, NodeIndex gate) {
   return has_asked(context, outer) && outer.grant == Grant::Owned;
 }
 
-void answer(NodeContext& context, const Member& member, ResourceSet wanted, Grant grant) {
+// What it keeps whatever the answer is.
+ResourceSet kept_set(NodeContext& context, NodeIndex node) {
+  return keeps(context, node) ? context.state<ResourceUse>(node).owned : 0;
+}
+
+// It owns these in this tick.
+void own(NodeContext& context, const Member& member, ResourceSet set) {
   auto& use = context.state<ResourceUse>(member.node);
   use.asked = context.tick_number();
-  use.grant = grant;
-  use.owned = grant == Grant::Owned ? wanted : 0;
-  use.limit = grant == Grant::Closed ? 0.0 : static_cast<double>(wanted);
-  if (grant == Grant::Denied) use.limit = -use.limit;
-  if (grant == Grant::Owned) use.priority = 0;
-  context.state<ResourcePool>(member.group).owned |= use.owned;
+  use.grant = Grant::Owned;
+  use.limit = static_cast<double>(set);
+  use.priority = 0;
+  context.state<ResourcePool>(member.group).owned |= set;
+}
+
+// It owns what it keeps.
+void refuse(NodeContext& context, const Member& member, Grant why, ResourceSet wanted,
+            ResourceSet kept) {
+  auto& use = context.state<ResourceUse>(member.node);
+  use.asked = context.tick_number();
+  use.grant = why;
+  use.limit = why == Grant::Closed ? static_cast<double>(kept) : limit_of_waiting(wanted, kept);
+}
+
+// What it gets if `taken` are owned by others: of a choice what it had before, or else the first
+// that is free. It waits for all that it names.
+ResourceSet choose(std::span<const double> request, ResourceSet taken, ResourceSet had) {
+  const auto all = static_cast<ResourceSet>(request.front());
+  const auto choices = request.subspan(1);
+  const auto is_free = [&](double set) { return (static_cast<ResourceSet>(set) & taken) == 0; };
+  for (const double set : choices) {
+    if ((static_cast<ResourceSet>(set) & had) != 0 && is_free(set))
+      return all | static_cast<ResourceSet>(set);
+  }
+  const auto first = std::ranges::find_if(choices, is_free);
+  return first != choices.end() ? all | static_cast<ResourceSet>(*first) : all_resources(request);
 }
 
 }  // namespace
 
-bool may_keep(const Tree& tree, NodeIndex member) {
-  if (const BoundNode* bound = bound_of(tree, member)) {
-    return tree.constants[tree.ports[bound->first_port + kKeep].constant] == Value(true);
-  }
-  return cell_of(tree, member, kKeep).boolean;
+OnChange on_change(const Tree& tree, NodeIndex member) {
+  const auto said = static_cast<OnChange>(cell_of(tree, member, kOnChange).integer);
+  const bool keeps = said == OnChange::Release && cell_of(tree, member, kKeep).boolean;
+  return keeps ? OnChange::Keep : said;
 }
 
 bool first_wins(const Tree& tree, NodeIndex pool) {
   return cell_of(tree, pool, kIncrement).integer == 0;
 }
 
-std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter) {
+std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter,
+                                    bool may_choose) {
   const auto* list = std::get_if<std::string>(&given.values[parameter]);
   if (list == nullptr) return std::nullopt;
   const auto place = static_cast<int>(parameter);
-  std::string_view rest = *list;
-  std::string_view name = take_resource(rest);
+  ResourceNames names(*list);
+  std::string_view name = names.next();
   if (name.empty()) {
     return RuleBreak{place, "'resources' names nothing",
                      "write such as resources=\"left;gripper\""};
   }
-  for (; !name.empty(); name = take_resource(rest)) {
-    std::string_view behind = rest;
-    for (auto it = take_resource(behind); !it.empty(); it = take_resource(behind)) {
+  for (; !name.empty(); name = names.next()) {
+    ResourceNames behind = names;
+    for (auto it = behind.next(); !it.empty(); it = behind.next()) {
       if (it != name) continue;
       return RuleBreak{place, "the resource '" + brief(name) + "' is named twice", ""};
     }
   }
+  if (names.choices() > 0 && !may_choose) {
+    return RuleBreak{place, "a pool has all of its resources, not any(…) of them",
+                     "name them: resources=\"left;right\""};
+  }
+  if (names.choices() > 1) {
+    return RuleBreak{place, "'resources' has any(…) twice", "one is allowed: any(left; right)"};
+  }
+  if (names.is_open()) return RuleBreak{place, "'any(' has no ')'", "write any(left; right)"};
   return std::nullopt;
 }
 
 void ask(NodeContext& context, NodeIndex node) {
   const Member& member = context.tree().membership(node);
-  const auto wanted = static_cast<ResourceSet>(context.parameter(node, kResources).integer);
+  auto& use = context.state<ResourceUse>(node);
+  if (context.status(node + 1) != Status::Running) use.owned = 0;
+  const ResourceSet kept = kept_set(context, node);
+  const auto request = context.parameters().numbers(node, kResources);
   const auto gates = context.tree().gates_of(member);
   if (!std::ranges::all_of(gates, [&](NodeIndex gate) { return is_open(context, gate); })) {
-    return answer(context, member, wanted, Grant::Closed);
+    return refuse(context, member, Grant::Closed, 0, kept);
   }
-  const ResourceSet owned = context.state<ResourcePool>(member.group).owned;
-  answer(context, member, wanted, (owned & wanted) == 0 ? Grant::Owned : Grant::Denied);
+  const ResourceSet taken = context.state<ResourcePool>(member.group).owned & ~kept;
+  const ResourceSet wanted = choose(request, taken, use.owned);
+  if ((taken & wanted) != 0) return refuse(context, member, Grant::Denied, wanted, kept);
+  use.owned = wanted;
+  own(context, member, wanted | kept);
 }
 
 bool keeps(NodeContext& context, NodeIndex node) {
-  const bool may_keep = context.parameter(node, kKeep).boolean;
-  return may_keep && context.status(node + 1) == Status::Running &&
-         context.state<ResourceUse>(node).owned != 0;
+  return on_change(context.tree(), node) != OnChange::Release &&
+         context.status(node + 1) == Status::Running && context.state<ResourceUse>(node).owned != 0;
 }
 
-void keep(NodeContext& context, NodeIndex node) {
-  answer(context, context.tree().membership(node), context.state<ResourceUse>(node).owned,
-         Grant::Owned);
+bool keep(NodeContext& context, NodeIndex node) {
+  const Member& member = context.tree().membership(node);
+  auto& use = context.state<ResourceUse>(node);
+  if (on_change(context.tree(), node) == OnChange::Exchange) {
+    const bool is_readable = context.parameters().read(node).empty();
+    const auto request = context.parameters().numbers(node, kResources);
+    if (!is_readable || choose(request, 0, use.owned) != use.owned) {
+      use.limit = static_cast<double>(use.owned);
+      context.state<ResourcePool>(member.group).owned |= use.owned;
+      return false;
+    }
+  }
+  own(context, member, use.owned);
+  return true;
 }
 
 void give_back(NodeContext& context, NodeIndex node) {

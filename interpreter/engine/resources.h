@@ -16,10 +16,10 @@ enum class Grant : std::uint8_t {
   Closed,  // a barrier or an outer pool withholds ticks from it, so it did not ask
 };
 
-// The state of a member. Its limit (engine/synchronized.h) is the set that it owns in this tick;
-// negative: the set that it waits for; 0: neither.
+// The state of a member. Its limit (engine/synchronized.h) is the set that it owns in this tick, or
+// waits for: base/core/resource_set.h.
 struct ResourceUse : SynchronizedState {
-  ResourceSet owned;      // while it is Owned
+  ResourceSet owned;      // since its last grant in this activation; 0: none yet
   std::int64_t priority;  // rises with each tick in which it is Denied
   std::uint32_t asked;    // in this tick, for its number
   Grant grant;
@@ -46,15 +46,23 @@ namespace resources {
 
 // Where the parameters of a pool and of a member stand in their cells.
 inline constexpr unsigned kIncrement = 0;
-inline constexpr unsigned kResources = 1, kKeep = 2;
+inline constexpr unsigned kResources = 1, kKeep = 2, kOnChange = 3, kGranted = 4;
 
-// Of the tree: whether a member keeps its set as long as its child runs, and whether those of a
-// pool that wait do not get more urgent.
-bool may_keep(const Tree& tree, NodeIndex member);
+// What a member does while its child runs: the words of on_change="…".
+enum class OnChange : std::uint8_t {
+  Release,   // it asks for its resources in each tick
+  Keep,      // it keeps those that it has
+  Exchange,  // it keeps them until it gets those that its entry names now
+};
+inline constexpr std::string_view kOnChangeChoices[] = {"release", "keep", "exchange"};
+
+// Of the tree: that of a member, and whether those of a pool that wait do not get more urgent.
+OnChange on_change(const Tree& tree, NodeIndex member);
 bool first_wins(const Tree& tree, NodeIndex pool);
 
-// Finds the mistake in a list of resources, if one is given.
-std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter);
+// Finds the mistake in a list of resources, if one is given. `may_choose`: it may have any(…).
+std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter,
+                                    bool may_choose);
 
 // True when the member has an answer for this tick.
 inline bool has_asked(const NodeContext& context, const ResourceUse& use) {
@@ -62,18 +70,17 @@ inline bool has_asked(const NodeContext& context, const ResourceUse& use) {
 }
 
 // Between two ticks: whether a member owned any of these in the last one.
-inline bool owned_in_last_tick(const NodeContext& context, const ResourceUse& use,
-                               ResourceSet any) {
-  return has_asked(context, use) && use.grant == Grant::Owned && (use.owned & any) != 0;
+inline bool owned_in_last_tick(const ResourceUse& use, ResourceSet any) {
+  return (owned_set(use.limit) & any) != 0;
 }
 
 // Decides for this tick whether a member gets its resources: those that no other member owns.
 void ask(NodeContext& context, NodeIndex member);
-// A child that runs keeps its set until it completes or is halted, if its member says so. A
-// SyncProgress that waits to begin runs without a set.
+// Its child runs and has resources that no other member gets, whatever the member waits for. A
+// SyncProgress that waits to begin runs without any.
 bool keeps(NodeContext& context, NodeIndex member);
-// Decides so.
-void keep(NodeContext& context, NodeIndex member);
+// Before the root is ticked: the member keeps what it has. True: it asks for nothing else.
+bool keep(NodeContext& context, NodeIndex member);
 // The child of a member was skipped without having run: others may have its resources in this tick.
 void give_back(NodeContext& context, NodeIndex member);
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/core/resource_set.h"
-
 namespace lockstep::host {
 
 Cell scalar_cell(const Parameter& parameter, const Value& value) {
@@ -15,12 +13,6 @@ Cell scalar_cell(const Parameter& parameter, const Value& value) {
     cell.integer = std::ranges::find(parameter.choices, *word) - parameter.choices.begin();
   }
   return cell;
-}
-
-Cell resource_cell(std::span<const std::string> names, const Value& value) {
-  const auto* list = std::get_if<std::string>(&value);
-  if (list == nullptr) return {.integer = 0};
-  return {.integer = static_cast<std::int64_t>(resource_list(*list, names).set)};
 }
 
 std::uint32_t Tree::board_of(NodeIndex node) const {

@@ -170,7 +170,5 @@ struct Tree {
 
 // The cell of a value that is no list; of an absent one: 0.
 Cell scalar_cell(const Parameter& parameter, const Value& value);
-// The set of the resources that a value names.
-Cell resource_cell(std::span<const std::string> names, const Value& value);
 
 }  // namespace lockstep::host

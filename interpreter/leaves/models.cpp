@@ -478,22 +478,23 @@ bool matches(std::string_view pattern, std::string_view path) {
 
 std::vector<bool> entries_of_engine(const Tree& tree) {
   std::vector<bool> used(tree.slots.size());
-  const auto add_ports = [&](std::uint32_t first, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t slot = tree.ports[first + i].slot;
-      if (slot != PortBinding::kUnbound) used[slot] = true;
+  const auto add_ports = [&](std::uint32_t first, const NodeType& type) {
+    for (const Parameter& parameter : type.parameters) {
+      const std::uint32_t slot = tree.ports[first++].slot;
+      const bool is_read = parameter.direction != Direction::Output;
+      if (is_read && slot != PortBinding::kUnbound) used[slot] = true;
     }
   };
   for (const Script& script : tree.scripts) {
     for (const std::uint32_t slot : script.slots) used[slot] = true;
   }
   for (const BoundNode& bound : tree.bound) {
-    add_ports(bound.first_port, bound.kind->type.parameters.size());
+    add_ports(bound.first_port, bound.kind->type);
   }
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const NodeType& type = *tree.labels[node].type;
     if (type.reads_ports && type.leaf == nullptr && type.mock == nullptr) {
-      add_ports(tree.nodes[node].params, type.parameters.size());
+      add_ports(tree.nodes[node].params, type);
     }
   }
   return used;

@@ -192,7 +192,8 @@ constexpr Field kTickFields[] = {
      "it is the barrier at which this tick holds its children, `null` when none is left; for a "
      "ParallelRelative it is delta. For a UseResources, it is the sum of 2^i over the resources "
      "that it owns in this tick, i being their places in the pool's `resources`; negative: over "
-     "those that it waits for; 0: neither"},
+     "those that it waits for; 0: neither. One that waits while it owns others has the negative "
+     "sum of 2^52, of 2^26 times the sum of what it owns, and of the sum of what it waits for"},
     {"rounds", "RoundChange[]", kMaybe,
      "only if there are any: {} for each Retry or Repeat whose round differs from the line before: "
      "the number counts from 1, "

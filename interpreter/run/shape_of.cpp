@@ -19,7 +19,7 @@ void add_members(const Tree& tree, Shape& shape) {
     ShapeNode& user = shape.nodes[member.node];
     const auto gates = tree.gates_of(member);
     user.gates.assign(gates.begin(), gates.end());
-    user.keeps_resources = resources::may_keep(tree, member.node);
+    user.keeps_resources = resources::on_change(tree, member.node) != resources::OnChange::Release;
     shape.nodes[member.group].first_wins = resources::first_wins(tree, member.group);
   }
 }

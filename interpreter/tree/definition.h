@@ -205,10 +205,12 @@ struct Definition {
     return ancestor;
   }
 
-  // A member of a pool that owns its resources until its child completes.
+  // A member of a pool that owns resources until its child completes.
   bool keeps(const DefinitionNode& member) const {
     const Value* keep = constant(member, "keep");
-    return keep != nullptr && *keep == Value(true);
+    const Value* on_change = constant(member, "on_change");
+    return (keep != nullptr && *keep == Value(true)) ||
+           (on_change != nullptr && *on_change != Value("release"));
   }
 
   // A control node with memory="false". To one of a plugin, and so to a stand-in, a port of that

@@ -162,8 +162,9 @@ class Adviser {
   std::vector<Advice> advise(AdviceEffort effort) {
     if (is_too_large() || !not_verifiable(tree_).empty()) return {};
     if (effort == AdviceEffort::Certain) look_for_certainties();
-    const bool holds = std::ranges::any_of(
-        holdable(tree_), [&](const Holdable& it) { return !is_pool(tree_, it.holder); });
+    const bool holds = std::ranges::any_of(holdable(tree_), [&](const Holdable& it) {
+      return !is_pool(tree_, it.holder) || exchanges(tree_, it.child - 1);
+    });
     if (holds && !stands_still_) look_for_deadlocks(effort);
     if (stop_signal_ && stop_signal_() != 0) return {};
     return std::move(advice_);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "run/live_moments.h"
+#include "engine/resources.h"
 #include "verify/components.h"
 #include "verify/trace.h"
 
@@ -79,7 +80,8 @@ class Deadlocks {
     const bool is_frozen = bottom.states.size() == 1 && is_frozen_in(bottom.first);
     for (std::size_t i = 0; i < held_.size(); ++i) {
       const auto [holder, child] = held_[i];
-      if (is_pool(tree_, holder) || (found_.symmetry.moves(child) && !is_frozen)) continue;
+      if (is_pool(tree_, holder) && !exchanges(tree_, child - 1)) continue;
+      if (found_.symmetry.moves(child) && !is_frozen) continue;
       if (is_held_in_all(bottom, graph_.shape.held_bit(i))) {
         // The run may have another one at that place.
         for (std::size_t j = 0; j < held_.size(); ++j) {
@@ -162,6 +164,10 @@ class Deadlocks {
 };
 
 }  // namespace
+
+bool exchanges(const Tree& tree, NodeIndex member) {
+  return resources::on_change(tree, member) == resources::OnChange::Exchange;
+}
 
 std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
                                 const SearchResult& found) {

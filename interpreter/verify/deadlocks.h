@@ -15,6 +15,9 @@ struct Deadlock {
   NodeIndex decider = 0;  // if the last node that is waited for does not run: why it does not
 };
 
+// A member of a pool that waits for other resources while it keeps what it has.
+bool exchanges(const Tree& tree, NodeIndex member);
+
 // Each deadlock that the search has come to: the nearest ones first, those of the same nodes once.
 // It need not be complete: a state counts only if all that can come after it is known.
 std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,

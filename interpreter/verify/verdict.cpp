@@ -9,6 +9,7 @@
 #include "base/core/wording.h"
 #include "engine/synchronized.h"
 #include "judge/measure/stall.h"
+#include "judge/measure/wait_chain.h"
 #include "judge/summary/standstill_text.h"
 #include "run/live_moments.h"
 #include "verify/fair_cycle.h"
@@ -219,10 +220,11 @@ class VerdictMaker {
       }
     }
     tracer_.play(run, [&](Stepper& stepper, Status status, std::size_t tick) {
-      if (status == Status::Running) {
-        watch.after_tick(
-            moments.after_tick(stepper.ticker(), tick, static_cast<std::int64_t>(tick) * period_));
-      }
+      if (status != Status::Running) return;
+      const Moment& moment =
+          moments.after_tick(stepper.ticker(), tick, static_cast<std::int64_t>(tick) * period_);
+      watch.after_tick(moment);
+      if (tick + 1 == run.size() && lines.empty()) lines = circle_of_a_pool(shape, moment);
     });
     // When it began is that of this one run.
     for (std::string& line : lines) {
@@ -232,6 +234,16 @@ class VerdictMaker {
       if (end != std::string::npos) line.erase(since, end + 2 - since);
     }
     return lines;
+  }
+
+  // Members of a pool that wait for each other, each with what another one needs.
+  static std::vector<std::string> circle_of_a_pool(const Shape& shape, const Moment& moment) {
+    for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+      if (!shape.nodes[node].is_pool() || !holds_somebody(shape, moment, node)) continue;
+      const WaitChain chain = wait_chain(shape, moment, node);
+      if (chain.obstacle == Obstacle::Circle) return wait_lines(shape, chain);
+    }
+    return {};
   }
 
   // The leaves that work in the cycle.

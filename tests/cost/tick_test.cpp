@@ -76,7 +76,7 @@ constexpr const char* kTree = R"(
   <barrier name="close" delta="1e-8"/>
   <resources name="hands"/>
   <BehaviorTree ID="Main">
-    <Parallel success_count="14">
+    <Parallel success_count="16">
       <SyncProgress barrier="close"><Sequence memory="true"><SyncProgress barrier="early"><Advance step="1e-9"/></SyncProgress></Sequence></SyncProgress>
       <Sequence memory="true"><Wait seconds="0.5"/><SyncProgress barrier="close"><SubTree ID="Other" barrier="early"/></SyncProgress></Sequence>
       <SubTree ID="Planned" plan="0.3;0.6"/>
@@ -90,12 +90,19 @@ constexpr const char* kTree = R"(
       <KeepRunningUntilFailure><ForceSuccess><Timeout seconds="0.03"><Advance step="0"/></Timeout></ForceSuccess></KeepRunningUntilFailure>
       <SubTree ID="Uses" hand="left"/>
       <SubTree ID="Uses" hand="left;right"/>
+      <SubTree ID="Uses" hand="any(left;right)"/>
+      <SubTree ID="Exchanges" hand="foot"/>
       <UseResources pool="hands" resources="right" keep="true"><Advance step="1e-9"/></UseResources>
     </Parallel>
   </BehaviorTree>
   <BehaviorTree ID="Other"><SyncProgress barrier="barrier"><Advance step="9e-9"/></SyncProgress></BehaviorTree>
   <BehaviorTree ID="Uses">
-    <Repeat><UseResources pool="hands" resources="{hand}"><Advance step="0.3"/></UseResources></Repeat>
+    <Repeat><UseResources pool="hands" resources="{hand}" granted="{got}"><Advance step="0.3"/></UseResources></Repeat>
+  </BehaviorTree>
+  <BehaviorTree ID="Exchanges">
+    <UseResources pool="hands" resources="{hand}" on_change="exchange" granted="{got}">
+      <Repeat><Advance step="0.3" on_success="hand = hand == 'foot' ? 'any(left;foot)' : 'foot'"/></Repeat>
+    </UseResources>
   </BehaviorTree>
   <BehaviorTree ID="Planned">
     <ParallelAbsolute barriers="{plan}"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>

@@ -117,6 +117,8 @@ class Features(Session):
             "<Sequence memory=\"|\"/>": ["false", "true"],
             "<SyncProgress barrier=\"|\"/>": ["table"],
             "<UseResources pool=\"tools\" resources=\"drill;|\"/>": ["drill", "saw"],
+            "<UseResources pool=\"tools\" resources=\"any(|\"/>": ["drill", "saw"],
+            "<UseResources pool=\"tools\" on_change=\"|\"/>": ["exchange", "keep", "release"],
             "<Wait seconds=\"${|\"/>": ["${pace}"],
             "<Wait seconds=\"$|": ["${pace}"],
             "<Wait seconds=\"${p|}\"/>": ["${pace}"],

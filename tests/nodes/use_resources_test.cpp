@@ -1,6 +1,8 @@
 // Resources: who owns what in which tick.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "engine/blackboard.h"
 #include "engine/resources.h"
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
@@ -100,6 +102,41 @@ constexpr TickRow kResourceRows[] = {
    "Parallel(Repeat(UseResources[pool=p resources=A](a)) UseResources[pool=p resources=A](b)) resources[name=p]",
    "a=S b=R", "R[a] R[b] R[a] pause[b] R[b] resume[b]"},
 };
+// Entries: r is 'A;B' until the leaf a, of 2 ticks, succeeds in the first child; then 'B;C'.
+constexpr std::string_view kExchange =
+    "Sequence[memory=true](Script[code=r:='A;B'] Parallel(UseResources[pool=p resources={r} on_change=exchange]"
+    "(Sequence[memory=true](a[on_success=r='B;C'] b)) %)) resources[name=p resources=A;B;C]";
+
+constexpr TickRow kExchangeRows[] = {
+  {"exchange: it gets the new set and is ticked; what it had is free in the next tick",
+   "UseResources[pool=p resources=A](x)", "a=RS b=R x=R", "R[a] R[a b] R[b] R[b x]"},
+  {"exchange: it keeps the old set while it waits for the new one, and its child is held",
+   "UseResources[pool=p resources=C keep=true](x) UseResources[pool=p resources=B](y)", "a=RS b=R x=RRRS y=R",
+   "R[a x] R[a b x] R[x] pause[b] R[x] R[b] resume[b]"},
+  {"exchange: its own old set never blocks it, whoever waits for it longer",
+   "UseResources[pool=p resources=B](y)", "a=RS b=RS y=R", "R[a] R[a b] R[b] R[y]"},
+  {"exchange: without a change it keeps what it has",
+   "UseResources[pool=p resources=A](x)", "a=RRRR b=R x=R", "R[a] R[a] R[a] R[a]"},
+  {"exchange: a halted member gives back both",
+   "UseResources[pool=p resources=C keep=true](x) UseResources[pool=p resources=A](y) z", "a=RS b=R x=R y=R z=RRRF",
+   "R[a x z] R[a b x z] R[x z] pause[b] F[x z] halt[b x]"},
+};
+
+constexpr TickRow kChoiceRows[] = {
+  {"any: the first that is free, in the written order",
+   "Parallel(UseResources[pool=p resources=B](a) UseResources[pool=p resources=any(B;A)](b) UseResources[pool=p resources=any(B;A)](c)) resources[name=p increment=0]",
+   "a=RS b=RRS c=R", "R[a b] R[a b] R[b c]"},
+  {"any: without keep it prefers what it had",
+   "Parallel(UseResources[pool=p resources=A](z) UseResources[pool=p resources=any(A;B)](a) Sequence[memory=true](x UseResources[pool=p resources=A](b)))"
+   " resources[name=p increment=0]",
+   "z=RS a=R x=RRS b=R", "R[z a x] R[z a x] R[a x b]"},
+  {"any: beside others, all of which it needs",
+   "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A;any(B;C)](b) UseResources[pool=p resources=B keep=true](c)) resources[name=p increment=0]",
+   "a=RS b=R c=R", "R[a c] R[a c] R[b c]"},
+  {"any: with an increment, a request of several waits as one",
+   "Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=B](b) UseResources[pool=p resources=any(A;B)](c)) resources[name=p]",
+   "a=R b=R c=R", "R[a b] R{pause a, tick b, start c, tick c} R[a b] resume[a] pause[c]"},
+};
 // clang-format on
 
 std::string who_owns(ScriptedRun& run) {
@@ -148,6 +185,51 @@ constexpr ClaimRow kClaimRows[] = {
 // clang-format on
 
 }  // namespace
+
+TEST_CASE("UseResources: exchange") {
+  for (TickRow row : kExchangeRows) {
+    std::string tree(kExchange);
+    tree.replace(tree.find('%'), 1, row.tree);
+    row.tree = tree;
+    check_rows(std::span(&row, 1));
+  }
+}
+
+TEST_CASE("UseResources: any of several") {
+  check_rows(kChoiceRows);
+}
+
+TEST_CASE("UseResources: 'granted' has the names that a member owns, before its child is ticked") {
+  ScriptedRun run(
+      "Parallel(UseResources[pool=p resources=C](x) UseResources[pool=p resources={r} "
+      "granted={which} on_change=exchange]"
+      "(Sequence(Check[code=which=='B'||which=='A;B'] a))) resources[name=p resources=A;B;C]",
+      "x=RRRR a=R");
+  const auto slot = std::ranges::find(run.tree().slots, "which", &Slot::name);
+  const auto place = static_cast<std::size_t>(slot - run.tree().slots.begin());
+  const auto which = [&] {
+    return std::get<std::string>(run.ticker().blackboard().entries[place].value());
+  };
+  run.set("r", std::string("any(C;B)"));
+  CHECK(run.tick(Nanoseconds(0)) == Status::Running);
+  CHECK(which() == "B");
+  run.set("r", std::string("any(A;C);B"));
+  CHECK(run.tick(Nanoseconds(0)) == Status::Running);
+  CHECK(which() == "A;B");
+}
+
+TEST_CASE("UseResources: the limit of a member that exchanges has both sets") {
+  const double limit = limit_of_waiting(0b110, 0b011);
+  CHECK(waits(limit));
+  CHECK(resource_set(limit) == 0b110);
+  CHECK(owned_set(limit) == 0b011);
+  CHECK(owned_set(limit_of_waiting(0b110, 0)) == 0);
+  CHECK(owned_set(5.0) == 5);
+  CHECK(resource_set(-5.0) == 5);
+  const ResourceSet most = (ResourceSet{1} << kMaxExchanged) - 1;
+  CHECK(resource_set(limit_of_waiting(most, most)) == most);
+  CHECK(owned_set(limit_of_waiting(most, most)) == most);
+}
 
 TEST_CASE("UseResources: what a member owns or waits for in a tick") {
   for (const ClaimRow& row : kClaimRows) {

@@ -12,7 +12,7 @@ constexpr int kFairnessTrees = 6000;
 constexpr int kFewestWaits = 1000;  // members that waited
 
 bool may_keep(const Plan& plan) {
-  return plan.keep || std::ranges::any_of(plan.children, may_keep);
+  return plan.keep || !plan.on_change.empty() || std::ranges::any_of(plan.children, may_keep);
 }
 
 // Follows one pool of a run, tick by tick.
@@ -22,6 +22,7 @@ class PoolWatch {
       : run_(run),
         members_(run.tree().members_of(pool)),
         is_fair_(increment > 0 && !keeps),
+        keeps_(keeps),
         waits_(members_.size()) {}
 
   // Who begins anew waits anew.
@@ -45,10 +46,11 @@ class PoolWatch {
       waited_ += waits;
       if (!asked || use.grant != Grant::Owned) continue;
       somebody_asked_first = true;  // it has given back what it owned if its child was skipped
-      CHECK((owned & use.owned) == 0);
-      owned |= use.owned;
+      CHECK((owned & owned_set(use.limit)) == 0);
+      owned |= owned_set(use.limit);
     }
-    if (somebody_waits) CHECK(somebody_asked_first);
+    // Members that wait for other resources while they keep some may all wait.
+    if (somebody_waits && !keeps_) CHECK(somebody_asked_first);
     if (is_fair_) CHECK(most_ < static_cast<int>(members_.size()));
   }
   int waited() const { return waited_; }
@@ -57,7 +59,7 @@ class PoolWatch {
  private:
   ScriptedRun& run_;
   std::span<const Member> members_;
-  bool is_fair_;
+  bool is_fair_, keeps_;
   std::vector<int> waits_;  // of each member: ticks in a row
   int most_ = 0, waited_ = 0;
 };

@@ -183,6 +183,9 @@ TEST_CASE("a fold that forgets too much or nothing, or what is read, is seen for
   mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Sequence[memory=true](c "
                                  "WaitUntil[code=1>2 timeout=.4]))"),
                   "a+.1 c=S"});
+  mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Sequence[memory=true]"
+                                 "(b Delay[seconds=.4](c)))"),
+                  "a+.1 b=S c=RS..."});
   for (std::uint64_t seed = 0; seed < kMost && !mutants.are_dead(); ++seed) {
     for (const Trial& trial : {random_trial(seed), random_group_trial(seed)}) {
       const auto tree = tree_of(trial).tree;

@@ -42,7 +42,7 @@ void GroupGenerator::draw_groups() {
   }
   if (!resource_keys_.empty() && one_in(8)) assignments_.push_back("r:='D'");
   for (const std::string& key : resource_keys_) {
-    for (const char* set : {"A", "B;C", "A;C"}) {
+    for (const char* set : {"A", "B;C", "A;C", "any(B;A)", "C;any(A;B)"}) {
       assignments_.push_back(fmt::format("{}:='{}'", key, set));
     }
   }
@@ -90,7 +90,7 @@ EntryWrite GroupGenerator::write(int tick, const std::string& entry) {
   } else if (entry == "b") {
     text = pick(std::array{"0.5", "0.25;0.5;0.75", "0.1;0.9", "1", "0.3;0.6;1", "0", "0;0.5"});
   } else {
-    text = pick(std::array{"A", "B", "A;B", "B;C", "A;B;C"});
+    text = pick(std::array{"A", "B", "A;B", "B;C", "A;B;C", "any(C;A)", "A;any(B;C)"});
   }
   return {tick, entry, is_wrong ? "-1" : text};
 }

@@ -56,6 +56,8 @@ class AttributeList {
     const bool has_names = !plan_.resources.empty() || plan_.from_entries.contains("resources");
     if (has_names) add("resources", plan_.resources);
     if (plan_.keep) add("keep", "true");
+    if (!plan_.on_change.empty()) add("on_change", plan_.on_change);
+    if (plan_.from_entries.contains("granted")) add("granted", "");
     if (plan_.kind == "SyncProgress") add("barrier", plan_.barrier);
   }
 

@@ -41,6 +41,7 @@ struct Plan {
   std::string pool = {};  // UseResources: likewise
   std::string resources = {};
   bool keep = false;
+  std::string on_change = {};
 
   // Of any node: its scripts around ticks, by attribute.
   std::map<std::string, std::string> hooks = {};

@@ -1,32 +1,69 @@
 #include "property/reference_pool.h"
 
 #include <algorithm>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "property/reference_barrier.h"
 
 namespace lockstep::host::test {
 namespace {
 
-// "left;gripper"
-Resources names_in(const std::string& list) {
-  Resources names;
+// "left;any(gripper;hook)"
+Wish wish_in(const std::string& list) {
+  Wish wish;
+  bool is_choice = false;
   std::istringstream text(list);
-  for (std::string name; std::getline(text, name, ';');) names.insert(name);
-  return names;
+  for (std::string name; std::getline(text, name, ';');) {
+    if (name.starts_with("any(")) is_choice = true, name.erase(0, 4);
+    const bool is_last = name.ends_with(")");
+    if (is_last) name.pop_back();
+    if (is_choice) {
+      wish.any.push_back(name);
+    } else {
+      wish.all.insert(name);
+    }
+    if (is_last) is_choice = false;
+  }
+  return wish;
 }
 
 }  // namespace
 
+Resources Wish::everything() const {
+  Resources names = all;
+  names.insert(any.begin(), any.end());
+  return names;
+}
+
 ReferencePool::ReferencePool(Reference& tree, const Plan& its_plan, ReferenceNode& root)
-    : ReferenceGroup(tree, its_plan, root), names_(names_in(plan.resources)) {
+    : ReferenceGroup(tree, its_plan, root) {
+  add_names(plan.resources);
   if (!names_.empty()) return;
   for (std::size_t place = 0; place < count(); ++place) {
     const Plan& user = member(place).plan;
-    if (user.from_entries.contains("resources")) continue;
-    names_.merge(names_in(user.resources));
+    if (!user.from_entries.contains("resources")) add_names(user.resources);
   }
+}
+
+void ReferencePool::add_names(std::string list) {
+  for (const char* mark : {"any(", ")"}) {
+    if (const auto at = list.find(mark); at != list.npos) list.erase(at, std::strlen(mark));
+  }
+  std::istringstream text(list);
+  for (std::string name; std::getline(text, name, ';');) {
+    if (!knows(name)) names_.push_back(name);
+  }
+}
+
+std::string ReferencePool::text_of(const Resources& set) const {
+  std::string text;
+  for (const std::string& name : names_) {
+    if (set.contains(name)) text += (text.empty() ? "" : ";") + name;
+  }
+  return text;
 }
 
 bool ReferencePool::is_free(const Resources& set) const {
@@ -53,11 +90,15 @@ void ReferencePool::before_tick() {
   std::vector<UseResources*> asking;
   for (std::size_t place = 0; place < count(); ++place) {
     auto& it = dynamic_cast<UseResources&>(member(place));
+    it.begin_tick();
     if (it.runs() && it.keeps()) {
-      it.keep_set();
-    } else if (it.is_active() && it.is_right(it.wanted())) {
-      asking.push_back(&it);
+      if (!it.wants_another()) {
+        it.keep_set();
+        continue;
+      }
+      it.keep_old_set();
     }
+    if (it.is_active() && it.is_right(it.wanted())) asking.push_back(&it);
   }
   std::ranges::stable_sort(asking, std::greater<>(), &UseResources::priority);
   for (UseResources* it : asking) it->ask();
@@ -72,17 +113,39 @@ ReferencePool& UseResources::pool() const {
 }
 
 // "`resources` may be `{key}`, read in each tick."
-Resources UseResources::wanted() const {
+Wish UseResources::wanted() const {
   const auto key = plan.from_entries.find("resources");
-  if (key == plan.from_entries.end()) return names_in(plan.resources);
+  if (key == plan.from_entries.end()) return wish_in(plan.resources);
   note("resources come from an entry");
   const auto entry = world.entries.texts.find(key->second);
-  return entry == world.entries.texts.end() ? Resources() : names_in(entry->second);
+  return entry == world.entries.texts.end() ? Wish() : wish_in(entry->second);
 }
 
-bool UseResources::is_right(const Resources& names) const {
+bool UseResources::is_right(const Wish& wish) const {
+  const Resources names = wish.everything();
   return !names.empty() &&
          std::ranges::all_of(names, [&](const auto& it) { return pool().knows(it); });
+}
+
+// "the first free in the written order"; "it prefers the one that it had"
+Resources UseResources::choose(const Wish& wish) const {
+  if (wish.any.empty()) return wish.all;
+  Resources set = wish.all;
+  for (const std::string& name : wish.any) {
+    if (!owned_.contains(name) || !pool().is_free({name})) continue;
+    note("a member chooses again what it had");
+    set.insert(name);
+    return set;
+  }
+  for (const std::string& name : wish.any) {
+    if (!pool().is_free({name})) continue;
+    note(name == wish.any[0] ? "a member chooses the first"
+                             : "a member chooses the first that is free");
+    set.insert(name);
+    return set;
+  }
+  note("none of several is free");
+  return wish.everything();
 }
 
 void UseResources::ask() {
@@ -90,16 +153,53 @@ void UseResources::ask() {
   if (pool().increment() == 0) note("an increment of 0");
   asked_in_ = world.tick;
   is_granted_ = false;
-  owned_.clear();
+  if (!child().runs()) owned_.clear();
   is_open_ = has_open_gates();
   if (!is_open_) return;
-  const Resources set = wanted();
-  if (!pool().is_free(set)) return note("a member is denied");
+  // "a requester's own old set never blocks it"
+  const Resources kept = keeps() ? owned_ : Resources();
+  in_tick_ = kept;
+  pool().take_back(kept);
+  const Resources set = choose(wanted());
+  const bool is_free = pool().is_free(set);
+  pool().give(kept);  // until the tick is over
+  if (!is_free)
+    return note(kept.empty() ? "a member is denied" : "a member keeps what it has and is denied");
+  if (!kept.empty()) note("a member exchanges its resources");
   is_granted_ = true;
   owned_ = set;
+  in_tick_.insert(set.begin(), set.end());
   pool().give(owned_);
   // "A grant sets the priority to 0, used or not"
   priority_ = 0;
+}
+
+bool UseResources::wants_another() const {
+  if (!exchanges()) return false;
+  const Wish wish = wanted();
+  if (!is_right(wish)) return true;
+  Resources same = wish.all;
+  for (const std::string& name : wish.any) {
+    if (!owned_.contains(name)) continue;
+    same.insert(name);
+    break;
+  }
+  const bool has_choice = wish.any.empty() || same.size() > wish.all.size();
+  return !has_choice || same != owned_;
+}
+
+void UseResources::keep_old_set() {
+  in_tick_ = owned_;
+  pool().give(owned_);
+}
+
+// Before the child is ticked.
+void UseResources::write_granted() {
+  const auto key = plan.from_entries.find("granted");
+  if (key == plan.from_entries.end()) return;
+  std::string& entry = world.entries.texts[key->second];
+  const std::string text = pool().text_of(owned_);
+  if (std::exchange(entry, text) != text) note("an entry says what a member got");
 }
 
 // "a child that runs keeps its set until it completes or is halted (all or nothing)"
@@ -107,20 +207,23 @@ void UseResources::keep_set() {
   note_kept();
   asked_in_ = world.tick;
   is_granted_ = true;
+  priority_ = 0;
+  in_tick_ = owned_;
   pool().give(owned_);
 }
 
 void UseResources::keep(KeptState& state) {
   ReferenceNode::keep(state);
   state.tick(asked_in_);
-  state(is_granted_, is_open_, owned_, priority_);
+  state(is_granted_, is_open_, owned_, in_tick_, priority_);
 }
 
 void UseResources::note_kept() const {
   note("a member keeps its resources");
   if (was_held_by_parallel()) note("a member keeps its resources while a parallel holds it");
   if (!has_open_gates()) note("a member keeps its resources behind a closed gate");
-  if (wanted() != owned_) note("a member keeps its resources when its entry has others");
+  if (wanted().everything() != owned_)
+    note("a member keeps its resources when its entry has others");
 }
 
 // "the barriers around it, the SyncProgress directly inside of it if that is held, and each outer
@@ -164,7 +267,7 @@ bool UseResources::was_held_by_parallel() const {
 Status UseResources::on_tick(bool first) {
   pool().reach();
   // "it is read in each tick, and what is out of range is a fault"
-  if (!keeps() && !is_right(wanted())) {
+  if ((exchanges() || !keeps()) && !is_right(wanted())) {
     note("an entry names no resource of the pool");
     throw ReferenceFault{number};
   }
@@ -178,6 +281,7 @@ Status UseResources::on_tick(bool first) {
   // What a barrier holds inside withholds the ticks itself.
   if (!is_granted_ && is_open_) return deny();
   // "Granted: tick the child, return its status."
+  if (is_granted_) write_granted();
   const bool has_run = child().runs();
   const Status result = child().tick();
   // "A member whose child returns Skipped after it has run has used its resources in that tick, so
@@ -188,6 +292,7 @@ Status UseResources::on_tick(bool first) {
   } else if (result == Status::Skipped) {
     note("a member is skipped and gives back what it owned");
     pool().take_back(owned_);
+    in_tick_.clear();
   }
   return result;
 }

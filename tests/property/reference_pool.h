@@ -1,13 +1,24 @@
 // The law of "resources" once more: pools beside the tree, and UseResources.
 #pragma once
 
+#include <algorithm>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "property/reference_group.h"
 
 namespace lockstep::host::test {
 
 using Resources = std::set<std::string>;
+
+// "A;any(B;C)": all of the first, and one of the second if there are some.
+struct Wish {
+  Resources all;
+  std::vector<std::string> any;
+
+  Resources everything() const;
+};
 
 class ReferencePool : public ReferenceGroup {
  public:
@@ -18,17 +29,22 @@ class ReferencePool : public ReferenceGroup {
 
   bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
   void reach() { last_tick = world.tick; }
-  bool knows(const std::string& name) const { return names_.contains(name); }
+  bool knows(const std::string& name) const { return std::ranges::count(names_, name) != 0; }
   bool is_free(const Resources& set) const;  // in this tick
   void give(const Resources& set) { owned_.insert(set.begin(), set.end()); }
   void take_back(const Resources& set);
   bool is_owned(const std::string& name) const;  // when a tick begins: by one that still runs
+  // In the order of the pool.
+  std::string text_of(const Resources& set) const;
   int increment() const { return plan.increment; }
   // "saturating at 2 N x increment"
   int most_priority() const { return 2 * static_cast<int>(count()) * plan.increment; }
 
  private:
-  Resources names_, owned_;
+  void add_names(std::string list);
+
+  std::vector<std::string> names_;
+  Resources owned_;
 };
 
 class UseResources : public ReferenceNode {
@@ -39,22 +55,30 @@ class UseResources : public ReferenceNode {
   void keep(KeptState& state) override;
 
   // Before the root is ticked.
-  bool keeps() { return plan.keep && !owned_.empty() && child().runs(); }
+  bool keeps() {
+    const bool may_keep = plan.keep || exchanges() || plan.on_change == "keep";
+    return may_keep && !owned_.empty() && child().runs();
+  }
+  bool exchanges() const { return plan.on_change == "exchange"; }
+  // It is for another set than what it keeps.
+  bool wants_another() const;
   void keep_set();
+  void keep_old_set();
+  void begin_tick() { in_tick_.clear(); }
   bool is_active() const { return runs() && !was_held_by_parallel(); }
-  Resources wanted() const;
-  bool is_right(const Resources& names) const;
+  Wish wanted() const;
+  bool is_right(const Wish& wish) const;
   void ask();
   // When a tick begins: whether it owned that in the last one.
-  bool owned(const std::string& name) const {
-    return runs() && asked_in_ + 1 == world.tick && is_granted_ && owned_.contains(name);
-  }
+  bool owned(const std::string& name) const { return runs() && in_tick_.contains(name); }
   int priority() const { return priority_; }
   // In this tick, and as far as has been asked.
   bool is_granted() const { return asked_in_ == world.tick && is_granted_; }
 
  private:
   ReferencePool& pool() const;
+  Resources choose(const Wish& wish) const;
+  void write_granted();
   Status deny();
   void note_kept() const;
   bool has_open_gates() const;
@@ -64,7 +88,8 @@ class UseResources : public ReferenceNode {
 
   std::uint32_t asked_in_ = 0;                 // the last tick in which it asked
   bool is_granted_ = false, is_open_ = false;  // then
-  Resources owned_;                            // since then
+  Resources owned_;                            // since its last grant, while its child runs
+  Resources in_tick_;                          // in this tick
   int priority_ = 0;
 };
 

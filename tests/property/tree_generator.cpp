@@ -214,9 +214,15 @@ Plan TreeGenerator::use_resources(const std::function<Plan()>& child) {
   const auto last = static_cast<int>(pools_.size()) - 1;
   const auto place = static_cast<std::size_t>(between(static_cast<int>(next_pool_), last));
   plan.pool = written(pools_[place]);
-  plan.resources = pick(std::array{"A", "B", "C", "A;B", "B;C", "A;C", "A;B;C"});
+  plan.resources = pick(std::array{"A", "B", "C", "A;B", "B;C", "A;C", "A;B;C", "any(A;B)",
+                                   "any(C;B;A)", "B;any(C;A)"});
   if (!resource_keys_.empty() && one_in(3)) plan.from_entries["resources"] = pick(resource_keys_);
+  if (!resource_keys_.empty() && one_in(6)) plan.from_entries["granted"] = pick(resource_keys_);
   plan.keep = one_in(4);
+  const bool may_change = plan.from_entries.contains("resources");
+  if (one_in(may_change ? 2 : 8)) plan.on_change = "exchange";
+  if (!plan.keep && one_in(10)) plan.on_change = "release";
+  if (one_in(10)) plan.on_change = "keep";
   const std::size_t outside = std::exchange(next_pool_, place + 1);
   plan.children.push_back(child());
   next_pool_ = outside;

@@ -27,7 +27,7 @@ constexpr Parameter kResourcesParameters[] = {
 
 std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
   constexpr unsigned kNames = 1;
-  return resources::check_list(given, kNames);
+  return resources::check_list(given, kNames, false);
 }
 
 // Lets those keep their resources that may. Of all others that ask, their numbers.
@@ -38,10 +38,10 @@ std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
   for (const Member& member : members) {
     context.state<ResourceUse>(member.node).limit = 0;
     if (context.status(member.node) != Status::Running) continue;
-    if (resources::keeps(context, member.node)) {
-      resources::keep(context, member.node);
-    } else if (!is_held_by_parallel(context, member.node) &&  // else a tick that reaches it asks
-               context.parameters().read(member.node).empty()) {
+    const bool asks =
+        !resources::keeps(context, member.node) || !resources::keep(context, member.node);
+    if (asks && !is_held_by_parallel(context, member.node) &&  // else a tick that reaches it asks
+        context.parameters().read(member.node).empty()) {
       numbers[count++] = member.number;
     }
   }

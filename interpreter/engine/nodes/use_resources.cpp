@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "base/blackboard/entry.h"
 #include "engine/bound_node.h"
 #include "engine/groups.h"
+#include "engine/node_ports.h"
 #include "engine/nodes/decorator.h"
 #include "engine/resources.h"
 
@@ -17,7 +19,8 @@ constexpr Parameter kUseResourcesParameters[] = {
      .group = "resources"},
     {.name = "resources",
      .type = ValueType::String,
-     .doc = "What the child needs to be ticked, all of it: left;gripper.",
+     .doc = "What the child needs to be ticked, all of it: left;gripper. One of several: "
+            "dock; any(crane_1; crane_2).",
      .required = true,
      .of_pool = true},
     {.name = "keep",
@@ -26,11 +29,30 @@ constexpr Parameter kUseResourcesParameters[] = {
             "it may have to wait again in any tick.",
      .default_text = "false",
      .constant = true},
+    {.name = "on_change",
+     .type = ValueType::String,
+     .doc =
+         "While the child runs and the entry changes: release (it asks in each tick for what the "
+         "entry names), keep (as keep=\"true\"), or exchange (it keeps what it has, and is held, "
+         "until it gets what the entry names).",
+     .choices = resources::kOnChangeChoices,
+     .constant = true},
+    {.name = "granted",
+     .type = ValueType::String,
+     .doc = "The resources that the child owns, such as crane_2. It is written before the child is "
+            "ticked.",
+     .direction = Direction::Output},
 };
-static_assert(kUseResourcesParameters[resources::kResources].of_pool);
+static_assert(kUseResourcesParameters[resources::kResources].of_pool &&
+              kUseResourcesParameters[resources::kGranted].direction == Direction::Output);
 
 std::optional<RuleBreak> rule_of_use_resources(const ParameterValues& given) {
-  return resources::check_list(given, resources::kResources);
+  if (auto broken = resources::check_list(given, resources::kResources, true)) return broken;
+  const bool keeps = given.values[resources::kKeep] == Value(true);
+  if (!keeps || given.values[resources::kOnChange] != Value("release")) return std::nullopt;
+  return RuleBreak{static_cast<int>(resources::kOnChange),
+                   "keep=\"true\" and on_change=\"release\" contradict each other",
+                   "leave out one of them, or write on_change=\"exchange\""};
 }
 
 // A priority is at most this many increments for each member, so that the states of a run are
@@ -44,6 +66,20 @@ void raise_priority(NodeContext& context, NodeIndex self, ResourceUse& use) {
   use.priority = std::min(use.priority + increment, most);
 }
 
+// Writes what it owns, if the entry does not say so.
+void tell_granted(NodeContext& context, NodeIndex self) {
+  Entry* const entry = context.ports().entry_of_bound(self, resources::kGranted);
+  if (entry == nullptr) return;
+  const ResourceSet owned = context.state<ResourceUse>(self).owned;
+  const auto& names = context.tree().group(context.tree().membership(self).group).resources;
+  const auto* text = std::get_if<std::string>(&entry->value());
+  if (text == nullptr) {
+    write_entry(*entry, ValueType::String, nullptr, to_text(owned, names));
+  } else if (!is_text_of(*text, owned, names)) {
+    to_text(owned, names, std::get<std::string>(entry->to_write()));
+  }
+}
+
 // A member that is closed and reached has a SyncProgress inside that is held. That withholds the
 // ticks itself, so that all around it goes on: its barrier, and a Timeout in between.
 Status tick_child(NodeContext& context, NodeIndex self) {
@@ -52,14 +88,14 @@ Status tick_child(NodeContext& context, NodeIndex self) {
     raise_priority(context, self, use);
     if (context.hold_firmly(self + 1)) return Status::Running;
   }
+  if (use.grant == Grant::Owned && !context.parameters().are_constant(self))
+    tell_granted(context, self);
   const bool has_run = context.status(self + 1) == Status::Running;
   const Status status = context.tick(self + 1);
   // A child that ran until now has used the resources in this tick.
   if (status == Status::Skipped && !has_run) resources::give_back(context, self);
   return status;
 }
-
-constexpr std::uint32_t kNever = 0xffffffff;
 
 // Whether a script asks who owns a resource of the member's pool.
 bool is_read(NodeContext& context, NodeIndex self) {
@@ -69,19 +105,18 @@ bool is_read(NodeContext& context, NodeIndex self) {
   });
 }
 
-// The priority counts at any time, what it owns while its child keeps it or a script reads it.
+// The priority counts at any time. While its child runs, so does what it owns, if it keeps that, or
+// chooses it again; and what it owned in the last tick, if a script reads that.
 void fold_use_resources(NodeContext& context, NodeIndex self) {
   auto& use = context.state<ResourceUse>(self);
   ResourceUse folded{};
   folded.priority = use.priority;
-  if (resources::keeps(context, self)) folded.owned = use.owned;
-  const bool runs = context.status(self) == Status::Running;
-  if (runs && is_read(context, self) &&
-      resources::owned_in_last_tick(context, use, ~ResourceSet{0})) {
-    folded.owned = use.owned;
-    folded.grant = Grant::Owned;  // and `asked` is the number that a fold gives the last tick
-  } else {
-    folded.asked = kNever;
+  const bool may_choose = !context.parameters().are_constant(self) ||
+                          context.parameters().numbers(self, resources::kResources).size() > 1;
+  const bool runs = context.status(self + 1) == Status::Running;
+  if (resources::keeps(context, self) || (may_choose && runs)) folded.owned = use.owned;
+  if (context.status(self) == Status::Running && is_read(context, self)) {
+    folded.limit = static_cast<double>(owned_set(use.limit));
   }
   use = folded;
 }
@@ -89,8 +124,10 @@ void fold_use_resources(NodeContext& context, NodeIndex self) {
 Status tick_use_resources(NodeContext& context, NodeIndex self) {
   auto& use = context.state<ResourceUse>(self);
   context.groups().reach(context.tree().membership(self).group);
-  // A child keeps its resources whatever the entry says meanwhile.
-  if (!resources::keeps(context, self) && !reread(context, self)) return give_up(context, self);
+  // What is kept does not depend on what the entry says meanwhile.
+  const bool reads = resources::on_change(context.tree(), self) != resources::OnChange::Keep ||
+                     !resources::keeps(context, self);
+  if (reads && !reread(context, self)) return give_up(context, self);
   if (!resources::has_asked(context, use)) resources::ask(context, self);
   return tick_child(context, self);
 }

@@ -6,6 +6,7 @@
 
 #include "base/core/progress.h"
 #include "base/core/resource_set.h"
+#include "base/core/synchronization.h"
 
 namespace lockstep::host {
 
@@ -45,6 +46,7 @@ void Hindrance::look_around(NodeIndex node) {
 // parallel is as far as what it lacks.
 void Hindrance::look_inside(NodeIndex node) {
   if (lacks_resources(node)) return add_user(node);
+  if (waits_to_begin(node)) return add(node);
   pass(node);
   const std::vector<NodeIndex> running = running_children(node);
   if (running.empty()) runs_ = true;
@@ -76,6 +78,13 @@ void Hindrance::look_before(NodeIndex node) {
   if (moment_.status(below) != Status::Idle) return;  // it has completed without this one
   for (const NodeIndex child : running_children(node)) look_at(child);
   runs_ = false;
+}
+
+// A barrier at 0 holds it before its child begins.
+bool Hindrance::waits_to_begin(NodeIndex node) const {
+  const auto group = shape_.nodes[node].group;
+  return group && !shape_.nodes[*group].is_pool() &&
+         host::waits_to_begin(moment_.status(node), moment_.status(node + 1));
 }
 
 bool Hindrance::lacks_resources(NodeIndex node) const {
@@ -120,11 +129,11 @@ std::vector<NodeIndex> Hindrance::running_children(NodeIndex node) const {
 std::vector<NodeIndex> lasting_owners(const Shape& shape, const Moment& moment, NodeIndex denied) {
   std::vector<NodeIndex> owners;
   const ShapeNode& pool = shape.nodes[*shape.nodes[denied].group];
-  const ResourceSet wanted = resource_set(moment.limit(denied));
+  const double its_limit = moment.limit(denied);
+  const ResourceSet wanted = resource_set(its_limit) & ~owned_set(its_limit);
   for (const NodeIndex child : pool.members) {
     const NodeIndex owner = *shape.nodes[child].parent;
-    const double its = moment.limit(owner);
-    if (waits(its) || (resource_set(its) & wanted) == 0) continue;
+    if (owner == denied || (owned_set(moment.limit(owner)) & wanted) == 0) continue;
     const ShapeNode& user = shape.nodes[owner];
     const bool keeps = user.keeps_resources && moment.status(child) == Status::Running;
     const bool is_before = user.number < shape.nodes[denied].number;

@@ -43,6 +43,7 @@ class Hindrance {
   void look_before(NodeIndex node);
   void pass(NodeIndex node);
   bool lacks_resources(NodeIndex node) const;
+  bool waits_to_begin(NodeIndex node) const;
   void add(NodeIndex member);
   void add_user(NodeIndex user);
   void add_gates(NodeIndex user);

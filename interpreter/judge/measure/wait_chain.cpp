@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/core/progress.h"
+#include "base/core/resource_set.h"
 #include "base/core/synchronization.h"
 
 namespace lockstep::host {
@@ -20,12 +21,13 @@ void for_each_named(const Shape& shape, NodeIndex node, Visit visit) {
 }
 
 std::optional<NodeIndex> first_held(const Shape& shape, const Moment& moment, NodeIndex node) {
-  const bool is_group = shape.nodes[node].is_group();
-  for (const NodeIndex child : shape.nodes[node].held()) {
-    const NodeIndex named = is_group ? child - 1 : child;
-    const bool is_held =
-        is_group ? moment.status(named) == Status::Running && moment.live->is_held_at_barrier(named)
-                 : moment.held(named);
+  const ShapeNode& it = shape.nodes[node];
+  for (const NodeIndex child : it.held()) {
+    const NodeIndex named = it.is_group() ? child - 1 : child;
+    const bool is_held = !it.is_group() ? moment.held(named)
+                         : it.is_pool() ? waits(moment.limit(named))
+                                        : moment.status(named) == Status::Running &&
+                                              moment.live->is_held_at_barrier(named);
     if (is_held) return named;
   }
   return std::nullopt;
@@ -140,8 +142,7 @@ class WaitSearch {
     link.awaited_at = progress_of(awaited, link.node);
     link.awaited_status = moment_.status(awaited);
     if (!shape_.nodes[link.node].is_pool()) return;
-    link.resources =
-        resource_set(moment_.limit(link.waiting)) & resource_set(moment_.limit(awaited));
+    link.resources = resource_set(moment_.limit(link.waiting)) & owned_set(moment_.limit(awaited));
   }
 
   double progress_of(NodeIndex wanted, NodeIndex node) {

@@ -117,11 +117,13 @@ NodeIndex apply_round(JsonValue change, std::vector<RecordedState>& states) {
   return node;
 }
 
-// The limit of a UseResources is a set of resources, negative when it waits for them.
+// The limit of a UseResources is a set of resources, negative when it waits for them; or two sets.
 bool is_limit(double limit, bool is_set) {
   if (!is_set) return limit >= 0 && limit <= 1;
   constexpr auto kEnd = static_cast<double>(ResourceSet{1} << kMaxResources);
-  return std::fabs(limit) < kEnd && std::trunc(limit) == limit;
+  constexpr auto kBoth = static_cast<double>(kOwnsAndWaits);
+  const bool has_both = limit <= -kBoth && limit > -2 * kBoth;
+  return (std::fabs(limit) < kEnd || has_both) && std::trunc(limit) == limit;
 }
 
 // Null: no barrier is left.

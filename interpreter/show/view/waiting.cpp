@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/core/progress.h"
@@ -54,15 +56,16 @@ std::string beginning_text(const WaitedAt& node,
 
 std::string ownership_text(const OwnedFrom& pool, std::size_t child) {
   const double limit = pool.limit(child);
-  const ResourceSet set = resource_set(limit);
-  if (!waits(limit)) return limit == 0 ? "" : "owns " + to_text(set, pool.resources);
-  std::string text;
+  const ResourceSet owned = owned_set(limit);
+  std::string text = owned == 0 ? "" : "owns " + to_text(owned, pool.resources);
+  if (!waits(limit)) return text;
+  const ResourceSet set = resource_set(limit) & ~owned;
+  std::string_view before = owned == 0 ? "waits for " : ", waits for ";
   for (std::size_t other = 0; other < pool.members; ++other) {
-    const double its = pool.limit(other);
-    const ResourceSet shared = waits(its) ? 0 : set & resource_set(its);
+    const ResourceSet shared = set & owned_set(pool.limit(other));
     if (shared == 0) continue;
-    text += fmt::format("{}{} ({})", text.empty() ? "waits for " : ", ",
-                        to_text(shared, pool.resources), pool.name_of(other));
+    text += fmt::format("{}{} ({})", std::exchange(before, ", "), to_text(shared, pool.resources),
+                        pool.name_of(other));
   }
   return text;
 }

@@ -74,7 +74,8 @@ class FairnessAdviser {
   std::vector<Users> users_of(const DefinitionGroup& pool) const {
     std::vector<Users> users(pool.resources.size());
     for (const std::uint32_t member : pool.members) {
-      const auto set = resource_list(definition_.resources_of(at(member)), pool.resources).set;
+      const ResourceSet set = all_resources(
+          resource_list(definition_.resources_of(at(member)), pool.resources).request());
       for (std::size_t i = 0; i < users.size(); ++i) {
         if ((set >> i & 1u) == 0) continue;
         if (users[i].members.empty()) users[i].first = member;

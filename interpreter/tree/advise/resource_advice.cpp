@@ -54,11 +54,15 @@ class ResourceAdviser {
     }
   }
 
+  ResourceSet named_by(std::uint32_t member, const DefinitionGroup& group) const {
+    const std::string_view list = definition_.resources_of(at(member));
+    return all_resources(resource_list(list, group.resources).request());
+  }
+
   std::vector<std::uint32_t> count_users(const DefinitionGroup& group) const {
     std::vector<std::uint32_t> users(group.resources.size());
     for (const std::uint32_t member : group.members) {
-      const ResourceSet set =
-          resource_list(definition_.resources_of(at(member)), group.resources).set;
+      const ResourceSet set = named_by(member, group);
       for (std::size_t i = 0; i < users.size(); ++i) users[i] += set >> i & 1u;
     }
     return users;
@@ -67,8 +71,7 @@ class ResourceAdviser {
   void report_misspelled(const DefinitionGroup& group, std::size_t resource,
                          const std::string& hint) const {
     for (const std::uint32_t member : group.members) {
-      const ResourceSet set =
-          resource_list(definition_.resources_of(at(member)), group.resources).set;
+      const ResourceSet set = named_by(member, group);
       if ((set >> resource & 1u) == 0) continue;
       const std::string message =
           fmt::format("only this node uses the resource '{}' of '{}'",

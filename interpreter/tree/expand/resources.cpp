@@ -74,7 +74,25 @@ class PoolResolver {
           "pool-size"_code, node.place,
           fmt::format("the pool '{}' has {} resources", brief(node.name), group.resources.size()),
           fmt::format("the limit is {}: split it into several pools", kMaxResources));
+    } else if (group.resources.size() > kMaxExchanged) {
+      check_exchanges(group);
     }
+  }
+
+  // One that may wait for other resources while it owns some.
+  bool exchanges(const DefinitionNode& member) const {
+    const Value* on_change = definition_.constant(member, "on_change");
+    return on_change != nullptr && *on_change == Value("exchange");
+  }
+
+  void check_exchanges(const DefinitionGroup& group) const {
+    const auto member =
+        std::ranges::find_if(group.members, [&](std::uint32_t it) { return exchanges(at(it)); });
+    if (member == group.members.end()) return;
+    report_.at("pool-size"_code, at(*member).place,
+               fmt::format("the pool '{}' has {} resources, too many to exchange them",
+                           brief(at(group.node).name), group.resources.size()),
+               fmt::format("the limit is {}: split it into several pools", kMaxExchanged));
   }
 
   // A member of a pool below another one would wait for what that owns. Where two pools are nested

@@ -217,7 +217,7 @@ class ValueItems {
   void add_resources() {
     const std::string_view typed =
         at_.tree.text.substr(at_.site.word.begin, at_.byte - at_.site.word.begin);
-    const auto sign = typed.find_last_of("; ,");
+    const auto sign = typed.find_last_of("; ,(");
     if (sign != typed.npos) replaced_.begin = at_.site.word.begin + sign + 1;
     for (const Parameter& it : type_->parameters) {
       if (it.group.empty()) continue;
