@@ -32,7 +32,7 @@ constexpr Parameter kUseResourcesParameters[] = {
     {.name = "on_change",
      .type = ValueType::String,
      .doc =
-         "While the child runs and the entry changes: release (it asks in each tick for what the "
+         "While the child runs and the entry changes: release (it requests in each tick what the "
          "entry names), keep (as keep=\"true\"), or exchange (it keeps what it has, and is held, "
          "until it gets what the entry names).",
      .choices = resources::kOnChangeChoices,

@@ -90,7 +90,7 @@ class PoolResolver {
         std::ranges::find_if(group.members, [&](std::uint32_t it) { return exchanges(at(it)); });
     if (member == group.members.end()) return;
     report_.at("pool-size"_code, at(*member).place,
-               fmt::format("the pool '{}' has {} resources, too many to exchange them",
+               fmt::format("the pool '{}' has {} resources, more than a member can exchange",
                            brief(at(group.node).name), group.resources.size()),
                fmt::format("the limit is {}: split it into several pools", kMaxExchanged));
   }
