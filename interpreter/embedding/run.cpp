@@ -120,7 +120,7 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
     return fail("the run has been ticked already: restart it before the loop");
   }
   LoopOptions options;
-  options.rate = 1 / to_seconds(run.run.period());
+  options.rate = run.rate;
   options.overrun = static_cast<OverrunPolicy>(given.overrun);
   if (given.max_ticks != 0) options.max_ticks = given.max_ticks;
   if (given.timeout != 0) {
@@ -171,7 +171,7 @@ lockstep_run* lockstep_run_new(lockstep_project* project, const lockstep_run_opt
         fail("tick_period is not a number of seconds");
         return nullptr;
       }
-      run_options.period = *period;
+      run_options.rate = 1 / options.tick_period;
     }
     run_options.virtual_time = options.virtual_time;
     if (options.on_fault == LOCKSTEP_ON_FAULT_FAIL) run_options.on_fault = FaultPolicy::Fail;

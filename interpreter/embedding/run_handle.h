@@ -24,16 +24,18 @@ struct lockstep_run {
 
   lockstep_run(std::shared_ptr<const lockstep::host::Program> loaded,
                lockstep::host::RunOptions options, lockstep::host::embedding::RunLimits given)
-      : program(std::move(loaded)),
+      : rate(options.rate),
+        program(std::move(loaded)),
         log(std::move(options.log)),
         limits(std::move(given), program->runnable.tree, leaf_log()),
         watchers(program->runnable.tree,
                  {.tree_file = program->file,
-                  .rate_hz = 1 / lockstep::host::to_seconds(options.period),
+                  .rate_hz = options.rate,
                   .seed = options.seed,
                   .arguments = lockstep::host::values_of(program->runnable.arguments),
                   .values = program->runnable.values},
-                 {.period = options.period, .real_time = !options.virtual_time}),
+                 {.period = lockstep::host::deadline_of(1, options.rate),
+                  .real_time = !options.virtual_time}),
         properties(program->runnable.tree),
         run(program->runnable.tree, with_own(std::move(options))),
         warnings(program->runnable.tree, leaf_log()) {}
@@ -67,6 +69,7 @@ struct lockstep_run {
     }
   }
 
+  const double rate;  // ticks per second
   std::shared_ptr<const lockstep::host::Program> program;
   std::optional<lockstep::host::embedding::NodeCalls> node_calls;  // the end of a run is told
   const lockstep::host::LeafLog log;                               // the program's

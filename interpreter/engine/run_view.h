@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/core/deadlines.h"
 #include "engine/node.h"
 #include "engine/run_state.h"
 
@@ -64,6 +65,14 @@ class RunView {
   // The number of the last tick; the first is 1.
   std::uint32_t tick_number() const { return state_.tick_number; }
   Nanoseconds now() const { return state_.now; }  // of this tick, since the run began
+  // The time from `since`, that of a tick, to this tick or to `until`.
+  Nanoseconds passed(Nanoseconds since) const { return passed(since, state_.now); }
+  Nanoseconds passed(Nanoseconds since, Nanoseconds until) const {
+    return deadlines_.between(since, until);
+  }
+  const Deadlines& deadlines() const { return deadlines_; }
+  // Before the first tick.
+  void set_deadlines(const Deadlines& deadlines) { deadlines_ = deadlines; }
   bool faulted() const { return state_.faulted; }
 
  protected:
@@ -78,6 +87,7 @@ class RunView {
   const Node* nodes_;  // of the tree, or with the kinds of nodes that are watched
   Blackboard& board_;
   RunState state_;
+  Deadlines deadlines_;
 };
 
 }  // namespace lockstep::host

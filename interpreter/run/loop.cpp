@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/deadlines.h"
 #include "base/system/own_thread.h"
-#include "run/deadlines.h"
 #include "run/observers.h"
 #include "run/pace.h"
 #include "run/run_control.h"

@@ -25,7 +25,7 @@ Run::Run(const Tree& tree, const RunOptions& options)
       may_wake_(options.may_wake || has_wakers(tree)),
       exactly_once_(options.exactly_once),
       time_{.now = Nanoseconds(0),
-            .period = options.period,
+            .period = deadline_of(1, options.rate),
             .thread = this_thread_id(),
             .workers = options.virtual_time ? &workers_ : nullptr,
             .processes = options.virtual_time ? nullptr : &processes_,
@@ -36,6 +36,7 @@ Run::Run(const Tree& tree, const RunOptions& options)
       leaves_((prepare(), tree), blackboard_, time_, options.seed, options.log, boards_.get()),
       ticker_(tree, leaves_.slots(), blackboard_, options.on_fault, options.watch) {
   leaves_.set_node_context(ticker_);
+  ticker_.set_deadlines(Deadlines(options.rate));
 }
 
 void Run::prepare() {

@@ -19,7 +19,7 @@ namespace lockstep::host {
 
 struct RunOptions {
   std::uint64_t seed = 0;
-  Nanoseconds period = std::chrono::milliseconds(10);
+  double rate = 100;  // ticks per second: a time that is counted has whole periods of it
   LeafLog log = {};
   FaultPolicy on_fault = FaultPolicy::Stop;
   bool exactly_once = false;   // ticks the root once, also when a node asks for another tick

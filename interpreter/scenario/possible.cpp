@@ -1,6 +1,5 @@
 #include "scenario/possible.h"
 
-#include "base/core/clock.h"
 #include "engine/synchronized.h"
 #include "leaves/models.h"
 #include "run/live_moments.h"
@@ -21,15 +20,14 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   std::vector<NodeProblem> problems = not_verifiable(tree);
   const LeafModels models = make_models(tree, file, diagnostics, problems);
   if (!problems.empty() || diagnostics.has_errors()) return std::nullopt;
-  const Nanoseconds period = from_seconds(1 / rate);
   const SearchResult found = search(
-      tree, models, {}, period,
+      tree, models, {}, rate,
       {.states = kMostStates, .transitions = kMostTransitions, .symmetry = false, .cycles = false});
   if (!found.is_complete()) return std::nullopt;
-  if (find_contradiction(tree, models, {}, period, found, usual_chance(found))) return std::nullopt;
+  if (find_contradiction(tree, models, {}, rate, found, usual_chance(found))) return std::nullopt;
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
-  Stepper stepper(tree, models, {}, period, found.symmetry, found.rising_answers,
+  Stepper stepper(tree, models, {}, rate, found.symmetry, found.rising_answers,
                   found.few_root_ticks);
   LiveMoments moments(tree, {.within = true});
   for (StateId state = 0; state < found.store.size(); ++state) {

@@ -6,7 +6,6 @@
 
 #include "base/core/wording.h"
 #include "record/write/recorder.h"
-#include "run/deadlines.h"
 #include "run/loop.h"
 #include "run/shape_of.h"
 #include "scenario/input_watch.h"
@@ -65,8 +64,7 @@ ScenarioResult ScenarioRunner::run(const ScenarioRunOptions& options) const {
   if (recorder && !recorder->error().empty()) result.problem = recorder->error();
 
   ScenarioClock clock(!scenario.late.empty());
-  Run run(tree,
-          {.seed = options.seed, .period = deadline_of(1, bound_.rate), .virtual_time = true});
+  Run run(tree, {.seed = options.seed, .rate = bound_.rate, .virtual_time = true});
   EntryWriter writer(bound_, run);
   LateTicks late(scenario, clock);
   std::vector<Observer*> observers{&writer, &inputs, &judge};

@@ -56,7 +56,7 @@ std::vector<Surprise> verify_scenario(const BoundScenario& bound, const Fixture&
                          {fixture.place_of(it.node) + ": " + tree.path(it.node), it.hint}});
   }
   if (!problems.empty()) return surprises;
-  const SearchResult found = search(tree, models, properties, from_seconds(1 / bound.rate),
+  const SearchResult found = search(tree, models, properties, bound.rate,
                                     {.memory = kMostMemory, .stop_signal = stop_signal});
   const Verdict verdict = make_verdict(
       tree, models, properties, found,
@@ -68,8 +68,8 @@ std::vector<Surprise> verify_scenario(const BoundScenario& bound, const Fixture&
     surprises.back().more.push_back("lockstep verify shows a run to it");
   }
   add_results(bound, found, surprises);
-  const auto wrong = find_contradiction(tree, models, properties, from_seconds(1 / bound.rate),
-                                        found, usual_chance(found));
+  const auto wrong =
+      find_contradiction(tree, models, properties, bound.rate, found, usual_chance(found));
   if (wrong) surprises.push_back({place, to_text(*wrong), {"this is a bug in lockstep"}});
   if (!found.is_complete() && surprises.empty()) {
     surprises.push_back({place,

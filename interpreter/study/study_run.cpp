@@ -36,11 +36,10 @@ void StudyRun::begin(std::uint64_t seed) {
   if (run_) {
     run_->restart(seed);
   } else {
-    run_.emplace(cell_.tree, RunOptions{.seed = seed,
-                                        .period = deadlines_.at(1),
-                                        .log = {},
-                                        .virtual_time = true,
-                                        .watch = &watch_});
+    run_.emplace(
+        cell_.tree,
+        RunOptions{
+            .seed = seed, .rate = cell_.rate, .log = {}, .virtual_time = true, .watch = &watch_});
   }
   measures_.run_started(moments_.now(run_->ticker()), {run_->period(), false});
 }

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "run/deadlines.h"
+#include "base/core/deadlines.h"
 #include "run/live_moments.h"
 #include "run/run.h"
 #include "study/run_measures.h"

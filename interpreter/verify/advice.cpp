@@ -195,14 +195,14 @@ class Adviser {
     SearchLimits limits = bound(tree_, transitions);
     limits.stop_signal = stop_signal_;
     limits.cycles = cycles;
-    return host::search(tree_, models, {}, kPeriod, limits);
+    return host::search(tree_, models, {}, kModelRate, limits);
   }
 
   // A few are enough to say nothing false; their number is the same on every machine.
   bool is_wrong(const LeafModels& models, const SearchResult& found) const {
     const ChanceLimits few{.runs = std::clamp<std::uint64_t>(10'000 / tree_.nodes.size(), 2, 30),
                            .time = Nanoseconds::max()};
-    return find_contradiction(tree_, models, {}, kPeriod, found, few).has_value();
+    return find_contradiction(tree_, models, {}, kModelRate, found, few).has_value();
   }
 
   void look_for_certainties() {
@@ -211,7 +211,7 @@ class Adviser {
     const SearchResult found = search(*models, kOfCertainties, true);
     if (!found.is_complete() || depends_on_rate(tree_, found)) return;
     std::string why = "`lockstep verify` shows how";
-    const auto deadlocks = host::deadlocks(tree_, *models, kPeriod, found);
+    const auto deadlocks = host::deadlocks(tree_, *models, kModelRate, found);
     if (!deadlocks.empty()) why = DeadlockText(tree_).explained(deadlocks.front().chain);
     auto certain = certainties(tree_, places_, found, why);
     if (certain.empty() || is_wrong(*models, found)) return;
@@ -234,7 +234,7 @@ class Adviser {
   // Whether it has looked at all behaviors.
   bool look_for_deadlocks(const LeafModels& models, std::uint64_t transitions) {
     const SearchResult found = search(models, transitions, false);
-    const auto deadlocks = host::deadlocks(tree_, models, kPeriod, found);
+    const auto deadlocks = host::deadlocks(tree_, models, kModelRate, found);
     if (!deadlocks.empty() && is_wrong(models, found)) return true;
     for (const Deadlock& it : deadlocks) {
       Advice advice = DeadlockText(tree_).advice(it);
@@ -243,8 +243,6 @@ class Adviser {
     }
     return found.is_complete();
   }
-
-  static constexpr Nanoseconds kPeriod = from_seconds(1 / kModelRate);
 
   const Tree& tree_;
   const std::span<const Place> places_;

@@ -35,17 +35,21 @@ class ChanceAnswers final : public Answers {
 class PlainRun {
  public:
   PlainRun(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-           std::uint64_t seed)
-      : board_(tree),
+           const Deadlines& deadlines, std::uint64_t seed)
+      : deadlines_(deadlines),
+        board_(tree),
         answers_(seed),
         leaves_(tree, models, board_, answers_),
         ticker_(tree, leaves_.slots(), board_),
         places_(places_of(properties, tree)),
         checks_(at(places_, properties)),
         steps_(checks_),
-        moments_(tree, steps_.asked()) {}
+        moments_(tree, steps_.asked()) {
+    ticker_.set_deadlines(deadlines);
+  }
 
-  Status tick(Nanoseconds now, std::uint64_t number) {
+  Status tick(std::uint64_t number) {
+    const Nanoseconds now = deadlines_.at(number);
     answers_.asked.clear();
     leaves_.begin_tick();
     ticker_.set_now(now);
@@ -90,6 +94,7 @@ class PlainRun {
     for (const std::size_t it : violated) violated_.push_back(places_[it]);
   }
 
+  const Deadlines& deadlines_;
   Blackboard board_;
   ChanceAnswers answers_;
   ModelLeaves leaves_;
@@ -104,22 +109,22 @@ class PlainRun {
 class Judge {
  public:
   Judge(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-        Nanoseconds period, const SearchResult& found)
+        double rate, const SearchResult& found)
       : tree_(tree),
         models_(models),
         properties_(properties),
-        period_(period),
+        deadlines_(rate),
         found_(found),
-        stepper_(tree, models, properties, period, found.symmetry, false, found.few_root_ticks),
+        stepper_(tree, models, properties, rate, found.symmetry, false, found.few_root_ticks),
         ticks_(std::min<std::uint64_t>(found.complete_depth(), most_ticks(found))) {}
 
   // Gives what contradicts the search; "" if nothing does. `goes_on` is asked before each tick.
   template <class GoesOn>
   std::string look_at(std::uint64_t seed, const GoesOn& goes_on) {
-    PlainRun run(tree_, models_, properties_, seed);
+    PlainRun run(tree_, models_, properties_, deadlines_, seed);
     state_ = stepper_.first_state();
     for (std::uint64_t tick = 0; tick < ticks_ && goes_on(); ++tick) {
-      const Status status = run.tick(static_cast<std::int64_t>(tick) * period_, tick);
+      const Status status = run.tick(tick);
       const bool is_over = status != Status::Running || run.ticker().faulted();
       std::string wrong = wrong_in(run, status, tick, is_over);
       if (!wrong.empty()) return fmt::format("in tick {}, {}", tick, wrong);
@@ -198,7 +203,7 @@ class Judge {
   const Tree& tree_;
   const LeafModels& models_;
   const std::span<const Property> properties_;
-  const Nanoseconds period_;
+  const Deadlines deadlines_;
   const SearchResult& found_;
   Stepper stepper_;
   const std::uint64_t ticks_;  // of a run
@@ -218,8 +223,8 @@ std::string to_text(const Contradiction& contradiction) {
 }
 
 std::optional<Contradiction> find_contradiction(const Tree& tree, const LeafModels& models,
-                                                std::span<const Property> properties,
-                                                Nanoseconds period, const SearchResult& found,
+                                                std::span<const Property> properties, double rate,
+                                                const SearchResult& found,
                                                 const ChanceLimits& limits) {
   const Nanoseconds began = monotonic_now();
   std::uint32_t asked = 0;
@@ -232,7 +237,7 @@ std::optional<Contradiction> find_contradiction(const Tree& tree, const LeafMode
     }
     return !is_late;
   };
-  Judge judge(tree, models, properties, period, found);
+  Judge judge(tree, models, properties, rate, found);
   for (std::uint64_t seed = 0; seed < limits.runs && !is_late; ++seed) {
     std::string what = judge.look_at(seed, goes_on);
     if (!what.empty()) return Contradiction{seed, std::move(what)};

@@ -29,8 +29,8 @@ std::string to_text(const Contradiction& contradiction);
 
 // The ticks that the search has looked at with all behaviors.
 std::optional<Contradiction> find_contradiction(const Tree& tree, const LeafModels& models,
-                                                std::span<const Property> properties,
-                                                Nanoseconds period, const SearchResult& found,
+                                                std::span<const Property> properties, double rate,
+                                                const SearchResult& found,
                                                 const ChanceLimits& limits);
 
 }  // namespace lockstep::host

@@ -5,7 +5,6 @@
 #include "base/system/output_file.h"
 #include "judge/measure/property_steps.h"
 #include "record/write/recorder.h"
-#include "run/deadlines.h"
 #include "run/loop.h"
 #include "run/shape_of.h"
 #include "verify/same_tick.h"
@@ -92,7 +91,7 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
                                              .verify = heading(finding)}});
   if (!recorder.error().empty()) return recorder.error();
   VirtualClock clock;
-  Run run(tree, {.period = deadline_of(1, options.rate), .virtual_time = true});
+  Run run(tree, {.rate = options.rate, .virtual_time = true});
   confirmation.watch(run.ticker());
   Observer* const observers[] = {&recorder, &confirmation};
   LoopOptions loop;

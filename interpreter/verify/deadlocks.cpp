@@ -18,15 +18,14 @@ constexpr std::size_t kMostDeadlocks = 10, kMostTraced = 50;
 // What is held on all of its edges is held for ever.
 class Deadlocks {
  public:
-  Deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
-            const SearchResult& found)
+  Deadlocks(const Tree& tree, const LeafModels& models, double rate, const SearchResult& found)
       : tree_(tree),
         shape_(shape_of(tree)),
         moments_(tree),
         found_(found),
         graph_(found.graph),
         held_(holdable(tree)),
-        tracer_(tree, models, {}, period, found) {}
+        tracer_(tree, models, {}, rate, found) {}
 
   std::vector<Deadlock> find() {
     std::set<std::vector<bool>> traced;
@@ -169,9 +168,9 @@ bool exchanges(const Tree& tree, NodeIndex member) {
   return resources::on_change(tree, member) == resources::OnChange::Exchange;
 }
 
-std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
+std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, double rate,
                                 const SearchResult& found) {
-  return Deadlocks(tree, models, period, found).find();
+  return Deadlocks(tree, models, rate, found).find();
 }
 
 }  // namespace lockstep::host

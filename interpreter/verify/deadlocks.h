@@ -20,7 +20,7 @@ bool exchanges(const Tree& tree, NodeIndex member);
 
 // Each deadlock that the search has come to: the nearest ones first, those of the same nodes once.
 // It need not be complete: a state counts only if all that can come after it is known.
-std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, Nanoseconds period,
+std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, double rate,
                                 const SearchResult& found);
 
 }  // namespace lockstep::host

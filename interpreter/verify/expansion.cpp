@@ -45,9 +45,9 @@ bool SearchRoom::is_round_full() const {
 }
 
 Expander::Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-                   Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits)
+                   double rate, const Symmetry& symmetry, const SearchLimits& limits)
     : limits_(limits),
-      stepper_(tree, models, properties, period, symmetry, limits.rising_answers,
+      stepper_(tree, models, properties, rate, symmetry, limits.rising_answers,
                limits.few_root_ticks),
       labeller_(tree, models, properties.size(), symmetry),
       coverage_(tree) {

@@ -77,7 +77,7 @@ class Expander {
  public:
   // All must outlive this.
   Expander(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-           Nanoseconds period, const Symmetry& symmetry, const SearchLimits& limits);
+           double rate, const Symmetry& symmetry, const SearchLimits& limits);
 
   StateBytes first_state() { return stepper_.first_state(); }
   // All ticks from these states. They can be cut by limits: then the chunk ends there.

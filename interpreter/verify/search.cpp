@@ -18,7 +18,7 @@ constexpr std::uint64_t kEdgesOfRound = 2'000'000;
 class Searcher {
  public:
   Searcher(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-           Nanoseconds period, const SearchLimits& limits)
+           double rate, const SearchLimits& limits)
       : tree_(tree),
         limits_(limits),
         workers_(std::max(1u, limits.jobs)),
@@ -30,7 +30,7 @@ class Searcher {
     if (limits.symmetry) result_.symmetry = Symmetry(tree, models, nodes_of(properties, tree));
     for (unsigned i = 0; i < std::max(1u, limits.jobs); ++i) {
       expanders_.push_back(
-          std::make_unique<Expander>(tree, models, properties, period, result_.symmetry, limits));
+          std::make_unique<Expander>(tree, models, properties, rate, result_.symmetry, limits));
     }
     result_.graph.shape = expanders_[0]->label_shape();
     result_.graph.time_limit = result_.time_limit.get();
@@ -280,9 +280,8 @@ std::size_t SearchResult::memory() const {
 }
 
 SearchResult search(const Tree& tree, const LeafModels& models,
-                    std::span<const Property> properties, Nanoseconds period,
-                    const SearchLimits& limits) {
-  return Searcher(tree, models, properties, period, limits).search();
+                    std::span<const Property> properties, double rate, const SearchLimits& limits) {
+  return Searcher(tree, models, properties, rate, limits).search();
 }
 
 }  // namespace lockstep::host

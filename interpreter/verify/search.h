@@ -63,7 +63,6 @@ struct SearchResult {
 };
 
 SearchResult search(const Tree& tree, const LeafModels& models,
-                    std::span<const Property> properties, Nanoseconds period,
-                    const SearchLimits& limits);
+                    std::span<const Property> properties, double rate, const SearchLimits& limits);
 
 }  // namespace lockstep::host

@@ -18,9 +18,9 @@ SavedRun saved(const Ticker& ticker) {
 }  // namespace
 
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-                 Nanoseconds period, const Symmetry& symmetry, bool rising_answers,
+                 double rate, const Symmetry& symmetry, bool rising_answers,
                  std::uint64_t few_root_ticks)
-    : period_(period),
+    : deadlines_(rate),
       board_(tree),
       answers_(tree, rising_answers ? symmetry : kNoSymmetry,
                tree.leaves.size() + models.facts.size()),
@@ -37,6 +37,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_properties_(property_bytes_),
       rounds_(few_root_ticks),
       has_gone_round_(tree.nodes.size() + properties.size()) {
+  ticker_.set_deadlines(deadlines_);
   ticker_.keep_moments();
 }
 
@@ -55,7 +56,7 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   code_.decode(state, from_, from_leaves_, from_facts_, from_properties_, from_read_);
   parameters_.give(from_, from_read_, ticker_);
   leaves_.restore(from_leaves_, from_facts_);
-  time_ = is_first ? Nanoseconds(0) : period_;
+  time_ = deadlines_.at(is_first ? 0 : 1);
   answers_.begin_state(from_.run, from_leaves_);
   rounds_.begin_state();
 }

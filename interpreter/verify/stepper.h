@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "base/core/clock.h"
+#include "base/core/deadlines.h"
 #include "leaves/model_leaf.h"
 #include "verify/property_watch.h"
 #include "verify/read_parameters.h"
@@ -22,7 +22,7 @@ class Stepper {
  public:
   // All must outlive this.
   Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-          Nanoseconds period, const Symmetry& symmetry, bool rising_answers,
+          double rate, const Symmetry& symmetry, bool rising_answers,
           std::uint64_t few_root_ticks = kFewRootTicks);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -82,7 +82,7 @@ class Stepper {
   Status go_round(Status status);
   void fault(NodeIndex asks);
 
-  const Nanoseconds period_;
+  const Deadlines deadlines_;
   Blackboard board_;
   TickAnswers answers_;
   ModelLeaves leaves_;

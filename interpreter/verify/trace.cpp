@@ -21,11 +21,11 @@ struct Tracer::Outcome {
 };
 
 Tracer::Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-               Nanoseconds period, const SearchResult& found)
+               double rate, const SearchResult& found)
     : tree_(tree),
       models_(models),
       found_(found),
-      stepper_(tree, models, properties, period, found.symmetry, found.rising_answers,
+      stepper_(tree, models, properties, rate, found.symmetry, found.rising_answers,
                found.few_root_ticks),
       labeller_(tree, models, properties.size(), found.symmetry) {}
 

@@ -38,7 +38,7 @@ class Tracer {
  public:
   // All must outlive this.
   Tracer(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
-         Nanoseconds period, const SearchResult& found);
+         double rate, const SearchResult& found);
 
   // The combinations of answers that take states over these edges, which are of cycles.
   std::vector<GuidedStep> steps_of(std::span<const CycleStep> edges);

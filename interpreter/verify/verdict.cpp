@@ -40,8 +40,8 @@ class VerdictMaker {
         cycles_(found.graph_of_cycles()),
         options_(options),
         held_(holdable(tree)),
-        period_(from_seconds(1 / options.rate)),
-        tracer_(tree, models, properties, period_, found) {}
+        deadlines_(options.rate),
+        tracer_(tree, models, properties, options.rate, found) {}
 
   Verdict make() {
     say_symmetry();
@@ -208,7 +208,7 @@ class VerdictMaker {
     std::vector<std::string> lines;
     const Shape shape = shape_of(tree_);
     LiveMoments moments(tree_);
-    StallWatch watch(shape, period_ / 2, [&](const Standstill& standstill) {
+    StallWatch watch(shape, deadlines_.at(1) / 2, [&](const Standstill& standstill) {
       lines = standstill_lines(shape, standstill);
     });
     TracedRun run = finding.run;
@@ -221,8 +221,7 @@ class VerdictMaker {
     }
     tracer_.play(run, [&](Stepper& stepper, Status status, std::size_t tick) {
       if (status != Status::Running) return;
-      const Moment& moment =
-          moments.after_tick(stepper.ticker(), tick, static_cast<std::int64_t>(tick) * period_);
+      const Moment& moment = moments.after_tick(stepper.ticker(), tick, deadlines_.at(tick));
       watch.after_tick(moment);
       if (tick + 1 == run.size() && lines.empty()) lines = circle_of_a_pool(shape, moment);
     });
@@ -612,7 +611,7 @@ class VerdictMaker {
   const Graph &graph_, &cycles_;
   const VerdictOptions& options_;
   const std::vector<Holdable> held_;
-  const Nanoseconds period_;
+  const Deadlines deadlines_;
   Tracer tracer_;
   std::vector<bool> can_end_;
   std::map<std::size_t, HoldOfChild> holds_;  // by the first child of those that are alike

@@ -57,7 +57,7 @@ class Watcher final : public Observer {
 };
 
 void our_turn(const Tree& tree, Nanoseconds period, std::uint64_t ticks, Samples& samples) {
-  Run run(tree, {.period = period});
+  Run run(tree, {.rate = 1.0 / to_seconds(period)});
   WallClock clock;
   Watcher watcher(samples, period);
   Observer* const observers[] = {&watcher};

@@ -50,7 +50,7 @@ void verify(benchmark::State& state, const std::string& text, const std::string&
   double ticks = 0, states = 1, memory = 0, seconds = 0;
   for (auto _ : state) {
     const SearchResult found =
-        search(tree, models, {}, from_seconds(0.1),
+        search(tree, models, {}, 10,
                {.memory = std::size_t{4} << 30u, .jobs = jobs, .symmetry = equal == Equal::Once});
     const Verdict verdict = make_verdict(tree, models, {}, found, {});
     benchmark::DoNotOptimize(verdict.findings.data());

@@ -89,7 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto tree = load(text);
   if (!tree) return 0;
   for (const FaultPolicy policy : {FaultPolicy::Stop, FaultPolicy::Fail}) {
-    Run run(*tree, {.period = std::chrono::milliseconds(50), .on_fault = policy});
+    Run run(*tree, {.rate = 20, .on_fault = policy});
     const std::string first = play(run);
     run.restart(0);
     require(play(run) == first, "a restarted run is the run once more");

@@ -77,7 +77,7 @@ std::string play(Run& run) {
 void run_twice(const Tree& tree, FaultPolicy policy) {
   fuzz::take_events();
   {
-    Run run(tree, {.seed = 1, .period = std::chrono::milliseconds(50), .on_fault = policy});
+    Run run(tree, {.seed = 1, .rate = 20, .on_fault = policy});
     const std::string first = play(run);
     run.restart(1);
     const std::string second = play(run);

@@ -150,8 +150,8 @@ std::optional<std::size_t> count_by_search(const Tree& tree, double period) {
       diagnostics);
   const LeafModels models = make_models(tree, file.get(), diagnostics, problems);
   if (!problems.empty()) return std::nullopt;
-  const SearchResult found = search(tree, models, {}, from_seconds(period),
-                                    {.depth = std::uint32_t{kPast}, .symmetry = false});
+  const SearchResult found =
+      search(tree, models, {}, 1 / period, {.depth = std::uint32_t{kPast}, .symmetry = false});
   return found.faults.empty() ? std::optional(found.store.size()) : std::nullopt;
 }
 

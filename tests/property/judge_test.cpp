@@ -27,6 +27,7 @@ namespace {
 constexpr std::uint64_t kTrees = 2000;  // of each language
 constexpr std::size_t kProperties = 3;
 constexpr Nanoseconds kPeriod = from_seconds(kJudgedPeriod);
+constexpr double kRate = 1 / kJudgedPeriod;
 constexpr Nanoseconds kLongest = from_seconds(kJudgedLongest);
 
 // A reference interpreter, and its leaves.
@@ -232,7 +233,7 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed) {
   }
   // Each second tree with its rounds told apart from the first tick on.
   const SearchResult found =
-      search(tree, models, properties, kPeriod,
+      search(tree, models, properties, kRate,
              {.transitions = 200'000, .few_root_ticks = seed % 2 == 0 ? 0 : kFewRootTicks});
   Outcome outcome{.is_conclusive = true, .states = judgment.states};
   if (!judgment.broken.empty())

@@ -83,7 +83,7 @@ std::optional<Results> by_search(const Tree& tree, double period) {
   const LeafModels models = make_models(tree, file.get(), diagnostics, problems);
   if (!problems.empty()) return std::nullopt;
   const SearchResult found =
-      search(tree, models, {}, from_seconds(period), {.depth = std::uint32_t{kVerifyTicks}});
+      search(tree, models, {}, 1 / period, {.depth = std::uint32_t{kVerifyTicks}});
   if (!found.faults.empty()) return std::nullopt;
   CHECK_FALSE(found.broken);
   Results results;

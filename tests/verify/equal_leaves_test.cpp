@@ -87,7 +87,7 @@ TEST_CASE("equal leaves: of two that are held, the one counts that is held again
 
 TEST_CASE("equal leaves: where a run says so, they change places behind a tick") {
   const Verified it("Parallel(a b)", R"(<leaf path="*" ticks="2"/>)");
-  Tracer tracer(it.tree, it.models, {}, from_seconds(0.1), it.found);
+  Tracer tracer(it.tree, it.models, {}, 10, it.found);
   TracedPath traced = tracer.begin();
   const std::vector<GuidedStep> steps{{.step = {0, 0}, .swaps = {}, .after = {kLeft, kRight}}};
   tracer.go(traced, steps);
@@ -126,7 +126,7 @@ TEST_CASE("equal children: what one has shown holds for the others") {
       "ParallelAbsolute[barriers=.5](a b))",
       R"(<leaf path="*" progress="grid:4"/>)");
   REQUIRE_FALSE(it.found.symmetry.empty());
-  Stepper stepper(it.tree, it.models, {}, from_seconds(0.1), it.found.symmetry, true);
+  Stepper stepper(it.tree, it.models, {}, 10, it.found.symmetry, true);
   const StateBytes first = stepper.first_state();
   stepper.load(first, true);
   // Success, failure, or running with a progress: the leaves of the first child are apart.

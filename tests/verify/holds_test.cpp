@@ -19,7 +19,7 @@ class HoldWalks {
       : it_(it),
         held_(holdable(it.tree)),
         most_(held_.size()),
-        stepper_(it.tree, it.models, {}, from_seconds(1 / it.rate), kNone, false) {}
+        stepper_(it.tree, it.models, {}, it.rate, kNone, false) {}
 
   void walk(std::mt19937& random) {
     const Shape shape = shape_of(it_.tree);

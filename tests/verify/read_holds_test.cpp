@@ -22,9 +22,9 @@ std::optional<Contradiction> contradiction_of(const Tree& tree) {
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems;
   const LeafModels models = make_models(tree, nullptr, diagnostics, problems);
-  const Nanoseconds period = std::chrono::milliseconds(100);
-  const SearchResult found = search(tree, models, {}, period, {});
-  return find_contradiction(tree, models, {}, period, found, {.time = Nanoseconds::max()});
+  constexpr double kRate = 10;
+  const SearchResult found = search(tree, models, {}, kRate, {});
+  return find_contradiction(tree, models, {}, kRate, found, {.time = Nanoseconds::max()});
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ std::string said_by(const Verified& it) {
 // where it began, and is fair unless it is in a trap. A child that starves is held in all of it.
 void check_run(const Verified& it, const Finding& finding) {
   INFO(finding.name);
-  Tracer tracer(it.tree, it.models, it.properties, from_seconds(1 / it.rate), it.found);
+  Tracer tracer(it.tree, it.models, it.properties, it.rate, it.found);
   const TracedRun& run = finding.run;
   const std::size_t round = finding.repeats ? (run.size() - *finding.repeats) / 2 : 0;
   std::vector<bool> works(it.tree.leaves.size()), ends(works.size());

@@ -48,7 +48,7 @@ Verified::Verified(std::string_view text, std::string_view rows, const SearchLim
       properties(properties_of(tree, rows, texts)),
       models(models_of(tree, rows, properties)),
       rate(of_rate),
-      found(search(tree, models, properties, from_seconds(1 / rate), limits)),
+      found(search(tree, models, properties, rate, limits)),
       verdict(make_verdict(tree, models, properties, found, {.rate = rate})) {}
 
 const Finding* Verified::finding(std::string_view name) const {
@@ -68,7 +68,7 @@ std::string Verified::findings() const {
 }
 
 std::string Verified::script(std::string_view name) const {
-  Tracer tracer(tree, models, properties, from_seconds(1 / rate), found);
+  Tracer tracer(tree, models, properties, rate, found);
   LeafScripts scripts = tracer.scripts(finding(name)->run);
   scripts.ticks.reset();
   return to_text(scripts);

@@ -208,7 +208,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   RunOptions run_options() {
     return {.seed = options_.seed,
-            .period = deadline_of(1, options_.rate),
+            .rate = options_.rate,
             .log = leaf_log(),
             .on_fault = options_.on_fault,
             .exactly_once = options_.exactly_once,

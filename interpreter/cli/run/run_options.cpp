@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/deadlines.h"
 #include "cli/checks.h"
 #include "cli/help_text.h"
 #include "cli/load/given_leaves.h"
 #include "cli/load/tree_argument.h"
 #include "cli/run/rotation.h"
-#include "run/deadlines.h"
 #include "run/stop_signals.h"
 
 namespace lockstep::host {

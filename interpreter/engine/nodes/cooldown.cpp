@@ -16,7 +16,7 @@ struct CooldownState {
 };
 
 bool cools(NodeContext& context, NodeIndex self, const CooldownState& state) {
-  const Nanoseconds passed = context.now() - state.completed;
+  const Nanoseconds passed = context.passed(state.completed);
   return state.cools && passed < from_seconds(context.parameter(self, timed::kSeconds).number);
 }
 
@@ -32,7 +32,7 @@ void fold_cooldown(NodeContext& context, NodeIndex self) {
   CooldownState& state = context.state<CooldownState>(self);
   const bool is_over = context.parameters().are_constant(self) && !cools(context, self, state);
   if (!state.cools || is_over) return fold::dead(context, self);
-  state.completed -= context.now();
+  state.completed = -context.passed(state.completed);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ Status result_of(NodeContext& context, NodeIndex self) {
 
 Status tick_mock_action(NodeContext& context, NodeIndex self) {
   timed::count(context, self);
-  const Nanoseconds counted = context.now() - context.state<timed::State>(self).start;
+  const Nanoseconds counted = context.passed(context.state<timed::State>(self).start);
   const bool is_over = counted >= from_seconds(mock_of(context, self).seconds);
   return is_over ? result_of(context, self) : Status::Running;
 }
@@ -49,11 +49,8 @@ void fold_mock_action(NodeContext& context, NodeIndex self) {
 }
 
 double action_progress(NodeContext& context, NodeIndex self) {
-  const auto& state = context.state<timed::State>(self);
-  const bool paused = context.activity(self) == Activity::Paused;
-  const Nanoseconds counted = (paused ? state.paused_at : context.now()) - state.start;
   const double seconds = mock_of(context, self).seconds;
-  return seconds > 0 ? std::min(1.0, to_seconds(counted) / seconds) : 1.0;
+  return seconds > 0 ? std::min(1.0, to_seconds(timed::counted(context, self)) / seconds) : 1.0;
 }
 
 Status tick_mock_condition(NodeContext& context, NodeIndex self) {

@@ -32,7 +32,7 @@ void fold_rate(NodeContext& context, NodeIndex self) {
   RateState& state = context.state<RateState>(self);
   const bool is_over = context.parameters().are_constant(self) && timed::is_over(context, self);
   if (!is_complete(state.result) || is_over) return fold::dead(context, self);
-  state.time = {.start = state.time.start - context.now(), .paused_at = Nanoseconds(0)};
+  state.time = {.start = -context.passed(state.time.start), .paused_at = Nanoseconds(0)};
 }
 
 }  // namespace

@@ -47,9 +47,16 @@ inline void count(NodeContext& context, NodeIndex self) {
   if (context.activity(self) == Activity::Paused) state.start += context.now() - state.paused_at;
 }
 
+// In this tick; also for a node that is held.
+inline Nanoseconds counted(NodeContext& context, NodeIndex self) {
+  const State& state = context.state<State>(self);
+  const bool is_paused = context.activity(self) == Activity::Paused;
+  return context.passed(state.start, is_paused ? state.paused_at : context.now());
+}
+
 inline bool is_over(NodeContext& context, NodeIndex self) {
-  const Nanoseconds counted = context.now() - context.state<State>(self).start;
-  return counted >= from_seconds(context.parameter(self, kSeconds).number);
+  return context.passed(context.state<State>(self).start) >=
+         from_seconds(context.parameter(self, kSeconds).number);
 }
 
 // Makes the times of a running node relative to now. If no entry changes what is counted, it is at
@@ -59,12 +66,14 @@ inline void count_from_now(NodeContext& context, NodeIndex self, bool stands_whi
   State& state = context.state<State>(self);
   const bool is_paused = context.activity(self) == Activity::Paused;
   if (!context.parameters().are_constant(self)) {
-    state.start -= context.now();
-    state.paused_at = is_paused ? state.paused_at - context.now() : Nanoseconds(0);
+    state.start = -context.passed(state.start);
+    state.paused_at = is_paused ? -context.passed(state.paused_at) : Nanoseconds(0);
     return;
   }
   const Nanoseconds until = is_paused && stands_while_held ? state.paused_at : context.now();
-  state = {.start = -std::min(until - state.start, limit), .paused_at = Nanoseconds(0)};
+  const Nanoseconds most = context.deadlines().at_least(limit);
+  state = {.start = -std::min(context.passed(state.start, until), most),
+           .paused_at = Nanoseconds(0)};
 }
 
 // For Wait.

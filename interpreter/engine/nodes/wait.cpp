@@ -20,10 +20,8 @@ Status tick_wait(NodeContext& context, NodeIndex self) {
 }
 
 double progress_of_wait(NodeContext& context, NodeIndex self) {
-  const auto& state = context.state<timed::State>(self);
-  const bool paused = context.activity(self) == Activity::Paused;
-  const Nanoseconds elapsed = (paused ? state.paused_at : context.now()) - state.start;
-  return std::min(1.0, to_seconds(elapsed) / to_seconds(duration(context, self)));
+  return std::min(1.0,
+                  to_seconds(timed::counted(context, self)) / to_seconds(duration(context, self)));
 }
 
 }  // namespace

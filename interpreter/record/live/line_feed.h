@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "base/core/deadlines.h"
 #include "base/system/bell.h"
 #include "record/live/event_counts.h"
 #include "record/live/packet_ring.h"
 #include "record/live/run_packets.h"
-#include "run/deadlines.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {

@@ -49,7 +49,7 @@ Outcome outcome(const RunEnd& end, std::span<const double> values) {
 Outcome looped(const StudyCell& cell, std::span<const MeasureSpec> measures, int (*stop)()) {
   begin_run();
   RunMeasures measured(shape_of(cell.tree), measures, cell.rate);
-  Run run(cell.tree, {.period = deadline_of(1, cell.rate), .virtual_time = true});
+  Run run(cell.tree, {.rate = cell.rate, .virtual_time = true});
   VirtualClock clock;
   Observer* const observers[] = {&measured};
   const LoopOptions options{

@@ -181,15 +181,14 @@ class VerifyCommand {
       const SearchLimits limited = limits(line);
       if (options_.time) options.until = began + from_seconds(*options_.time);
       options.memory = limited.memory;
-      return search(runnable.tree, models, properties_, from_seconds(1 / rate), limited);
+      return search(runnable.tree, models, properties_, rate, limited);
     }();
     Verdict verdict = make_verdict(runnable.tree, models, properties_, found, options);
     if (verdict.is_cut && found.is_complete()) found.end = SearchEnd::Time;
     if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{found, verdict, options_.tree, options_.leaves,
                         runnable.tree.leaves.size()};
-    const Nanoseconds period = from_seconds(1 / rate);
-    Tracer tracer(runnable.tree, models, properties_, period, found);
+    Tracer tracer(runnable.tree, models, properties_, rate, found);
     ChanceLimits chance = usual_chance(found);
     chance.stop_signal = StopSignals::received;
     if (options.until) {
@@ -198,7 +197,7 @@ class VerifyCommand {
       chance.time = std::min(chance.time, std::max(Nanoseconds(0), left));
     }
     if (const auto wrong =
-            find_contradiction(runnable.tree, models, properties_, period, found, chance)) {
+            find_contradiction(runnable.tree, models, properties_, rate, found, chance)) {
       report.internal_error = to_text(*wrong);
     }
     // A verdict may have taken long, so it is printed also where its files cannot be written.

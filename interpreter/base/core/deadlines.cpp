@@ -1,4 +1,4 @@
-#include "run/deadlines.h"
+#include "base/core/deadlines.h"
 
 #include <cmath>
 
@@ -7,11 +7,18 @@ namespace lockstep::host {
 Deadlines::Deadlines(double rate) : rate_(rate) {
   const double period = 1e9 / rate;
   const bool is_whole = period == std::floor(period) && std::fma(period, rate, -1e9) == 0;
-  if (is_whole) period_ = static_cast<std::uint64_t>(period);
+  period_ = is_whole ? static_cast<std::uint64_t>(period) : 0;
 }
 
 Nanoseconds Deadlines::divided(std::uint64_t k) const {
   return deadline_of(k, rate_);
+}
+
+Nanoseconds Deadlines::whole_periods(Nanoseconds time) const {
+  constexpr Nanoseconds kRoundings = std::chrono::microseconds(1);  // of many times
+  if (time < Nanoseconds(0)) return time;
+  const Nanoseconds whole = divided(static_cast<std::uint64_t>(to_seconds(time) * rate_ + 0.5));
+  return std::chrono::abs(whole - time) <= kRoundings ? whole : time;
 }
 
 std::uint64_t Deadlines::first_from(Nanoseconds time) const {
