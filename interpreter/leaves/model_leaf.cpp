@@ -188,15 +188,18 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
   while_held = reaches(model, model.least_drift, model.most_drift, end);
 }
 
-// From one step to another it may come to all levels on the way.
+// From one step to another it may come to all levels on the way. No step is so long that it has to
+// leave the last level of the tree for one that only a property tells apart.
 std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std::int64_t least,
                                                      std::int64_t most, std::int32_t last_level) {
   const std::vector<std::int32_t>& steps = model.steps;
   const auto usable = std::span(steps).first(static_cast<std::size_t>(last_level) + 1);
   const bool must_finish = model.finishes_full && model.has_progress;
+  const bool is_short = must_finish && last_level + 1 < static_cast<std::int32_t>(steps.size());
+  const auto last_step = std::min(model.last_step, is_short ? model.goal - 1 : usable.back());
   std::vector<Reach> reaches;
   for (std::size_t level = 0; level < steps.size(); ++level) {
-    const std::int64_t from = std::clamp<std::int64_t>(steps[level] + least, 0, usable.back());
+    const std::int64_t from = std::clamp<std::int64_t>(steps[level] + least, 0, last_step);
     const std::int64_t to = std::clamp<std::int64_t>(steps[level] + most, from, usable.back());
     auto first = static_cast<std::int32_t>(std::ranges::lower_bound(usable, from) - usable.begin());
     const auto behind =

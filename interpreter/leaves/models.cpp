@@ -384,6 +384,7 @@ class ModelMaker {
     model.steps.clear();
     for (const double level : model.levels) model.steps.push_back(steps_to(level));
     model.goal = steps_to(1);
+    model.last_step = static_cast<std::int32_t>(steps.size()) - 1;
   }
 
   void find_levels(std::size_t leaf, const Cuts& cuts) {

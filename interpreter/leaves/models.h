@@ -30,7 +30,8 @@ struct LeafModel {
   // Of each level: the steps from 0 to it. One that only a property tells apart is as far as the
   // next one that is not.
   std::vector<std::int32_t> steps{0};
-  std::int32_t goal = 1;  // as many steps: at 1, or behind all
+  std::int32_t goal = 1;       // as many steps: at 1, or behind all
+  std::int32_t last_step = 0;  // of a level that not only a property tells apart
   bool has_progress = false;
   std::uint32_t parts = 0;  // of a grid; 0: the levels are cuts
   std::int64_t least_step = 0, most_step = 0;

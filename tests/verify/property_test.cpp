@@ -46,6 +46,10 @@ const Row kRows[] = {
       <leaf path="*/b" result="success" progress="grid:4" step="1" finish="full"/>)", "4"},
   {"b.progress >= 0.5 only after b.progress >= 0.2 and b.progress < 0.5", kArms,
    R"(<leaf path="*" finish="full" step="0..1"/>)", "2"},
+  // A run, which does not know the property, stays at the last level of the tree.
+  {"never a.idle and a.progress == 0", "Timeout[seconds=0.1](a)", R"(<leaf path="*/a" step="1..2"/>)", "2"},
+  {"never a.progress > 0.2 and a.progress < 0.7 and a.ticked and b.progress > 0.7", kArms,
+   R"(<leaf path="*" finish="full" step="1" result="success" ticks="4"/>)", "3"},
   // The progress of a node needs the parameters that it has read, also before it reads them again.
   // A hold of the tick before is none of a tick that then reaches the node.
   {"ForceSuccess.held at most 1 ticks", "ParallelAbsolute[failure_count=1 barriers=1](Parallel[success_count=2 "
