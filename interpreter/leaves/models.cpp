@@ -322,6 +322,9 @@ class ModelMaker {
       if (slot == PortBinding::kUnbound || is_in_script(slot)) continue;
       std::vector<double>& all = known[slot];
       add(tree_.slots[slot].initial, all);
+      for (const auto& [written, value] : observed_.written) {
+        if (written == slot) add(value, all);
+      }
       for (const LeafModel& model : models_.leaves) {
         for (const auto& output : model.outputs) {
           if (output.slot != slot) continue;

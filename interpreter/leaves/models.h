@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/tree.h"
@@ -75,14 +76,16 @@ struct LeafModels {
   std::vector<std::string> declared;
 };
 
-// The progress and entries that somebody looks at beside the tree itself.
+// The progress and entries that somebody looks at beside the tree itself, and the values that
+// somebody writes while it runs.
 struct Observed {
   struct Progress {
     NodeIndex node;
     double constant;
   };
-  std::vector<Progress> progress = {};      // compared with constants
-  std::vector<std::uint32_t> entries = {};  // by slot
+  std::vector<Progress> progress = {};                        // compared with constants
+  std::vector<std::uint32_t> entries = {};                    // by slot
+  std::vector<std::pair<std::uint32_t, Value>> written = {};  // the same
 };
 
 // A node of the tree with a mistake.

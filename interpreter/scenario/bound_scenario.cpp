@@ -78,8 +78,8 @@ class ScenarioBinder {
     if (file != nullptr && file->rate && !scenario_.is_rate_given) bound_.rate = *file->rate;
     bound_.bindings =
         bind_leaves(scenario_, tree_, fixture_.definition(), file != nullptr, missing_, report_);
-    if (file != nullptr) add_models(*file);
     for (const SetEntry& it : scenario_.changes) add_change(it);
+    if (file != nullptr) add_models(*file);
     for (const Expectation& it : scenario_.expectations) add_expectation(it);
     return std::move(bound_);
   }
@@ -87,7 +87,11 @@ class ScenarioBinder {
  private:
   void add_models(const LeafFile& file) {
     std::vector<NodeProblem> problems;
-    auto models = std::make_shared<LeafModels>(make_models(tree_, &file, diagnostics_, problems));
+    Observed observed;
+    for (const PreparedChange& it : bound_.changes)
+      observed.written.emplace_back(it.slot, it.value);
+    auto models =
+        std::make_shared<LeafModels>(make_models(tree_, &file, diagnostics_, problems, observed));
     const auto& without = bound_.bindings.without_row;
     for (const NodeProblem& it : problems) {
       if (std::ranges::find(without, it.node) == without.end()) continue;

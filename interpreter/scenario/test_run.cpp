@@ -95,16 +95,16 @@ TestRun::LoadedFixture& TestRun::fixture(const Fixture::Key& key) {
 }
 
 // Values declare entries, as `--set` does; one that comes later is unset before. Most trees need
-// none, so that scenarios with different values share a fixture.
+// none, so that scenarios with different values share a fixture. What leaf models do depends on
+// them.
 void TestRun::load_stage(Part& part) {
   Fixture::Key key = Fixture::key_of(*part.scenario);
-  const LoadedFixture* found = &fixture(key);
-  if (found->fixture == nullptr) {
+  const bool needs_values = part.scenario->is_verified || !part.scenario->leaves.empty();
+  if (needs_values || fixture(key).fixture == nullptr) {
     key.values = Fixture::start_values(*part.scenario);
     key.later = Fixture::later_values(*part.scenario);
-    found = &fixture(key);
   }
-  const LoadedFixture& loaded = *found;
+  const LoadedFixture& loaded = fixture(key);
   part.fixture = loaded.fixture;
   part.errors = loaded.errors;
   part.failure = loaded.failure;

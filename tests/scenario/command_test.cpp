@@ -185,6 +185,26 @@ TEST_CASE("a value before the first tick declares an entry, as --set does") {
   }
 }
 
+TEST_CASE("the leaves of a leaf model know the barriers that <set> gives, as those of --set") {
+  const std::string tree = R"(<root lockstep="1"><BehaviorTree ID="T">
+<ParallelAbsolute barriers="{bl}"><Action ID="A" name="a"/><Action ID="A" name="b"/>
+</ParallelAbsolute></BehaviorTree></root>)";
+  const std::string set = R"(<set key="bl" value="0.5"/>)";
+  const Folder folder(R"(<scenario name="s" leaves="m.xml" runs="20">)" + set +
+                          R"(<expect result="success" ticks="3"/></scenario>)",
+                      tree);
+  static_cast<void>(folder.directory().file(
+      "m.xml",
+      R"(<leaves lockstep="1"><leaf path="*" result="success" finish="full" step="1"/></leaves>)"));
+  const Outcome played = folder.test();
+  CHECK(played.code == 0);
+  INFO(played.out << played.err);
+  static_cast<void>(folder.directory().file(
+      "t.test.xml", scenarios(set + R"(<scenario name="v" leaves="m.xml" verify="yes">
+<expect>never a.success and a.progress == 0</expect></scenario>)")));
+  CHECK(folder.test().code == 0);
+}
+
 TEST_CASE("a value in a later tick declares an entry, which is unset before") {
   constexpr auto kEntry = R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
 <Wait seconds="0.2"/><Wait seconds="0.2" skip_if="k &gt; 2"/><Script code="m := k"/></Sequence>
