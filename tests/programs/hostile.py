@@ -69,6 +69,10 @@ def error(number):
     say(leaf=number, error="the driver is gone")
 
 
+def empty_error(number):
+    say(leaf=number, error="")
+
+
 def own_error(number):
     say(error="the bus is gone")
 

@@ -110,6 +110,7 @@ const ProgramMisdeed kProgramMisdeeds[] = {
     {"silent", "did not answer", "2"},
     {"error", "Misbehave of plugin 'hostile'"},
     {"error", "the driver is gone"},
+    {"empty_error", "unknown error"},
     {"own_error", "has reported: the bus is gone"},
     {"wrong_type", "set 'width', a port of type double, to another type"},
     {"no_port", "set 'depth', which is not one of its ports"},

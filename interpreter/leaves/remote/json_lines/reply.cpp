@@ -59,6 +59,7 @@ void read_fields(JsonObject object, Reply& reply) {
                {"error",
                 [&](JsonValue it) {
                   reply.text = it.text();
+                  if (reply.text.empty()) reply.text = "unknown error";
                   is(Reply::What::Error);
                 },
                 kMayLack}});
