@@ -75,7 +75,7 @@ class Loop {
       return stop(StopReason::Property);
     }
     if (options_.max_ticks && end_.ticks >= *options_.max_ticks) return stop(StopReason::MaxTicks);
-    if (options_.timeout && clock_.now() - begun_ >= *options_.timeout) {
+    if (clock_.now() - begun_ >= std::min(options_.timeout.value_or(kLongestRun), kLongestRun)) {
       return stop(StopReason::Timeout);
     }
     if (options_.control != nullptr && options_.control->is_halted()) {

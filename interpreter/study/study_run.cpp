@@ -1,5 +1,7 @@
 #include "study/study_run.h"
 
+#include <algorithm>
+
 #include "base/system/own_thread.h"
 #include "run/shape_of.h"
 
@@ -9,7 +11,7 @@ StudyRun::StudyRun(const StudyCell& cell, std::span<const MeasureSpec> measures,
                    std::uint64_t max_ticks, int (*stop_signal)())
     : cell_(cell),
       deadlines_(cell.rate),
-      max_ticks_(max_ticks),
+      max_ticks_(std::min(max_ticks, deadlines_.first_from(kLongestRun))),
       stop_signal_(stop_signal),
       measures_(shape_of(cell.tree), measures, cell.rate),
       moments_(cell.tree, measures_.asked()) {}

@@ -9,6 +9,9 @@
 
 namespace lockstep::host {
 
+// After it no tick comes: all times of a run fit 64 bits.
+inline constexpr Nanoseconds kLongestRun = std::chrono::seconds(9'000'000'000);
+
 Nanoseconds deadline_of(std::uint64_t k, double rate);
 
 // deadline_of at one rate.

@@ -321,6 +321,17 @@ TEST_CASE("on a virtual clock nothing is late and no tick is the worst") {
   CHECK(end.worst.took == Nanoseconds(0));
 }
 
+TEST_CASE("a run ends before its time is too long for 64 bits") {
+  Fixture fixture;
+  VirtualClock clock;
+  LoopOptions options = options_at(1, 20'000, OverrunPolicy::Fail);
+  options.rate = 1e-6;
+  Run run(fixture.timed.tree, {.rate = options.rate});
+  const RunEnd end = run_loop(run, clock, options, {});
+  CHECK(end.reason == StopReason::Timeout);
+  CHECK(end.time == kLongestRun);
+}
+
 TEST_CASE("an exception that nobody expected halts the running leaves on its way") {
   struct Throwing final : Observer {
     void after_tick(const Moment&, const TickReport& report) override {
