@@ -35,8 +35,10 @@ class WordMaker {
     for (const ShapeEntry& key : header.entries) {
       auto& of_key = writers_.emplace_back();
       auto& by_script = setters_.emplace_back();
+      std::string& initial = initial_.emplace_back();
       const auto slot = std::ranges::find(tree.slots, key.key, &Slot::name);
       if (slot == tree.slots.end()) continue;
+      initial = to_text(slot->initial);
       for (const NodeIndex node : writers_of[static_cast<std::size_t>(slot - tree.slots.begin())]) {
         const auto at = recorded.find(tree.path(node));
         if (at == recorded.end()) continue;
@@ -60,7 +62,7 @@ class WordMaker {
     }
     for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) {
-      if (!entry.value || is_of_tree(tick, entry.entry)) continue;
+      if (!entry.value || is_of_tree(tick, entry)) continue;
       const std::string& key = header_.entries[entry.entry].key;
       if (tick.tick == 0 && header_.values.contains(key)) continue;
       words_.changes.push_back({key, *entry.value, tick.tick});
@@ -90,9 +92,10 @@ class WordMaker {
 
  private:
   // Nodes and scripts of the tree write it. The first values may be from elsewhere.
-  bool is_of_tree(const RecordedTick& tick, std::size_t entry) const {
-    const auto& writers = writers_[entry];
+  bool is_of_tree(const RecordedTick& tick, const RecordedEntry& entry) const {
+    const auto& writers = writers_[entry.entry];
     if (tick.tick > 0) return !writers.empty();
+    if (entry.value == initial_[entry.entry]) return true;
     return std::ranges::any_of(writers, [&](NodeIndex it) { return tick.nodes[it].ticked; });
   }
 
@@ -225,6 +228,7 @@ class WordMaker {
   };
   std::vector<std::vector<Setter>> setters_;  // of each entry
   std::set<Lacks> noted_;
+  std::vector<std::string> initial_;  // of each entry: what the tree gives it
 };
 
 }  // namespace

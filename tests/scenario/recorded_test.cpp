@@ -88,6 +88,15 @@ TEST_CASE(
   CHECK_FALSE(contains(never_runs, R"(c" does="R)"));
 }
 
+TEST_CASE("what the tree itself gives an entry is not in the scenario of a recording") {
+  const std::string text =
+      scenario_of({.nodes = R"(<SubTree ID="S" name="s" limit="1"/></BehaviorTree>
+<BehaviorTree ID="S"><Check code="limit == 1"/>)",
+                   .leaves = "",
+                   .root = R"(lockstep="1" main_tree_to_execute="T")"});
+  CHECK_FALSE(contains(text, "<set"));
+}
+
 TEST_CASE("a fault that has ended the run is one of its leaf in the scenario") {
   const std::string text =
       scenario_of({R"(<Sequence memory="true"><Advance name="x"/><Advance name="y"/></Sequence>)",
