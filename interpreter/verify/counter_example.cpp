@@ -118,6 +118,7 @@ Result<CounterExample> write_counter_example(const Tree& tree, const Finding& fi
   std::string error = record(tree, scripts, files.recording, finding, confirmation, options);
   if (!error.empty()) return problem(std::move(error));
   files.contradiction = confirmation.wrong();
+  files.scripts = std::move(scripts);
   return files;
 }
 

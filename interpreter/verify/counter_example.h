@@ -12,6 +12,7 @@ namespace lockstep::host {
 
 struct CounterExample {
   std::string recording, leaves;  // their names
+  LeafScripts scripts = {};       // what the second one has
   // What the run of the recording does otherwise than the search, which is a bug in lockstep.
   std::string contradiction = {};
 };

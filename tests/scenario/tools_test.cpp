@@ -37,6 +37,19 @@ TEST_CASE("a counter-example of verify becomes a scenario that fails until the t
   CHECK(good.code == 0);
 }
 
+TEST_CASE("a counter-example has the results of leaves beside those of scripts around them") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="Main">
+<Sequence memory="true"><Script code="f := false"/><Action ID="A" name="a" failure_if="f"/></Sequence>
+</BehaviorTree></root>)");
+  const std::string file = directory.path("t.test.xml");
+  const Outcome verified = run_lockstep({"verify", tree, "--mock", "--property", "never a.failure",
+                                         "--out", directory.path("found"), "--save", file});
+  INFO(verified.out << verified.err << read_file(file));
+  CHECK(verified.code == 1);
+  CHECK(run_lockstep({"test", file, "--out", directory.path("failed")}).code == 1);
+}
+
 TEST_CASE("a recording becomes a scenario in which scripts write what they write") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>

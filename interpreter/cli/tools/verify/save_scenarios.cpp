@@ -31,11 +31,13 @@ bool save_scenarios(const std::string& path, const VerifyReport& report, const T
   for (const Finding& finding : report.verdict.findings) {
     const auto files = report.files.find(finding.name);
     if (files == report.files.end()) continue;
-    const RecordedWords words = read_recorded_words(files->second.recording, tree);
+    RecordedWords words = read_recorded_words(files->second.recording, tree);
     if (!words.outcome.error.empty()) {
       print_error("--save: " + words.outcome.error);
       return false;
     }
+    // A recording does not tell the result of a leaf from that of a script around it.
+    words.leaves = files->second.scripts.leaves;
     scenarios += to_text(words, text_of(finding, properties, tree));
   }
   if (scenarios.empty()) return true;
