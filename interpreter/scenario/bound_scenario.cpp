@@ -189,6 +189,12 @@ class ScenarioBinder {
     const Measuring measuring(shape_of(tree_), specs);
     if (!measuring.error().empty())
       return report_.at_value("bad-scenario"_code, it.place, measuring.error());
+    if (measuring.columns().empty() && !it.is_for_all) {
+      return report_.at_value(
+          "bad-scenario"_code, it.place,
+          fmt::format("the tree has nothing of which '{}' is a measure", text.measure),
+          "expect it of a tree with a parallel");
+    }
     bound_.limits.push_back(
         {std::move(*measure), *relation, *number, std::string(trimmed(it.texts[0])), &it});
   }

@@ -205,6 +205,15 @@ TEST_CASE("the leaves of a leaf model know the barriers that <set> gives, as tho
   CHECK(folder.test().code == 0);
 }
 
+TEST_CASE("a limit of a measure of nothing is a mistake") {
+  const Folder folder(
+      R"(<scenario name="s"><expect>spread &lt; -1</expect></scenario>)",
+      R"(<root lockstep="1"><BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>)");
+  const Outcome outcome = folder.test();
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "the tree has nothing of which 'spread' is a measure"));
+}
+
 TEST_CASE("a value in a later tick declares an entry, which is unset before") {
   constexpr auto kEntry = R"(<root lockstep="1"><BehaviorTree ID="T"><Sequence memory="true">
 <Wait seconds="0.2"/><Wait seconds="0.2" skip_if="k &gt; 2"/><Script code="m := k"/></Sequence>
