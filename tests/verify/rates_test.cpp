@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/core/random.h"
+#include "dialect/btcpp/rules.h"
 #include "run/loop.h"
 #include "run/run.h"
 #include "support/tree_text.h"
@@ -75,6 +76,25 @@ TEST_CASE("verify has the ticks of a run at each rate") {
         }
         CHECK_FALSE(
             find_contradiction(it.tree, it.models, it.properties, rate, it.found, {.runs = 2}));
+      }
+    }
+  }
+}
+
+TEST_CASE("verify has the ticks of a run at each rate with the nodes of BehaviorTree.CPP") {
+  constexpr const char* kTheirs[] = {"Sequence(Sleep[msec={}])",
+                                     "Sequence(Delay[delay_msec={}](AlwaysSuccess))",
+                                     "Sequence(Timeout[msec={}](Sleep[msec=2000]))"};
+  for (const double rate : kRates) {
+    for (const int time : {100, 333, 700}) {
+      for (const char* const text : kTheirs) {
+        const std::string tree = fmt::format(fmt::runtime(text), time);
+        const Verified it(tree, "", {}, rate, {}, btcpp::kRules);
+        INFO(rate << " Hz: " << tree);
+        const RunEnd end = run_of(it.tree, rate);
+        const auto& found = it.found.results[index_of(end.status)];
+        REQUIRE(found.has_value());
+        CHECK(found->ticks == end.ticks);
       }
     }
   }

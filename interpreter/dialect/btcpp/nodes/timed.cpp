@@ -39,7 +39,7 @@ struct TimedState {
 
 Nanoseconds begin(NodeContext& context, TimedState& state) {
   if (!state.started) state = {context.now(), true, false};
-  return context.now() - state.start;
+  return context.passed(state.start);
 }
 
 void forget_timed(NodeContext& context, NodeIndex self) {
@@ -48,9 +48,10 @@ void forget_timed(NodeContext& context, NodeIndex self) {
 
 // A start relative to now. If no entry changes the time, at most that has passed.
 Nanoseconds folded(NodeContext& context, NodeIndex self, Nanoseconds start) {
-  const Nanoseconds passed = context.now() - start;
+  const Nanoseconds passed = context.passed(start);
   const bool is_constant = context.parameters().are_constant(self);
-  return -(is_constant ? std::min(passed, time_of(context, self)) : passed);
+  if (!is_constant) return -passed;
+  return -std::min(passed, context.deadlines().at_least(time_of(context, self)));
 }
 
 void fold_sleep(NodeContext& context, NodeIndex self) {
@@ -69,11 +70,11 @@ void fold_timed(NodeContext& context, NodeIndex self) {
 Status tick_sleep(NodeContext& context, NodeIndex self) {
   Nanoseconds& start = context.state<TimedState>(self).start;
   if (context.first_tick(self)) start = context.now();
-  return context.now() - start >= time_of(context, self) ? Status::Success : Status::Running;
+  return context.passed(start) >= time_of(context, self) ? Status::Success : Status::Running;
 }
 
 double progress_of_sleep(NodeContext& context, NodeIndex self) {
-  const Nanoseconds elapsed = context.now() - context.state<TimedState>(self).start;
+  const Nanoseconds elapsed = context.passed(context.state<TimedState>(self).start);
   return std::min(1.0, to_seconds(elapsed) / to_seconds(time_of(context, self)));
 }
 
