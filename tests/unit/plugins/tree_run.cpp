@@ -38,7 +38,7 @@ TreeRunner::TreeRunner(const std::string& plugin, const std::string& nodes) {
 TreeRunEnd TreeRunner::run(const TreeRunOptions& options) const {
   TreeRunEnd end;
   const Nanoseconds period = from_seconds(1 / options.rate);
-  Run run(tree_, {options.seed, period,
+  Run run(tree_, {options.seed, options.rate,
                   [&end](std::string_view, lockstep_log_level, std::string_view message) {
                     end.log.emplace_back(message);
                   }});
