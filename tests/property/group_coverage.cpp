@@ -104,7 +104,6 @@ constexpr std::array kSeldomSeen{
     "a member keeps its resources while a parallel holds it",
     "a member keeps its resources behind a closed gate",
     "a member keeps its resources when its entry has others",
-    "a member keeps what it has and is denied",
     "a member exchanges its resources",
     "a member chooses again what it had",
     "a member chooses the first that is free",

@@ -156,12 +156,18 @@ std::string leaves_text(const Plan& plan) {
   return text;
 }
 
+// Such as r:='any(A;B)': it reads nothing.
+static bool is_assignment(const std::string& script) {
+  return script.find(":=") != std::string::npos;
+}
+
 std::vector<std::string> readings_in(const Plan& plan) {
   std::vector<std::string> scripts{plan.code}, found;
   for (const auto& [attribute, script] : plan.hooks) scripts.push_back(script);
   for (const std::string& script : scripts) {
     const auto close = script.find(')');
-    if (close != std::string::npos) found.push_back(script.substr(0, close + 1));
+    if (close != std::string::npos && !is_assignment(script))
+      found.push_back(script.substr(0, close + 1));
   }
   return found;
 }
@@ -184,7 +190,7 @@ void collect_readable(const Plan& plan, const GroupNames& names, std::set<std::s
 void replace_readings(Plan& plan, const std::set<std::string>& readable) {
   const auto repair = [&](std::string& script) {
     const auto open = script.find('('), close = script.find(')');
-    if (close == std::string::npos) return;
+    if (close == std::string::npos || is_assignment(script)) return;
     if (!readable.contains(script.substr(open + 1, close - open - 1))) script = "1>0";
   };
   repair(plan.code);

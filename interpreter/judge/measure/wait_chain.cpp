@@ -20,12 +20,17 @@ void for_each_named(const Shape& shape, NodeIndex node, Visit visit) {
   for (const NodeIndex child : shape.nodes[node].held()) visit(is_group ? child - 1 : child);
 }
 
+// By a member that keeps what it owns: from others it gets it in one of the next ticks.
+bool is_denied(const Shape& shape, const Moment& moment, NodeIndex user) {
+  return waits(moment.limit(user)) && !lasting_owners(shape, moment, user).empty();
+}
+
 std::optional<NodeIndex> first_held(const Shape& shape, const Moment& moment, NodeIndex node) {
   const ShapeNode& it = shape.nodes[node];
   for (const NodeIndex child : it.held()) {
     const NodeIndex named = it.is_group() ? child - 1 : child;
     const bool is_held = !it.is_group() ? moment.held(named)
-                         : it.is_pool() ? waits(moment.limit(named))
+                         : it.is_pool() ? is_denied(shape, moment, named)
                                         : moment.status(named) == Status::Running &&
                                               moment.live->is_held_at_barrier(named);
     if (is_held) return named;
