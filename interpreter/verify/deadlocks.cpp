@@ -4,8 +4,8 @@
 #include <numeric>
 #include <set>
 
-#include "run/live_moments.h"
 #include "engine/resources.h"
+#include "run/live_moments.h"
 #include "verify/components.h"
 #include "verify/trace.h"
 

@@ -30,7 +30,9 @@ class FixedConditions {
  public:
   FixedConditions(const Tree& tree, const LeafModels& models) : tree_(tree) {
     for (NodeIndex node = 0; node < tree.nodes[0].end; ++node) {
-      if (tree.labels[node].type->category == NodeCategory::Condition) add_condition(node, models);
+      const NodeType& type = *tree.labels[node].type;
+      if (type.category == NodeCategory::Condition) add_condition(node, models);
+      if (type.category == NodeCategory::Action && type.can_run) add_waiting(node);
     }
     for (const HookedNode& it : tree.hooked) {
       for (const Hook hook : {Hook::SkipIf, Hook::While}) add_hook(it, hook);
@@ -77,14 +79,30 @@ class FixedConditions {
         const bool is_read = type.parameters[i].direction != Direction::Output;
         if (is_read && slot != PortBinding::kUnbound) it.slots.insert(slot);
       }
-    } else if (type.mock == nullptr && !type.reads_ports) {
-      for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
-        if (!type.parameters[i].is_script) continue;
-        const std::int64_t script = tree_.cells[tree_.nodes[node].params + i].integer;
-        add_script(static_cast<std::uint32_t>(script), it);
-      }
+    } else {
+      add_scripts_of(node, it);
     }
     add(std::move(it));
+  }
+
+  // An action that runs until its script is true.
+  void add_waiting(NodeIndex node) {
+    Decider it{node, Status::Running, "waits indefinitely: {}"};
+    if (add_scripts_of(node, it)) add(std::move(it));
+  }
+
+  // Those that are parameters of a built-in node. False: there are none.
+  bool add_scripts_of(NodeIndex node, Decider& it) const {
+    const NodeType& type = *tree_.labels[node].type;
+    if (type.leaf != nullptr || type.mock != nullptr || type.reads_ports) return false;
+    bool has_any = false;
+    for (std::uint32_t i = 0; i < type.parameters.size(); ++i) {
+      if (!type.parameters[i].is_script) continue;
+      const std::int64_t script = tree_.cells[tree_.nodes[node].params + i].integer;
+      add_script(static_cast<std::uint32_t>(script), it);
+      has_any = true;
+    }
+    return has_any;
   }
 
   void add_hook(const HookedNode& hooked, Hook hook) {

@@ -60,9 +60,11 @@ class Unknowns {
     for (const ProgressUse& use : progress_uses(*it.code)) {
       const std::string what = shown(it.code->readings()[use.reading]);
       if (!use.constant) {
-        add(node, fmt::format("its script computes with {}; verify knows progress as far as it is "
-                              "compared with a number",
-                              what));
+        add(node,
+            fmt::format("its script computes with {}; verify knows progress as far as it is "
+                        "compared with a number",
+                        what),
+            "compare it with numbers; ParallelRelative keeps two nodes close to each other");
       } else if (tree_.is_group(tree_.readings[it.readings[use.reading]].node)) {
         add(node, fmt::format("its script reads {}, which is a barrier; read its members", what));
       }
@@ -77,8 +79,8 @@ class Unknowns {
     }
   }
 
-  void add(NodeIndex node, std::string message) {
-    problems_.push_back({node, "this cannot be verified: " + std::move(message), ""});
+  void add(NodeIndex node, std::string message, std::string hint = {}) {
+    problems_.push_back({node, "this cannot be verified: " + std::move(message), std::move(hint)});
   }
 
   const Tree& tree_;

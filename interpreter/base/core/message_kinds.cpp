@@ -167,6 +167,10 @@ std::span<const MessageKind> message_kinds() {
       {"process-border",
        "An entry carries objects between processes, but the plugin cannot turn them into bytes.",
        "Add `to_bytes` and `from_bytes` to the type, or run both plugins in one process."},
+      {"progress-range",
+       "A script compares the progress of a node with a number above 1, which progress never "
+       "exceeds.",
+       "Write a number from 0 to 1, such as 0.5 for half of the motion."},
       {"real-time-leaf",
        "A leaf does its work in real time, but the virtual clock does not wait for it.",
        "Run with `--clock wall`, or use `--mock-leaf`."},

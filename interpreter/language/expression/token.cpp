@@ -208,6 +208,10 @@ class Lexer {
   }
 
   TokenResult unexpected() const {
+    if (text_.size() > 1 && text_.front() == '.' && is_letter(text_[1])) {
+      return fail("unexpected '.'",
+                  "a script reads a node as progress(NODE), status(NODE), held(NODE)");
+    }
     if (text_.front() == '.') {
       return fail("a number does not begin with a point", "write 0.5; '..' joins texts");
     }

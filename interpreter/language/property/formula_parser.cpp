@@ -141,6 +141,10 @@ void FormulaParser::node_term() {
         expected("what holds in a tick", std::string(kTermHint));
       }
       check_quotes(name);
+      if (std::ranges::find(kPropertyFields, path) != kPropertyFields.end()) {
+        throw PropertyError{fmt::format("'{}' is not about a node", brief(path)),
+                            fmt::format("write it behind the node: arm.{}", path), name.offset};
+      }
       throw PropertyError{
           fmt::format("'{}' is not about a tick", brief(path)),
           fmt::format("add what of the node is meant: '{}.running'; also {}", brief(path),

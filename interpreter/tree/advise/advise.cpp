@@ -14,6 +14,7 @@
 #include "base/core/wording.h"
 #include "language/expression/evaluator.h"
 #include "language/expression/operator_words.h"
+#include "language/expression/reading_uses.h"
 #include "tree/types/script_types.h"
 
 namespace lockstep::host {
@@ -48,6 +49,7 @@ class Adviser {
       for (const std::uint32_t member : group.members) without_progress(member, group.node);
     }
     assigning_conditions();
+    percents();
     if (!definition_.boards.empty()) return;  // any entry may be made while the tree runs
     unwritten_entries();
     missing_names();
@@ -350,6 +352,23 @@ class Adviser {
       report_.in_value("assigning-condition"_code, script.place, script.code->offsets()[last],
                        "'=' assigns, and the condition is what was assigned", "'==' compares",
                        Severity::Warning);
+    }
+  }
+
+  // Progress that is taken for percent: progress(arm) >= 50.
+  void percents() const {
+    std::set<std::pair<std::uint32_t, std::size_t>> told;  // where: a tree may have several places
+    for (const BoundScript& script : definition_.scripts) {
+      if (script.code == nullptr || script.code->readings().empty()) continue;
+      for (const ProgressUse& use : progress_uses(*script.code)) {
+        const Reading& reading = script.code->readings()[use.reading];
+        if (!use.constant || *use.constant <= 1) continue;
+        if (!told.emplace(script.place.byte, reading.offset).second) continue;
+        report_.in_value("progress-range"_code, script.place, reading.offset,
+                         fmt::format("{} is compared with {}", shown(reading), *use.constant),
+                         "progress is a number from 0 to 1: half of the motion is 0.5",
+                         Severity::Warning);
+      }
     }
   }
 

@@ -202,6 +202,9 @@ class Declarer {
     }
     const std::string hint = did_you_mean(key, keys);
     if (!hint.empty()) return hint;
+    if (std::ranges::find(kStatuses, key, &StatusRow::name) != kStatuses.end()) {
+      return fmt::format("to read the status of a node, write status(NODE) == {}", key);
+    }
     return fmt::format("a port that uses {{{0}}} gives it a type, or a script: '{0} := 0'",
                        brief(key));
   }

@@ -149,11 +149,14 @@ TEST_CASE("what is not a script is refused, with the place and a hint") {
       {"+1", 0, "a value is missing before '+'", value},
       {"a ! b", 4, "", ""},  // two expressions: a, and !b
       {"progress(arm/lift#2) >= 0.5", 0, "", ""},
+      {"arm.progress >= 0.5", 3, "unexpected '.'",
+       "a script reads a node as progress(NODE), status(NODE), held(NODE)"},
       {"progress ( 'move (left)' )", 0, "", ""},
       {"progress > 1", 0, "", ""},  // an entry
       {"status(a) == RUNNING && status(a) != idle || status(a) == status(b)", 0, "", ""},
       {"owner(dock) == none", 0, "", ""},
-      {"progress()", 0, "'progress()' does not name a node or a pool", "write a node: progress(arm)"},
+      {"progress()", 0, "'progress()' does not name a node or a pool",
+       "write a node: progress(arm)"},
       {"owner( )", 0, "'owner()' does not name a node or a pool", "write a resource: owner(dock)"},
       {"held(a", 0, "')' is missing after 'held('", "write held(arm), or the name in quotes"},
       {"held('a)", 0, "')' is missing after 'held('", "write held(arm), or the name in quotes"},
