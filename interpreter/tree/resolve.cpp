@@ -104,6 +104,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   advise_resources(definition, report);
   note_openings(definition, report);
   note_unfairness(definition, report);
+  note_handovers(definition, report);
   return definition;
 }
 

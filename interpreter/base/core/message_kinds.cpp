@@ -148,6 +148,10 @@ std::span<const MessageKind> message_kinds() {
        "After a failure of one member, a barrier may open for the others although the failed "
        "member will try again.",
        "Retry above the barrier, or read the hint. deadlocks.md has examples."},
+      {"overlap",
+       "Two actions of one device overlap for a call: a reactive parent ticks the one that takes "
+       "over, and then halts the other one.",
+       "Let both use a resource of one pool, if they must not overlap. guards.md has an example."},
       {"partly-isolated",
        "Some leaves of an isolated plugin run in the process of lockstep, because they use what "
        "cannot cross processes.",

@@ -1,5 +1,5 @@
-// Notes about members of barriers and pools. Deadlocks are found by running the tree:
-// verify/advice.h; those that are sure are errors of check_groups.
+// Notes about members of barriers and pools, and about who would need one. Deadlocks are found by
+// running the tree: verify/advice.h; those that are sure are errors of check_groups.
 #pragma once
 
 #include "language/document/reporter.h"
@@ -13,5 +13,8 @@ void note_unfairness(const Definition& definition, const Reporter& report);
 // Notes members that a barrier with idle="ignore" leaves out after a failure, until they begin
 // again. Warns of a barrier at 0 there.
 void note_openings(const Definition& definition, const Reporter& report);
+
+// Notes actions of one device that overlap for a tick, where a pool would keep them apart.
+void note_handovers(const Definition& definition, const Reporter& report);
 
 }  // namespace lockstep::host
