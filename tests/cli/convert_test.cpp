@@ -665,3 +665,117 @@ TEST_CASE("convert says what is wrong with its file") {
   const std::string broken = directory.file("broken.xml", "<root>\n<A");
   CHECK(contains(run_lockstep({"convert", broken}).err, "2:1: error: "));
 }
+
+TEST_CASE("convert writes a SetBlackboard as a Script") {
+  const TemporaryDirectory directory;
+  const auto converted = [&](const std::string& node) {
+    const std::string tree = directory.file("set.xml", around("BTCPP_format=\"4\"", node));
+    return run_lockstep({"convert", tree});
+  };
+  const auto line_of = [&](const std::string& attributes) {
+    const Outcome outcome = converted("<SetBlackboard " + attributes + "/>");
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    const auto begin = outcome.out.find("<Script");
+    REQUIRE(begin != std::string::npos);
+    return outcome.out.substr(begin, outcome.out.find('\n', begin) - begin);
+  };
+  CHECK(line_of(R"(output_key="stage" value="1")") == R"(<Script code="stage := 1"/>)");
+  CHECK(line_of(R"(value="-0.5" output_key="far" name="n")") ==
+        R"(<Script code="far := -0.5" name="n"/>)");
+  CHECK(line_of(R"(output_key="on" value="true")") == R"(<Script code="on := true"/>)");
+  CHECK(line_of(R"(output_key="who" value="arm 1")") == R"(<Script code="who := 'arm 1'"/>)");
+  CHECK(line_of(R"(output_key="who" value="")") == R"(<Script code="who := ''"/>)");
+  CHECK(line_of(R"(output_key="who" value="it's")") ==
+        R"(<Script code="who := &quot;it's&quot;"/>)");
+  CHECK(line_of(R"(output_key="to" value="{from}" _skipIf="far")") ==
+        R"(<Script code="to := from" skip_if="far"/>)");
+  const Outcome explicit_form =
+      converted(R"(<Action ID="SetBlackboard" output_key="a" value="007"/>)");
+  CHECK(contains(explicit_form.out, R"(<Script code="a := 7"/>)"));
+  CHECK(converted(R"(<SetBlackboard output_key="a b" value="1"/>)").code == 3);
+  CHECK(converted(R"(<SetBlackboard output_key="a"/>)").code == 3);
+  const Outcome by_name = converted(R"(<SetBlackboard output_key="{k}" value="1"/>)");
+  CHECK(by_name.code == 3);
+  CHECK(contains(by_name.err, "if 'k' itself is meant, write output_key=\"k\""));
+}
+
+TEST_CASE("convert writes a SequenceWithMemory as a Sequence, and says what differs") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "memory.xml",
+      around("BTCPP_format=\"4\"", "<SequenceWithMemory><Clean/></SequenceWithMemory>"));
+  const Outcome outcome = run_lockstep({"convert", tree});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "<Sequence memory=\"true\"><Clean/></Sequence>"));
+  CHECK(contains(outcome.err, "warning: 'SequenceWithMemory' is not quite the same"));
+  CHECK(contains(outcome.err, "it begins with the first child"));
+}
+
+TEST_CASE("convert keeps barriers and pools, in both directions") {
+  const TemporaryDirectory directory;
+  const auto text = [&](const std::string& root, const std::string& leaf) {
+    return "<root " + root + ">\n  <barrier name=\"meet\" barriers=\"0.5\"/>\n" +
+           "  <resources name=\"yard\" resources=\"dock\" increment=\"2\"/>\n"
+           "  <BehaviorTree ID=\"Main\"><Parallel>\n"
+           "    <SyncProgress barrier=\"meet\"><UseResources pool=\"yard\" resources=\"dock\" "
+           "keep=\"true\">" +
+           leaf + "</UseResources></SyncProgress>\n    <SyncProgress barrier=\"meet\">" + leaf +
+           "</SyncProgress>\n    <WaitUntil code=\"progress(meet) >= 0\"/></Parallel>"
+           "</BehaviorTree>\n</root>\n";
+  };
+  const std::string ours = text("lockstep=\"1\"", "<Go/>");
+  const std::string theirs = text("BTCPP_format=\"4\"", "<Go/>");
+  CHECK(run_lockstep({"convert", directory.file("ours.xml", ours)}).out == theirs);
+  CHECK(run_lockstep({"convert", directory.file("theirs.xml", theirs)}).out == ours);
+}
+
+TEST_CASE("convert --to btcpp4 takes a file for version 3") {
+  const TemporaryDirectory directory;
+  const std::string before = R"(<?xml version="1.0"?>
+<root main_tree_to_execute="Main">
+  <!-- all -->
+  <BehaviorTree ID="Main">
+    <SequenceStar name="s">
+      <SubTreePlus ID="Go" x="8" y="{y}" __autoremap="1"/>
+      <SubTree ID="Go" x="place" __shared_blackboard="true"/>
+      <Control ID="FallbackStar"><Decorator ID="RetryUntilSuccesful" num_attempts="2"><Drive to="${goal}"/></Decorator></Control>
+      <Parallel threshold="1"><Drive threshold="1"/></Parallel>
+    </SequenceStar>
+  </BehaviorTree>
+  <BehaviorTree ID="Go"><Drive to="{x}"/></BehaviorTree>
+  <TreeNodesModel><SubTreePlus ID="Go"/></TreeNodesModel>
+</root>
+)";
+  const std::string since = R"(<?xml version="1.0"?>
+<root BTCPP_format="4" main_tree_to_execute="Main">
+  <!-- all -->
+  <BehaviorTree ID="Main">
+    <SequenceWithMemory name="s">
+      <SubTree ID="Go" x="8" y="{y}" _autoremap="1"/>
+      <SubTree ID="Go" x="{place}" _autoremap="true"/>
+      <Control ID="Fallback"><Decorator ID="RetryUntilSuccessful" num_attempts="2"><Drive to="{goal}"/></Decorator></Control>
+      <Parallel success_count="1"><Drive threshold="1"/></Parallel>
+    </SequenceWithMemory>
+  </BehaviorTree>
+  <BehaviorTree ID="Go"><Drive to="{x}"/></BehaviorTree>
+  <TreeNodesModel><SubTree ID="Go"/></TreeNodesModel>
+</root>
+)";
+  const Outcome outcome =
+      run_lockstep({"convert", "--to", "btcpp4", directory.file("3.xml", before)});
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == since);
+  CHECK(contains(outcome.err, "'place' is taken for an entry"));
+  const Outcome again = run_lockstep({"convert", "--to", "btcpp4", directory.file("4.xml", since)});
+  CHECK(again.code == 3);
+  CHECK(contains(again.err, "is in that language already"));
+  const std::string gone = directory.file(
+      "gone.xml",
+      "<root BTCPP_format=\"3\"><BehaviorTree ID=\"A\"><BlackboardCheckInt "
+      "value_A=\"{a}\" value_B=\"1\"><Go/></BlackboardCheckInt></BehaviorTree></root>");
+  const Outcome not_there = run_lockstep({"convert", "--to", "btcpp4", gone});
+  CHECK(not_there.code == 3);
+  CHECK(contains(not_there.err, "version 4 has no 'BlackboardCheckInt'"));
+}

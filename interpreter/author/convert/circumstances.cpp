@@ -11,8 +11,11 @@ namespace {
 
 constexpr int kMostSubtrees = 64;  // one in the other
 
+// Its children are held at times.
 bool is_synchronized(std::string_view type) {
-  return type == "ParallelAbsolute" || type == "ParallelRelative";
+  constexpr std::string_view kTypes[] = {"ParallelAbsolute", "ParallelRelative", "SyncProgress",
+                                         "UseResources"};
+  return std::ranges::find(kTypes, type) != std::end(kTypes);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "author/convert/circumstances.h"
 #include "author/convert/script_text.h"
+#include "author/convert/set_blackboard.h"
 #include "author/convert/switch_node.h"
 #include "author/edit/text_edit.h"
 #include "base/core/identifier.h"
@@ -107,7 +108,7 @@ class Converter {
     const std::uint32_t element = next_++;
     open_.push_back({element, token.begin, std::string(token.name)});
     pair_ = nullptr;
-    is_switch_ = false;
+    is_switch_ = is_setter_ = false;
     if (element >= document_.elements().size()) {  // a second root
       open_.back().is_left_out = true;
     } else if (open_.size() > 2 && !is_left_out() && !is_in_models()) {
@@ -141,7 +142,8 @@ class Converter {
   void convert_child_of_root(std::uint32_t element) {
     const std::string_view tag = document_.elements()[element].tag;
     const Place place = place_of(element);
-    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin", "arg", kModels};
+    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin",   "arg",
+                                          kModels,        "barrier", "resources"};
     if (std::ranges::find(kBoth, tag) != std::end(kBoth)) {
       if (to_ours() && tag == "BehaviorTree") check_tree(element);
       if (!to_ours() && tag == "BehaviorTree") warn_of_id(element);
@@ -264,6 +266,8 @@ class Converter {
     }
     is_switch_ = to_ours() ? switch_cases_there(type) != 0 : type == "Switch";
     if (is_switch_) return convert_switch(element, type, token);
+    is_setter_ = to_ours() && type == "SetBlackboard";
+    if (is_setter_) return convert_setter(element, token);
     pair_ = find_pair(element, type);
     if (pair_ == nullptr) {
       return cannot(place_of(element), fmt::format("this '{}'", brief(type)), hint_of(type));
@@ -284,6 +288,15 @@ class Converter {
                  fmt::format("'{}' is not quite the same", brief(type)), std::string(it.what),
                  Severity::Warning);
     }
+  }
+
+  void convert_setter(std::uint32_t element, const XmlToken& token) {
+    const ConvertedSetter converted = setter_to_ours(document_, element);
+    if (!converted.problem.empty()) {
+      return cannot(converted.place, converted.problem, converted.hint);
+    }
+    open_.back().tag = "Script";
+    add_attribute(token, "code", converted.code);
   }
 
   void convert_switch(std::uint32_t element, std::string_view type, const XmlToken& token) {
@@ -362,6 +375,10 @@ class Converter {
     if (to_ours() && open_.back().tag == "include" && attribute.name == "ros_pkg") {
       return cannot(attribute.place, "'ros_pkg'", "give the path of the file");
     }
+    if (!to_ours() && open_.back().tag == "include" && attribute.name == "as") {
+      return cannot(attribute.place, "'as'",
+                    "BehaviorTree.CPP ignores it: give the trees IDs of their own");
+    }
     const bool is_known = attribute.name == "ID" || attribute.name == "_description";
     if (to_ours() && is_tree && !is_known) return leave_out(token, attribute);
     keep(token, attribute);
@@ -370,12 +387,13 @@ class Converter {
   void node_attribute(const XmlToken& token, const Attribute& attribute) {
     const std::string_view name = attribute.name;
     if (is_switch_ && is_switch_attribute(name)) return remove(token);
+    if (is_setter_ && (name == "value" || name == "output_key")) return remove(token);
     if (pair_ != nullptr && is_fixed(name)) return remove(token);
     if (const AttributePair* pair = attribute_pair(name)) {
       return convert_value(token, attribute, *pair);
     }
     if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
-    if (name == "ID" && is_switch_) return remove(token);
+    if (name == "ID" && (is_switch_ || is_setter_)) return remove(token);
     if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
     to_ours() ? to_our_attribute(token, attribute) : to_their_attribute(token, attribute);
   }
@@ -580,6 +598,7 @@ class Converter {
   std::uint32_t next_ = 0;          // element
   const NodePair* pair_ = nullptr;  // of the innermost element
   bool is_switch_ = false;          // likewise
+  bool is_setter_ = false;          // likewise
   bool has_doctype_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments

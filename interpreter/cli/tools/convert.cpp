@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "author/convert/convert.h"
+#include "author/convert/since_4.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
@@ -65,7 +66,8 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
     return options.to.empty() ? it != &from : it->name == options.to;
   };
   const LanguageRules& to = **std::ranges::find_if(languages(), is_meant);
-  if (&to == &from) {
+  const bool is_older = &to == &from && &from != &kLockstepRules && !is_since_4(*document);
+  if (&to == &from && !is_older) {
     diagnostics.error("wrong-language"_code, {name}, "is in that language already");
     return std::nullopt;
   }
@@ -73,8 +75,9 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
   const Catalog from_nodes = make_catalog(none, from), to_nodes = make_catalog(none, to);
   Sources sources;
   sources.add(document->source());
-  auto result =
-      convert(*document, {from, to, from_nodes, to_nodes}, Reporter(sources, diagnostics));
+  const Reporter report(sources, diagnostics);
+  auto result = is_older ? convert_since_4(*document, to_nodes, report)
+                         : convert(*document, {from, to, from_nodes, to_nodes}, report);
   if (result) check_result(*document, *result, diagnostics);
   return result;
 }
@@ -103,6 +106,7 @@ extern const Command kConvertCommand{
     "Comments, whitespace and order stay. Anything that the other language cannot express is an "
     "error.\n"
     "Files that it includes are converted one by one. Nodes of plugins are copied.\n"
+    "A file for version 3 of BehaviorTree.CPP is converted to version 4 with --to btcpp4.\n"
     "Exit code: 0 printed, 2 usage, 3 the file cannot be read or converted.\n"
     "\n"
     "Examples:\n"

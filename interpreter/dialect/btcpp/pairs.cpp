@@ -32,6 +32,9 @@ constexpr AttributePair kMaxFailures[] = {{"max_failures", "failure_count", Conv
 constexpr AttributePair kVariable[] = {{"variable", "on", Conversions::WithoutBraces}};
 constexpr AttributePair kWaitDuration[] = {{"wait_duration", "seconds"}};
 
+constexpr Difference kKeepsPlace[] = {
+    {"for BehaviorTree.CPP, it resumes with the child that failed, or was halted, when it is "
+     "ticked again; in lockstep's language it begins with the first child"}};
 constexpr Difference kRounds[] = {
     {"for BehaviorTree.CPP, a round that ends at once is followed by the next one in the same "
      "period; in lockstep's language each round takes a tick"}};
@@ -83,6 +86,11 @@ constexpr NodePair kPairs[] = {
     {.theirs = "Fallback", .ours = "Fallback", .in_ours = kRemembers},
     {.theirs = "ReactiveSequence", .ours = "Sequence", .in_ours = kForgets},
     {.theirs = "ReactiveFallback", .ours = "Fallback", .in_ours = kForgets},
+    {.theirs = "SequenceWithMemory",
+     .ours = "Sequence",
+     .in_ours = kRemembers,
+     .differences = kKeepsPlace,
+     .remark = kAgain},
     {.theirs = "ParallelAbsolute", .ours = "ParallelAbsolute"},
     {.theirs = "ParallelRelative", .ours = "ParallelRelative"},
     {.theirs = "Parallel",
@@ -133,7 +141,6 @@ constexpr NodePair kPairs[] = {
 constexpr NodePair kSimilar[] = {
     {.theirs = "AsyncSequence", .ours = "Sequence", .in_ours = kRemembers},
     {.theirs = "AsyncFallback", .ours = "Fallback", .in_ours = kRemembers},
-    {.theirs = "SequenceWithMemory", .ours = "Sequence", .in_ours = kRemembers, .remark = kAgain},
     {.theirs = "ParallelAll",
      .ours = "Parallel",
      .words = kMaxFailures,

@@ -22,6 +22,8 @@ constexpr Renamed kParallelPorts[] = {{"success_threshold", "success_count"},
                                       {"threshold", "success_count"},
                                       {"failure_threshold", "failure_count"}};
 
+}  // namespace
+
 std::string_view attribute_since_4(const NodeType& type, std::string_view name) {
   const bool is_built_in = type.leaf == nullptr && type.mock == nullptr;
   if (is_built_in && type.category == NodeCategory::SubTree && name == kSharedBlackboard) {
@@ -34,6 +36,8 @@ std::string_view attribute_since_4(const NodeType& type, std::string_view name) 
   const auto* const found = std::ranges::find(kParallelPorts, name, &Renamed::before);
   return found == std::end(kParallelPorts) ? name : found->since;
 }
+
+namespace {
 
 // An attribute of a SubTree whose value named an entry outside, or was a text.
 void check_outer(const Attribute& attribute, const Reporter& report) {

@@ -21,6 +21,9 @@ std::span<const Renamed> renamed_nodes();
 // The node that is called like that since version 4; "" if the name says the same in both.
 std::string_view node_since_4(std::string_view id);
 
+// The attribute of a node as version 4 calls it.
+std::string_view attribute_since_4(const NodeType& type, std::string_view name);
+
 // The attributes of a node as version 4 calls them. Reports what has another meaning there.
 std::vector<Attribute> attributes_since_4(std::string_view tag,
                                           std::span<const Attribute> attributes,

@@ -1,0 +1,61 @@
+#include "author/convert/set_blackboard.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/core/identifier.h"
+#include "base/core/value.h"
+#include "base/core/wording.h"
+#include "dialect/btcpp/words.h"
+
+namespace lockstep::host {
+namespace {
+
+// As a script writes it; "" if it cannot.
+std::string literal_of(std::string_view text) {
+  if (text == "true" || text == "false") return std::string(text);
+  if (const auto whole = parse_int(text)) return to_text(Value(*whole));
+  if (const auto number = parse_double(text); number && std::isfinite(*number)) {
+    return to_text(Value(*number));
+  }
+  if (text.find('\'') == std::string_view::npos) return fmt::format("'{}'", text);
+  return text.find('"') == std::string_view::npos ? fmt::format("\"{}\"", text) : std::string();
+}
+
+}  // namespace
+
+ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element) {
+  const auto fail = [](std::string problem, std::string hint, Place place) {
+    return ConvertedSetter{{}, std::move(problem), std::move(hint), place};
+  };
+  const Attribute* target = document.find_attribute(element, "output_key");
+  const Attribute* value = document.find_attribute(element, "value");
+  const Place place = document.elements()[element].place;
+  if (target == nullptr || value == nullptr) {
+    return fail("a SetBlackboard without 'output_key' or 'value'", "give it both", place);
+  }
+  const std::string_view key = target->value;
+  if (const auto holder = btcpp::key_of(key, target->name); !holder.empty()) {
+    return fail(fmt::format("an entry whose name is in the entry '{}'", brief(holder)),
+                fmt::format("if '{0}' itself is meant, write output_key=\"{0}\"", brief(holder)),
+                target->place);
+  }
+  const auto bad_key = [&](std::string_view name, const Attribute& at) {
+    return fail(fmt::format("the key '{}'", brief(name)),
+                fmt::format("a key is {}", kIdentifierRule), at.place);
+  };
+  if (!is_identifier(key)) return bad_key(key, *target);
+  if (const auto from = btcpp::key_of(value->value, value->name); !from.empty()) {
+    if (!is_identifier(from)) return bad_key(from, *value);
+    return {.code = fmt::format("{} := {}", key, from)};
+  }
+  const std::string literal = literal_of(value->value);
+  if (literal.empty()) {
+    return fail(fmt::format("the value '{}'", brief(value->value)),
+                "a text in a script has ' or \" in it, not both", value->place);
+  }
+  return {.code = fmt::format("{} := {}", key, literal)};
+}
+
+}  // namespace lockstep::host

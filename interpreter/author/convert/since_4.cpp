@@ -1,0 +1,168 @@
+#include "author/convert/since_4.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "author/edit/text_edit.h"
+#include "base/core/identifier.h"
+#include "base/core/wording.h"
+#include "dialect/btcpp/version_3.h"
+#include "dialect/btcpp/words.h"
+#include "language/document/scanner.h"
+#include "language/document/value_text.h"
+#include "tree/check/node_check.h"
+
+namespace lockstep::host {
+namespace {
+
+class Since4 {
+ public:
+  Since4(const Document& document, const Catalog& nodes, const Reporter& report)
+      : document_(document), nodes_(nodes), report_(report), text_(document.source()->text()) {
+    for (const Element& it : document.elements()) has_arguments_ |= it.tag == "arg";
+  }
+
+  std::optional<std::string> convert() {
+    Scanner scanner(text_, Grammar::Lenient);
+    while (true) {
+      const XmlToken token = scanner.next();
+      switch (token.kind) {
+        case TokenKind::OpenTag:
+          open(token);
+          break;
+        case TokenKind::Attribute:
+          attribute(token, scanner.offset_of(token.value) + token.value.size() + 1);
+          break;
+        case TokenKind::EmptyTagEnd:
+          if (!open_.empty()) open_.pop_back();
+          break;
+        case TokenKind::CloseTag:
+          close(token);
+          break;
+        case TokenKind::End:
+        case TokenKind::Fault:
+          return report_.has_errors() ? std::nullopt : std::optional(edits_.apply(text_));
+        default:
+          break;
+      }
+    }
+  }
+
+ private:
+  struct Open {
+    std::string_view tag, since;  // as it is called in both versions
+  };
+
+  void open(const XmlToken& token) {
+    element_ = next_++;
+    type_ = nullptr;
+    std::string_view since = token.name;
+    if (element_ == 0 && document_.find_attribute(0, "BTCPP_format") == nullptr) {
+      edits_.insert(token.begin + 1 + token.name.size(), " BTCPP_format=\"4\"");
+    } else if (open_.size() > 1 && element_ < document_.elements().size()) {
+      since = node_since_4(token.name);
+      if (open_.size() > 2 || open_[1].tag != "TreeNodesModel") convert_node(token.name);
+    }
+    if (since != token.name) rename(token.begin + 1, token.name, since);
+    open_.push_back({token.name, since});
+  }
+
+  static std::string_view node_since_4(std::string_view id) {
+    const auto since = btcpp::node_since_4(id);
+    return since.empty() ? id : since;
+  }
+
+  void convert_node(std::string_view tag) {
+    const Attribute* id = document_.find_attribute(element_, "ID");
+    const std::string_view type = is_explicit_tag(tag) && id != nullptr ? id->value : tag;
+    type_ = nodes_.find(node_since_4(type));
+    const auto gone = btcpp::hint_for_gone(type);
+    if (gone.empty() || type_ != nullptr) return;
+    report_.at("not-convertible"_code, document_.elements()[element_].place,
+               fmt::format("version 4 has no '{}'", brief(type)), std::string(gone));
+  }
+
+  void attribute(const XmlToken& token, std::size_t end) {
+    const Attribute* it = element_ < document_.elements().size()
+                              ? document_.find_attribute(element_, token.name)
+                              : nullptr;
+    if (it == nullptr) return;
+    if (element_ == 0 && it->name == "BTCPP_format") return replace(token, end, it->name, "4");
+    if (open_.size() < 3) return;
+    const std::string_view tag = open_.back().tag;
+    if (is_explicit_tag(tag) && it->name == "ID") {
+      if (const auto since = node_since_4(it->value); since != it->value) {
+        replace(token, end, it->name, since);
+      }
+      return;
+    }
+    const std::string_view name =
+        type_ == nullptr ? it->name : btcpp::attribute_since_4(*type_, it->name);
+    const std::string value = value_since_4(tag, *it);
+    if (name != it->name || value != it->value) replace(token, end, name, value);
+  }
+
+  // In a SubTree a text named an entry, and "${key}" named one before version 3.
+  std::string value_since_4(std::string_view tag, const Attribute& it) const {
+    const bool is_port = is_port_name(it.name) && it.name != "name" && it.name != "ID";
+    if (!is_port) return std::string(it.value);
+    const auto value = without_blanks_around(it.value);
+    const bool is_dollar = value.starts_with("${") && value.ends_with('}');
+    if (is_dollar && !has_arguments_) return std::string(value.substr(1));
+    const bool is_entry =
+        tag == "SubTree" && !it.value.empty() && btcpp::key_of(it.value, it.name).empty();
+    if (!is_entry) return std::string(it.value);
+    if (!report_.counted_only(Severity::Warning)) {
+      report_.at_value("old-syntax"_code, it.place,
+                       fmt::format("'{}' is taken for an entry", brief(it.value)),
+                       "it was one in a SubTree of version 3; if a text is meant, write it "
+                       "without braces",
+                       Severity::Warning);
+    }
+    return fmt::format("{{{}}}", it.value);
+  }
+
+  void close(const XmlToken& token) {
+    if (open_.empty()) return;
+    const Open last = open_.back();
+    open_.pop_back();
+    if (last.tag == token.name && last.since != last.tag) {
+      rename(token.begin + 2, token.name, last.since);
+    }
+  }
+
+  void rename(std::size_t at, std::string_view name, std::string_view since) {
+    edits_.replace(at, at + name.size(), std::string(since));
+  }
+
+  void replace(const XmlToken& token, std::size_t end, std::string_view name,
+               std::string_view value) {
+    edits_.replace(token.begin, end, fmt::format("{}={}", name, quoted(value)));
+  }
+
+  const Document& document_;
+  const Catalog& nodes_;
+  const Reporter& report_;
+  const std::string_view text_;
+  TextEdit edits_;
+  std::vector<Open> open_;
+  std::uint32_t next_ = 0, element_ = 0;
+  const NodeType* type_ = nullptr;  // of the innermost element, if it is built in
+  bool has_arguments_ = false;      // lockstep reads them in both languages: "${key}" is one
+};
+
+}  // namespace
+
+bool is_since_4(const Document& document) {
+  const Attribute* format = document.find_attribute(0, "BTCPP_format");
+  return format != nullptr && format->value != "3";
+}
+
+std::optional<std::string> convert_since_4(const Document& document, const Catalog& nodes,
+                                           const Reporter& report) {
+  return Since4(document, nodes, report).convert();
+}
+
+}  // namespace lockstep::host
