@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/core/pre_order.h"
@@ -27,6 +28,7 @@ struct CheckOptions {
   std::vector<std::string> trees;
   std::string format = "text";
   bool strict = false;
+  bool together = false;
 };
 
 using CheckWriter = std::string (*)(std::span<const Diagnostic>);
@@ -43,11 +45,15 @@ std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
 }
 
 // For people. `written` is the exit code of what went to stdout so far.
-void print_checked(const std::string& tree, Diagnostics& diagnostics, int code, int& written) {
+// `is_told`: it has errors, and perhaps another file reported them.
+void print_checked(const std::string& tree, Diagnostics& diagnostics, bool is_told, int code,
+                   int& written) {
   print_diagnostics(diagnostics, Severity::Note);
   const std::string name = printable(tree == "-" ? "stdin" : tree);
   if (code == kExitSuccess) {
     if (written == kExitSuccess) written = write_results(name + ": ok\n");
+  } else if (is_told && !diagnostics.has_errors()) {
+    messages().say(fmt::format("{}: a file that it uses has the errors above\n", name));
   } else if (!diagnostics.has_errors()) {
     const auto warnings = counted(diagnostics.count(Severity::Warning), "warning");
     messages().say(fmt::format("{}: {}, an error with --strict\n", name, warnings));
@@ -110,10 +116,10 @@ class Neighbors {
   std::map<std::string, std::set<std::string>> users_;  // the files that use a tree
 };
 
-Neighbors neighbors_of(const CheckOptions& options) {
+Neighbors neighbors_of(const std::vector<std::string>& files) {
   Neighbors neighbors;
-  if (options.trees.size() < 2) return neighbors;
-  for (const std::string& file : options.trees) {
+  if (files.size() < 2) return neighbors;
+  for (const std::string& file : files) {
     std::error_code unused;
     if (!other_command(file).empty() || !std::filesystem::is_regular_file(file, unused)) continue;
     Diagnostics told_later;
@@ -122,17 +128,75 @@ Neighbors neighbors_of(const CheckOptions& options) {
   return neighbors;
 }
 
+// What is checked: files, and the tree files of folders.
+struct Checked {
+  std::vector<std::string> files;
+  std::shared_ptr<Library> library;  // of those that are checked together; null: none are
+};
+
+Checked find_files(const CheckOptions& options, Diagnostics& diagnostics) {
+  Checked checked;
+  const auto is_folder = [](const std::string& it) {
+    std::error_code unused;
+    return std::filesystem::is_directory(it, unused);
+  };
+  if (options.together || std::ranges::any_of(options.trees, is_folder)) {
+    checked.library = std::make_shared<Library>();
+  }
+  for (const std::string& tree : options.trees) {
+    if (!is_folder(tree)) {
+      if (checked.library != nullptr && Library::may_be_tree_file(tree)) {
+        checked.library->add_file(tree);
+      }
+      checked.files.push_back(tree);
+      continue;
+    }
+    const auto files = checked.library->add_folder(tree, diagnostics);
+    if (files.empty() && !diagnostics.has_errors()) {
+      diagnostics.error("no-tree"_code, {tree}, "the folder has no tree files",
+                        "their names end with .xml");
+    }
+    std::ranges::copy(files, std::back_inserter(checked.files));
+  }
+  return checked;
+}
+
+// Files that are checked together have the messages of those that they use.
+class Told {
+ public:
+  Diagnostics only_new(const Diagnostics& diagnostics) {
+    Diagnostics fresh;
+    for (const Diagnostic& it : diagnostics.all()) {
+      const SourceLocation& at = it.location;
+      if (told_.emplace(at.file, at.line, at.column, it.message).second) fresh.add(it);
+    }
+    return fresh;
+  }
+
+ private:
+  std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>> told_;
+};
+
 int check(const CheckOptions& options) {
   keep_stdout_for_results();
   const CheckWriter write = writer_of(options.format);
   LoadCommandOptions load = options.load;
   if (!options.strict) load.unknown = MissingNodes::AreNoted;
   load.may_lack_main = true;
-  const Neighbors neighbors = neighbors_of(options);
-  load.elsewhere = neighbors.trees();
+  Diagnostics in_folders;
+  const Checked checked = find_files(options, in_folders);
+  const Neighbors neighbors = neighbors_of(checked.files);
+  load.library = checked.library;
+  if (load.library == nullptr) load.elsewhere = neighbors.trees();
   std::vector<Diagnostic> all;
-  int worst = kExitSuccess, written = kExitSuccess;
-  for (const std::string& tree : options.trees) {
+  Told told;
+  int worst = in_folders.has_errors() ? kExitInvalidTree : kExitSuccess, written = kExitSuccess;
+  if (write == nullptr) {
+    print_diagnostics(in_folders, Severity::Note);
+  } else {
+    std::ranges::move(sorted(std::move(in_folders)), std::back_inserter(all));
+  }
+  for (const std::string& tree : checked.files) {
     Diagnostics diagnostics;
     if (const std::string other = other_command(tree); !other.empty()) {
       diagnostics.note("wrong-root"_code, {tree}, "is not a tree file", other + " reads it");
@@ -149,8 +213,10 @@ int check(const CheckOptions& options) {
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
     if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;
     if (worst == kExitSuccess) worst = code;
+    const bool has_errors = diagnostics.has_errors();
+    if (load.library != nullptr) diagnostics = told.only_new(diagnostics);
     if (write == nullptr) {
-      print_checked(tree, diagnostics, code, written);
+      print_checked(tree, diagnostics, has_errors, code, written);
     } else {
       std::ranges::move(sorted(std::move(diagnostics)), std::back_inserter(all));
     }
@@ -161,11 +227,13 @@ int check(const CheckOptions& options) {
 
 std::function<int()> define_check(CLI::App& app) {
   const auto options = std::make_shared<CheckOptions>();
-  app.add_option("tree", options->trees, "Tree files; - is stdin")
+  app.add_option("tree", options->trees, "Tree files, or folders of them; - is stdin")
       ->type_name("TREE.xml")
       ->required();
   app.add_flag("--strict", options->strict,
                "Treat warnings as errors, and nodes that no plugin has: exit code 3");
+  app.add_flag("--together", options->together,
+               "Let SubTrees find their trees in the other given files, as they do in a folder");
   app.add_option("--format", options->format,
                  "text, or on stdout: json (an array of messages) or github (annotations of a "
                  "workflow)")
@@ -187,7 +255,8 @@ extern const Command kCheckCommand{
     "2 usage, 6 a plugin crashed or hung.\n"
     "\n"
     "Examples:\n"
-    "  lockstep check trees/*.xml\n"
+    "  lockstep check trees\n"
+    "  lockstep check team.xml truck.xml --together\n"
     "  lockstep check --strict --format github trees/*.xml",
     define_check};
 

@@ -104,8 +104,14 @@ constexpr std::string_view kPrologueEnd = R"xsd(  <xs:simpleType name="boolean">
           </xs:complexType>
         </xs:element>
         <xs:element name="include">
-          <xs:annotation><xs:documentation>Another file whose trees are used here; its path is relative to this file.</xs:documentation></xs:annotation>
-          <xs:complexType><xs:group ref="nothing"/><xs:attribute name="path" type="word" use="required"/></xs:complexType>
+          <xs:annotation><xs:documentation>Another file whose trees are used here; its path is relative to this file. With as="truck" its trees are truck.ID.</xs:documentation></xs:annotation>
+          <xs:complexType>
+            <xs:group ref="nothing"/>
+            <xs:attribute name="path" type="word" use="required"/>
+            <xs:attribute name="as">
+              <xs:simpleType><xs:union memberTypes="identifier substituted"/></xs:simpleType>
+            </xs:attribute>
+          </xs:complexType>
         </xs:element>
         <xs:element name="property">
           <xs:annotation><xs:documentation>A property that each run of the main tree must satisfy, as text: never arm.failure. `lockstep run` checks it.</xs:documentation></xs:annotation>

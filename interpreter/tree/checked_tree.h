@@ -77,6 +77,7 @@ struct CheckedTree {
   std::uint32_t first_subtree = 0, subtrees = 0;  // in CheckedTrees::subtrees
   std::uint32_t depth = 0;                        // levels
   std::uint64_t paths_size = 0;  // bytes of the paths of all its nodes, from the root on
+  std::string_view space = {};   // Project::prefixes of its file
 };
 
 // The main file.

@@ -93,7 +93,10 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
       expand(trees, *main, options.values, report, Expansion::OfMain, options.later);
   definition.stand_ins = stand_ins;
   definition.properties = std::move(trees.properties);
-  if (rules.checks_unused_trees) check_unused(trees, *main, report);
+  if (rules.checks_unused_trees) {
+    trees.values = definition.values;
+    check_unused(trees, *main, report);
+  }
   resolve_resources(definition, report);
   resolve_readings(definition, report);
   if (report.has_errors()) return std::nullopt;

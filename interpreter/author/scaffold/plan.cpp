@@ -98,6 +98,8 @@ NewFiles plan_project(const NewPlugin& plugin, const fs::path& folder) {
   NewFiles files{{folder / "CMakeLists.txt", render("project/CMakeLists.txt", values)}};
   for (NewFile& file : plan_plugin_of_project(plugin, folder)) files.push_back(std::move(file));
   files.push_back({folder / "README.md", render("project/README.md", values)});
+  files.push_back(
+      {folder / "lockstep.project.xml", render("project/lockstep.project.xml", values)});
   files.push_back(colcon_package(plugin.name, folder));
   files.push_back({folder / ".gitignore", render("project/gitignore", values)});
   files.push_back({folder / ".github/workflows/test.yml", render("project/test.yml", values)});

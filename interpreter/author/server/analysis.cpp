@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "leaves/leaf_file.h"
+#include "run/loading/project_file.h"
 #include "scenario/scenario_reader.h"
 #include "tree/check/plugin_requests.h"
 #include "verify/check/advice.h"
@@ -67,7 +68,8 @@ class TreeAnalysis {
         cache_(cache),
         diagnostics_(diagnostics),
         result_(result),
-        options_(load_options(*job.settings, job.unsaved)) {}
+        options_(
+            with_project_file(job.path, load_options(*job.settings, job.unsaved), diagnostics)) {}
 
   void run() {
     const std::shared_ptr<Project> project =

@@ -14,6 +14,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "leaves/remote/json_lines/orphans.h"
+#include "run/loading/project_file.h"
 #include "run/plugin_thread.h"
 
 namespace lockstep::host {
@@ -176,21 +177,23 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
   keep_freed_memory();
   const bool mocks = options.mock || !options.mock_leaves.empty() || !options.mock_outputs.empty();
   watch_this_thread(from_seconds(options.plugins.hang_limit));
-  auto loaded =
-      load(path,
-           {.plugins = options.plugins,
-            .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
-            .values = parse_pairs(options.values, "--set", diagnostics),
-            .main_tree = options.main_tree,
-            .main_file = options.main_file,
-            .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),
-            .unknown = mocks ? MissingNodes::AreMocked : options.unknown,
-            .mocks = parse_mocks(options, diagnostics),
-            .mock_outputs = parse_pairs(options.mock_outputs, "--mock-output", diagnostics),
-            .may_lack_main = options.may_lack_main,
-            .is_part = options.is_part,
-            .elsewhere = options.elsewhere},
-           diagnostics, std::move(plugins));
+  const LoadOptions load_options = with_project_file(
+      path,
+      {.plugins = options.plugins,
+       .arguments = parse_pairs(options.arguments, "--arg", diagnostics),
+       .values = parse_pairs(options.values, "--set", diagnostics),
+       .main_tree = options.main_tree,
+       .main_file = options.main_file,
+       .ros_packages = parse_pairs(options.ros_packages, "--ros-package", diagnostics),
+       .unknown = mocks ? MissingNodes::AreMocked : options.unknown,
+       .mocks = parse_mocks(options, diagnostics),
+       .mock_outputs = parse_pairs(options.mock_outputs, "--mock-output", diagnostics),
+       .may_lack_main = options.may_lack_main,
+       .is_part = options.is_part,
+       .elsewhere = options.elsewhere,
+       .library = options.library},
+      diagnostics);
+  auto loaded = load(path, load_options, diagnostics, std::move(plugins));
   if (loaded && std::ranges::any_of(loaded->plugins->list(), &PluginSet::Info::isolated)) {
     take_over_orphans();
   }

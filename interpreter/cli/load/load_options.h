@@ -21,11 +21,12 @@ struct LoadCommandOptions {
   std::vector<std::string> ros_packages;  // --ros-package name=directory
   MissingNodes unknown = MissingNodes::AreErrors;
   bool may_lack_main = false;
-  bool is_part = false;                   // of a file that includes it
-  TreeIds elsewhere = {};                 // trees of files that it does not include
-  bool mock = false;                      // --mock
-  std::vector<std::string> mock_leaves;   // --mock-leaf id=result
-  std::vector<std::string> mock_outputs;  // --mock-output port=value
+  bool is_part = false;                         // of a file that includes it
+  TreeIds elsewhere = {};                       // trees of files that it does not include
+  std::shared_ptr<const Library> library = {};  // besides that of the project file
+  bool mock = false;                            // --mock
+  std::vector<std::string> mock_leaves;         // --mock-leaf id=result
+  std::vector<std::string> mock_outputs;        // --mock-output port=value
 };
 
 // --run-programs, for commands that run no tree.

@@ -14,6 +14,7 @@
 #include "tree/check/declared_groups.h"
 #include "tree/check/document_order.h"
 #include "tree/check/element_type.h"
+#include "tree/check/named_files.h"
 #include "tree/check/node_check.h"
 #include "tree/check/other_tools.h"
 #include "tree/check/stand_ins.h"
@@ -40,11 +41,13 @@ class TreeReader {
     trees_.rules = &kRules;
     trees_.words = catalog_.words();
     for (const std::uint32_t document : document_order(project_)) {
+      number_ = document;
       document_ = project_.documents[document].get();
       elements_ = document_->elements();
       read_document();
     }
     for (const auto& [id, tree] : trees_.trees) trees_.ids.push_back(id);
+    add_named_files(project_, trees_, report_);
     return std::move(trees_);
   }
 
@@ -77,7 +80,7 @@ class TreeReader {
     if (tag == "BehaviorTree") return read_tree(child);
     const NodeType* const type = catalog_.find(tag);
     if (type != nullptr && type->category == NodeCategory::Group) {
-      return groups_.check(*document_, child, *type);
+      return groups_.check(number_, child, *type);
     }
     if (std::ranges::find(kKnown, tag) != std::end(kKnown)) return;
     if (report_.counted_only(Severity::Warning)) return;
@@ -125,11 +128,15 @@ class TreeReader {
     }
   }
 
-  std::string_view id_of(std::uint32_t tree) const {
+  std::string_view id_of(std::uint32_t tree) {
     const Attribute* named = find_attribute(attributes(tree), "ID");
     if (named != nullptr) return named->value;
-    return trees_here_ == 1 ? kNoId : std::string_view();
+    if (trees_here_ != 1) return {};
+    return prefix().empty() ? kNoId
+                            : trees_.texts.emplace_back(fmt::format("{}{}", prefix(), kNoId));
   }
+
+  const std::string& prefix() const { return project_.prefixes[number_]; }
 
   void read_tree(std::uint32_t tree) {
     const std::string_view id = id_of(tree);
@@ -144,6 +151,7 @@ class TreeReader {
     warn_of_attributes(tree);
     const std::uint32_t root = tree + 1;
     tree_ = {};
+    tree_.space = prefix();
     tree_.first_subtree = count(trees_.subtrees);
     tree_.root = count(trees_.nodes);
     if (root == element(tree).end) {
@@ -183,10 +191,32 @@ class TreeReader {
     }
   }
 
-  // A later one replaces an earlier one.
+  // Whether a document includes another one, itself or by others.
+  bool includes(std::uint32_t document, std::uint32_t other) const {
+    std::vector<bool> seen(project_.documents.size());
+    std::vector<std::uint32_t> open{document};
+    while (!open.empty()) {
+      const std::uint32_t it = open.back();
+      open.pop_back();
+      if (it == other) return true;
+      if (seen[it]) continue;
+      seen[it] = true;
+      open.insert(open.end(), project_.includes[it].begin(), project_.includes[it].end());
+    }
+    return false;
+  }
+
+  // A later one replaces an earlier one of its file, and of a file that it includes.
   void enter_tree(std::string_view id, Place place) {
-    trees_.trees[id] = tree_;
     const auto [first, is_new] = places_.try_emplace(id, place);
+    const auto [document, unused] = documents_.try_emplace(id, number_);
+    if (!is_new && !report_.counted_only(Severity::Error) && !includes(number_, document->second)) {
+      report_.at("duplicate-tree"_code, place, fmt::format("a tree '{}' exists already", brief(id)),
+                 hint_for_second_tree(project_.sources, first->second, place));
+      return;
+    }
+    trees_.trees[id] = tree_;
+    document->second = number_;
     if (is_new) return;
     report_.at("duplicate-tree"_code, place,
                fmt::format("this tree '{}' replaces another one", brief(id)),
@@ -249,7 +279,7 @@ class TreeReader {
     if (is_subtree(node)) {
       CheckedSubTree subtree{.node = self};
       read_subtree_attributes(element, models_, report_, node, subtree, trees_);
-      if (!is_named) node.name = in_path(subtree.id);
+      if (!is_named) node.name = in_path(Project::written(subtree.id, prefix()));
       node.first = count(trees_.subtrees);
       trees_.subtrees.push_back(subtree);
     } else {
@@ -357,8 +387,10 @@ class TreeReader {
   const Reporter report_;
   CheckedTrees trees_;
   DeclaredGroups groups_;
-  CheckedTree tree_;                          // that is being read
-  std::map<std::string_view, Place> places_;  // of the trees, by ID
+  CheckedTree tree_;                                     // that is being read
+  std::map<std::string_view, Place> places_;             // of the trees, by ID
+  std::map<std::string_view, std::uint32_t> documents_;  // of each of them
+  std::uint32_t number_ = 0;                             // of the document, in the project
   const Document* document_ = nullptr;
   std::span<const Element> elements_;  // of the document
   bool is_version_3_ = false;          // or older

@@ -34,12 +34,16 @@ void ArgumentTable::declare(Document& document, std::uint32_t element) {
                             "letters, digits and '_', not a digit first");
   const auto [entry, is_new] =
       by_name_.try_emplace(name, Where{declared_.size(), named.place, sound});
-  if (!is_new)
-    return report_.at_value(
-        "duplicate-name"_code, named.place,
-        fmt::format("argument '{}' is declared twice", brief(name)),
-        fmt::format("the first is at {}",
-                    to_text(report_.sources().locate_value(entry->second.place))));
+  if (!is_new) {
+    const auto place_of = [&](Place place) {
+      return to_text(report_.sources().locate_value(place));
+    };
+    const std::string first = place_of(entry->second.place);
+    if (first == place_of(named.place)) return;  // the file is read again, by another name
+    return report_.at_value("duplicate-name"_code, named.place,
+                            fmt::format("argument '{}' is declared twice", brief(name)),
+                            fmt::format("the first is at {}", first));
+  }
 
   auto default_value = value_of(document.find_attribute(element, "default"));
   const auto given = given_.find(name);

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/core/audience.h"
+#include "base/core/identifier.h"
 #include "base/core/pre_order.h"
 #include "base/core/wording.h"
 #include "language/document/arguments.h"
 #include "language/document/file.h"
+#include "language/document/library.h"
 #include "language/document/reporter.h"
 #include "language/document/vocabulary.h"
 
@@ -20,7 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxIncludeDepth = 32;
-constexpr std::string_view kIncludeAttributes[] = {"path"};
+constexpr std::string_view kIncludeAttributes[] = {"path", "as"};
+constexpr std::size_t kMostDocuments = 10'000;  // a file counts each time that it has a name
+constexpr std::size_t kLongestPrefix = 256;
 
 bool is_root(const Document& document) {
   return document.elements()[0].tag == "root";
@@ -29,18 +34,25 @@ bool is_root(const Document& document) {
 class Loader {
  public:
   Loader(const Arguments& given, const RosPackages& packages, const UnsavedTexts& unsaved,
-         Diagnostics& diagnostics)
+         const Library* library, Diagnostics& diagnostics)
       : report_(project_->sources, diagnostics),
         arguments_(given, report_),
         packages_(packages),
         unsaved_(unsaved),
+        library_(library),
         diagnostics_(diagnostics) {}
 
   std::unique_ptr<Project> load(const std::string& path, std::string text) {
     bytes_ = text.size();
     if (!add({path, file_identity(path)}, std::move(text))) return nullptr;
     arguments_.check_given();
-    for (const auto& document : project_->documents) substitute(*document);
+    project_->given = project_->documents.size();
+    if (library_ != nullptr) add_models();
+    for (std::size_t i = 0; i < project_->documents.size(); ++i) {
+      substitute(*project_->documents[i]);
+      if (library_ != nullptr) add_missing(i);
+    }
+    for (std::uint32_t i = 0; i < project_->documents.size(); ++i) qualify(i);
     project_->arguments = arguments_.take();
     return std::move(project_);
   }
@@ -49,13 +61,24 @@ class Loader {
   struct Reading {
     std::string path;
     std::string identity;
+    std::string prefix = {};               // Project::prefixes
     std::uint32_t document = kUnreadable;  // in Project::documents
   };
   static constexpr std::uint32_t kUnreadable = 0xffffffff;
 
   bool add(const Reading& file, std::string text);
+  // Reads it and adds it. What is wrong; "": nothing.
+  std::string add(const Reading& file);
+  void add_models();
+  // The files of the library with trees that this document uses and no file has.
+  void add_missing(std::size_t document);
+  void add_missing(std::string_view tree, Place place, std::size_t document);
+  void note_trees();
   void include(Document& document, std::uint32_t element);
   bool check_include(const Document& document, std::uint32_t element);
+  std::optional<std::string> prefix_of(const Document& document, std::uint32_t include) const;
+  void name(const Document& document, std::uint32_t include, const Reading& file);
+  void qualify(std::uint32_t document);
   std::optional<fs::path> directory_of(const Document& document, std::uint32_t include,
                                        const fs::path& written) const;
   void includes(std::uint32_t includer, std::uint32_t included) {
@@ -72,10 +95,13 @@ class Loader {
   ArgumentTable arguments_;
   const RosPackages& packages_;
   const UnsavedTexts& unsaved_;
+  const Library* const library_;
   Diagnostics& diagnostics_;
-  std::vector<Reading> open_;                  // the chain of includes that is being read
-  std::map<std::string, std::uint32_t> read_;  // by identity: its document
-  std::size_t bytes_ = 0;                      // of all files
+  std::vector<Reading> open_;  // the chain of includes that is being read
+  std::map<std::pair<std::string, std::string>, std::uint32_t> read_;  // by identity and prefix
+  std::size_t bytes_ = 0;                                              // of all files
+  std::set<std::string> trees_;                                        // their names in the project
+  std::size_t noted_ = 0;  // documents whose trees are in it
 };
 
 template <class Visit>
@@ -86,14 +112,15 @@ void Loader::for_each_child(Document& document, std::string_view tag, Visit visi
 }
 
 bool Loader::add(const Reading& file, std::string text) {
-  const auto [read, is_new] = read_.emplace(file.identity, kUnreadable);
+  const auto [read, is_new] = read_.emplace(std::pair(file.identity, file.prefix), kUnreadable);
   auto parsed = Document::parse(file.path, std::move(text), diagnostics_, project_->sources.next());
   if (!parsed) return false;
   read->second = static_cast<std::uint32_t>(project_->documents.size());
   project_->sources.add(parsed->source());
   project_->includes.emplace_back();
+  project_->prefixes.push_back(file.prefix);
   auto& document = *project_->documents.emplace_back(std::move(parsed));
-  if (open_.empty()) {
+  if (project_->documents.size() == 1) {
     project_->rules = &document.rules();
     arguments_.set_rules(document.rules());
   }
@@ -125,24 +152,156 @@ void Loader::include(Document& document, std::uint32_t element) {
   const auto fail = [&](std::string message) {
     report_.at_value("bad-include"_code, attribute.place, std::move(message));
   };
-  const Reading next{path, file_identity(path)};
+  const auto prefix = prefix_of(document, element);
+  if (!prefix) return;
+  const Reading next{path, file_identity(path), *prefix};
   if (const auto chain = cycle(next); !chain.empty()) return fail("include cycle: " + chain);
-  if (const auto known = read_.find(next.identity); known != read_.end()) {
+  if (const auto known = read_.find({next.identity, next.prefix}); known != read_.end()) {
     includes(open_.back().document, known->second);
-    return;
+    return name(document, element, next);
   }
+  if (project_->documents.size() == kMostDocuments)
+    return fail(fmt::format("more than {} files", kMostDocuments));
   if (open_.size() > kMaxIncludeDepth)
     return fail(fmt::format("includes are nested deeper than {} levels", kMaxIncludeDepth));
-  const auto unsaved = unsaved_.find(next.identity);
+  if (auto wrong = add(next); !wrong.empty()) return fail(std::move(wrong));
+  includes(open_.back().document, read_.at({next.identity, next.prefix}));
+  name(document, element, next);
+}
+
+std::string Loader::add(const Reading& file) {
+  const auto unsaved = unsaved_.find(file.identity);
   auto text = unsaved != unsaved_.end() ? Result<std::string>(*unsaved->second)
-                                        : read_file(path, Document::kMaxBytes);
-  if (!text) return fail(fmt::format("cannot read '{}': {}", brief(path), text.error().message));
+                                        : read_file(file.path, Document::kMaxBytes);
+  if (!text) return fmt::format("cannot read '{}': {}", brief(file.path), text.error().message);
   bytes_ += text->size();
   if (bytes_ > Document::kMaxBytes)
-    return fail(fmt::format("with '{}' the files are larger than {} MiB together", path,
-                            Document::kMaxBytes >> 20u));
-  add(next, std::move(*text));
-  includes(open_.back().document, read_.at(next.identity));
+    return fmt::format("with '{}' the files are larger than {} MiB together", file.path,
+                       Document::kMaxBytes >> 20u);
+  add(file, std::move(*text));
+  return {};
+}
+
+void Loader::add_models() {
+  for (const std::string& path : library_->models(*project_->rules)) {
+    const Reading file{path, file_identity(path)};
+    if (read_.contains({file.identity, file.prefix})) continue;
+    if (const auto wrong = add(file); !wrong.empty()) report_.nowhere("bad-include"_code, wrong);
+    const auto added = read_.find({file.identity, file.prefix});
+    const bool is_there = added != read_.end() && added->second != kUnreadable;
+    if (is_there) project_->includes[0].push_back(added->second);
+  }
+}
+
+void Loader::note_trees() {
+  for (; noted_ < project_->documents.size(); ++noted_) {
+    Document& document = *project_->documents[noted_];
+    for_each_child(document, "BehaviorTree", [&](std::uint32_t tree) {
+      const Attribute* id = document.find_attribute(tree, "ID");
+      if (id != nullptr) trees_.insert(project_->prefixes[noted_] + std::string(id->value));
+    });
+  }
+  for (const Project::NamedFile& file : project_->named) trees_.insert(file.name);
+}
+
+void Loader::add_missing(std::size_t index) {
+  note_trees();
+  const Document& document = *project_->documents[index];
+  if (!is_root(document)) return;
+  const auto look_for = [&](std::uint32_t element, std::string_view name) {
+    const Attribute* id = document.find_attribute(element, name);
+    if (id != nullptr && !id->value.empty()) add_missing(id->value, id->place, index);
+  };
+  if (index == 0) look_for(0, "main_tree_to_execute");
+  const auto elements = document.elements();
+  for (const std::uint32_t tree : children_in(elements, 0)) {
+    if (elements[tree].tag != "BehaviorTree") continue;
+    for (std::uint32_t i = tree + 1; i < elements[tree].end; ++i) {
+      if (elements[i].tag == "SubTree" || elements[i].tag == "SubTreePlus") look_for(i, "ID");
+    }
+  }
+}
+
+void Loader::add_missing(std::string_view tree, Place place, std::size_t document) {
+  const std::string prefix = project_->prefixes[document];
+  if (!trees_.insert(prefix + std::string(tree)).second) return;
+  const auto files = library_->files_with(tree, *project_->rules);
+  if (files.empty()) return;
+  if (files.size() > 1) {
+    const std::vector<std::string_view> names(files.begin(), files.end());
+    report_.at_value("duplicate-tree"_code, place,
+                     fmt::format("{} files of the project have the tree '{}': {}", files.size(),
+                                 brief(tree), listed(names)),
+                     "include the one that is meant");
+  }
+  const Reading file{files[0], file_identity(files[0]), prefix};
+  if (read_.contains({file.identity, file.prefix})) return;
+  if (project_->documents.size() == kMostDocuments) {
+    return report_.at_value("too-large"_code, place,
+                            fmt::format("more than {} files", kMostDocuments));
+  }
+  if (auto wrong = add(file); !wrong.empty())
+    return report_.at_value("bad-include"_code, place, std::move(wrong));
+  const std::uint32_t added = read_.at({file.identity, file.prefix});
+  if (added != kUnreadable) {
+    project_->includes[document].push_back(added);
+    note_trees();
+  }
+}
+
+// What stands before the names of the included file; nothing after an error.
+std::optional<std::string> Loader::prefix_of(const Document& document,
+                                             std::uint32_t include) const {
+  const std::string& around = open_.back().prefix;
+  const Attribute* as = document.find_attribute(include, "as");
+  if (as == nullptr) return around;
+  std::string prefix = fmt::format("{}{}.", around, as->value);
+  if (!is_identifier(as->value)) {
+    report_.at_value("bad-name"_code, as->place,
+                     fmt::format("'{}' is not a name for a file", brief(as->value)),
+                     fmt::format("such a name is {}", kIdentifierRule));
+  } else if (prefix.size() > kLongestPrefix) {
+    report_.at_value(
+        "too-large"_code, as->place, "the names of these files are too long",
+        fmt::format("'{}' has more than {} characters", brief(prefix), kLongestPrefix));
+  } else {
+    return prefix;
+  }
+  return std::nullopt;
+}
+
+void Loader::name(const Document& document, std::uint32_t include, const Reading& file) {
+  const Attribute* as = document.find_attribute(include, "as");
+  const std::uint32_t named = read_.at({file.identity, file.prefix});
+  if (as == nullptr || named == kUnreadable) return;
+  const std::string name = file.prefix.substr(0, file.prefix.size() - 1);
+  const auto first = std::ranges::find(project_->named, name, &Project::NamedFile::name);
+  if (first == project_->named.end()) {
+    project_->named.push_back({name, as->place, named});
+  } else if (first->document != named) {
+    report_.at_value(
+        "duplicate-name"_code, as->place,
+        fmt::format("another file has the name '{}'", brief(name)),
+        fmt::format("it is included at {}", to_text(project_->sources.locate(first->place))));
+  }
+}
+
+// Gives the trees of a file with a prefix, and what names them, their names in the project.
+void Loader::qualify(std::uint32_t index) {
+  const std::string& prefix = project_->prefixes[index];
+  if (prefix.empty()) return;
+  Document& document = *project_->documents[index];
+  const auto put_before = [&](std::uint32_t element, std::string_view name) {
+    const Attribute* it = document.find_attribute(element, name);
+    if (it == nullptr || it->value.empty()) return;
+    document.set_value(*it, prefix + std::string(it->value));
+  };
+  const auto elements = document.elements();
+  put_before(0, "main_tree_to_execute");
+  for (std::uint32_t i = 1; i < elements.size(); ++i) {
+    constexpr std::string_view kTags[] = {"BehaviorTree", "SubTree", "SubTreePlus"};
+    if (std::ranges::find(kTags, elements[i].tag) != std::end(kTags)) put_before(i, "ID");
+  }
 }
 
 bool Loader::check_include(const Document& document, std::uint32_t element) {
@@ -215,7 +374,7 @@ std::string file_identity(const std::string& path) {
 
 std::unique_ptr<Project> load_project(const std::string& path, const Arguments& arguments,
                                       Diagnostics& diagnostics, MainFile main,
-                                      const RosPackages& packages) {
+                                      const RosPackages& packages, const Library* library) {
   const bool is_stdin = main == MainFile::MayBePipe && path == "-";
   const auto kinds = main == MainFile::MayBePipe ? FileKinds::RegularOrPipe : FileKinds::Regular;
   auto text =
@@ -226,14 +385,14 @@ std::unique_ptr<Project> load_project(const std::string& path, const Arguments& 
     diagnostics.error("unreadable-file"_code, {name}, verdict + text.error().message);
     return nullptr;
   }
-  return load_project_text(name, std::move(*text), arguments, diagnostics, packages);
+  return load_project_text(name, std::move(*text), arguments, diagnostics, packages, {}, library);
 }
 
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
                                            const Arguments& arguments, Diagnostics& diagnostics,
-                                           const RosPackages& packages,
-                                           const UnsavedTexts& unsaved) {
-  return Loader(arguments, packages, unsaved, diagnostics).load(path, std::move(text));
+                                           const RosPackages& packages, const UnsavedTexts& unsaved,
+                                           const Library* library) {
+  return Loader(arguments, packages, unsaved, library, diagnostics).load(path, std::move(text));
 }
 
 Arguments values_of(const std::vector<DeclaredArgument>& arguments) {

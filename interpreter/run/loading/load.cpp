@@ -47,9 +47,9 @@ tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const L
 tl::expected<Loaded, LoadFailure> load(const std::string& path, const LoadOptions& options,
                                        Diagnostics& diagnostics,
                                        std::shared_ptr<PluginSet> plugins) {
-  return load(
-      load_project(path, options.arguments, diagnostics, options.main_file, ros_packages(options)),
-      options, diagnostics, std::move(plugins));
+  return load(load_project(path, options.arguments, diagnostics, options.main_file,
+                           ros_packages(options), options.library.get()),
+              options, diagnostics, std::move(plugins));
 }
 
 tl::expected<Loaded, LoadFailure> load_text(const std::string& path, std::string text,
@@ -62,7 +62,7 @@ tl::expected<Loaded, LoadFailure> load_text(const std::string& path, std::string
 std::unique_ptr<Project> load_project_text(const std::string& path, std::string text,
                                            const LoadOptions& options, Diagnostics& diagnostics) {
   return load_project_text(path, std::move(text), options.arguments, diagnostics,
-                           ros_packages(options), options.unsaved);
+                           ros_packages(options), options.unsaved, options.library.get());
 }
 
 LoadedPlugins load_plugins(const Project* project, const LoadOptions& options,

@@ -10,6 +10,7 @@
 
 #include "base/core/diagnostics.h"
 #include "engine/tree.h"
+#include "language/document/library.h"
 #include "language/document/project.h"
 #include "language/property/property.h"
 #include "run/loading/plugins.h"
@@ -35,6 +36,7 @@ struct LoadOptions {
   bool may_lack_main = false;  // LoadFailure::NothingToRun instead of an error
   bool is_part = false;        // of a file that includes it
   TreeIds elsewhere = {};      // trees of files that this one does not include
+  std::shared_ptr<const Library> library = {};  // where SubTrees find those of other files
 };
 
 // A definition without errors, and the objects that it refers to.

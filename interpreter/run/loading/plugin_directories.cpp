@@ -18,10 +18,6 @@ constexpr const char* kVariable = "LOCKSTEP_PLUGIN_PATH";
 constexpr const char* kRosVariable = "AMENT_PREFIX_PATH";
 constexpr const char* kFolderOfPackage = "lib/lockstep/plugins";
 
-bool is_privileged() {
-  return getauxval(AT_SECURE) != 0;
-}
-
 // The directories of a variable of the environment; none when privileged.
 std::vector<std::string> listed_in(const char* variable) {
   std::vector<std::string> directories;
@@ -54,6 +50,10 @@ void warn_of_missing_directories(const PluginOptions& options, Diagnostics& diag
 }
 
 }  // namespace
+
+bool is_privileged() {
+  return getauxval(AT_SECURE) != 0;
+}
 
 fs::path program_directory(const PluginOptions& options) {
   if (!options.program_directory.empty()) return options.program_directory;

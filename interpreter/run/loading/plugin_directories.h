@@ -19,6 +19,9 @@ std::filesystem::path program_directory(const PluginOptions& options);
 // Relative ones are left out when the program is privileged.
 std::vector<std::string> plugin_directories(const PluginOptions& options);
 
+// Whether this program has more rights than its user.
+bool is_privileged();
+
 // Warns about missing directories. Returns false, with errors, if the program is privileged and a
 // plugin directory or file is relative: otherwise the user who chooses the working directory would
 // choose the code. Then it also warns that LOCKSTEP_PLUGIN_PATH is not read.

@@ -13,6 +13,7 @@
 #include "tree/check/declared_groups.h"
 #include "tree/check/element_type.h"
 #include "tree/check/foreign_hints.h"
+#include "tree/check/named_files.h"
 #include "tree/check/node_check.h"
 #include "tree/check/other_tools.h"
 #include "tree/check/stand_ins.h"
@@ -61,11 +62,12 @@ class TreeChecker {
     }
     trees_.nodes.reserve(elements);
     trees_.values.reserve(attributes);
-    for (const auto& document : project_.documents) {
-      document_ = document.get();
-      elements_ = document->elements();
+    for (number_ = 0; number_ < project_.documents.size(); ++number_) {
+      document_ = project_.documents[number_].get();
+      elements_ = document_->elements();
       check_document();
     }
+    add_named_files(project_, trees_, report_);
     return std::move(trees_);
   }
 
@@ -85,7 +87,7 @@ class TreeChecker {
         check_tree(child);
       } else if (const NodeType* type = catalog_.find(tag);
                  type != nullptr && type->category == NodeCategory::Group) {
-        groups_.check(*document_, child, *type);
+        groups_.check(number_, child, *type);
       } else if (tag == "property") {
         check_property(child);
       } else if (!is_read_elsewhere(tag)) {
@@ -101,7 +103,28 @@ class TreeChecker {
     if (const Attribute* main = find_attribute(attributes(0), "main_tree_to_execute")) {
       trees_.main->tree = main->value;
       trees_.main->tree_place = main->place;
+    } else if (project_.given < project_.documents.size()) {
+      read_only_tree();
     }
+  }
+
+  // Of the files that are given, whatever trees a library adds to them.
+  void read_only_tree() {
+    const Attribute* only = nullptr;
+    int trees = 0;
+    for (std::size_t i = 0; i < project_.given; ++i) {
+      const Document& document = *project_.documents[i];
+      const auto elements = document.elements();
+      for (const std::uint32_t child : children_in(elements, 0)) {
+        if (elements[child].tag != "BehaviorTree") continue;
+        ++trees;
+        only = document.find_attribute(child, "ID");
+      }
+    }
+    if (trees != 1 || only == nullptr) return;
+    trees_.main->tree = only->value;
+    trees_.main->tree_place = only->place;
+    trees_.main->is_only = true;
   }
 
   void check_root() const {
@@ -174,6 +197,7 @@ class TreeChecker {
                               fmt::format("'{}' is not a name for 'property'", brief(name.value)),
                               fmt::format("such a name is {}", kIdentifierRule));
     }
+    if (!project_.prefixes[number_].empty()) return;  // each copy of such a file has them
     const auto [first, is_new] = property_places_.try_emplace(name.value, name.place);
     if (is_new || report_.counted_only(Severity::Error)) return;
     report_.at_value(
@@ -220,6 +244,7 @@ class TreeChecker {
     }
     CheckedTree* const entered = enter_tree(named, place);
     tree_ = {};
+    tree_.space = project_.prefixes[number_];
     tree_.first_subtree = count(trees_.subtrees);
     tree_.root = count(trees_.nodes);
     check_node(root, 0, 0);
@@ -237,10 +262,9 @@ class TreeChecker {
       places_.emplace(id, place);
       return &entry->second;
     }
-    const auto first = to_text(project_.sources.locate(places_.at(id)));
     report_.at_value("duplicate-tree"_code, named->place,
                      fmt::format("a tree '{}' exists already", brief(id)),
-                     fmt::format("the first is at {}", first));
+                     hint_for_second_tree(project_.sources, places_.at(id), named->place));
     return nullptr;
   }
 
@@ -297,7 +321,9 @@ class TreeChecker {
     if (node.type->category == NodeCategory::SubTree) {
       CheckedSubTree subtree{.node = self};
       check_subtree_attributes(element, report_, node, subtree, trees_);
-      if (name == nullptr) node.name = subtree.id;
+      if (name == nullptr) {
+        node.name = Project::written(subtree.id, project_.prefixes[number_]);
+      }
       node.first = count(trees_.subtrees);
       trees_.subtrees.push_back(subtree);
     } else if (!bare || !node.type->parameters.empty()) {
@@ -376,6 +402,7 @@ class TreeChecker {
   std::map<std::string_view, Place> places_;  // of the trees, by ID
   std::map<std::string_view, Place> property_places_;
   DeclaredGroups groups_;
+  std::uint32_t number_ = 0;  // of the document, in the project
   const Document* document_ = nullptr;
   std::span<const Element> elements_;  // of the document
   const NodeType* last_type_ = nullptr;

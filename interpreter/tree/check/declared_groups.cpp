@@ -9,7 +9,8 @@
 
 namespace lockstep::host {
 
-void DeclaredGroups::check(const Document& document, std::uint32_t index, const NodeType& type) {
+void DeclaredGroups::check(std::uint32_t number, std::uint32_t index, const NodeType& type) {
+  const Document& document = *project_.documents[number];
   const Element& element = document.elements()[index];
   const auto attributes = document.attributes(index);
   if (element.end > index + 1) {
@@ -32,11 +33,13 @@ void DeclaredGroups::check(const Document& document, std::uint32_t index, const 
                      fmt::format("such a name is {}", kIdentifierRule));
   } else {
     group.name = name->value;
-    enter(group, name->place);
+    enter(group, project_.prefixes[number], name->place);
   }
 }
 
-void DeclaredGroups::enter(const CheckedNode& group, Place name) {
+void DeclaredGroups::enter(CheckedNode& group, std::string_view prefix, Place name) {
+  if (!prefix.empty())
+    group.name = trees_.texts.emplace_back(fmt::format("{}{}", prefix, group.name));
   const auto [first, is_new] = places_.try_emplace(group.name, group.place);
   if (is_new) {
     trees_.groups.push_back(group);

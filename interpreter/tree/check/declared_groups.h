@@ -18,10 +18,11 @@ class DeclaredGroups {
   DeclaredGroups(const Project& project, const Reporter& report, CheckedTrees& trees)
       : project_(project), report_(report), trees_(trees) {}
 
-  void check(const Document& document, std::uint32_t element, const NodeType& type);
+  // Of a document of the project.
+  void check(std::uint32_t document, std::uint32_t element, const NodeType& type);
 
  private:
-  void enter(const CheckedNode& group, Place name);
+  void enter(CheckedNode& group, std::string_view prefix, Place name);
 
   const Project& project_;
   const Reporter& report_;

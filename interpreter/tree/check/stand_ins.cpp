@@ -116,6 +116,7 @@ class Builder {
         if (const auto* id = document->find_attribute(tree, "ID")) trees_.insert(id->value);
       });
     }
+    for (const Project::NamedFile& file : project_.named) trees_.insert(file.name);
   }
 
   void find_uses(const Document& document, MissingNodes unknown, const Mocks& mocks) {

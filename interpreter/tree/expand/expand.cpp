@@ -43,11 +43,12 @@ class Expander {
     for (std::size_t i = 0; i < members_.size(); ++i) groups_.emplace(trees_.groups[i].name, i);
     definition_.nodes.reserve(trees_.nodes.size());  // without subtrees, all that will be needed
     definition_.ports.reserve(trees_.ports.size());
-    Scope scope(definition_.entries, *trees_.rules, trees_.has_outside);
+    const CheckedTree& tree = trees_.trees.at(main);
+    Scope scope(definition_.entries, *trees_.rules, trees_.has_outside, groups_, tree.space);
     for (const auto& [key, text] : values_) scope.set_text(key, text);
     if (trees_.names_at_run_time) definition_.boards.emplace_back();
     definition_.shares_entries = trees_.shares_entries;
-    add(trees_.trees.at(main).root, 0, scope);
+    add(tree.root, 0, scope);
     add_groups(scope);
     keep_board(0, scope);
     if (is_strict() && !is_part_)
@@ -90,7 +91,7 @@ class Expander {
                      Scope& outer) {
     const auto tree = trees_.trees.find(subtree.id);
     if (tree == trees_.trees.end()) return;  // reported already
-    Scope scope(outer, name, subtree.autoremap);
+    Scope scope(outer, name, subtree.autoremap, tree->second.space);
     const auto remappings = std::span(trees_.remappings).subspan(subtree.first, subtree.remappings);
     for (const Remapping& it : remappings) {
       it.is_entry ? scope.remap(it.key, it.value) : scope.set_text(it.key, it.value);
@@ -140,6 +141,8 @@ class Expander {
       const CheckedNode& group = trees_.groups[i];
       if (members_[i].empty()) {
         if (is_part_ || report_.has_errors()) continue;  // it may be for want of what they refuse
+        // A file that has a name declares it for a run alone, and a SubTree gives another one.
+        if (group.name.find('.') != std::string_view::npos) continue;
         report_.at("unused-group"_code, group.place,
                    fmt::format("no node of '{}' uses the {} '{}'", brief(definition_.id),
                                group.type->id, brief(group.name)),
@@ -475,7 +478,7 @@ class Expander {
   const Reporter& report_;
   const bool is_part_;
   Definition definition_;
-  std::map<std::string_view, std::size_t> groups_;   // by name: its place in trees_.groups
+  Scope::Groups groups_;                             // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
   StartTexts literals_;                 // those whose type no port gave yet

@@ -58,10 +58,25 @@ Board Scope::board() const {
 }
 
 std::string_view Scope::group(std::string_view name) {
-  if (outer_ == nullptr) return name;
   groups_.insert(name);
-  const auto other = texts_.find(name);
-  return outer_->group(other == texts_.end() ? name : other->second);
+  if (const auto other = texts_.find(name); outer_ != nullptr && other != texts_.end()) {
+    return outer_->group(other->second);
+  }
+  if (const auto own = group_of_file(name); !own.empty()) return own;
+  return outer_ == nullptr ? name : outer_->group(name);
+}
+
+std::string_view Scope::group_of_file(std::string_view name) const {
+  const std::string_view outside = outer_ == nullptr ? std::string_view() : outer_->space_;
+  for (std::string_view space = space_; !space.empty() && space != outside;) {
+    if (const auto found = declared_.find(std::string(space) + std::string(name));
+        found != declared_.end()) {
+      return found->first;
+    }
+    space.remove_suffix(1);
+    space = space.substr(0, space.rfind('.') + 1);
+  }
+  return {};
 }
 
 std::vector<std::string_view> Scope::open_keys() const {

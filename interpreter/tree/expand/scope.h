@@ -19,13 +19,24 @@ class Scope {
  public:
   static constexpr std::uint32_t kNone = Port::kNone;
 
-  // The scope of the main tree. With a board outside, "@key" is not its "key".
-  Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules, bool has_outside)
-      : entries_(entries), rules_(rules), has_outside_(has_outside) {}
+  // The groups that are declared, by their names in the project.
+  using Groups = std::map<std::string_view, std::size_t>;
+
+  // The scope of the main tree. With a board outside, "@key" is not its "key". `space` is that of
+  // the tree.
+  Scope(std::vector<BlackboardEntry>& entries, const LanguageRules& rules, bool has_outside,
+        const Groups& groups, std::string_view space)
+      : entries_(entries),
+        rules_(rules),
+        declared_(groups),
+        space_(space),
+        has_outside_(has_outside) {}
   // The scope of a SubTree inside `outer`.
-  Scope(Scope& outer, std::string_view name, bool autoremap)
+  Scope(Scope& outer, std::string_view name, bool autoremap, std::string_view space)
       : entries_(outer.entries_),
         rules_(outer.rules_),
+        declared_(outer.declared_),
+        space_(space),
         outer_(&outer),
         path_((outer.path_.empty() ? "" : outer.path_ + "/").append(name)),
         autoremap_(autoremap) {}
@@ -50,7 +61,8 @@ class Scope {
   }
   // For names that are known only at run time: what names mean here. Not its place among boards.
   Board board() const;
-  // The name in the project of the group that `name` means here.
+  // The name in the project of the group that `name` means here: what an attribute of a SubTree
+  // says, else that of its file, else that of the file outside.
   std::string_view group(std::string_view name);
   bool used(std::string_view key) const { return known_.contains(key) || groups_.contains(key); }
   // The keys and names that are used but that no attribute of the SubTree sets.
@@ -59,12 +71,17 @@ class Scope {
  private:
   // Whether a key that is neither remapped nor has a start value is one outside.
   bool passes_on(std::string_view key) const;
+  // The group of that name that this file, or one that includes it by a name, declares; "" if the
+  // scope outside knows better.
+  std::string_view group_of_file(std::string_view name) const;
   Scope& main() { return outer_ == nullptr ? *this : outer_->main(); }
   // "grasp/force", or "grasp#2/force" if a SubTree of that name elsewhere has that.
   std::string unique_name(std::string_view key);
 
   std::vector<BlackboardEntry>& entries_;
   const LanguageRules& rules_;
+  const Groups& declared_;
+  std::string_view space_;
   Scope* outer_ = nullptr;
   std::string path_;  // the names of the SubTrees around: "grasp/hand"
   bool autoremap_ = false;

@@ -26,6 +26,7 @@ constexpr Word kArgument[] = {
 };
 constexpr Word kInclude[] = {
     {"path", "", "The file, from the directory of this one.", true},
+    {"as", "", "A name for the file: with \"truck\" its trees are truck.ID here."},
 };
 constexpr Word kPlugin[] = {
     {"name", "", "The name of the plugin; files are searched, never named by their paths.", true},

@@ -24,7 +24,9 @@ struct Part {
 };
 constexpr Part kParts[] = {
     {"root", "Holds everything. `main_tree_to_execute` names the tree that runs."},
-    {"include", "Reads another file first: `path`, relative to this file."},
+    {"include",
+     "Reads another file first: `path`, relative to this file. With `as=\"truck\"` its trees are "
+     "`truck.ID`."},
     {"plugin", "Loads the leaves of a plugin: `name`, or `program` for a process plugin."},
     {"arg",
      "Declares a value that `--arg NAME=VALUE` gives: `name`, `default`. It is used as `${NAME}` "
