@@ -60,8 +60,8 @@ TEST_CASE("two included files with trees of one ID are an error, and with `as` t
         "both.xml",
         "<include path=\"a.xml\" as=\"a\"/><include path=\"b.xml\" as=\"b\"/>" +
             files.tree("Team",
-                       "<Sequence><SubTree ID=\"a.Main\" name=\"x\"/><SubTree ID=\"a.Go\"/>"
-                       "<SubTree ID=\"b\"/></Sequence>"),
+                       "<Parallel><SubTree ID=\"a.Main\" name=\"x\"/><SubTree ID=\"a.Go\"/>"
+                       "<SubTree ID=\"b\"/></Parallel>"),
         main);
     const Outcome named = run_lockstep({"run", both, "--view", "none", "--clock", "virtual"});
     INFO(named.err);
@@ -76,15 +76,15 @@ TEST_CASE("in a file that is included with `as`, names are those of the file") {
     files.add(
         "truck.xml",
         "<include path=\"arm.xml\" as=\"arm\"/>" +
-            files.tree("Main", "<Sequence><SubTree ID=\"Go\"/><SubTree ID=\"arm\"/></Sequence>") +
+            files.tree("Main", "<Parallel><SubTree ID=\"Go\"/><SubTree ID=\"arm\"/></Parallel>") +
             files.tree("Go", files.wait()),
         " main_tree_to_execute=\"Main\"");
     const std::string site = files.add(
         "site.xml",
         "<include path=\"truck.xml\" as=\"one\"/><include path=\"truck.xml\" as=\"two\"/>" +
             files.tree("Main",
-                       "<Sequence><SubTree ID=\"one\"/><SubTree ID=\"two\"/>"
-                       "<SubTree ID=\"two.arm.Main\"/></Sequence>"),
+                       "<Parallel><SubTree ID=\"one\"/><SubTree ID=\"two\"/>"
+                       "<SubTree ID=\"two.arm.Main\"/></Parallel>"),
         " main_tree_to_execute=\"Main\"");
     const Outcome shown = run_lockstep({"show", site});
     INFO(shown.err);
@@ -119,7 +119,7 @@ TEST_CASE("a file that is included with `as` has its own barriers and pools") {
         "own.xml",
         "<include path=\"crew.xml\" as=\"a\"/><include path=\"crew.xml\" as=\"b\"/>" +
             files.tree("Main",
-                       "<Sequence><SubTree ID=\"a.Crew\"/><SubTree ID=\"b.Crew\"/></Sequence>"),
+                       "<Parallel><SubTree ID=\"a.Crew\"/><SubTree ID=\"b.Crew\"/></Parallel>"),
         main);
     const Outcome apart = run_lockstep({"run", own, "--json", "--clock", "virtual"});
     INFO(apart.err);
