@@ -62,8 +62,23 @@ void ReferenceNode::run(const char* hook) const {
   if (script != plan.hooks.end()) this->script().run(script->second);
 }
 
-// It has begun or completed in this moment, or something below it has.
+// Whether it was decided in this moment that it gets no tick: by the parallel that holds it, or a
+// node around it, or by the member of a barrier or a pool.
+bool ReferenceNode::is_withheld() const {
+  const ReferenceNode* held = this;
+  while (held->parent != nullptr && held->parent->paused) held = held->parent;
+  const ReferenceNode* const holder = held->parent;
+  if (holder == nullptr) return false;
+  const bool compares =
+      holder->plan.kind == "ParallelAbsolute" || holder->plan.kind == "ParallelRelative";
+  if (!compares) return holder->was_ticked;
+  return std::ranges::any_of(holder->children, [](const auto& child) { return child->was_ticked; });
+}
+
+// It has begun or completed in this moment, or this tick withholds its ticks; or so it is with
+// something below it.
 bool ReferenceNode::has_news() const {
+  if (paused && is_withheld()) return true;
   const bool is_new = status != Status::Idle && !(runs() && at_begin == Status::Running);
   if (was_ticked && is_new) return true;
   return std::ranges::any_of(children, [](const auto& child) { return child->has_news(); });

@@ -81,6 +81,7 @@ class ReferenceNode {
 
  private:
   bool has_news() const;
+  bool is_withheld() const;
   Status tick_with_scripts();
   Status decided(Status result);
   Status ended(Status result);
