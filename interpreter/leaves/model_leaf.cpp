@@ -196,7 +196,8 @@ std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std
   const auto usable = std::span(steps).first(static_cast<std::size_t>(last_level) + 1);
   const bool must_finish = model.finishes_full && model.has_progress;
   const bool is_short = must_finish && last_level + 1 < static_cast<std::int32_t>(steps.size());
-  const auto last_step = std::min(model.last_step, is_short ? model.goal - 1 : usable.back());
+  const auto last_step =
+      std::min({model.last_step, is_short ? model.goal - 1 : usable.back(), usable.back()});
   std::vector<Reach> reaches;
   for (std::size_t level = 0; level < steps.size(); ++level) {
     const std::int64_t from = std::clamp<std::int64_t>(steps[level] + least, 0, last_step);

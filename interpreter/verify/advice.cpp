@@ -75,6 +75,7 @@ void make_steps_small(LeafModel& leaf) {
   leaf.levels = std::move(levels);
   leaf.steps.resize(leaf.levels.size());
   std::iota(leaf.steps.begin(), leaf.steps.end(), 0);
+  leaf.last_step = leaf.steps.back();
   leaf.goal = static_cast<std::int32_t>(leaf.levels.size());
 }
 
@@ -85,6 +86,7 @@ LeafModels done_at_1(LeafModels models) {
     if (leaf.levels.back() < 1) continue;
     leaf.levels.pop_back();
     leaf.steps.pop_back();
+    leaf.last_step = std::min(leaf.last_step, leaf.steps.back());
   }
   return models;
 }

@@ -20,7 +20,6 @@ class Deadlocks {
  public:
   Deadlocks(const Tree& tree, const LeafModels& models, double rate, const SearchResult& found)
       : tree_(tree),
-        shape_(shape_of(tree)),
         moments_(tree),
         found_(found),
         graph_(found.graph),
@@ -120,10 +119,10 @@ class Deadlocks {
     tracer_.play({traced.run.back()}, [&](Stepper& stepper, Status, std::size_t) {
       const Moment& moment = moments_.after_tick(stepper.ticker(), 0, {});
       for (NodeIndex node = 0; node < holders.size(); ++node) {
-        if (!holders[node] || !holds_somebody(shape_, moment, node)) continue;
-        WaitChain chain = wait_chain(shape_, moment, node);
+        if (!holders[node] || !holds_somebody(shape(), moment, node)) continue;
+        WaitChain chain = wait_chain(shape(), moment, node);
         const bool lasts = std::ranges::all_of(chain.links, [&](const WaitLink& link) {
-          return shape_.nodes[link.node].is_pool() || holders[link.node];
+          return shape().nodes[link.node].is_pool() || holders[link.node];
         });
         if (!lasts) chain = {.links = {chain.links.front()}};
         const NodeIndex decider = decider_of(moment, chain.links.back().awaited);
@@ -149,10 +148,16 @@ class Deadlocks {
     if (known_.insert(std::move(nodes)).second) deadlocks_.push_back(std::move(deadlock));
   }
 
+  // Its paths may be long: only for a tree in which somebody waits.
+  const Shape& shape() {
+    if (!shape_) shape_ = shape_of(tree_);
+    return *shape_;
+  }
+
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   const Tree& tree_;
-  const Shape shape_;
+  std::optional<Shape> shape_ = {};
   LiveMoments moments_;
   const SearchResult& found_;
   const Graph& graph_;

@@ -23,9 +23,9 @@ struct Case {
 
 // clang-format off
 const Case kCases[] = {
-  {"no_entry", "does not export 'lockstep_plugin_entry'", "is it a lockstep plugin? docs/plugins.md shows how one is built"},
+  {"no_entry", "does not export 'lockstep_plugin_entry'", "is it a lockstep plugin? `lockstep docs plugins` shows how one is built"},
   {"entry_is_function", "exports 'lockstep_plugin_entry' as a function", "define it as a constant of type lockstep_plugin"},
-  {"entry_too_small", "exports a constant of 4 bytes, expected a lockstep_plugin", "define lockstep_plugin_entry as in docs/plugins.md"},
+  {"entry_too_small", "exports a constant of 4 bytes, expected a lockstep_plugin", "define lockstep_plugin_entry as in `lockstep docs plugins`"},
   {"wrong_abi", "was built for plugin ABI 2.3, this program has 1.5", "build it with the lockstep/leaf.h of this version"},
   {"undefined_symbol", "cannot be loaded: undefined symbol: a_function_that_nobody_has", "link the plugin with the library that defines it; functions of lockstep are reached through the host table only"},
   {"static_tls", "cannot be loaded: cannot allocate memory in static TLS block", "thread-local variables of it, or of a library that it needs, must have their place when the program starts: set GLIBC_TUNABLES=glibc.rtld.optional_static_tls=4194304, or name the library in LD_PRELOAD"},
@@ -119,7 +119,7 @@ TEST_CASE("a plugin that breaks the contract is refused with one error") {
 }
 
 TEST_CASE("what is not a shared object for this machine is refused before the linker sees it") {
-  const std::string build = "build it as a MODULE or SHARED library (docs/plugins.md)";
+  const std::string build = "build it as a MODULE or SHARED library (`lockstep docs plugins`)";
   const std::string directory = LOCKSTEP_ABI_PLUGINS;
 
   for (const Isolation isolation : {Isolation::InProcess, Isolation::Isolated}) {

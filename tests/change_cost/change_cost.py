@@ -18,7 +18,8 @@ WHOLE = {"schema/lockstep.xsd", "schema/leaves.xsd", "schema/scenarios.xsd", "do
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ids.h",
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/node_ports.h",
          "plugins/sdk/btcpp/include/behaviortree_cpp/lockstep/nodes.h"}
-TABLES = {"docs/recording.md": r"<!-- lines: .* -->", "docs/studies.md": r"\| Measure \| Of \| Meaning \|",
+TABLES = {"docs/messages.md": r"\| Code \| Meaning \|",
+          "docs/recording.md": r"<!-- lines: .* -->", "docs/studies.md": r"\| Measure \| Of \| Meaning \|",
           "docs/nodes-and-attributes.md": r"\| There \| Here \| \|"}
 NOT_COUNTED = {"CHANGELOG.md"}
 

@@ -46,7 +46,7 @@ TEST_CASE("nodes as JSON says what the checker knows") {
   const json& barriers = node["parameters"][0];
   CHECK(barriers["name"] == "barriers");
   CHECK(barriers["type"] == "list of double");
-  CHECK(barriers["range"] == json{{"min", 0.0}, {"max", 1.0}, {"min_excluded", true}});
+  CHECK(barriers["range"] == json{{"min", 0.0}, {"max", 1.0}, {"min_excluded", false}});
   CHECK(barriers["required"] == false);
   CHECK(barriers["default"].is_null());
   CHECK(barriers["blackboard"] == true);

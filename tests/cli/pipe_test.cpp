@@ -76,7 +76,7 @@ TEST_CASE("devices, and pipes that no user has named, are not read") {
       {"lockstep check /dev/stdin < /dev/zero", neither},
       {"lockstep check - < /dev/null", neither},
       {"lockstep check - <&-", neither},  // which is /dev/null by then
-      {"lockstep check .", "Is a directory"},
+      {"lockstep run .", "Is a directory"},
       {"mkfifo f; lockstep check fifo.xml", regular},
       {"cat tree.xml | lockstep check stdin.xml", regular},
       {"cat tree.xml | lockstep check descriptor.xml", regular},

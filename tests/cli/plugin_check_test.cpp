@@ -58,7 +58,7 @@ TEST_CASE("plugin check: what breaks the contract is named, with its leaf") {
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 4);
     CHECK(contains(outcome.out, message));
-    CHECK(contains(outcome.out, ".so: does not keep the contract (docs/plugins.md)\n"));
+    CHECK(contains(outcome.out, ".so: does not keep the contract (`lockstep docs plugins`)\n"));
   }
   const Outcome good = check_plugin(abi_plugin("error_in_tick"));  // an error is an answer
   CHECK(good.code == 0);

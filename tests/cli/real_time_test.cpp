@@ -19,7 +19,7 @@ struct Tree {
       file +
       ": warning: on the virtual clock no tick waits for leaves that work in real time: "
       "'Main/Sequence/plan' (Probe of plugin 'real_time'), "
-      "'Main/Sequence/grasp' (Probe of plugin 'real_time')\n  hint: ";
+      "'Main/Sequence/grasp' (Probe of plugin 'real_time') [real-time-leaf]\n  hint: ";
 
   Outcome run(const std::string& clock) const {
     return run_lockstep({"run", file, "--plugin", kPlugin, "--clock", clock});

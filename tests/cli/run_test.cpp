@@ -356,7 +356,7 @@ TEST_CASE("run notes a synchronized node whose leaves report no progress") {
           .run(probe);
   CHECK(contains(outcome.err,
                  "tree.xml: note: the children of 'Main/both' are in step, but these "
-                 "report no progress and are at 0 until they succeed: 'arm'\n"));
+                 "report no progress and are at 0 until they succeed: 'arm' [no-progress]\n"));
   for (const std::string node :
        {"<ParallelAbsolute barriers=\"0.5\"><Advance/><Advance/></ParallelAbsolute>",
         "<Parallel><Probe/><Advance/></Parallel>",

@@ -116,7 +116,7 @@ TEST_CASE("what check refuses, the schema refuses where it can say it") {
       around("<ParallelAbsolute barriers=\"1\" "
              "at_barrier=\"wat\"><AlwaysSuccess/></ParallelAbsolute>"),
       around("<ParallelRelative delta=\"1.5\"><AlwaysSuccess/></ParallelRelative>"),
-      around("<ParallelAbsolute barriers=\"0;0.5\"><AlwaysSuccess/></ParallelAbsolute>"),
+      around("<ParallelAbsolute barriers=\"-0.5;0.5\"><AlwaysSuccess/></ParallelAbsolute>"),
       around("<ParallelAbsolute barriers=\"0.5;1.5\"><AlwaysSuccess/></ParallelAbsolute>"),
       around("<Timeout seconds=\"0\"><AlwaysSuccess/></Timeout>"),
       around("<Repeat times=\"1.5\"><AlwaysSuccess/></Repeat>"),

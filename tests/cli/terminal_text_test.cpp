@@ -153,10 +153,10 @@ TEST_CASE("texts of what is reported while a tree runs reach the terminal visibl
   };
   for (const std::string view : {"plain", "none", "live"}) {
     const Outcome piped = lockstep::host::test::run(run(view));
-    CHECK(contains(piped.err, "stands still"));
+    CHECK(contains(piped.err, "makes no progress"));
     check_clean(piped, view, view == "live");
     const Outcome shown = Process(run(view), Process::Output::Terminal).finish();
-    CHECK(contains(shown.out, "stands still"));
+    CHECK(contains(shown.out, "makes no progress"));
     check_clean(shown, view + " on a terminal", true);
   }
 }

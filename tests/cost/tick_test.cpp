@@ -70,7 +70,7 @@ namespace lockstep::host::test {
 namespace {
 
 // Every kind of node, over leaves of a plugin in C++ that have ports and read them; it runs on.
-constexpr const char* kTree = R"(
+constexpr const char* kTree = R"xml(
 <root lockstep="1" main_tree_to_execute="Main">
   <barrier name="early" barriers="0.3;0.6" idle="ignore"/>
   <barrier name="close" delta="1e-8"/>
@@ -108,7 +108,7 @@ constexpr const char* kTree = R"(
     <ParallelAbsolute barriers="{plan}"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
   </BehaviorTree>
   <BehaviorTree ID="Part"><RunOnce><AlwaysSuccess/></RunOnce></BehaviorTree>
-</root>)";
+</root>)xml";
 
 constexpr const char* kMeasuredTree = R"(
 <root lockstep="1" main_tree_to_execute="Main">

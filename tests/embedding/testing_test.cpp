@@ -95,7 +95,7 @@ TEST_CASE("TreeTest: what is wrong is said where it is said") {
   TreeTest tree = TreeTest::from_text(kDoor);
   CHECK(wrong([&] { tree.leaf("arn", "S"); }).find("'Main/Sequence/pull/arm'") !=
         std::string::npos);
-  CHECK(wrong([&] { tree.leaf("arm", "R.5 Q"); }).find("'Q' is no word") != std::string::npos);
+  CHECK(wrong([&] { tree.leaf("arm", "R.5 Q"); }).find("'Q' is not a word") != std::string::npos);
   CHECK(wrong([&] { tree.leaf("arm", ""); }).find("at least one word") != std::string::npos);
   CHECK(wrong([&] { tree.leaf("arm", "S[place=x]"); }).find("no output 'place'") !=
         std::string::npos);

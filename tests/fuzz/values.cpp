@@ -1,5 +1,5 @@
 // Any text as a value of each type: what parses is written as text that parses to the same value.
-// As the barriers of a tree: what is accepted rises and lies in (0, 1].
+// As the barriers of a tree: what is accepted rises and lies in [0, 1].
 #include <fmt/format.h>
 
 #include <cmath>
@@ -70,9 +70,9 @@ void check_barriers(std::string_view text) {
   const auto definition = resolve(*project, make_catalog({}), {}, diagnostics);
   require(definition.has_value() != diagnostics.has_errors());
   if (!definition) return;
-  double before = 0;
+  double before = -1;
   for (const double barrier : compile(*definition).numbers) {
-    require(barrier > before && barrier <= 1);
+    require(barrier >= 0 && barrier > before && barrier <= 1);
     before = barrier;
   }
 }

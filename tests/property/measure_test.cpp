@@ -18,7 +18,7 @@ namespace lockstep::host::test {
 namespace {
 
 constexpr int kMeasureTrees = 1500;
-constexpr double kRate = 10;  // of WatchedRun
+constexpr double kWatchedRate = 10;  // of WatchedRun
 
 // All measures of a tree with all their arguments, as far as it has such nodes.
 std::vector<MeasureSpec> all_of(const Tree& tree) {
@@ -80,7 +80,7 @@ TEST_CASE("what held a child by all others is what it was held") {
     INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     const auto specs = all_of(run.run.tree());
-    RunMeasures of_run(shape_of(run.run.tree()), specs, kRate);
+    RunMeasures of_run(shape_of(run.run.tree()), specs, kWatchedRate);
     REQUIRE(of_run.error() == "");
     run.watch({&of_run}, static_cast<std::uint64_t>(trial.ticks));
     Measured measured;
@@ -164,7 +164,7 @@ TEST_CASE("the measures of random trees are those of the reference, without guar
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     const MeasureSpec specs[] = {parse_measure("progress-distance").value(),
                                  parse_measure("spread").value()};
-    RunMeasures measured(shape_of(run.run.tree()), specs, kRate);
+    RunMeasures measured(shape_of(run.run.tree()), specs, kWatchedRate);
     run.watch({&measured}, static_cast<std::uint64_t>(trial.ticks));
     if (run.run.ticker().fault() != nullptr) continue;
     Status status = Status::Running;

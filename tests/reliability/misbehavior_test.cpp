@@ -148,7 +148,7 @@ TEST_CASE("a study warns of a progress out of range, once for each leaf, and cou
   const std::string told =
       tree +
       ": warning: the leaf 'Main/plan/ParallelRelative/arm' (Misbehave of plugin 'hostile') "
-      "reported the progress 7: progress is a share from 0 to 1, so it counts as 1\n"
+      "reported the progress 7: progress is a share from 0 to 1, so it counts as 1 [bad-progress]\n"
       "  hint: first in run 0 of cell 0; in 40 runs in all\n";
   check(outcome, 0, {told});
   CHECK(outcome.err.find(told) == outcome.err.rfind(told));

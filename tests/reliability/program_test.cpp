@@ -103,7 +103,7 @@ const ProgramMisdeed kProgramMisdeeds[] = {
     {"wrong_order", "it answered 'done' for 'Main/Parallel/bad', which must answer tick first"},
     {"foreign", "since it spoke of leaf 77, which it does not have"},
     {"status", "the status is 'fine', expected running, success, failure or skipped"},
-    {"list", "which is no answer: expected a JSON object"},
+    {"list", "which is not an answer: expected a JSON object"},
     {"closed", "closed its output; it was killed when it was to answer tick of"},
     {"die", "was killed by SIGSEGV (Segmentation fault) when it was to answer tick of"},
     {"end", "ended with exit code 3 when it was to answer tick of 'Main/Parallel/bad'"},
@@ -116,7 +116,7 @@ const ProgramMisdeed kProgramMisdeeds[] = {
     {"no_port", "set 'depth', which is not one of its ports"},
     {"progress", "'progress' is not a number"},
     {"nothing", "expected one of 'status', 'done', 'log' and 'error', or 'progress' alone"},
-    {"deep", "which is no answer: expected a JSON object"},
+    {"deep", "which is not an answer: expected a JSON object"},
 };
 
 void check_misdeed(const ProgramMisdeed& row, const std::string& clock) {

@@ -40,7 +40,7 @@ TEST_CASE("names that are illegal or taken are refused, and nothing is made") {
         {"plugin motion", "there is a plugin 'motion' already"},
         {"plugin gr/ip", "'gr/ip' cannot be the name of a plugin"},
         {"plugin arm --leaf Wait", "'Wait' is a node of lockstep"},
-        {"plugin arm --leaf wave", "'wave' begins with a small letter"},
+        {"plugin arm --leaf wave", "'wave' begins with a lowercase letter"},
         {"plugin arm --lang cobol", "cobol"},
         {"tree ''", "'' cannot be the name of a tree"},
         {"leaf Open", "there is not the source of a plugin"},

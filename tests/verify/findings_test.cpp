@@ -94,7 +94,7 @@ TEST_CASE("a trap says who waits for whom") {
   REQUIRE(trap != nullptr);
   REQUIRE_FALSE(trap->more.empty());
   INFO(trap->more.front());
-  CHECK(trap->more.front().find("a circle stands still: ") != std::string::npos);
+  CHECK(trap->more.front().find("a deadlock: ") != std::string::npos);
   REQUIRE(trap->repeats);
   CHECK(trap->run.size() > *trap->repeats);
 }

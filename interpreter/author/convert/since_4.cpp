@@ -155,9 +155,9 @@ class Since4 {
 
 }  // namespace
 
-bool is_since_4(const Document& document) {
+bool is_older_form(const Document& document) {
   const Attribute* format = document.find_attribute(0, "BTCPP_format");
-  return format != nullptr && format->value != "3";
+  return &document.rules() != &kLockstepRules && (format == nullptr || format->value == "3");
 }
 
 std::optional<std::string> convert_since_4(const Document& document, const Catalog& nodes,

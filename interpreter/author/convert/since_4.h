@@ -9,8 +9,8 @@
 
 namespace lockstep::host {
 
-// Whether it is for version 4, or says that it is for another one than 3.
-bool is_since_4(const Document& document);
+// Whether it is for BehaviorTree.CPP, and for version 3 or older.
+bool is_older_form(const Document& document);
 
 // `nodes`: the built-in ones of version 4. Nothing, with errors, if something in it is gone.
 std::optional<std::string> convert_since_4(const Document& document, const Catalog& nodes,

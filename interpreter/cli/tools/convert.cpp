@@ -66,7 +66,7 @@ std::optional<std::string> converted(const ConvertOptions& options, Diagnostics&
     return options.to.empty() ? it != &from : it->name == options.to;
   };
   const LanguageRules& to = **std::ranges::find_if(languages(), is_meant);
-  const bool is_older = &to == &from && &from != &kLockstepRules && !is_since_4(*document);
+  const bool is_older = &to == &from && is_older_form(*document);
   if (&to == &from && !is_older) {
     diagnostics.error("wrong-language"_code, {name}, "is in that language already");
     return std::nullopt;

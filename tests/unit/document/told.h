@@ -16,6 +16,7 @@ inline std::vector<std::string> told(Diagnostics diagnostics) {
   for (auto diagnostic : diagnostics.all()) {
     diagnostic.hint.clear();
     diagnostic.excerpt = {};
+    diagnostic.code = {};
     auto line = render(diagnostic, false);
     line.pop_back();
     const std::string_view severity = "error: ";
