@@ -53,7 +53,7 @@ assert run("doctor", "--rate", "0").returncode == 2
 
 about = run("--version", "--verbose")
 assert about.returncode == 0 and about.stdout.startswith(run("--version").stdout.strip() + "\nparts "), about
-for row in ("plugin contract   1.", "law  ", "recordings  ", "compiler  ", "program  ", "lockstep-leafhost ", "plugins  "):
+for row in ("plugin contract   1.", "semantics  ", "recordings  ", "compiler  ", "program  ", "lockstep-leafhost ", "plugins  "):
     assert "\n" + row in about.stdout, row
 assert "plugins           /nowhere (not there)" in run("--version", "--verbose", LOCKSTEP_PLUGIN_PATH="/nowhere").stdout
 assert run("--verbose").returncode == 2

@@ -37,6 +37,7 @@ DONE = [
     "docs/from-behaviortree-cpp.md",
     "docs/glossary.md",
     "docs/guards.md",
+    "docs/road.md",
     "docs/index.md",
     "docs/language.md",
     "docs/language_server.md",
