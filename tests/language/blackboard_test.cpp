@@ -259,7 +259,8 @@ TEST_CASE("each SubTree has a scope of its own") {
 }
 
 TEST_CASE("no two entries have the same key") {
-  const Pipeline pipeline(R"(<root lockstep="1" main_tree_to_execute="T"><BehaviorTree ID="T"><Parallel>
+  const Pipeline pipeline(
+      R"(<root lockstep="1" main_tree_to_execute="T"><BehaviorTree ID="T"><Parallel>
 <Sequence><SubTree ID="G" name="grasp"/></Sequence><Sequence><SubTree ID="G" name="grasp"/></Sequence>
 <SubTree ID="H" name="grasp"/><Script code="a := 1"/></Parallel></BehaviorTree>
 <BehaviorTree ID="G"><Sequence><Script code="x := 1"/><Script code="y := 2"/></Sequence></BehaviorTree>

@@ -55,7 +55,8 @@ class Reference {
   bool ticked(std::size_t node) const;  // in the last tick
   bool held(std::size_t node) const;
   // A new moment of a tick begins when a node that has begun or completed in this one, or that this
-  // tick withholds its ticks from, is halted or reset. Those of the last tick, but for the last one, which is the state after the tick.
+  // tick withholds its ticks from, is halted or reset. Those of the last tick, but for the last
+  // one, which is the state after the tick.
   const std::vector<ReferenceMoment>& moments() const;
   double progress(std::size_t node);  // may find a fault
   // What a synchronized node saw at the start of its last tick, not a number for a member of a

@@ -147,8 +147,7 @@ std::string refusal(const Entry& entry, const Operand& value, std::string_view s
   } else {
     what = to_string(static_cast<ValueType>(entry.value().index()));
   }
-  return fmt::format("cannot assign {} to '{}', which has the type {}", shown, brief(name),
-                     what);
+  return fmt::format("cannot assign {} to '{}', which has the type {}", shown, brief(name), what);
 }
 
 }  // namespace lockstep::host

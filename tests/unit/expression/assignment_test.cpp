@@ -79,9 +79,11 @@ TEST_CASE(":= makes a missing entry without a type, others need it") {
       {kMissing, "0 ? (x := 1) : 2", "missing"},
       {any(), "x = 5", "5*1"},
       {any(), "x = 'a'", "'a'*1"},
-      {any(), "x = empty", "cannot assign to 'x': the right side is the entry 'empty' without a value"},
+      {any(), "x = empty",
+       "cannot assign to 'x': the right side is the entry 'empty' without a value"},
       {kMissing, "x := x", "cannot assign to 'x': the right side is the entry 'x' without a value"},
-      {any(), "x += 1", "'+=' takes two numbers or two texts, not the entry 'x' without a value and 1"},
+      {any(), "x += 1",
+       "'+=' takes two numbers or two texts, not the entry 'x' without a value and 1"},
   };
   check(rows);
 }

@@ -78,7 +78,8 @@ TEST_CASE("arithmetic takes two numbers, + also two texts") {
       {"'b'-'a'", "'-' takes two numbers, not the text 'b' and the text 'a'"},
       {"'1'*2", "'*' takes two numbers, not the text '1' and 2"},
       {"1/list", "'/' takes two numbers, not 1 and the list of double of an entry"},
-      {"empty+1", "'+' takes two numbers or two texts, not the entry 'empty' without a value and 1"},
+      {"empty+1",
+       "'+' takes two numbers or two texts, not the entry 'empty' without a value and 1"},
       {"9007199254740991+0", "9007199254740991.0"},
       {"9007199254740992+0", "'+' takes two numbers or two texts, not 9007199254740992 and 0"},
       {"large*1", "'*' takes two numbers, not 9007199254740992 and 1"},
@@ -103,7 +104,8 @@ TEST_CASE(".. joins texts, or a text and a number") {
       {"'x'..(text..'y')..'z'", "'xabcyz'"},
       {"1..2", "'..' takes two texts, or a text and a number, not 1 and 2"},
       {"'a'..empty",
-       "'..' takes two texts, or a text and a number, not the text 'a' and the entry 'empty' without a value"},
+       "'..' takes two texts, or a text and a number, not the text 'a' and the entry 'empty' "
+       "without a value"},
       {"'a'..list",
        "'..' takes two texts, or a text and a number, not the text 'a' and the list of double of "
        "an entry"},
@@ -212,7 +214,8 @@ TEST_CASE("comparisons are of texts by bytes, of numbers almost, of a number and
       {"''<1", "'<' takes " + operands + ", not the text '' and 1"},
       {"1>=text", "'>=' takes " + operands + ", not 1 and the text 'abc'"},
       {"empty==empty",
-       "'==' takes " + operands + ", not the entry 'empty' without a value and the entry 'empty' without a value"},
+       "'==' takes " + operands +
+           ", not the entry 'empty' without a value and the entry 'empty' without a value"},
       {"list==1", "'==' takes " + operands + ", not the list of double of an entry and 1"},
       {"1<2<missing", "there is no entry 'missing'; 'missing := …' makes it"},
       {"2<1<missing", "0.0"},  // it ends at the first that does not hold
