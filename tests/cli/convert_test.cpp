@@ -779,3 +779,15 @@ TEST_CASE("convert --to btcpp4 takes a file for version 3") {
   CHECK(not_there.code == 3);
   CHECK(contains(not_there.err, "version 4 has no 'BlackboardCheckInt'"));
 }
+
+TEST_CASE("convert warns of a property, which a tree for BehaviorTree.CPP cannot declare") {
+  const TemporaryDirectory directory;
+  const std::string file = directory.file(
+      "tree.xml",
+      R"(<root lockstep="1"><property name="p">never a.failure</property><BehaviorTree ID="M"><Wait name="a" seconds="1"/></BehaviorTree></root>)");
+  const Outcome outcome = run_lockstep({"convert", file});
+  CHECK(outcome.code == 0);
+  CHECK_FALSE(contains(outcome.out, "property"));
+  CHECK(contains(outcome.err, "warning: 'property' is left out [not-the-same]"));
+  CHECK(contains(outcome.err, "--property"));
+}

@@ -150,12 +150,15 @@ class Converter {
       if (!to_ours() && tag == "arg") warn_of_argument(element);
       return;
     }
-    if (to_ours() || tag == "property") {
+    if (!to_ours() && tag == "property") {
+      open_.back().is_left_out = true;
+      report_.at("not-the-same"_code, place, "'property' is left out",
+                 "trees for BehaviorTree.CPP declare none: give it to each run with --property",
+                 Severity::Warning);
+    } else if (to_ours()) {
       open_.back().is_left_out = true;
       report_.at("left-out"_code, place, fmt::format("'{}' is left out", brief(tag)),
-                 fmt::format("{} does not have it; it has no effect on a run",
-                             to_ours() ? "lockstep's language" : "BehaviorTree.CPP"),
-                 Severity::Note);
+                 "lockstep's language does not have it; it has no effect on a run", Severity::Note);
     } else {
       cannot(place, fmt::format("'{}'", brief(tag)));
     }
