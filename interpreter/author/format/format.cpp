@@ -41,14 +41,15 @@ std::vector<bool> elements_with_text(std::string_view text, Grammar grammar) {
 
 class Formatter {
  public:
-  Formatter(const Document& document, const FormatOptions& options)
+  Formatter(const Document& document, const FormatOptions& options, std::string_view line_end)
       : text_(document.source()->text()),
-        line_end_(line_end_of(text_)),
+        line_end_(line_end),
         scanner_(text_, grammar_of(document)),
         has_text_(elements_with_text(text_, grammar_of(document))),
-        tag_(text_, line_end_, options) {}
+        tag_(text_, line_end_, options),
+        gaps_(text_) {}
 
-  TextEdit run() {
+  Gaps run() {
     bool is_end = false;
     while (!is_end) {
       const XmlToken token = scanner_.next();
@@ -60,7 +61,7 @@ class Formatter {
       }
       before_ = token.kind;
     }
-    return std::move(edit_);
+    return std::move(gaps_);
   }
 
  private:
@@ -74,13 +75,13 @@ class Formatter {
       case TokenKind::Attribute:
         return tag_.add(token);
       case TokenKind::TagEnd:
-        tag_.end(token, edit_);
+        tag_.end(token, gaps_);
         done_ = token.begin + 1;
         ++depth_;
         if (has_text_[element_]) as_written_ = 1;
         return;
       case TokenKind::EmptyTagEnd:
-        tag_.end(token, edit_);
+        tag_.end(token, gaps_);
         done_ = token.begin + 2;
         return;
       case TokenKind::CloseTag:
@@ -95,7 +96,7 @@ class Formatter {
         done_ = token.begin + token.value.size();
         return;
       case TokenKind::End:
-        return set_gap(edit_, text_, done_, text_.size(), line_end_);
+        return gaps_.set(done_, text_.size(), line_end_);
       case TokenKind::Fault:
         return;
     }
@@ -117,7 +118,7 @@ class Formatter {
   void close(const XmlToken& token) {
     --depth_;
     if (before_ == TokenKind::TagEnd) {
-      set_gap(edit_, text_, done_, token.begin, {});
+      gaps_.set(done_, token.begin, {});
     } else {
       to_own_line(token.begin);
     }
@@ -127,7 +128,7 @@ class Formatter {
   void end_close_tag(const XmlToken& token) {
     const std::size_t name_end = token.begin + 2 + token.name.size();
     const std::size_t end = text_.find('>', name_end);
-    set_gap(edit_, text_, name_end, end, {});
+    gaps_.set(name_end, end, {});
     done_ = end + 1;
   }
 
@@ -136,7 +137,7 @@ class Formatter {
     const std::size_t end = text_.find("-->", token.begin + 4) + 3;
     const bool is_behind = done_ > 0 && !has_line_end(done_, token.begin);
     if (is_behind) {
-      set_gap(edit_, text_, done_, token.begin, " ");
+      gaps_.set(done_, token.begin, " ");
     } else {
       to_own_line(token.begin);
       shift_comment(token.begin, end);
@@ -151,7 +152,7 @@ class Formatter {
     for (auto line = text_.find('\n', begin) + 1; line != 0 && line < end;
          line = text_.find('\n', line) + 1) {
       if (!text_.substr(line).starts_with(*from) || ends_line(line)) continue;
-      set_gap(edit_, text_, line, line + from->size(), std::string(kStep * depth_, ' '));
+      gaps_.replace(line, line + from->size(), std::string(kStep * depth_, ' '));
     }
   }
 
@@ -176,19 +177,19 @@ class Formatter {
 
   // An empty line before it stays; of several, one.
   void to_own_line(std::size_t begin) {
-    if (done_ == 0) return set_gap(edit_, text_, 0, begin, {});
+    if (done_ == 0) return gaps_.set(0, begin, {});
     const auto lines = std::count(text_.begin() + static_cast<std::ptrdiff_t>(done_),
                                   text_.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
     std::string gap(line_end_);
     if (lines > 1) gap += line_end_;
-    set_gap(edit_, text_, done_, begin, gap.append(kStep * depth_, ' '));
+    gaps_.set(done_, begin, gap.append(kStep * depth_, ' '));
   }
 
   std::string_view text_, line_end_;
   Scanner scanner_;
   std::vector<bool> has_text_;  // of each element
   TagLayout tag_;
-  TextEdit edit_;
+  Gaps gaps_;
   std::size_t done_ = 0;        // behind the last token
   std::size_t depth_ = 0;       // of elements
   std::size_t as_written_ = 0;  // open elements in one with a text, that one too
@@ -223,7 +224,12 @@ bool has_same_elements(const Document& a, const Document& b) {
 }  // namespace
 
 Result<TextEdit> format(const Document& document, const FormatOptions& options) {
-  TextEdit edit = Formatter(document, options).run();
+  const std::string_view first = line_end_of(document.source()->text());
+  Gaps gaps = Formatter(document, options, first).run();
+  if (const auto line_end = gaps.line_end().value_or(first); line_end != first) {
+    gaps = Formatter(document, options, line_end).run();
+  }
+  TextEdit edit = gaps.take();
   if (edit.empty()) return edit;
   Diagnostics diagnostics;
   const auto after = Document::parse(document.source()->path(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "author/edit/element_text.h"
 #include "base/core/utf8.h"
 
 namespace lockstep::host {
@@ -14,9 +15,14 @@ std::string_view first_line(std::string_view text) {
 
 }  // namespace
 
-void set_gap(TextEdit& edit, std::string_view text, std::size_t begin, std::size_t end,
-             std::string_view wanted) {
-  if (text.substr(begin, end - begin) != wanted) edit.replace(begin, end, std::string(wanted));
+void Gaps::set(std::size_t begin, std::size_t end, std::string_view wanted) {
+  const std::string_view gap = text_.substr(begin, end - begin);
+  if (!line_end_ && gap.find('\n') != std::string_view::npos) line_end_ = line_end_of(gap);
+  replace(begin, end, wanted);
+}
+
+void Gaps::replace(std::size_t begin, std::size_t end, std::string_view wanted) {
+  if (text_.substr(begin, end - begin) != wanted) edit_.replace(begin, end, std::string(wanted));
 }
 
 void TagLayout::begin(const XmlToken& open, std::size_t indentation) {
@@ -42,7 +48,7 @@ std::vector<const TagLayout::Part*> TagLayout::ordered() const {
   return order;
 }
 
-void TagLayout::end(const XmlToken& end, TextEdit& edit) {
+void TagLayout::end(const XmlToken& end, Gaps& gaps) {
   const std::vector<const Part*> order = ordered();
   const std::size_t first = column_ + 1;
   const std::size_t end_width = end.kind == TokenKind::EmptyTagEnd ? 2 : 1;
@@ -54,10 +60,9 @@ void TagLayout::end(const XmlToken& end, TextEdit& edit) {
     const std::size_t wanted =
         1 + name + columns(first_line(part.value)) + (is_last ? end_width : 0);
     const bool breaks = i > 0 && column + wanted > options_.width;
-    set_gap(edit, text_, done, place.begin,
-            breaks ? std::string(line_end_) + std::string(first, ' ') : " ");
+    gaps.set(done, place.begin, breaks ? std::string(line_end_) + std::string(first, ' ') : " ");
     const std::string written = std::string(part.name) + '=' + std::string(part.value);
-    set_gap(edit, text_, place.begin, place.end, written);
+    gaps.replace(place.begin, place.end, written);
     done = place.end;
     if (const auto line = part.value.rfind('\n'); line != std::string_view::npos) {
       column = columns(part.value.substr(line + 1));
@@ -65,7 +70,7 @@ void TagLayout::end(const XmlToken& end, TextEdit& edit) {
       column = (breaks ? first - 1 : column) + 1 + name + columns(part.value);
     }
   }
-  set_gap(edit, text_, done, end.begin, {});
+  gaps.set(done, end.begin, {});
 }
 
 }  // namespace lockstep::host

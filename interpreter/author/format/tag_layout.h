@@ -1,8 +1,10 @@
 // The attributes of one tag: their order, and the lines that they are in.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "author/edit/text_edit.h"
@@ -10,6 +12,26 @@
 #include "language/document/scanner.h"
 
 namespace lockstep::host {
+
+// The edit, and what it changes: the blanks between tags and between attributes.
+class Gaps {
+ public:
+  explicit Gaps(std::string_view text) : text_(text) {}
+
+  void set(std::size_t begin, std::size_t end, std::string_view wanted);
+  // For what is not a blank.
+  void replace(std::size_t begin, std::size_t end, std::string_view wanted);
+
+  // That of the first line which ends in a gap. No edit changes the line ends of comments and
+  // values, so these must not decide: a second edit would find another one first.
+  std::optional<std::string_view> line_end() const { return line_end_; }
+  TextEdit take() { return std::move(edit_); }
+
+ private:
+  std::string_view text_;
+  TextEdit edit_;
+  std::optional<std::string_view> line_end_;
+};
 
 class TagLayout {
  public:
@@ -19,8 +41,8 @@ class TagLayout {
   void begin(const XmlToken& open, std::size_t indentation);
   // Between the quotes is `value`, a part of the text.
   void add(const XmlToken& attribute);
-  // `end` is the TagEnd or the EmptyTagEnd. Adds the patches to `edit`.
-  void end(const XmlToken& end, TextEdit& edit);
+  // `end` is the TagEnd or the EmptyTagEnd.
+  void end(const XmlToken& end, Gaps& gaps);
 
  private:
   struct Part {
@@ -35,9 +57,5 @@ class TagLayout {
   std::size_t name_end_ = 0, column_ = 0;
   std::vector<Part> parts_;
 };
-
-// Replaces these bytes by `wanted`, unless they are.
-void set_gap(TextEdit& edit, std::string_view text, std::size_t begin, std::size_t end,
-             std::string_view wanted);
 
 }  // namespace lockstep::host
