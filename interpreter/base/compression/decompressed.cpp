@@ -18,7 +18,9 @@ constexpr std::size_t kPart = 64u << 10;  // bytes
 // than the frames of recordings have; of longer ones, other programs', a reader gets what comes.
 constexpr std::size_t kWhole = 512u << 10;
 constexpr std::string_view kMagic{"\x28\xB5\x2F\xFD", 4};
-constexpr int kMostWindow = 25;  // as a power of two, in bytes: the memory of a reader
+constexpr std::size_t kFrameHeader = 6;     // bytes, which all frames of a recording share
+constexpr std::size_t kTaken = 512u << 10;  // more than a frame of a recording
+constexpr int kMostWindow = 25;             // as a power of two, in bytes: the memory of a reader
 // A text that is longer than kAlways may be so many times as long as the file, far more than
 // recordings are: a small file must not cost much memory or time.
 constexpr std::uint64_t kMostTimes = 256, kAlways = 16u << 20;
@@ -28,6 +30,28 @@ constexpr std::uint64_t kMostTimes = 256, kAlways = 16u << 20;
 struct Decompressed::Decompressor {
   ZSTD_DCtx* context = zstd().create_reader();
   bool in_frame = false;
+  std::string header, taken;  // the first bytes of the frame, and the last ones that it has taken
+
+  void begin_frame() {
+    header.clear();
+    taken.clear();
+  }
+  void take(std::string_view bytes) {
+    header += bytes.substr(0, kFrameHeader - header.size());
+    taken += bytes;
+    if (taken.size() > 2 * kTaken) taken.erase(0, taken.size() - kTaken);
+  }
+  // Whether the file goes on where the frame, which is not at its end, should have ended: with the
+  // table, or with a frame that begins as this one. A file that is cut does not.
+  bool is_too_long() const {
+    const std::string_view all = taken;
+    const bool has_table = all.size() >= kSeekFooter &&
+                           seek_table_size(all.substr(all.size() - kSeekFooter)).has_value();
+    const auto again = all.rfind(header);
+    const bool has_other = header.size() == kFrameHeader && again != 0 && again != all.npos;
+    return has_table || has_other;
+  }
+
   Decompressor() { zstd().set_reader(context, ZSTD_d_windowLogMax, kMostWindow); }
   ~Decompressor() { zstd().free_reader(context); }
   Decompressor(const Decompressor&) = delete;
@@ -80,8 +104,14 @@ bool Decompressed::fill_compressed() {
   std::size_t filled = 0;
   while (filled < text_.size()) {
     const bool waits = filled > 0 && at_ == count_ && file_.in_avail() <= 0;
-    if (waits || (at_ == count_ && !read_file())) break;
+    if (waits) break;
+    if (at_ == count_ && !read_file()) {
+      if (!zstd_->in_frame || !zstd_->is_too_long()) break;
+      throw CannotDecompress(fmt::format(
+          "its compressed bytes from {} on are damaged (a frame is too long)", frame_begin_));
+    }
     if (!zstd_->in_frame) {
+      zstd_->begin_frame();
       frame_begin_ = file_end_ - (count_ - at_);
       const Frame frame{text_end_, frame_begin_};
       if (frames_.empty() || frames_.back().text < frame.text) frames_.push_back(frame);
@@ -93,6 +123,7 @@ bool Decompressed::fill_compressed() {
       throw CannotDecompress(fmt::format("its compressed bytes from {} on are damaged ({})",
                                          frame_begin_, zstd().error_name(left)));
     }
+    zstd_->take({bytes_.data() + at_, in.pos - at_});
     at_ = in.pos;
     const std::uint64_t used = file_end_ - (count_ - at_);
     filled = out.pos;

@@ -209,11 +209,7 @@ TEST_CASE("zstd: each flipped bit is found, or the text is the same") {
       try {
         const std::string got = read_all(read);
         INFO(bit);
-        // A length that is too large looks like a file that was cut, and takes what follows a
-        // piece.
-        const auto end = std::ranges::mismatch(got, text).in1;
-        const auto same = static_cast<std::size_t>(end - got.begin());
-        CHECK((same == got.size() || same == 500 || same == text.size()));
+        CHECK(got == text);
       } catch (const CannotDecompress&) {
       }
     }
