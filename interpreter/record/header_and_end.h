@@ -5,12 +5,16 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "run/leaf_lines.h"
 #include "trace/shape.h"
 
 namespace lockstep::host {
+
+// The root is ticked once a period, also when a node asks for another tick.
+inline constexpr std::string_view kExactlyOnce = "exactly-once";
 
 // Also the shape of the tree, with the entries that the recording shows.
 struct RecordingHeader : Shape {
@@ -25,6 +29,7 @@ struct RecordingHeader : Shape {
   std::map<std::string, std::string, std::less<>> values = {};  // that entries start with
   std::uint64_t first_tick = 0;  // of a recording in parts, in this part
   std::string verify = {};       // what verify has found; "": it is any other run
+  std::string tick = {};         // kExactlyOnce, or ""
 };
 
 struct RecordedEnd {

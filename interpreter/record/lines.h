@@ -35,6 +35,7 @@ constexpr Value kValues[] = {
     {"Bit", "number", R"("enum": [0, 1])"},
     {"Yes", "boolean", R"("const": true)"},
     {"Clock", R"("wall" | "virtual")", R"("enum": ["wall", "virtual"])"},
+    {"TickMode", R"("exactly-once")", R"("const": "exactly-once")"},
     {"IdleMembers", R"("ignore" | "wait")", R"("enum": ["ignore", "wait"])"},
     {"Level", "string", R"("enum": ["debug", "info", "warning"])"},
 };
@@ -145,6 +146,11 @@ constexpr Field kHeaderFields[] = {
     {"verify", "Text", kMaybe,
      "of a run that `lockstep verify` has found: the finding, and from which tick on it repeats",
      &RecordingHeader::verify},
+    {"tick", "TickMode", kMaybe,
+     "only of a run with `--tick exactly-once`: a node of a tree for BehaviorTree.CPP that "
+     "requests "
+     "another tick gets it in the next period",
+     &RecordingHeader::tick},
 };
 constexpr Object kHeader{"Header", kHeaderFields};
 

@@ -1,7 +1,12 @@
 #include "scenario/expectation_reader.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <set>
 
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "leaves/word_check.h"
 #include "scenario/scenario_words.h"
 
@@ -77,7 +82,15 @@ Expectation::Kind ExpectationReader::read(const Attribute& it, Expectation& expe
 
 void ExpectationReader::read_ending(const Attribute& it, Expectation& expect) const {
   if (it.name == "result") {
-    expect.result = it.value;
+    constexpr std::string_view kKnown[] = {"success", "failure", "skipped", "fault", "running"};
+    for (const std::string_view result : split(it.value, ";")) {
+      if (std::ranges::find(kKnown, result) == std::end(kKnown)) {
+        report_.at_value("bad-value"_code, it.place,
+                         fmt::format("'result' cannot be '{}'", brief(result)),
+                         suggest(result, kKnown, "it can be"));
+      }
+      expect.results.emplace_back(result);
+    }
     expect.result_place = it.place;
   } else if (it.name == "ticks") {
     expect.ticks = reader_.range(it, "3, 2..10 or 5..inf");

@@ -124,7 +124,7 @@ void Judge::judge_ending(const RunEnd& end) {
   bool is_result_said = false;
   for (const Expectation& it : scenario.expectations) {
     if (it.kind != Kind::Ending) continue;
-    is_result_said |= !it.result.empty();
+    is_result_said |= !it.results.empty();
     judge_ending(it, end);
   }
   if (is_result_said) return;
@@ -138,10 +138,11 @@ void Judge::judge_ending(const RunEnd& end) {
 }
 
 void Judge::judge_ending(const Expectation& expected, const RunEnd& end) {
-  if (!expected.result.empty() && expected.result != result_text(end)) {
-    surprises_.push_back({expected.result_place,
-                          fmt::format("expected {}, came {}", expected.result, result_text(end)),
-                          why(end)});
+  if (!expected.results.empty() && !expected.expects(result_text(end))) {
+    surprises_.push_back(
+        {expected.result_place,
+         fmt::format("expected {}, came {}", joined(expected.results, " or "), result_text(end)),
+         why(end)});
   }
   const auto ticks = static_cast<double>(end.ticks);
   if (expected.ticks && !is_within(ticks, *expected.ticks)) {

@@ -250,6 +250,7 @@ RecordedWords read_recorded_words(const std::string& path, const Tree& tree) {
       return words;
     }
     words.tree_file = header.file;
+    words.tick = header.tick;
     words.arguments = header.arguments;
     for (const auto& [key, value] : header.values) words.changes.push_back({key, value, 0});
     words.rate = header.rate_hz > 0 ? std::optional(header.rate_hz) : std::nullopt;

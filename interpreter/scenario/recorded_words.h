@@ -16,6 +16,7 @@ struct RecordedWords : LeafScripts {
   RecordingOutcome outcome;  // of reading it
   std::string result;        // of the run; "": it is cut
   std::string tree_file;     // as its user named it
+  std::string tick;          // of the run: "" or kExactlyOnce
   std::map<std::string, std::string, std::less<>> arguments;
   // A change that came into an entry from outside: nobody in the tree writes it.
   struct Change {

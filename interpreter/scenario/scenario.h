@@ -3,9 +3,11 @@
 // what they mean in a tree.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,7 +66,7 @@ struct Expectation {
   enum class Kind : std::uint8_t { Ending, Order, SameAs, Text, Inputs } kind = Kind::Ending;
   Place place = {};  // of its first word
   // Ending
-  std::string result = {};  // "": any
+  std::vector<std::string> results = {};  // one of these; empty: any
   Place result_place = {};
   std::optional<NumberRange> ticks = {}, time = {};
   Place ticks_place = {}, time_place = {};
@@ -76,6 +78,10 @@ struct Expectation {
   std::string of = {}, path = {};
   std::vector<NamedText> inputs = {};
   bool is_for_all = false;  // it is one of the file's, for all scenarios
+
+  bool expects(std::string_view result) const {
+    return std::ranges::find(results, result) != results.end();
+  }
 };
 
 struct Scenario {
@@ -85,6 +91,7 @@ struct Scenario {
   Place tree_place = {}, leaves_place = {};
   double rate = kScenarioRate;
   bool is_rate_given = false;
+  bool exactly_once = false;  // a tick of the tree in each period
   std::optional<std::uint64_t> max_ticks = {};
   std::uint64_t seed = 0, runs = 1;
   bool is_verified = false;

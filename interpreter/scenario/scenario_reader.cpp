@@ -14,6 +14,7 @@
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "leaves/word_check.h"
+#include "record/header_and_end.h"
 #include "scenario/binding_reader.h"
 #include "scenario/expectation_reader.h"
 #include "scenario/row_values.h"
@@ -158,6 +159,8 @@ class Reader {
       } else if (it.name == "rate") {
         into.rate = reader_.number(it, 0.001, 100000);
         into.is_rate_given = true;
+      } else if (it.name == "tick") {
+        into.exactly_once = it.value == kExactlyOnce;
       } else if (it.name == "max-ticks") {
         into.max_ticks = reader_.count(it, 1);
       } else if (it.name == "seed") {

@@ -37,6 +37,7 @@ RecorderOptions recorder_options(const BoundScenario& bound, const Fixture& fixt
       .tree_file = bound.scenario->tree, .rate_hz = bound.rate, .seed = options.seed};
   run.arguments = values_of(fixture.arguments());
   run.values = Fixture::start_values(*bound.scenario);
+  run.exactly_once = bound.scenario->exactly_once;
   return {.path = options.record, .run = std::move(run)};
 }
 
@@ -64,7 +65,10 @@ ScenarioResult ScenarioRunner::run(const ScenarioRunOptions& options) const {
   if (recorder && !recorder->error().empty()) result.problem = recorder->error();
 
   ScenarioClock clock(!scenario.late.empty());
-  Run run(tree, {.seed = options.seed, .rate = bound_.rate, .virtual_time = true});
+  Run run(tree, {.seed = options.seed,
+                 .rate = bound_.rate,
+                 .exactly_once = scenario.exactly_once,
+                 .virtual_time = true});
   EntryWriter writer(bound_, run);
   LateTicks late(scenario, clock);
   std::vector<Observer*> observers{&writer, &inputs, &judge};

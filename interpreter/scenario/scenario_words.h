@@ -12,6 +12,10 @@ using leaf_words::Word;
 
 inline constexpr std::string_view kRate = R"([0-9]*\.?[0-9]+)", kCount = "[0-9]+",
                                   kRange = R"([0-9]*\.?[0-9]+(\.\.([0-9]*\.?[0-9]+|inf))?)";
+inline constexpr std::string_view
+    kResults = "(success|failure|skipped|fault|running)(;(success|failure|skipped|fault|running))*",
+    kTick = "once|exactly-once",
+    kTickDoc = "exactly-once: the tree is ticked once a period, as with `run --tick`.";
 
 // The attributes of the file hold for all of its scenarios that do not say otherwise.
 inline constexpr Word kScenarios[] = {
@@ -20,6 +24,7 @@ inline constexpr Word kScenarios[] = {
     {"main", "", "The BehaviorTree to run."},
     {"leaves", "", "A leaf model: leaves without a row do what it allows, by chance."},
     {"rate", kRate, "Ticks per second; 10 when absent."},
+    {"tick", kTick, kTickDoc},
 };
 inline constexpr Word kScenario[] = {
     {"name", "", "What it is about, in a few words. No other in the file has this name.", true},
@@ -27,6 +32,7 @@ inline constexpr Word kScenario[] = {
     {"main", "", "The BehaviorTree to run."},
     {"leaves", "", "A leaf model: leaves without a row do what it allows, by chance."},
     {"rate", kRate, "Ticks per second; 10 when absent."},
+    {"tick", kTick, kTickDoc},
     {"max-ticks", kCount,
      "The run ends after so many ticks. When absent, a run that does not end within 10000 is a "
      "failure."},
@@ -63,7 +69,7 @@ inline constexpr Word kSubstitutions[] = {
     {"from", "", "A file of JSON with TestNodeConfigs and SubstitutionRules.", true},
 };
 inline constexpr Word kExpect[] = {
-    {"result", "success|failure|skipped|fault|running", "How the run ends."},
+    {"result", kResults, "How the run ends. One of several: success;failure"},
     {"ticks", kRange, "How many ticks it takes: 3, 2..10, 5..inf."},
     {"time", kRange, "How long it takes, in seconds."},
     {"node", "", "The node that has the fault."},

@@ -59,9 +59,11 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
     text += fmt::format("  <!-- {} -->\n", safe);
   }
   text += fmt::format("  <scenario name=\"{}\"", escaped(about.name));
+  if (!about.main.empty()) text += fmt::format(" main=\"{}\"", escaped(about.main));
   if (words.rate) text += fmt::format(" rate=\"{}\"", *words.rate);
+  if (!words.tick.empty()) text += fmt::format(" tick=\"{}\"", escaped(words.tick));
   const bool is_cut = words.result.empty() || words.result == "stopped";
-  if (is_cut && words.ticks)
+  if (is_cut && words.ticks && about.has_limit)
     text += fmt::format(" max-ticks=\"{}\"", std::max<std::uint64_t>(*words.ticks, 1));
   text += ">\n";
   for (const auto& [name, value] : words.arguments) {
@@ -78,7 +80,11 @@ std::string to_text(const RecordedWords& words, const ScenarioText& about) {
   for (const std::string& it : about.expected) {
     text += fmt::format("    <expect>{}</expect>\n", escaped(it));
   }
-  if (about.expected.empty()) text += ending_text(words);
+  if (!about.result.empty()) {
+    text += fmt::format("    <expect result=\"{}\"/>\n", about.result);
+  } else if (about.expected.empty()) {
+    text += ending_text(words);
+  }
   return text + "  </scenario>\n";
 }
 

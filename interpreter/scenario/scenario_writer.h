@@ -12,7 +12,10 @@ namespace lockstep::host {
 struct ScenarioText {
   std::string name;
   std::vector<std::string> comments = {};  // lines
-  std::vector<std::string> expected = {};  // properties; if there are none, the recorded end
+  std::string main = {};                   // of the trees of the file; "": its own main tree
+  std::vector<std::string> expected = {};  // properties
+  std::string result = {};                 // expected; if there is nothing, the recorded end is
+  bool has_limit = true;                   // a run that was cut ends where it was cut
 };
 
 // <scenario>…</scenario>, indented by two blanks.

@@ -20,18 +20,19 @@ Place place_of(const Finding& finding, const BoundScenario& bound) {
   return bound.scenario->place;
 }
 
-// An expected result is the only one that may come.
+// No result may come but the expected ones.
 void add_results(const BoundScenario& bound, const SearchResult& found,
                  std::vector<Surprise>& surprises) {
   for (const Expectation& it : bound.scenario->expectations) {
-    if (it.kind != Expectation::Kind::Ending || it.result.empty()) continue;
+    if (it.kind != Expectation::Kind::Ending || it.results.empty()) continue;
     for (const Status status : {Status::Success, Status::Failure, Status::Skipped}) {
       const auto& first = found.results[index_of(status)];
-      if (!first || to_string(status) == it.result) continue;
-      surprises.push_back({it.result_place,
-                           fmt::format("expected {}, {} may come, after {}", it.result,
-                                       to_string(status), counted(first->ticks, "tick")),
-                           {}});
+      if (!first || it.expects(to_string(status))) continue;
+      surprises.push_back(
+          {it.result_place,
+           fmt::format("expected {}, {} may come, after {}", joined(it.results, " or "),
+                       to_string(status), counted(first->ticks, "tick")),
+           {}});
     }
   }
 }

@@ -231,6 +231,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     run.arguments = values_of(runnable.arguments);
     run.values = runnable.values;
     run.entries = recorded_keys(options_);
+    run.exactly_once = options_.exactly_once;
     return run;
   }
 

@@ -50,6 +50,7 @@ std::string RunPackets::header(const RunStart& start) const {
   header.arguments = run_.arguments;
   header.values = start_values();
   header.verify = run_.verify;
+  if (run_.exactly_once) header.tick = kExactlyOnce;
   return json_lines::header(header);
 }
 

@@ -25,6 +25,7 @@ struct RunDescription {
   std::map<std::string, std::string, std::less<>> values = {};  // that entries start with
   std::optional<std::vector<std::string>> entries = {};         // of these keys; none: all
   std::string verify = {};                                      // what it shows, of a run of verify
+  bool exactly_once = false;
 };
 
 class RunPackets {

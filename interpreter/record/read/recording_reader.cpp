@@ -97,7 +97,8 @@ void RecordingReader::take(const RecordedPartEnd& end) {
 void RecordingReader::begin_part() {
   const RecordingHeader header = format_->header(lines_.text());
   const auto run_of = [](const RecordingHeader& it) {
-    return std::tie(it.id, it.file, it.version, it.rate_hz, it.clock, it.seed, it.arguments);
+    return std::tie(it.id, it.file, it.version, it.rate_hz, it.clock, it.seed, it.arguments,
+                    it.tick);
   };
   if (header.nodes.size() != header_.nodes.size() ||
       header.entries.size() != header_.entries.size() || run_of(header) != run_of(header_)) {

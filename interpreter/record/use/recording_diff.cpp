@@ -58,6 +58,10 @@ Values compare_headers(const RecordingHeader& a, const RecordingHeader& b) {
   add(values, "rate_hz", fmt::format("{}", a.rate_hz), fmt::format("{}", b.rate_hz));
   add(values, "clock", a.clock, b.clock);
   add(values, "seed", std::to_string(a.seed), std::to_string(b.seed));
+  const auto tick_of = [](const RecordingHeader& it) {
+    return it.tick.empty() ? std::string("once") : it.tick;
+  };
+  add(values, "tick", tick_of(a), tick_of(b));
   const auto compare = [&](const std::string& what, const auto& in_a, const auto& in_b) {
     auto names = in_a;
     names.insert(in_b.begin(), in_b.end());

@@ -22,6 +22,7 @@ void write_header(const RecordingHeader& header, std::string& out, bool color) {
   out += fmt::format("  {}, {} Hz, {} clock, seed {}, semantics {}\n",
                      counted(header.nodes.size(), "node"), header.rate_hz, printable(header.clock),
                      header.seed, header.law);
+  if (!header.tick.empty()) out += fmt::format("  ticks: {}\n", printable(header.tick));
   if (!header.verify.empty()) {
     out += fmt::format("  found by verify: {}\n", printable(header.verify));
   }

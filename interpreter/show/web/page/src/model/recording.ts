@@ -35,6 +35,7 @@ export interface Header {
   entries?: HeaderEntry[];
   first_tick?: number;
   verify?: string;
+  tick?: "exactly-once";
 }
 
 export interface TickLine {
