@@ -65,6 +65,9 @@ class ModelMaker {
     add_missing_outputs();
     find_levels();
     list_declared();
+    for (std::size_t i = 0; i < models_.leaves.size(); ++i) {
+      models_.unstated_results += !states_result_[i] && models_.leaves[i].fact == kNoFact;
+    }
     return std::move(models_);
   }
 
@@ -78,6 +81,7 @@ class ModelMaker {
   void make_general() {
     ways_.resize(tree_.leaves.size());
     said_.resize(tree_.leaves.size());
+    states_result_.resize(tree_.leaves.size());
     for (std::size_t i = 0; i < tree_.leaves.size(); ++i) {
       const NodeType& type = type_of(i);
       LeafModel& model = models_.leaves.emplace_back();
@@ -187,7 +191,10 @@ class ModelMaker {
 
   void apply(const Behavior& row, Place place, std::size_t leaf) {
     LeafModel& model = models_.leaves[leaf];
-    if (row.results) model.results = *row.results;
+    if (row.results) {
+      model.results = *row.results;
+      states_result_[leaf] = true;
+    }
     if (row.ticks) {
       model.least_ticks = row.ticks->least;
       model.most_ticks = row.ticks->most.value_or(0);
@@ -460,7 +467,8 @@ class ModelMaker {
   const GivenOutputs& outputs_;
   std::vector<std::vector<Statement>> said_;  // of each leaf, by its plugin, what counts
   std::optional<Reporter> report_;
-  std::vector<Way> ways_;  // of each leaf
+  std::vector<Way> ways_;            // of each leaf
+  std::vector<bool> states_result_;  // of each leaf: the leaf model or its plugin
   std::set<std::uint32_t> told_;
   LeafModels models_;
 };

@@ -74,6 +74,7 @@ struct LeafModels {
   std::vector<bool> entries;  // by slot: those whose values matter
   // The types whose leaves do as their plugin says, each with the statements that count.
   std::vector<std::string> declared;
+  std::size_t unstated_results = 0;  // leaves: one of them may also return Skipped
 };
 
 // The progress and entries that somebody looks at beside the tree itself, and the values that

@@ -32,7 +32,8 @@ SearchLimits bound(const Tree& tree, std::uint64_t transitions) {
       .transitions = std::min<std::uint64_t>(transitions, 200 * transitions / tree.nodes.size()),
       .memory = std::numeric_limits<std::size_t>::max()};
 }
-constexpr std::uint64_t kOfCertainties = 50'000, kOfDeadlocks = 20'000, kOfRun = 1'000;
+constexpr std::uint64_t kOfCertainties = 50'000, kOfSkipped = 4 * kOfCertainties,
+                        kOfDeadlocks = 20'000, kOfRun = 1'000;
 
 // The rate decides what comes first, but not in the first tick, nor where no node counts time.
 bool depends_on_rate(const Tree& tree, const SearchResult& found) {
@@ -207,18 +208,42 @@ class Adviser {
     return find_contradiction(tree_, models, {}, kModelRate, found, few).has_value();
   }
 
+  // A leaf may also return Skipped, which few do and which makes nearly all trees larger. So this
+  // is looked at only where there is something to say, which is otherwise said with that premise.
   void look_for_certainties() {
-    const auto models = this->models(Declared::Ignored);
+    auto models = this->models(Declared::Ignored);
     if (!models || has_start_values(tree_, *models)) return;
-    const SearchResult found = search(*models, kOfCertainties, true);
-    if (!found.is_complete() || depends_on_rate(tree_, found)) return;
-    std::string why = "`lockstep verify` shows how";
-    const auto deadlocks = host::deadlocks(tree_, *models, kModelRate, found);
-    if (!deadlocks.empty()) why = DeadlockText(tree_).explained(deadlocks.front().chain);
-    auto certain = certainties(tree_, places_, found, why);
-    if (certain.empty() || is_wrong(*models, found)) return;
-    stands_still_ = certain.back().node == 0 && certain.back().severity == Severity::Warning;
+    std::vector<Advice> likely = certainties(*models, kOfCertainties, Results::NotSkipped);
+    if (likely.empty()) return;
+    for (LeafModel& it : models->leaves) it.results.skipped = true;
+    std::vector<Advice> certain = certainties(*models, kOfSkipped, Results::All);
+    stands_still_ = is_about(likely.back(), "deadlock");
+    // That it never ends is certain; only how has the premise.
+    if (stands_still_ && !certain.empty() && is_about(certain.back(), "endless-tree")) {
+      likely.back().severity = Severity::Warning;
+      certain.pop_back();
+    }
+    std::erase_if(likely, [&](const Advice& it) {
+      return std::ranges::any_of(certain, [&](const Advice& other) {
+        return is_about(other, it.code.text()) && other.node == it.node;
+      });
+    });
     std::ranges::move(certain, std::back_inserter(advice_));
+    std::ranges::move(likely, std::back_inserter(advice_));
+  }
+
+  static bool is_about(const Advice& it, std::string_view code) { return it.code.text() == code; }
+
+  std::vector<Advice> certainties(const LeafModels& models, std::uint64_t transitions,
+                                  Results results) const {
+    const SearchResult found = search(models, transitions, true);
+    if (!found.is_complete() || depends_on_rate(tree_, found)) return {};
+    std::string why = "`lockstep verify` shows how";
+    const auto deadlocks = host::deadlocks(tree_, models, kModelRate, found);
+    if (!deadlocks.empty()) why = DeadlockText(tree_).explained(deadlocks.front().chain);
+    auto certain = host::certainties(tree_, places_, found, results, why);
+    if (!certain.empty() && is_wrong(models, found)) certain.clear();
+    return certain;
   }
 
   void look_for_deadlocks(AdviceEffort effort) {

@@ -23,7 +23,7 @@ struct Advice {
 enum class AdviceEffort : std::uint8_t {
   Run,        // deadlocks of leaves that come on in small steps and succeed
   Deadlocks,  // those of all behaviors too
-  Certain,    // and what is certain whatever the leaves do
+  Certain,    // and what is certain whatever the leaves do, or unless one is skipped
 };
 
 // Nodes that no behavior ticks or ends: nothing of a tree that depends on more than its leaves

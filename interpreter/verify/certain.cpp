@@ -16,10 +16,11 @@ namespace {
 class Certainties {
  public:
   Certainties(const Tree& tree, std::span<const Place> places, const SearchResult& found,
-              std::string why_it_stands)
+              Results results, std::string why_it_stands)
       : tree_(tree),
         places_(places),
         found_(found),
+        results_(results),
         graph_(found.graph_of_cycles()),
         why_it_stands_(std::move(why_it_stands)) {}
 
@@ -42,10 +43,10 @@ class Certainties {
     for (NodeIndex node = 0; node < tree_.nodes[0].end;) {
       const bool is_dead = !alive.contains(places_[node].byte);
       if (is_dead && told.insert(places_[node].byte).second) {
-        certainties_.push_back(
-            {"dead-node"_code, node, Severity::Warning,
-             fmt::format("'{}' can never run, whatever the leaves do", tree_.labels[node].name),
-             why_dead(node)});
+        certainties_.push_back({"dead-node"_code, node, severity(),
+                                fmt::format("'{}' can never run, {}", tree_.labels[node].name,
+                                            premise("whatever the leaves do")),
+                                why_dead(node)});
       }
       node = is_dead ? tree_.nodes[node].end : node + 1;
     }
@@ -114,6 +115,14 @@ class Certainties {
     return static_cast<std::uint32_t>(tree_.cells[tree_.nodes[node].params + at].integer);
   }
 
+  Severity severity() const {
+    return results_ == Results::All ? Severity::Warning : Severity::Note;
+  }
+
+  std::string_view premise(std::string_view none) const {
+    return results_ == Results::All ? none : "unless a leaf returns Skipped";
+  }
+
   void add_endless() {
     const LabelShape& shape = graph_.shape;
     const bool goes_on =
@@ -125,18 +134,21 @@ class Certainties {
       return false;
     });
     if (goes_on || !holds) {
-      certainties_.push_back({"endless-tree"_code, 0, Severity::Note,
-                              "this tree never ends, whatever its leaves do", ""});
+      certainties_.push_back(
+          {"endless-tree"_code, 0, Severity::Note,
+           fmt::format("this tree never ends, {}", premise("whatever its leaves do")), ""});
       return;
     }
-    certainties_.push_back({"deadlock"_code, 0, Severity::Warning,
-                            "this tree can never end: whatever its leaves do, it deadlocks",
+    certainties_.push_back({"deadlock"_code, 0, severity(),
+                            fmt::format("this tree can never end: {}, it deadlocks",
+                                        premise("whatever its leaves do")),
                             std::move(why_it_stands_)});
   }
 
   const Tree& tree_;
   const std::span<const Place> places_;
   const SearchResult& found_;
+  const Results results_;
   const Graph& graph_;
   const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
   std::string why_it_stands_;
@@ -146,8 +158,9 @@ class Certainties {
 }  // namespace
 
 std::vector<Advice> certainties(const Tree& tree, std::span<const Place> places,
-                                const SearchResult& found, std::string why_it_stands) {
-  return Certainties(tree, places, found, std::move(why_it_stands)).find();
+                                const SearchResult& found, Results results,
+                                std::string why_it_stands) {
+  return Certainties(tree, places, found, results, std::move(why_it_stands)).find();
 }
 
 }  // namespace lockstep::host

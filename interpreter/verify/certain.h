@@ -11,9 +11,13 @@
 
 namespace lockstep::host {
 
+// The results of the leaves of the search. Without Skipped, what is found is a note that says so.
+enum class Results : std::uint8_t { All, NotSkipped };
+
 // Nodes that no behavior ticks (of a subtree, only its root), and that no behavior ends. `places`
 // are those of the nodes in their documents. `why_it_stands` explains a tree that stands still.
 std::vector<Advice> certainties(const Tree& tree, std::span<const Place> places,
-                                const SearchResult& found, std::string why_it_stands);
+                                const SearchResult& found, Results results,
+                                std::string why_it_stands);
 
 }  // namespace lockstep::host

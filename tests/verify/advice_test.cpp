@@ -34,7 +34,7 @@ constexpr Row kRows[] = {
    "Sequence(Parallel(ForceSuccess(SyncProgress[barrier=g](a)) SyncProgress[barrier=g](AlwaysRunning)) b) "
    "barrier[name=g barriers=.5]",
    "'b' can never run, whatever the leaves do: 'Parallel' before it never succeeds\n"
-"this tree can never end: whatever its leaves do, it deadlocks: 'g' holds 'a' at 0.5 until 'AlwaysRunning' comes, which is at 0\n"},
+"this tree can never end: unless a leaf returns Skipped, it deadlocks: 'g' holds 'a' at 0.5 until 'AlwaysRunning' comes, which is at 0\n"},
   {"a hook reads what only a later node writes",
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
    "'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
@@ -57,7 +57,10 @@ constexpr Row kRows[] = {
    "Parallel(Sequence[memory=true](Wait[seconds=0.3] b[while=k<2]) "
    "Sequence[memory=true](Wait[seconds=0.2] Script[code=k:=1]))", ""},
   {"a node before it writes the entry", "Sequence[memory=true](Script[code=k:=1] a[while=k<2])", ""},
-  {"an endless tree", "Repeat(ForceSuccess(a))", "this tree never ends, whatever its leaves do\n"},
+  {"an endless tree", "Repeat(ForceSuccess(AlwaysFailure))", "this tree never ends, whatever its leaves do\n"},
+  {"a leaf that is skipped ends it", "Repeat(ForceSuccess(a))", "this tree never ends, unless a leaf returns Skipped\n"},
+  {"behind what fails only if a leaf is skipped", "Fallback[memory=true](ForceSuccess(a) b)",
+   "'b' can never run, unless a leaf returns Skipped: 'ForceSuccess' before it never fails\n"},
 };
 // clang-format on
 
@@ -79,6 +82,15 @@ TEST_CASE("check says what is certain, whatever the leaves do, and what may wait
     INFO(row.claim << ": " << row.tree);
     CHECK(said_of(row.tree) == row.said);
   }
+}
+
+TEST_CASE("what a skipped leaf refutes is no warning") {
+  const Tree tree = tree_from_text("Fallback[memory=true](ForceSuccess(a) b)");
+  std::vector<Place> places;
+  for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) places.push_back({node});
+  const auto advice = advice_of(tree, places);
+  REQUIRE(advice.size() == 1);
+  CHECK(advice.front().severity == Severity::Note);
 }
 
 TEST_CASE("a node that is dead in one of its SubTrees only is not spoken of") {
