@@ -227,18 +227,12 @@ std::optional<Contradiction> find_contradiction(const Tree& tree, const LeafMode
                                                 const SearchResult& found,
                                                 const ChanceLimits& limits) {
   const Nanoseconds began = monotonic_now();
-  std::uint32_t asked = 0;
-  bool is_late = false;
   const auto goes_on = [&] {
-    constexpr std::uint32_t kTicksBetweenLooks = 16;
-    if (asked++ % kTicksBetweenLooks == 0) {
-      is_late = is_late || monotonic_now() - began > limits.time ||
-                (limits.stop_signal && limits.stop_signal() != 0);
-    }
-    return !is_late;
+    return monotonic_now() - began < limits.time && !(limits.stop_signal && limits.stop_signal());
   };
+  if (found.complete_depth() == 0 || !goes_on()) return std::nullopt;
   Judge judge(tree, models, properties, rate, found);
-  for (std::uint64_t seed = 0; seed < limits.runs && !is_late; ++seed) {
+  for (std::uint64_t seed = 0; seed < limits.runs && goes_on(); ++seed) {
     std::string what = judge.look_at(seed, goes_on);
     if (!what.empty()) return Contradiction{seed, std::move(what)};
   }

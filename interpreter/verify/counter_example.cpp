@@ -103,6 +103,17 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
 
 }  // namespace
 
+bool ends(const Tree& tree, const LeafScripts& scripts, PlayedLeaves& played, double rate) {
+  constexpr std::uint64_t kMostTicks = 10'000;
+  played.set_scripts(scripts);
+  VirtualClock clock;
+  Run run(tree, {.rate = rate, .virtual_time = true});
+  LoopOptions loop;
+  loop.rate = rate;
+  loop.max_ticks = kMostTicks;
+  return run_loop(run, clock, loop, {}).reason != StopReason::MaxTicks;
+}
+
 Result<CounterExample> write_counter_example(const Tree& tree, const Finding& finding,
                                              Tracer& tracer, PlayedLeaves& played,
                                              std::span<const Property> properties,

@@ -24,6 +24,9 @@ struct CounterExampleOptions {
   std::map<std::string, std::string, std::less<>> arguments = {}, values = {};
 };
 
+// Whether a run of the tree with these scripts ends by itself. `played` are its leaves.
+bool ends(const Tree& tree, const LeafScripts& scripts, PlayedLeaves& played, double rate);
+
 // `played` are the leaves of the tree. The recording is that of a run from its beginning, without
 // the states of the search, and must show the finding: each tick of it is compared. Nothing, and
 // why, if a file cannot be written.

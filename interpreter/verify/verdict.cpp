@@ -167,24 +167,23 @@ class VerdictMaker {
     verdict_.findings.push_back(std::move(trap));
   }
 
-  // The ticks to a state, from it to the cycle, and two rounds of that. Returns how long one is.
-  std::size_t add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding) {
-    return add_lasso(from, cycle, finding, tracer_.begin());
+  // The ticks to a state, from it to the cycle, and two rounds of that.
+  void add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding) {
+    add_lasso(from, cycle, finding, tracer_.begin());
   }
-  std::size_t add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding,
-                        TracedPath traced) {
+  void add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding,
+                 TracedPath traced) {
     tracer_.go(traced, found_.path_to(from));
-    std::size_t round = 0;
+    finding.decided = traced.run.size();
     if (!cycle.empty()) {
       tracer_.go(traced, way_to_cycle(from, cycle));
       finding.repeats = traced.run.size();
       tracer_.go_round(traced, tracer_.steps_of(cycle));
-      round = traced.run.size() - *finding.repeats;
+      const std::size_t round = traced.run.size() - *finding.repeats;
       for (std::size_t i = 0; i < round; ++i)
         traced.run.push_back(traced.run[*finding.repeats + i]);
     }
     finding.run = std::move(traced.run);
-    return round;
   }
 
   std::vector<StateId> way_to_cycle(StateId from, const std::vector<CycleStep>& cycle) {
@@ -213,7 +212,7 @@ class VerdictMaker {
     });
     TracedRun run = finding.run;
     if (finding.repeats) {
-      const std::size_t round = (run.size() - *finding.repeats) / 2;
+      const std::size_t round = finding.round();
       while (run.size() < *finding.repeats + 8) {
         const TracedRun more(run.end() - static_cast<std::ptrdiff_t>(round), run.end());
         run.insert(run.end(), more.begin(), more.end());
@@ -275,19 +274,18 @@ class VerdictMaker {
       return;
     }
     Finding finding{.name = "cycle", .message = {}};
-    const std::string round = counted(add_lasso(cycle.front().from, cycle, finding), "tick");
-    finding.message = fmt::format("it may never end: from tick {} on it repeats a cycle of {}",
-                                  *finding.repeats, round);
+    add_lasso(cycle.front().from, cycle, finding);
+    finding.message = "it may never end: a cycle of ticks may repeat indefinitely";
     finding.more = standstill_of(finding);
     finding.more.push_back(what_happens(finding));
-    say("always ends", fmt::format("NO: a cycle of {}", round));
+    say("always ends", "NO: a cycle of ticks may repeat indefinitely");
     verdict_.findings.push_back(std::move(finding));
   }
 
   std::string what_happens(const Finding& finding) {
     std::vector<std::string> events;
     tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
-      const std::size_t round = (finding.run.size() - *finding.repeats) / 2;
+      const std::size_t round = finding.round();
       if (tick < *finding.repeats || tick >= *finding.repeats + round) return;
       for (std::string& event : ends_in(stepper)) {
         if (std::ranges::find(events, event) == events.end()) events.push_back(std::move(event));
@@ -502,10 +500,9 @@ class VerdictMaker {
         if (found_.is_complete()) say_good(fmt::format("property '{}'", name), "holds");
         return;
       }
-      const std::size_t round = add_lasso(cycle.front().from, cycle, finding);
-      finding.message =
-          fmt::format("property '{}' is never decided: from tick {} on a cycle of {} repeats", name,
-                      *finding.repeats, counted(round, "tick"));
+      add_lasso(cycle.front().from, cycle, finding);
+      finding.message = fmt::format(
+          "property '{}' may never be decided: a cycle of ticks may repeat indefinitely", name);
     }
     say(fmt::format("property '{}'", name), "NO");
     verdict_.findings.push_back(std::move(finding));
@@ -589,6 +586,12 @@ class VerdictMaker {
       assumed.push_back(fmt::format("held leaves make no progress ({})", counted(held, "action")));
     }
     if (ends) assumed.push_back("an action that is ticked again and again ends");
+    if (const std::size_t count = models_.unstated_results; count > 0) {
+      assumed.push_back(
+          fmt::format("no leaf without result=\"…\" in the leaf model returns "
+                      "Skipped ({} {})",
+                      count, count == 1 ? "leaf" : "leaves"));
+    }
     for (const std::uint32_t it : parts) {
       assumed.push_back(
           fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));

@@ -37,6 +37,86 @@ TEST_CASE("a counter-example of verify becomes a scenario that fails until the t
   CHECK(good.code == 0);
 }
 
+namespace {
+
+struct Saved {
+  std::string_view finding, outside, tree, leaves, mended_outside, mended;
+};
+
+// clang-format off
+const Saved kSaved[] = {
+  {"trap", R"(<barrier name="coarse" barriers="0.5"/><barrier name="fine" barriers="0.25"/>)",
+   R"(<Parallel><SyncProgress barrier="coarse"><SyncProgress barrier="fine"><Advance name="a" step="0.1"/></SyncProgress></SyncProgress>
+      <SyncProgress barrier="coarse"><Sequence memory="true"><Advance name="b" step="0.1"/>
+      <SyncProgress barrier="fine"><Advance name="c" step="0.1"/></SyncProgress></Sequence></SyncProgress></Parallel>)", "",
+   R"(<barrier name="coarse" barriers="0.8"/><barrier name="fine" barriers="0.25"/>)", ""},
+  // What helps in general is not allowed here: each leaf would succeed.
+  {"trap", "", R"(<KeepRunningUntilFailure name="k"><Inverter name="i"><Advance name="a" step="0.1"/></Inverter></KeepRunningUntilFailure>)",
+   R"(<fact name="open" changes="never"/><leaf path="*" fact="open"/>)",
+   "", R"(<Retry name="k" attempts="5"><Inverter name="i"><Advance name="a" step="0.1"/></Inverter></Retry>)"},
+  {"cycle", "", R"(<KeepRunningUntilFailure name="k"><Inverter name="i"><Advance name="a" step="0.1"/></Inverter></KeepRunningUntilFailure>)", "",
+   "", R"(<Retry name="k" attempts="5"><Inverter name="i"><Advance name="a" step="0.1"/></Inverter></Retry>)"},
+  {"fault/Main/Sequence/s", "",
+   R"(<Sequence memory="true"><Advance name="a" step="0.1"/><Check name="s" code="n == 1"/><Script code="n := 1"/></Sequence>)", "",
+   "", R"(<Sequence memory="true"><Advance name="a" step="0.1"/><Script code="n := 1"/><Check name="s" code="n == 1"/></Sequence>)"},
+  {"starvation/Main/Parallel/Repeat#3/UseResources/c", R"(<resources name="hand" increment="0"/>)",
+   R"(<Parallel><Repeat><UseResources pool="hand" resources="left"><Advance name="a" step="0.1"/></UseResources></Repeat>
+      <Repeat><UseResources pool="hand" resources="left"><Advance name="b" step="0.1"/></UseResources></Repeat>
+      <Repeat><UseResources pool="hand" resources="left"><Advance name="c" step="0.1"/></UseResources></Repeat></Parallel>)",
+   R"(<tree ends="no"/><leaf path="*" result="success" ticks="1..2"/>)", R"(<resources name="hand" increment="1"/>)", ""},
+};
+// clang-format on
+
+std::string file_of(std::string_view outside, std::string_view tree) {
+  return R"(<root lockstep="1"><plugin name="motion"/>)" + std::string(outside) +
+         R"(<BehaviorTree ID="Main">)" + std::string(tree) + "</BehaviorTree></root>";
+}
+
+}  // namespace
+
+TEST_CASE("verify --save: what was found is a test that fails until the tree is mended") {
+  for (const Saved& it : kSaved) {
+    const TemporaryDirectory directory;
+    const std::string tree = directory.file("t.xml", file_of(it.outside, it.tree));
+    const std::string file = directory.path("t.test.xml");
+    const std::string leaves = directory.file(
+        "t.leaves.xml", "<leaves lockstep=\"1\">" + std::string(it.leaves) + "</leaves>");
+    const Outcome verified =
+        run_lockstep({"verify", tree, "--leaves", leaves, "--only", std::string(it.finding),
+                      "--out", directory.path("found"), "--save", file});
+    INFO(it.tree << '\n' << verified.out << verified.err);
+    REQUIRE(verified.code == 1);
+    INFO(read_file(file));
+    const Outcome now = run_lockstep({"test", file, "--out", directory.path("failed")});
+    INFO(now.out << now.err);
+    CHECK(now.code == 1);
+    CHECK(contains(now.out, "1 failed"));
+    static_cast<void>(directory.file(
+        "t.xml", file_of(it.mended_outside, it.mended.empty() ? it.tree : it.mended)));
+    const Outcome mended = run_lockstep({"test", file, "--out", directory.path("failed")});
+    INFO(mended.out << mended.err);
+    CHECK(mended.code == 0);
+  }
+}
+
+TEST_CASE("a scenario of a tree that --tree chose is about that tree") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1" main_tree_to_execute="A">
+<plugin name="motion"/><BehaviorTree ID="A"><AlwaysSuccess/></BehaviorTree>
+<BehaviorTree ID="B"><Advance name="b" step="0.5"/></BehaviorTree></root>)");
+  const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
+  REQUIRE(run_lockstep(
+              {"run", tree, "--tree", "B", "--clock", "virtual", "--view", "none", "--record", run})
+              .code == 0);
+  REQUIRE(run_lockstep({"log", "scenario", run, "--save", file}).code == 0);
+  CHECK(run_lockstep({"verify", tree, "--tree", "B", "--property", "q: never b.failure", "--out",
+                      directory.path("found"), "--save", file})
+            .code == 1);
+  const Outcome played = run_lockstep({"test", file, "--out", directory.path("failed")});
+  INFO(read_file(file) << played.out << played.err);
+  CHECK(contains(played.out, "2 scenarios: 1 passed, 1 failed"));
+}
+
 TEST_CASE("a counter-example has the results of leaves beside those of scripts around them") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="Main">
@@ -190,4 +270,34 @@ TEST_CASE("docs/testing.md: the first scenario and its failure are as printed th
         block("```\n$ lockstep test", "## The first scenario"));
   scenario.replace(scenario.find("failure"), 7, "success");
   CHECK(play() == block("```", "Now expect `success`"));
+}
+
+TEST_CASE("a recording says that a period was one tick, and its readers use it") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="Main">
+<RetryUntilSuccessful num_attempts="3"><Action ID="A"/></RetryUntilSuccessful></BehaviorTree></root>)");
+  const std::string exact = directory.path("exact.jsonl"), once = directory.path("once.jsonl");
+  const auto record = [&](const std::string& run, const char* tick) {
+    return run_lockstep({"run", tree, "--mock-leaf", "A=failure", "--clock", "virtual", "--view",
+                         "none", "--tick", tick, "--record", run})
+        .code;
+  };
+  REQUIRE(record(exact, "exactly-once") == 1);
+  REQUIRE(record(once, "once") == 1);
+  CHECK(contains(read_file(exact), R"("tick":"exactly-once")"));
+  CHECK_FALSE(contains(read_file(once), "exactly-once"));
+  CHECK(contains(run_lockstep({"log", "info", exact}).out, "\n  ticks: exactly-once\n"));
+  CHECK(contains(run_lockstep({"log", "diff", once, exact}).out, "exactly-once"));
+  const std::string file = directory.path("t.test.xml");
+  REQUIRE(run_lockstep({"log", "scenario", exact, "--save", file}).code == 0);
+  const std::string text = read_file(file);
+  const std::string end = "<expect result=\"failure\"";
+  REQUIRE(contains(text, end));
+  CHECK(contains(text, " tick=\"exactly-once\""));
+  static_cast<void>(directory.file(
+      "t.test.xml", std::string(text).insert(text.find(end), "<expect same-as=\"exact.jsonl\"/>")));
+  const Outcome played = run_lockstep({"test", file, "--out", directory.path("failed")});
+  INFO(read_file(file) << played.out << played.err);
+  CHECK(played.code == 0);
 }

@@ -109,6 +109,49 @@ TEST_CASE("a tree without findings is verified, with what is assumed") {
   CHECK_FALSE(std::filesystem::exists(directory.path("out")));
 }
 
+TEST_CASE("a leaf that returns Skipped is named as what is not assumed") {
+  const TemporaryDirectory directory;
+  std::filesystem::permissions(directory.file("skip.py", R"(#!/usr/bin/env python3
+import json, sys
+def say(**what): print(json.dumps(what), flush=True)
+say(lockstep=1, leaves=[{"id": "Maybe"}])
+for line in sys.stdin:
+    request = json.loads(line)
+    if request["do"] == "tick": say(leaf=request["leaf"], status="skipped")
+    elif request["do"] in ("create", "halt"): say(leaf=request["leaf"], done=True)
+)"),
+                               std::filesystem::perms::owner_all);
+  const std::string tree =
+      directory.file("t.xml", R"(<root lockstep="1"><plugin name="skip" program="skip.py"/>
+<BehaviorTree ID="T"><Fallback memory="true"><ForceSuccess><Maybe/></ForceSuccess>
+<Script name="k" code="x := 1"/></Fallback></BehaviorTree></root>)");
+  const std::string property = "q: never k.ticked";
+  CHECK(contains(run_lockstep({"run", tree, "--plugin-path", directory.path(""), "--clock",
+                               "virtual", "--view", "none", "--property", property})
+                     .err,
+                 "property q is violated in tick 0"));
+  const Outcome checked = run_lockstep(
+      {"check", "--strict", tree, "--run-programs", "--plugin-path", directory.path("")});
+  INFO(checked.err);
+  CHECK(checked.code == 0);
+  CHECK(contains(checked.err, "note: 'k' can never run, unless a leaf returns Skipped"));
+  const auto verified = [&](const std::string& results) {
+    const std::string leaves = directory.file(
+        "t.leaves.xml", "<leaves lockstep=\"1\"><leaf path=\"*\"" + results + "/></leaves>");
+    return run_lockstep({"verify", tree, "--run-programs", "--plugin-path", directory.path(""),
+                         "--leaves", leaves, "--property", property, "--out",
+                         directory.path("out")})
+        .out;
+  };
+  constexpr auto kAssumed =
+      "no leaf without result=\"…\" in the leaf model returns Skipped (1 leaf)";
+  CHECK(contains(verified(""), kAssumed));
+  const std::string said = verified(" result=\"success;failure;skipped\"");
+  INFO(said);
+  CHECK_FALSE(contains(said, kAssumed));
+  CHECK(contains(said, "finding property/q"));
+}
+
 TEST_CASE("what a limit has stopped is not called verified") {
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/predictability.xml";
   for (const auto& limit :
@@ -150,6 +193,19 @@ TEST_CASE("a limit is heeded within a state of very many answers") {
     CHECK(it.code == 124);
     CHECK(contains(it.out, "\nbounded: nothing found in the first 0 ticks"));
   }
+}
+
+TEST_CASE("--time counts from the begin of the command: what it takes to load the tree") {
+  const TemporaryDirectory directory;
+  std::string leaves;
+  for (int i = 0; i < 100'000; ++i) leaves += "<AlwaysSuccess/>";
+  const std::string tree =
+      directory.file("tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"M\"><Parallel>" + leaves +
+                                     "</Parallel></BehaviorTree></root>");
+  const Outcome it = run_lockstep({"verify", tree, "--time", "0.02"});
+  INFO(it.out);
+  CHECK(it.code == 124);
+  CHECK(contains(it.out, "\nbounded: nothing found in the first 0 ticks (all behaviors), 1 state"));
 }
 
 TEST_CASE("a cycle in which somebody waits all the time says who waits for whom") {

@@ -89,7 +89,7 @@ std::string said_in(const std::string& out) {
   std::string said;
   for (std::string line; std::getline(text, line);) {
     const bool is_about_search = contains(line, " transitions, ") || line.starts_with("  alike ");
-    const bool is_about_run = contains(line, "cycle of ") || line.starts_with("    ");
+    const bool is_about_run = line.starts_with("    ");
     if (!is_about_search && !is_about_run) said += line + '\n';
   }
   return said;

@@ -32,7 +32,8 @@ int write_scenario(const LogScenarioOptions& options, const RecordingHeader& hea
           ? fmt::format("as in {}", std::filesystem::path(options.file).filename().string())
           : options.name;
   for (const std::string& it : words.notes) print_note(it);
-  const std::string text = to_text(words, {.name = name, .comments = words.notes});
+  const std::string text =
+      to_text(words, {.name = name, .comments = words.notes, .main = recorded.main()});
   if (options.save.empty()) return write_results(scenario_file(recorded.file(), text));
   const auto saved = add_to_scenario_file(options.save, recorded.file(), text);
   if (saved) return kExitSuccess;

@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "record/read/recording_reader.h"
 
 namespace lockstep::host {
+namespace {
+
+bool is_main_of(const Document& document, std::string_view tree) {
+  if (const Attribute* main = document.find_attribute(0, "main_tree_to_execute")) {
+    return main->value == tree;
+  }
+  return std::ranges::count(document.elements(), "BehaviorTree", &Element::tag) == 1;
+}
+
+}  // namespace
 
 RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& file,
                            const PluginOptions& plugins,
@@ -31,6 +43,7 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
     code_ = exit_code_of(loaded.error());
     return;
   }
+  if (!is_main_of(*loaded->project->documents.front(), header.id)) main_ = header.id;
   if (look) look(loaded->definition);
   played_.take_over(loaded->definition);
   runnable_ = make_runnable(std::move(*loaded));

@@ -22,11 +22,13 @@ class RecordedTree {
 
   int code() const { return code_; }
   const std::string& file() const { return file_; }
+  // The ID of the tree; "" if it is the one that the file names, or its only one.
+  const std::string& main() const { return main_; }
   const Tree& tree() const { return runnable_.tree; }
   const std::vector<Property>& properties() const { return runnable_.properties; }
 
  private:
-  std::string file_;
+  std::string file_, main_;
   PlayedLeaves played_;
   Runnable runnable_;
   int code_;

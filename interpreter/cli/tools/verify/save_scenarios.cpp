@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/console.h"
+#include "language/property/property_token.h"
 #include "scenario/recorded_words.h"
 #include "scenario/scenario_writer.h"
 #include "verify/property_watch.h"
@@ -10,35 +11,110 @@
 namespace lockstep::host {
 namespace {
 
-// The scenario expects that a property holds which some behavior violates. For the rest it
-// expects what came: a person has to say what should come.
-ScenarioText text_of(const Finding& finding, const std::vector<Property>& properties,
-                     const Tree& tree) {
-  ScenarioText text{.name = "verify: " + finding.name,
-                    .comments = {"found by verify: " + finding.message}};
-  for (const Property& property : properties) {
-    const bool is_meant = finding.name == "property/" + property.name();
-    if (is_meant && !names_fact(property, tree)) text.expected.push_back(property.text());
+constexpr const char *kAnEnd = "success;failure;skipped",
+                     *kAllButFault = "success;failure;skipped;running";
+
+class ScenarioMaker {
+ public:
+  ScenarioMaker(const VerifiedTree& of, const Finding& finding, RecordedWords words)
+      : of_(of), finding_(finding), words_(std::move(words)) {}
+
+  std::string make() {
+    const std::string_view kind =
+        std::string_view(finding_.name).substr(0, finding_.name.find('/'));
+    if (kind == "property") expect_property();
+    if (kind == "fault") expect_result_within(words_.ticks.value_or(0), kAllButFault);
+    if (kind == "starvation") expect_ticks();
+    if (kind == "cycle") expect_end();
+    if (kind == "trap" && !expect_end_of_others()) expect_end();
+    return to_text(words_, text_);
   }
-  return text;
-}
+
+ private:
+  void expect_property() {
+    for (const Property& property : of_.properties) {
+      const bool is_meant = finding_.name == "property/" + property.name();
+      if (is_meant && !names_fact(property, of_.tree)) text_.expected.push_back(property.text());
+    }
+  }
+
+  void expect_result_within(std::uint64_t ticks, const char* result) {
+    words_.ticks = ticks;
+    words_.result = "";
+    text_.result = result;
+  }
+
+  // As often as a Retry that mends it may take.
+  void repeat() {
+    constexpr int kRounds = 10;
+    TracedRun run = finding_.run;
+    const TracedRun round(run.end() - static_cast<std::ptrdiff_t>(finding_.round()), run.end());
+    for (int i = 2; i < kRounds; ++i) run.insert(run.end(), round.begin(), round.end());
+    words_.leaves = of_.tracer.scripts(run).leaves;
+    expect_result_within(run.size(), "");
+  }
+
+  void expect_end() {
+    repeat();
+    text_.result = kAnEnd;
+  }
+
+  // The child gets no tick in the cycle.
+  void expect_ticks() {
+    repeat();
+    const std::string path = of_.tree.path(*finding_.node);
+    text_.expected.push_back(fmt::format("not {0}{1}{0}.ticked at most {2} ticks",
+                                         needs_quotes(path) ? "'" : "", path,
+                                         *words_.ticks - *finding_.repeats - 1));
+  }
+
+  // Where no leaf helps, each ends as soon as it can: the mended tree comes to its end. If this one
+  // does, too, the leaf model forbids that, or something in the tree wants other results.
+  bool expect_end_of_others() {
+    const auto begin = finding_.run.begin();
+    const auto decided = begin + static_cast<std::ptrdiff_t>(finding_.decided);
+    LeafScripts scripts = of_.tracer.scripts(TracedRun(begin, decided));
+    for (std::size_t i = 0; i < of_.tree.leaves.size(); ++i) {
+      const ResultSet& may = of_.models.leaves[i].results;
+      const LeafWord end{.status = may.success   ? Status::Success
+                                   : may.failure ? Status::Failure
+                                                 : Status::Skipped};
+      auto& words = scripts.leaves[of_.tree.path(of_.tree.leaves[i].node)];
+      if (words.empty() || words.back() != end) words.push_back(end);
+    }
+    if (ends(of_.tree, scripts, of_.played, of_.rate)) return false;
+    std::erase_if(scripts.leaves, [](const auto& it) {
+      return it.second == std::vector{LeafWord{.status = Status::Success}};  // as without a row
+    });
+    words_.leaves = std::move(scripts.leaves);
+    text_.result = kAnEnd;
+    text_.has_limit = false;
+    return true;
+  }
+
+  const VerifiedTree& of_;
+  const Finding& finding_;
+  RecordedWords words_;
+  ScenarioText text_{.name = "verify: " + finding_.name,
+                     .comments = {"found by verify: " + finding_.message},
+                     .main = of_.main};
+};
 
 }  // namespace
 
-bool save_scenarios(const std::string& path, const VerifyReport& report, const Tree& tree,
-                    const std::vector<Property>& properties) {
+bool save_scenarios(const std::string& path, const VerifyReport& report, const VerifiedTree& of) {
   std::string scenarios;
   for (const Finding& finding : report.verdict.findings) {
     const auto files = report.files.find(finding.name);
     if (files == report.files.end()) continue;
-    RecordedWords words = read_recorded_words(files->second.recording, tree);
+    RecordedWords words = read_recorded_words(files->second.recording, of.tree);
     if (!words.outcome.error.empty()) {
       print_error("--save: " + words.outcome.error);
       return false;
     }
     // A recording does not tell the result of a leaf from that of a script around it.
     words.leaves = files->second.scripts.leaves;
-    scenarios += to_text(words, text_of(finding, properties, tree));
+    scenarios += ScenarioMaker(of, finding, std::move(words)).make();
   }
   if (scenarios.empty()) return true;
   const auto saved = add_to_scenario_file(path, report.tree, scenarios);

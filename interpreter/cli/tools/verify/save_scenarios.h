@@ -4,13 +4,24 @@
 #include <string>
 
 #include "cli/tools/verify/verify_report.h"
-#include "engine/tree.h"
-#include "language/property/property.h"
+#include "leaves/play/played_leaves.h"
+#include "verify/trace.h"
 
 namespace lockstep::host {
 
-// Adds a scenario for each finding that has a recording. False, with a message, if it cannot.
-bool save_scenarios(const std::string& path, const VerifyReport& report, const Tree& tree,
-                    const std::vector<Property>& properties);
+// What the findings are about.
+struct VerifiedTree {
+  const Tree& tree;
+  const std::string& main;  // "": the main tree of the file
+  const LeafModels& models;
+  const std::vector<Property>& properties;
+  double rate;
+  Tracer& tracer;
+  PlayedLeaves& played;
+};
+
+// Adds a scenario for each finding that has a recording: it fails as long as the tree has what was
+// found. False, with a message, if it cannot.
+bool save_scenarios(const std::string& path, const VerifyReport& report, const VerifiedTree& of);
 
 }  // namespace lockstep::host

@@ -173,13 +173,12 @@ class VerifyCommand {
   int verify(const Runnable& runnable, const LeafModels& models, const Places& places) {
     const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
     StopSignals::install();
-    const Nanoseconds began = monotonic_now();
     VerdictOptions options{.rate = rate,
                            .place = [&](NodeIndex node) { return places.text(node); }};
     SearchResult found = [&] {
       SearchLine line;
       const SearchLimits limited = limits(line);
-      if (options_.time) options.until = began + from_seconds(*options_.time);
+      if (options_.time) options.until = began_ + from_seconds(*options_.time);
       options.memory = limited.memory;
       return search(runnable.tree, models, properties_, rate, limited);
     }();
@@ -201,9 +200,11 @@ class VerifyCommand {
       report.internal_error = to_text(*wrong);
     }
     // A verdict may have taken long, so it is printed also where its files cannot be written.
-    const bool has_files = write_files(runnable, rate, tracer, verdict, report) &&
-                           (options_.save.empty() ||
-                            save_scenarios(options_.save, report, runnable.tree, properties_));
+    const bool has_files =
+        write_files(runnable, rate, tracer, verdict, report) &&
+        (options_.save.empty() || save_scenarios(options_.save, report,
+                                                 {runnable.tree, options_.load.main_tree, models,
+                                                  properties_, rate, tracer, played_}));
     const int failed = write_results(written(report));
     if (!report.internal_error.empty()) {
       print_error(report.internal_error,
@@ -222,7 +223,10 @@ class VerifyCommand {
   SearchLimits limits(SearchLine& line) const {
     SearchLimits limits{.states = options_.states, .memory = usual_memory()};
     if (options_.memory_mib) limits.memory = *options_.memory_mib << 20u;
-    if (options_.time) limits.time = from_seconds(*options_.time * kTimeOfSearch);
+    if (options_.time) {
+      const Nanoseconds until = began_ + from_seconds(*options_.time * kTimeOfSearch);
+      limits.time = std::max(Nanoseconds(0), until - monotonic_now());
+    }
     if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
     limits.stop_signal = StopSignals::received;
     limits.jobs = options_.jobs;
@@ -276,6 +280,7 @@ class VerifyCommand {
   }
 
   const VerifyOptions& options_;
+  const Nanoseconds began_ = monotonic_now();  // --time counts from here, with loading the tree
   Diagnostics diagnostics_;
   PlayedLeaves played_;
   std::vector<Property> properties_;

@@ -37,6 +37,13 @@ std::string loss_text(const SearchResult& found) {
   return fmt::format("{:.1e}", found.store.probability_of_loss() * 1.05);
 }
 
+// Of the run that shows it: with --no-symmetry, another run may show the same.
+std::string repeats_text(const Finding& finding) {
+  if (!finding.repeats) return "";
+  return fmt::format("; repeats {} from tick {} on", counted(finding.round(), "tick"),
+                     *finding.repeats);
+}
+
 }  // namespace
 
 std::string conclusion(const VerifyReport& report) {
@@ -76,7 +83,8 @@ std::string to_text(const VerifyReport& report) {
     for (const std::string& line : it.more) text += fmt::format("    {}\n", line);
     if (!it.accepted.empty()) text += fmt::format("    accepted: {}\n", it.accepted);
     if (const auto files = report.files.find(it.name); files != report.files.end()) {
-      text += fmt::format("    -> {}, {}\n", files->second.recording, files->second.leaves);
+      text += fmt::format("    -> {}, {}{}\n", files->second.recording, files->second.leaves,
+                          repeats_text(it));
       if (std::exchange(says_how, false)) {
         text += fmt::format("       lockstep replay {}\n", shell_word(files->second.recording));
       }
