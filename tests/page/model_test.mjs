@@ -38,6 +38,29 @@ test("a state stands until a line changes it, also over ticks that have no line"
   assert.deepEqual(model.waitOf(late, 2).for, [1]);
 });
 
+test("a member of a barrier at 0 waits for those that are not reached, and an exchange for what it does not own", () => {
+  const member = (index, name) => [
+    { index, path: `Test/p/${name}`, kind: "SyncProgress", name, parent: 0 },
+    { index: index + 1, path: `Test/p/${name}/Go`, kind: "Go", name: "Go", parent: index }];
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, nodes: [
+    { index: 0, path: "Test/p", kind: "Parallel", name: "p", parent: null }, ...member(1, "one"), ...member(3, "other"),
+    ...member(5, "third"), { index: 7, path: "Test/start", kind: "barrier", name: "start", parent: null, members: [2, 4],
+      barriers: [0] },
+    { index: 8, path: "Test/road", kind: "resources", name: "road", parent: null, members: [2, 4, 6],
+      resources: ["a", "b", "c"] }] }));
+  run.feed(JSON.stringify({ tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0)] }));
+  const moment = new model.Moment(run, 0), { nodes } = run.shape;
+  nodes[2].keeper = 7;
+  assert.equal(model.waitOf(moment, 2).text, "waits to begin together with other/Go, of 'start'");
+  nodes[2].keeper = nodes[4].keeper = 8;
+  run.feed(JSON.stringify({ tick: 1, time_s: 0.1, nodes: [running(2, 0), running(3, 0), running(4, 0)],
+    limits: [[1, -(2 ** 52 + 1 * 2 ** 26 + 3)], [3, 6]] }));
+  const later = new model.Moment(run, 1);
+  assert.equal(model.waitOf(later, 2).text, "owns a, waits for b (other/Go)");
+  assert.deepEqual(model.ownersOf(later, nodes[8]).map(({ place }) => place), [0, 1, 1]);
+});
+
 test("a line with the whole state makes idle what it does not name, and changes nothing else", () => {
   const run = runOf(
     { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0.25), running(2, 0)] },

@@ -60,9 +60,37 @@ function waitAtBarrier(moment: Moment, keeper: ShapeNode, node: number): Wait {
   return { node, keeper: keeper.index, for: slowest.slice(0, FEW).map((place) => keeper.inStep[place]), text };
 }
 
-// Sets of resources are sums of powers of two, up to 2^52.
+// What a member of a barrier at 0 waits for: the members that no tick has reached.
+function waitToBegin(moment: Moment, keeper: ShapeNode, node: number): Wait {
+  const late = [...keeper.inStep.keys()].filter((place) =>
+    moment.progress[keeper.inStep[place]] === 0 && moment.status[keeper.inStep[place] - 1] !== RUNNING &&
+    !isLeftOut(moment, keeper, keeper.inStep[place]));
+  const whom = late.length > 0 ? listed(late, keeper.names) : "the other members";
+  const text = `waits to begin together with ${whom}, of '${keeper.segment}'`;
+  return { node, keeper: keeper.index, for: late.slice(0, FEW).map((place) => keeper.inStep[place]), text };
+}
+
+function waitsToBegin(moment: Moment, keeper: ShapeNode, node: number): boolean {
+  return keeper.isGroup && moment.status[node] === IDLE && moment.status[node - 1] === RUNNING;
+}
+
+// The limit of a member has a set that it owns, or below 0 one that it waits for; or both, as recording.md packs them.
+const BOTH = 2 ** 52, SHIFT = 2 ** 26;
+function ownedIn(limit: number): number {
+  if (limit >= 0) return limit;
+  return -limit < BOTH ? 0 : Math.floor((-limit - BOTH) / SHIFT);
+}
+function wantedIn(limit: number): number {
+  if (limit >= 0) return 0;
+  return -limit < BOTH ? -limit : -limit % SHIFT;
+}
+
+// Sets of resources are sums of powers of two, up to 2^50.
+function has(set: number, bit: number): boolean {
+  return Math.floor(set / 2 ** bit) % 2 === 1;
+}
 function resourcesIn(pool: ShapeNode, set: number): string[] {
-  return pool.resources.filter((_, bit) => Math.floor(Math.abs(set) / 2 ** bit) % 2 === 1);
+  return pool.resources.filter((_, bit) => has(set, bit));
 }
 
 // The limit of a member is that of the UseResources node above it.
@@ -71,18 +99,19 @@ function memberLimit(moment: Moment, child: number): number {
 }
 
 export function owned(moment: Moment, pool: ShapeNode, node: number): string {
-  const limit = memberLimit(moment, node);
-  return limit > 0 ? `owns ${resourcesIn(pool, limit).join(";")}` : "";
+  const set = ownedIn(memberLimit(moment, node));
+  return set > 0 ? `owns ${resourcesIn(pool, set).join(";")}` : "";
 }
 
 // The owner of each resource of a pool; null: it is free.
 export function ownersOf(moment: Moment, pool: ShapeNode): { resource: string; place: number | null }[] {
   const found = pool.resources.map((resource) => ({ resource, place: null as number | null }));
   pool.inStep.forEach((node, place) => {
-    const set = memberLimit(moment, node);
-    if (set <= 0 || moment.status[node] !== RUNNING) return;
+    // One that has not begun may own what it has taken over.
+    const set = ownedIn(memberLimit(moment, node));
+    if (set === 0 || (moment.status[node] !== RUNNING && moment.status[node - 1] !== RUNNING)) return;
     found.forEach((one, bit) => {
-      if (Math.floor(set / 2 ** bit) % 2 === 1) one.place = place;
+      if (has(set, bit)) one.place = place;
     });
   });
   return found;
@@ -98,16 +127,18 @@ export function ownersText(moment: Moment, pool: ShapeNode): string {
 }
 
 function waitForResources(moment: Moment, pool: ShapeNode, node: number): Wait {
-  const wanted = new Set(resourcesIn(pool, memberLimit(moment, node)));
+  const own = owned(moment, pool, node);
+  const kept = resourcesIn(pool, ownedIn(memberLimit(moment, node)));
+  const wanted = resourcesIn(pool, wantedIn(memberLimit(moment, node))).filter((name) => !kept.includes(name));
   const owners: number[] = [], parts: string[] = [];
   pool.inStep.forEach((other, place) => {
-    const its = memberLimit(moment, other);
-    const shared = its > 0 ? resourcesIn(pool, its).filter((name) => wanted.has(name)) : [];
+    const shared = resourcesIn(pool, ownedIn(memberLimit(moment, other))).filter((name) => wanted.includes(name));
     if (shared.length === 0) return;
     owners.push(other);
     parts.push(`${shared.join(";")} (${pool.names[place]})`);
   });
-  return { node, keeper: pool.index, for: owners, text: parts.length ? `waits for ${parts.join(", ")}` : "" };
+  const waits = parts.length ? `waits for ${parts.join(", ")}` : "";
+  return { node, keeper: pool.index, for: owners, text: [own, waits].filter((part) => part).join(", ") };
 }
 
 function isWaiting(moment: Moment, node: number): boolean {
@@ -115,6 +146,7 @@ function isWaiting(moment: Moment, node: number): boolean {
   const { keeper, parent } = nodes[node];
   if (keeper === null) return false;
   if (nodes[keeper].synchronization === "resources") return memberLimit(moment, node) < 0;
+  if (waitsToBegin(moment, nodes[keeper], node)) return moment.held[node - 1] !== 1;
   // Under a parent that is held itself, the parent says what is waited for.
   return moment.held[node] === 1 && (parent === null || !moment.held[parent]);
 }
@@ -123,9 +155,8 @@ export function waitOf(moment: Moment, node: number): Wait | null {
   if (!isWaiting(moment, node)) return null;
   const { nodes } = moment.run.shape;
   const keeper = nodes[nodes[node].keeper!];
-  return keeper.synchronization === "resources"
-    ? waitForResources(moment, keeper, node)
-    : waitAtBarrier(moment, keeper, node);
+  if (keeper.synchronization === "resources") return waitForResources(moment, keeper, node);
+  return waitsToBegin(moment, keeper, node) ? waitToBegin(moment, keeper, node) : waitAtBarrier(moment, keeper, node);
 }
 
 // All that wait.
