@@ -520,6 +520,55 @@ TEST_CASE("convert keeps the blackboard of a SubTree of version 3") {
   }
 }
 
+TEST_CASE("convert gives a leaf with the name of a built-in node another name, with a warning") {
+  const TemporaryDirectory directory;
+  const auto converted = [&](const std::string& format, const std::string& node,
+                             const std::string& to) {
+    return run_lockstep({"convert", "--to", to, directory.file("tree.xml", around(format, node))});
+  };
+  const Outcome here = converted(
+      "BTCPP_format=\"4\"", "<Wait time=\"3\"></Wait><Action ID=\"Wait\" name=\"w\"/>", "lockstep");
+  INFO(here.err);
+  CHECK(contains(here.out, "<WaitLeaf time=\"3\"></WaitLeaf><Action ID=\"WaitLeaf\" name=\"w\"/>"));
+  CHECK(contains(here.err, "3:1: warning: the leaf 'Wait' is called 'WaitLeaf'"));
+  const Outcome model = run_lockstep(
+      {"convert", directory.file("model.xml",
+                                 "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Main\"><Wait/>"
+                                 "</BehaviorTree><TreeNodesModel><Action ID=\"Wait\"/>"
+                                 "</TreeNodesModel></root>")});
+  CHECK(contains(model.out, "<Action ID=\"WaitLeaf\"/></TreeNodesModel>"));
+  const Outcome there = converted("lockstep=\"1\"", "<Sleep/>", "btcpp4");
+  CHECK(contains(there.out, "<SleepLeaf/>"));
+}
+
+TEST_CASE("convert writes a BlackboardCheck of version 3 as a WhileDoElse") {
+  const TemporaryDirectory directory;
+  const auto converted = [&](const std::string& node, const std::string& to) {
+    const std::string file = directory.file("tree.xml", around("BTCPP_format=\"3\"", node));
+    return run_lockstep({"convert", "--to", to, file});
+  };
+  const std::string check =
+      "<BlackboardCheckInt value_A=\"{n}\" value_B=\"0\" return_on_mismatch=\"SUCCESS\">"
+      "<A/></BlackboardCheckInt>";
+  const Outcome here = converted(check, "lockstep");
+  INFO(here.err);
+  CHECK(contains(here.out,
+                 "<WhileDoElse><Check code=\"n == 0\"/><A/><AlwaysSuccess/></WhileDoElse>"));
+  CHECK(contains(here.err, "3:1: warning: 'BlackboardCheckInt' is not quite the same"));
+  const Outcome there = converted(
+      "<Decorator ID=\"BlackboardCheckString\" value_A=\"{a}\" value_B=\"on\" "
+      "return_on_mismatch=\"FAILURE\"><A/></Decorator>",
+      "btcpp4");
+  INFO(there.err << there.out);
+  CHECK(contains(there.out,
+                 "<ScriptCondition code=\"a == 'on'\"/><A/><AlwaysFailure/></WhileDoElse>"));
+  CHECK(contains(converted("<BlackboardCheckInt value_A=\"{n}\" value_B=\"0\" "
+                           "return_on_mismatch=\"RUNNING\"><A/></BlackboardCheckInt>",
+                           "lockstep")
+                     .err,
+                 "return_on_mismatch=\"RUNNING\" cannot be expressed"));
+}
+
 TEST_CASE("convert warns of an action in the condition of a WhileDoElse") {
   const TemporaryDirectory directory;
   const auto told = [&](const std::string& condition, const std::string& to = "btcpp4") {
@@ -610,7 +659,7 @@ TEST_CASE("what lockstep's language cannot say is an error at its place") {
        "3:1: error: a Switch without 'variable' cannot"},
       {"<Switch2 variable=\"{a.b}\" case_1=\"1\" case_2=\"2\"><A/><A/><A/></Switch2>",
        "3:10: error: the key 'a.b' cannot"},
-      {"<Wait/>", "3:1: error: a leaf called 'Wait' cannot"},
+      {"<Switch><A/></Switch>", "3:1: error: a node called 'Switch' cannot"},
       {"<A x=\"{a.b}\"/>", "3:4: error: the key 'a.b' cannot"},
       {"<A name=\"a/b\"/>", "3:4: error: the name 'a/b' cannot"},
       {"<A _skipIf=\"x == and\"/>", "3:18: error: an entry called 'and' cannot"},
@@ -633,7 +682,8 @@ TEST_CASE("what BehaviorTree.CPP cannot say is an error at its place") {
   const Row rows[] = {
       {"<Parallel memory=\"false\"><A/></Parallel>", "3:1: error: this 'Parallel' cannot"},
       {"<AlwaysRunning/>", "3:1: error: this 'AlwaysRunning' cannot"},
-      {"<Sleep/>", "3:1: error: a leaf called 'Sleep' cannot"},
+      {"<ReactiveSequence><A/></ReactiveSequence>",
+       "3:1: error: a node called 'ReactiveSequence' cannot"},
       {"<Timeout seconds=\"1\"><A/></Timeout>", "hint: one with clock=\"wall\" can"},
       {"<Switch on=\"x + 1\" cases=\"1;2\"><A/><A/><A/></Switch>",
        "3:9: error: a Switch on the script 'x + 1' cannot"},

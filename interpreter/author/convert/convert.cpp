@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "author/convert/blackboard_check.h"
 #include "author/convert/circumstances.h"
 #include "author/convert/script_text.h"
 #include "author/convert/set_blackboard.h"
@@ -65,6 +66,7 @@ class Converter {
     std::size_t begin;
     std::string tag;
     bool is_left_out = false;
+    std::string before_children = {}, behind_children = {};
   };
 
   void convert(const XmlToken& token) {
@@ -74,6 +76,9 @@ class Converter {
         return open(token);
       case TokenKind::Attribute:
         return attribute(token);
+      case TokenKind::TagEnd:
+        if (!open_.empty()) insert(token.begin + 1, open_.back().before_children);
+        return;
       case TokenKind::EmptyTagEnd:
         return close(token.begin + 2);
       case TokenKind::CloseTag:
@@ -108,7 +113,8 @@ class Converter {
     const std::uint32_t element = next_++;
     open_.push_back({element, token.begin, std::string(token.name)});
     pair_ = nullptr;
-    is_switch_ = is_setter_ = false;
+    is_switch_ = is_setter_ = is_check_ = false;
+    new_id_.clear();
     if (element >= document_.elements().size()) {  // a second root
       open_.back().is_left_out = true;
     } else if (open_.size() > 2 && !is_left_out() && !is_in_models()) {
@@ -124,6 +130,10 @@ class Converter {
       convert_root(element, token);
     }
     if (open_.back().tag != token.name) rename(token.begin + 1, token.name);
+  }
+
+  void insert(std::size_t at, const std::string& text) {
+    if (!text.empty()) edits_.insert(at, text);
   }
 
   void rename(std::size_t at, std::string_view name) {
@@ -262,10 +272,11 @@ class Converter {
     if (to_ours() && conversion_.from_nodes.find(type) == nullptr) {
       if (const auto since = btcpp::node_since_4(type); !since.empty()) type = since;
     }
+    is_check_ = to_ours() && is_blackboard_check(type);
+    if (is_check_) return convert_check(element, type);
     if (conversion_.from_nodes.find(type) == nullptr) {
-      if (conversion_.to_nodes.find(type) == nullptr) return;
-      return cannot(place_of(element), fmt::format("a leaf called '{}'", brief(type)),
-                    "there it is the name of a built-in node");
+      if (is_taken(type)) rename_leaf(element, type, is_explicit);
+      return;
     }
     is_switch_ = to_ours() ? switch_cases_there(type) != 0 : type == "Switch";
     if (is_switch_) return convert_switch(element, type, token);
@@ -291,6 +302,42 @@ class Converter {
                  fmt::format("'{}' is not quite the same", brief(type)), std::string(it.what),
                  Severity::Warning);
     }
+  }
+
+  // A leaf of a plugin that has the name of a built-in node there.
+  bool is_taken(std::string_view type) const {
+    return conversion_.from_nodes.find(type) == nullptr &&
+           conversion_.to_nodes.find(type) != nullptr;
+  }
+  static std::string other_name(std::string_view type) { return fmt::format("{}Leaf", type); }
+
+  void rename_leaf(std::uint32_t element, std::string_view type, bool is_explicit) {
+    const std::string name = other_name(type);
+    if (count_children(element) != 0 || conversion_.to_nodes.find(name) != nullptr) {
+      return cannot(place_of(element), fmt::format("a node called '{}'", brief(type)),
+                    "there it is the name of a built-in node");
+    }
+    (is_explicit ? new_id_ : open_.back().tag) = name;
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at("not-the-same"_code, place_of(element),
+               fmt::format("the leaf '{}' is called '{}'", brief(type), name),
+               "there the other name is that of a built-in node: register the leaf as this one",
+               Severity::Warning);
+  }
+
+  void convert_check(std::uint32_t element, std::string_view type) {
+    const ConvertedCheck converted = converted_check(document_, element, type);
+    if (!converted.problem.empty()) {
+      return cannot(converted.place, converted.problem, converted.hint);
+    }
+    open_.back().tag = "WhileDoElse";
+    open_.back().before_children = fmt::format("<Check code={}/>", quoted(converted.code));
+    open_.back().behind_children = fmt::format("<{}/>", converted.otherwise);
+    if (report_.counted_only(Severity::Warning)) return;
+    report_.at("not-the-same"_code, place_of(element),
+               fmt::format("'{}' is not quite the same", brief(type)),
+               "an entry without a value was not equal; in a script it is an error",
+               Severity::Warning);
   }
 
   void convert_setter(std::uint32_t element, const XmlToken& token) {
@@ -354,6 +401,9 @@ class Converter {
     const Attribute* found = document_.find_attribute(element, token.name);
     if (found == nullptr) return;
     if (!to_ours()) warn_of_arguments(*found);
+    const bool is_leaf = open_.back().tag == "Action" || open_.back().tag == "Condition";
+    if (is_in_models() && is_leaf && found->name == "ID" && is_taken(found->value))
+      return replace(token, found->name, other_name(found->value));
     if (is_in_models()) return keep(token, *found);
     if (open_.size() == 1) return root_attribute(token, *found);
     if (open_.size() == 2) return tree_attribute(token, *found);
@@ -391,12 +441,14 @@ class Converter {
     const std::string_view name = attribute.name;
     if (is_switch_ && is_switch_attribute(name)) return remove(token);
     if (is_setter_ && (name == "value" || name == "output_key")) return remove(token);
+    if (is_check_ && is_attribute_of_check(name)) return remove(token);
+    if (name == "ID" && !new_id_.empty()) return replace(token, name, new_id_);
     if (pair_ != nullptr && is_fixed(name)) return remove(token);
     if (const AttributePair* pair = attribute_pair(name)) {
       return convert_value(token, attribute, *pair);
     }
     if (name == "ID" && is_explicit_tag(open_.back().tag)) return keep(token, attribute);
-    if (name == "ID" && (is_switch_ || is_setter_)) return remove(token);
+    if (name == "ID" && (is_switch_ || is_setter_ || is_check_)) return remove(token);
     if (name == "ID" && pair_ != nullptr && pair_->ours != "SubTree") return remove(token);
     to_ours() ? to_our_attribute(token, attribute) : to_their_attribute(token, attribute);
   }
@@ -532,6 +584,7 @@ class Converter {
     if (open_.empty()) return;
     const bool is_renamed = open_.back().tag != token.name && !is_left_out();
     if (is_renamed) rename(token.begin + 2, token.name);
+    insert(token.begin, open_.back().behind_children);
     close(text_.find('>', token.begin) + 1);
   }
 
@@ -602,6 +655,8 @@ class Converter {
   const NodePair* pair_ = nullptr;  // of the innermost element
   bool is_switch_ = false;          // likewise
   bool is_setter_ = false;          // likewise
+  bool is_check_ = false;           // likewise
+  std::string new_id_;              // of the innermost element, if it is explicit
   bool has_doctype_ = false;
   bool is_prolog_ = true;            // nothing but processing instructions so far
   std::set<std::string_view> told_;  // names of arguments

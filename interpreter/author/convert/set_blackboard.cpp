@@ -2,29 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
+#include "author/convert/literal.h"
 #include "base/core/identifier.h"
-#include "base/core/value.h"
 #include "base/core/wording.h"
 #include "dialect/btcpp/words.h"
 
 namespace lockstep::host {
-namespace {
-
-// As a script writes it; "" if it cannot.
-std::string literal_of(std::string_view text) {
-  if (text == "true" || text == "false") return std::string(text);
-  if (const auto whole = parse_int(text)) return to_text(Value(*whole));
-  if (const auto number = parse_double(text); number && std::isfinite(*number)) {
-    return to_text(Value(*number));
-  }
-  if (text.find('\'') == std::string_view::npos) return fmt::format("'{}'", text);
-  return text.find('"') == std::string_view::npos ? fmt::format("\"{}\"", text) : std::string();
-}
-
-}  // namespace
-
 ConvertedSetter setter_to_ours(const Document& document, std::uint32_t element) {
   const auto fail = [](std::string problem, std::string hint, Place place) {
     return ConvertedSetter{{}, std::move(problem), std::move(hint), place};

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "author/convert/blackboard_check.h"
 #include "author/edit/text_edit.h"
 #include "base/core/identifier.h"
 #include "base/core/wording.h"
@@ -35,6 +36,9 @@ class Since4 {
         case TokenKind::Attribute:
           attribute(token, scanner.offset_of(token.value) + token.value.size() + 1);
           break;
+        case TokenKind::TagEnd:
+          if (!open_.empty()) insert(token.begin + 1, open_.back().before_children);
+          break;
         case TokenKind::EmptyTagEnd:
           if (!open_.empty()) open_.pop_back();
           break;
@@ -53,11 +57,13 @@ class Since4 {
  private:
   struct Open {
     std::string_view tag, since;  // as it is called in both versions
+    std::string before_children = {}, behind_children = {};
   };
 
   void open(const XmlToken& token) {
     element_ = next_++;
     type_ = nullptr;
+    check_.reset();
     std::string_view since = token.name;
     if (element_ == 0 && document_.find_attribute(0, "BTCPP_format") == nullptr) {
       edits_.insert(token.begin + 1 + token.name.size(), " BTCPP_format=\"4\"");
@@ -65,8 +71,12 @@ class Since4 {
       since = node_since_4(token.name);
       if (open_.size() > 2 || open_[1].tag != "TreeNodesModel") convert_node(token.name);
     }
+    if (check_) since = "WhileDoElse";
     if (since != token.name) rename(token.begin + 1, token.name, since);
     open_.push_back({token.name, since});
+    if (!check_) return;
+    open_.back().before_children = fmt::format("<ScriptCondition code={}/>", quoted(check_->code));
+    open_.back().behind_children = fmt::format("<{}/>", check_->otherwise);
   }
 
   static std::string_view node_since_4(std::string_view id) {
@@ -78,10 +88,13 @@ class Since4 {
     const Attribute* id = document_.find_attribute(element_, "ID");
     const std::string_view type = is_explicit_tag(tag) && id != nullptr ? id->value : tag;
     type_ = nodes_.find(node_since_4(type));
-    const auto gone = btcpp::hint_for_gone(type);
-    if (gone.empty() || type_ != nullptr) return;
-    report_.at("not-convertible"_code, document_.elements()[element_].place,
-               fmt::format("version 4 has no '{}'", brief(type)), std::string(gone));
+    if (type_ != nullptr || !is_blackboard_check(type)) return;
+    check_ = converted_check(document_, element_, type);
+    if (check_->problem.empty()) return;
+    report_.at("not-convertible"_code, check_->place,
+               fmt::format("version 4 has no '{}', and {} cannot be expressed", brief(type),
+                           check_->problem),
+               check_->hint);
   }
 
   void attribute(const XmlToken& token, std::size_t end) {
@@ -92,6 +105,11 @@ class Since4 {
     if (element_ == 0 && it->name == "BTCPP_format") return replace(token, end, it->name, "4");
     if (open_.size() < 3) return;
     const std::string_view tag = open_.back().tag;
+    if (check_ && (is_attribute_of_check(it->name) || it->name == "ID")) {
+      std::size_t begin = token.begin;
+      while (begin > 0 && is_xml_blank(text_[begin - 1])) --begin;
+      return edits_.remove(begin, end);
+    }
     if (is_explicit_tag(tag) && it->name == "ID") {
       if (const auto since = node_since_4(it->value); since != it->value) {
         replace(token, end, it->name, since);
@@ -127,10 +145,15 @@ class Since4 {
   void close(const XmlToken& token) {
     if (open_.empty()) return;
     const Open last = open_.back();
+    insert(token.begin, last.behind_children);
     open_.pop_back();
     if (last.tag == token.name && last.since != last.tag) {
       rename(token.begin + 2, token.name, last.since);
     }
+  }
+
+  void insert(std::size_t at, const std::string& text) {
+    if (!text.empty()) edits_.insert(at, text);
   }
 
   void rename(std::size_t at, std::string_view name, std::string_view since) {
@@ -149,8 +172,9 @@ class Since4 {
   TextEdit edits_;
   std::vector<Open> open_;
   std::uint32_t next_ = 0, element_ = 0;
-  const NodeType* type_ = nullptr;  // of the innermost element, if it is built in
-  bool has_arguments_ = false;      // lockstep reads them in both languages: "${key}" is one
+  const NodeType* type_ = nullptr;       // of the innermost element, if it is built in
+  std::optional<ConvertedCheck> check_;  // the innermost element is one
+  bool has_arguments_ = false;           // lockstep reads them in both languages: "${key}" is one
 };
 
 }  // namespace
