@@ -287,6 +287,22 @@ class Features(Session):
         found = self.renamed(limit.replace("inner=\"", "_autoremap=\"true\" inner=\""), "most")
         self.assertIn("_autoremap=\"true\" inner=\"{most}\"", found)
 
+    def test_rename_in_files_that_are_included_as(self):
+        part = Path(self.directory.name) / "truck.xml"
+        part.write_text("""<root lockstep="1" main_tree_to_execute="Trip"><BehaviorTree ID="Trip"><SubTree ID="Load"/></BehaviorTree>
+<BehaviorTree ID="Load"><AlwaysSuccess/></BehaviorTree></root>""")
+        text = """<root lockstep="1" main_tree_to_execute="Load"><include path="truck.xml" as="one"/><include path="truck.xml" as="two"/>
+<BehaviorTree ID="Load"><Sequence memory="true"><SubTree ID="one.Load"/><SubTree ID="two.Load"/><SubTree ID="two"/>
+</Sequence></BehaviorTree></root>"""
+        found = self.renamed(text.replace("one.Load", "one.Lo|ad"), "one.Fill")
+        self.assertEqual(text.replace("one.Load", "one.Fill").replace("two.Load", "two.Fill"), found)
+        place = self.put(text.replace("two.Load", "two.L|oad"))
+        changes = self.client.at("textDocument/rename", self.path, *place, newName="two.Fill")["changes"]
+        self.assertEqual(["Fill", "Fill"], [it["newText"] for it in changes[part.as_uri()]])
+        self.assertIn("its new name must begin with 'one.'", self.renamed(text.replace("one.Load", "one.Lo|ad"), "Fill"))
+        self.assertIn("the main tree of an included file", self.renamed(text.replace("ID=\"two\"", "ID=\"tw|o\""), "three"))
+        self.assertEqual(text.replace("\"Load\"", "\"All\""), self.renamed(text.replace("ID=\"Load", "ID=\"Lo|ad"), "All"))
+
     def test_names_that_a_rename_refuses(self):
         text = HEAD + "<Wait seconds=\"{lim|it}\" skip_if=\"limit == 3\"/>" + TAIL
         for name in ("true", "and", "or"):

@@ -109,7 +109,7 @@ class UseFinder {
 
   // Adds the entries that the tree inside uses and no attribute binds.
   void visit_sub_tree(ElementAt at) {
-    const std::string id(texts_.value(at, "ID"));
+    const std::string id = texts_.full_id(at, "ID");
     for (const ElementAt port : texts_.modeled_ports(id)) {
       const std::string name(texts_.value(port, "name"));
       const auto key = key_in_braces(texts_.value(port, "default"));
@@ -184,7 +184,7 @@ std::optional<std::string_view> binding_of(const ProjectTexts& texts, ElementAt 
                                            std::string_view key) {
   const Document& document = texts.document(sub_tree.document);
   if (const Attribute* it = document.find_attribute(sub_tree.element, key)) return it->value;
-  for (const ElementAt port : texts.modeled_ports(texts.value(sub_tree, "ID"))) {
+  for (const ElementAt port : texts.modeled_ports(texts.full_id(sub_tree, "ID"))) {
     const Attribute* const value =
         texts.document(port.document).find_attribute(port.element, "default");
     if (value != nullptr && texts.value(port, "name") == key) return value->value;

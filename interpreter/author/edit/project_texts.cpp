@@ -1,5 +1,7 @@
 #include "author/edit/project_texts.h"
 
+#include <algorithm>
+
 #include "author/edit/element_text.h"
 #include "base/core/pre_order.h"
 #include "language/document/references.h"
@@ -27,18 +29,42 @@ ProjectTexts ProjectTexts::with_arguments() const {
 }
 
 void ProjectTexts::for_each_element(const std::function<void(ElementAt)>& visit) const {
-  for (std::uint32_t i = 0; i < documents_.size(); ++i)
+  for (std::uint32_t i = 0; i < documents_.size(); ++i) {
+    if (copies(i).front() != i) continue;
     for (std::uint32_t element = 0; element < documents_[i]->elements().size(); ++element)
       visit({i, element});
+  }
+}
+
+std::vector<std::uint32_t> ProjectTexts::copies(std::uint32_t index) const {
+  const auto file = [&](std::uint32_t i) {
+    return file_identity(project_.documents[i]->source()->path());
+  };
+  if (prefix(index).empty()) return {index};  // each file is included once without a name
+  std::vector<std::uint32_t> same;
+  for (std::uint32_t i = 0; i < documents_.size(); ++i) {
+    if (i == index || file(i) == file(index)) same.push_back(i);
+  }
+  return same;
+}
+
+std::string ProjectTexts::full_id(ElementAt at, std::string_view attribute) const {
+  return prefix(at.document) + std::string(value(at, attribute));
+}
+
+bool ProjectTexts::is_named_file(std::string_view name) const {
+  return std::ranges::any_of(project_.named, [&](const auto& it) { return it.name == name; });
 }
 
 std::optional<ElementAt> ProjectTexts::find_tree(std::string_view id) const {
-  std::optional<ElementAt> found;
-  for_each_element([&](ElementAt at) {
-    const bool is_tree = document(at.document).elements()[at.element].tag == "BehaviorTree";
-    if (!found && is_tree && value(at, "ID") == id) found = at;
-  });
-  return found;
+  for (std::uint32_t i = 0; i < documents_.size(); ++i) {
+    const auto elements = document(i).elements();
+    for (std::uint32_t element = 0; element < elements.size(); ++element) {
+      const ElementAt at{i, element};
+      if (elements[element].tag == "BehaviorTree" && full_id(at, "ID") == id) return at;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<ElementAt> ProjectTexts::tree_around(ElementAt at) const {
@@ -76,11 +102,12 @@ bool ProjectTexts::is_sub_tree(ElementAt at) const {
 std::vector<ElementAt> ProjectTexts::modeled_ports(std::string_view tree) const {
   std::vector<ElementAt> ports;
   for (std::uint32_t i = 0; i < documents_.size(); ++i) {
+    if (copies(i).front() != i) continue;
     const auto elements = document(i).elements();
     for (const std::uint32_t models : children_in(elements, 0)) {
       if (elements[models].tag != "TreeNodesModel") continue;
       for (const std::uint32_t model : children_in(elements, models)) {
-        if (!is_sub_tree({i, model}) || value({i, model}, "ID") != tree) continue;
+        if (!is_sub_tree({i, model}) || full_id({i, model}, "ID") != tree) continue;
         for (const std::uint32_t port : children_in(elements, model)) ports.push_back({i, port});
       }
     }

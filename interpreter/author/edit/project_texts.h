@@ -38,8 +38,17 @@ class ProjectTexts {
   const LanguageRules& rules() const { return *rules_; }
   const Catalog& catalog() const { return catalog_; }
 
+  // Of a file that is included several times, those of the first.
   void for_each_element(const std::function<void(ElementAt)>& visit) const;
-  // The BehaviorTree with that ID.
+  // What <include as="truck"> puts before the IDs in a document: "truck.".
+  const std::string& prefix(std::uint32_t document) const { return project_.prefixes[document]; }
+  // The documents that are read from the same file as this one: it, if no other is.
+  std::vector<std::uint32_t> copies(std::uint32_t document) const;
+  // An ID, as the main file calls it.
+  std::string full_id(ElementAt at, std::string_view attribute) const;
+  // The name of an included file, which stands for its main tree.
+  bool is_named_file(std::string_view name) const;
+  // The BehaviorTree with that ID, as the main file calls it.
   std::optional<ElementAt> find_tree(std::string_view id) const;
   // The BehaviorTree around it.
   std::optional<ElementAt> tree_around(ElementAt at) const;

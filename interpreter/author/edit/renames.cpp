@@ -152,8 +152,22 @@ bool is_bound_by_choice(const ProjectTexts& texts, ElementAt tree, std::string_v
 
 Result<ProjectEdit> rename_tree(const ProjectTexts& texts, std::string_view id,
                                 std::string_view new_id) {
-  if (!texts.find_tree(id)) return problem(fmt::format("there is no tree '{}'", brief(id)));
-  if (new_id.empty() || new_id.find_first_of("/{}$") != std::string_view::npos) {
+  const auto tree = texts.find_tree(id);
+  if (!tree && texts.is_named_file(id)) {
+    return problem(fmt::format("'{}' stands for the main tree of an included file", brief(id)),
+                   "change 'as' of its include, and where that is used");
+  }
+  if (!tree) return problem(fmt::format("there is no tree '{}'", brief(id)));
+  const std::string& prefix = texts.prefix(tree->document);
+  if (!new_id.starts_with(prefix)) {
+    return problem(fmt::format("'{}' is in a file that is included as '{}'", brief(id),
+                               brief(prefix.substr(0, prefix.size() - 1))),
+                   fmt::format("its new name must begin with '{}'", brief(prefix)));
+  }
+  const std::string_view old_name = id.substr(prefix.size());
+  const std::string_view new_name = new_id.substr(prefix.size());
+  if (new_name.empty() ||
+      new_name.find_first_of(prefix.empty() ? "/{}$" : "/{}$.") != std::string_view::npos) {
     return problem(fmt::format("'{}' cannot be the ID of a tree", brief(new_id)),
                    "it has at least one character, and none of / { } $");
   }
@@ -168,8 +182,17 @@ Result<ProjectEdit> rename_tree(const ProjectTexts& texts, std::string_view id,
   bool is_made = false;
   const ProjectTexts read = texts.with_arguments();
   for_each_reference(texts, [&](ElementAt at, std::string_view attribute) {
-    is_made |= read.value(at, attribute) == id && texts.value(at, attribute) != id;
-    replace_value(edit, texts, at, attribute, id, new_id);
+    for (const std::uint32_t copy : texts.copies(tree->document)) {
+      const std::string& around = texts.prefix(at.document);
+      const std::string& own = texts.prefix(copy);
+      if (!own.starts_with(around)) continue;
+      const std::string inner = own.substr(around.size());
+      const std::string name = inner + std::string(old_name);
+      // What was read has the prefixes in its values.
+      is_made |= Project::written(read.value(at, attribute), around) == name &&
+                 texts.value(at, attribute) != name;
+      replace_value(edit, texts, at, attribute, name, inner + std::string(new_name));
+    }
   });
   if (is_made) return made_by_argument(id);
   return edit;
@@ -208,7 +231,7 @@ Result<ProjectEdit> rename_entry(const ProjectTexts& texts, std::string_view tre
   for (const ElementAt port : texts.modeled_ports(tree))
     replace_value(edit, texts, port, "name", key, new_key);
   texts.for_each_element([&](ElementAt at) {
-    if (texts.is_sub_tree(at) && texts.value(at, "ID") == tree && texts.tree_around(at))
+    if (texts.is_sub_tree(at) && texts.full_id(at, "ID") == tree && texts.tree_around(at))
       rename_remapping(edit, texts, at, std::string(key), new_key);
     if (is_main) rename_beside(edit, texts, at, key, new_key);
     if (has_marks && tag_of(texts, at) == "BehaviorTree") {

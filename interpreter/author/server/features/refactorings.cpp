@@ -231,7 +231,8 @@ std::vector<Json> refactorings(const Question& question) {
       kKinds, [&](std::string_view kind) { return is_wanted(kind, params.kinds); });
   if (!is_any) return {};
   const auto texts = project_texts(question);
-  if (!texts) return {};
+  // A name in a file that is included with `as` is another one in each file.
+  if (!texts || !question.file.analysis->project->named.empty()) return {};
   const auto nodes = selected_nodes(question, *texts);
   if (!nodes) return {};
   return Refactorings(question, *texts, *nodes).all();

@@ -90,9 +90,6 @@ Json rename(const Question& question) {
   if (place->kind == NameKind::Group)
     return workspace_edit(question, rename_group(names, *place, new_name));
   const auto texts = project_texts(question);
-  if (const auto& project = question.file.analysis->project; project && !project->named.empty()) {
-    refuse("the file includes others with 'as': change the name in the file that has it");
-  }
   if (!texts) refuse("the file cannot be read: a name can be changed when its errors are mended");
   const auto edits = renamed(question, *texts, names, *place);
   if (!edits) {

@@ -18,8 +18,7 @@ Json version_of(const Workspace& workspace, const std::string& uri) {
 std::optional<ProjectTexts> project_texts(const Question& question) {
   const auto& project = question.file.analysis->project;
   const std::string_view text = question.file.bytes();
-  // A name in a file that is included with `as` is another one in each file.
-  if (!project || !project->named.empty() ||
+  if (!project ||
       project->documents.front()->source()->text() != text.substr(byte_order_mark(text).size()))
     return std::nullopt;
   return ProjectTexts(*project, question.file.analysis->catalog);
