@@ -60,6 +60,21 @@ const NodeKind* bound_kind_of(const NodeKind* kind) {
   return &by_kind.at(kind);
 }
 
+// The same kind below a node with hold="between".
+const NodeKind* between_kind_of(const NodeKind* kind) {
+  static const auto by_kind = [] {
+    std::unordered_map<const NodeKind*, NodeKind> map;
+    for (const LanguageRules* each : languages()) {
+      for (const NodeKind* it : each->kinds) {
+        if (it->tick_between == nullptr) continue;
+        map.emplace(it, *it).first->second.tick = it->tick_between;
+      }
+    }
+    return map;
+  }();
+  return &by_kind.at(kind);
+}
+
 // The same kind with a tick that runs the scripts of the node, too.
 const NodeKind* hooked_kind_of(const NodeKind* kind) {
   static const auto by_kind = [] {
@@ -78,6 +93,7 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
       for (const NodeKind* it : each->kinds) {
         add(it);
         add(bound_kind_of(it));
+        if (it->tick_between != nullptr) add(between_kind_of(it));
       }
     }
     return map;
@@ -104,13 +120,14 @@ class Compiler {
     tree_.constants.reserve(definition_.values.size());
     number_members();
     for (const DefinitionNode& node : definition_.nodes) add(node);
+    find_guards();
+    let_look_between();
     add_scripts();
     tree_.readings = definition_.readings;
     add_hooks();
     add_groups();
     order_groups();
     find_gates();
-    find_guards();
     find_begun_once();
     list_children();
     count_followers();
@@ -292,6 +309,22 @@ class Compiler {
       for (const NodeIndex child : children_in(tree_.nodes, node)) {
         tree_.nodes[child].is_latched = 0;
       }
+    }
+  }
+
+  // What is inside of a guard is never held.
+  void let_look_between() {
+    std::vector<bool> is_inside(tree_.nodes.size());
+    for (NodeIndex node = 0; node < definition_.nodes[0].end; ++node) {
+      const DefinitionNode& from = definition_.nodes[node];
+      const auto member = numbers_.find(node);
+      const NodeIndex holder =
+          member == numbers_.end() ? node : tree_.members[member->second].group;
+      is_inside[node] =
+          is_inside[from.parent] || definition_.holds_between(definition_.nodes[holder]);
+      const NodeKind*& kind = tree_.nodes[node].kind;
+      if (is_inside[node] && tree_.nodes[node].is_guard == 0 && kind->tick_between != nullptr)
+        kind = between_kind_of(kind);
     }
   }
 

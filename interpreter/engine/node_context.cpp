@@ -81,6 +81,14 @@ void NodeContext::share_progress() {
   return beside_->progress[node];
 }
 
+double NodeContext::progress_in_tick(NodeIndex node, NodeIndex below) {
+  const Activity before = std::exchange(state_.activity[below], Activity::Running);
+  const double progress =
+      below == node ? ask_progress(node) : progress_in_tick(node, parent_of(below));
+  state_.activity[below] = before;
+  return progress;
+}
+
 double NodeContext::progress_before_tick(NodeIndex node) const {
   const bool is_known =
       node < beside_->known_since.size() && beside_->known_since[node] == beside_->shared;

@@ -114,6 +114,10 @@ class NodeContext : public RunView {
     return ask_progress(node);
   }
 
+  // That of a node within the tick of one below it, or its own: as if all of them ran and the tick
+  // ended here.
+  double progress_in_tick(NodeIndex node, NodeIndex below);
+
   // Until the next tick each node is asked for its progress once, however many ask for it: those
   // who watch, and the nodes above it. Each of those who watch calls it before a tick, at the time
   // of that tick. The first call allocates.

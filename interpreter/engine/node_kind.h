@@ -53,6 +53,9 @@ struct NodeKind {
   // May be null: then an action that takes time keeps its result, all else begins. Called before
   // the tick (NodeContext::tick_unreset).
   Unreset (*unreset)(NodeContext& context, NodeIndex self) = nullptr;
+  // May be null: the same. Below a node with hold="between", in place of `tick`: keeps what its
+  // progress is computed from up to date within the tick, and may look at the limit.
+  Status (*tick_between)(NodeContext& context, NodeIndex self) = nullptr;
   bool reads_entries = false;    // before each tick: its parameters are Tree::bound
   bool chooses_to_read = false;  // not before each tick: it calls reread where it needs them
   bool counts_writes = false;    // its first port names an entry whose Entry::writes it looks at

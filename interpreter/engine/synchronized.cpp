@@ -16,6 +16,21 @@ bool is_constant(const Tree& tree, NodeIndex node, Synchronization wanted) {
   return synchronization(tree.nodes[node]) == wanted && bound_of(tree, node) == nullptr;
 }
 
+// Whether a parameter that is never an entry has this of its words.
+bool has_choice(const Tree& tree, NodeIndex node, unsigned parameter, std::int64_t wanted) {
+  return parameter != HoldingParameters::kNone && cell_of(tree, node, parameter).integer == wanted;
+}
+
+// The least progress that a synchronized node holds in this tick.
+double held_from(NodeContext& context, NodeIndex node) {
+  const double limit = context.state<SynchronizedState>(node).limit;
+  if (synchronization(context.node(node)) == Synchronization::Relative)
+    return least_above(least_progress(context.child_states<double>(node)) + limit);
+  const unsigned at_barrier = holding(context.tree(), node).at_barrier;
+  const bool ticks = context.parameter(node, at_barrier).integer == kTicksAtBarrier;
+  return absolute::held_from(limit, ticks);
+}
+
 }  // namespace
 
 const Cell& cell_of(const Tree& tree, NodeIndex node, unsigned parameter) {
@@ -89,12 +104,29 @@ std::optional<double> delta(const Tree& tree, NodeIndex node) {
 }
 
 bool ignores_idle(const Tree& tree, NodeIndex node) {
-  const unsigned place = holding(tree, node).idle;
-  if (place == HoldingParameters::kNone) return false;
-  if (const BoundNode* bound = bound_of(tree, node)) {
-    return tree.constants[tree.ports[bound->first_port + place].constant] == Value("ignore");
+  return has_choice(tree, node, holding(tree, node).idle, kIgnoresIdle);
+}
+
+bool holds_between(const Tree& tree, NodeIndex node) {
+  return has_choice(tree, node, holding(tree, node).hold, kHoldsBetween);
+}
+
+bool is_limit_reached(NodeContext& context, NodeIndex node) {
+  const Tree& tree = context.tree();
+  for (NodeIndex branch = node; branch != 0;) {
+    const NodeIndex parent = tree.labels[branch].parent;
+    const bool is_of_plugin = tree.labels[parent].type->leaf != nullptr;
+    if (is_of_plugin) return false;
+    const Member* const member = barrier_member(tree, parent);
+    const NodeIndex holder = member != nullptr ? member->group : parent;
+    const bool may_hold = compares_progress(synchronization(tree.nodes[holder])) &&
+                          holds_between(tree, holder) &&
+                          (member == nullptr || !has_passed_barrier(context, parent));
+    if (may_hold && context.progress_in_tick(branch, node) >= held_from(context, holder))
+      return true;
+    branch = parent;
   }
-  return cell_of(tree, node, place).integer == kIgnoresIdle;
+  return false;
 }
 
 }  // namespace lockstep::host

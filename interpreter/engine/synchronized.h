@@ -90,12 +90,26 @@ bool is_held_by_parallel(const RunView& run, NodeIndex node);
 const Member* barrier_member(const Tree& tree, NodeIndex node);
 // Whether a member of a barrier beside the tree is held in this tick.
 bool is_held_at_barrier(NodeContext& context, NodeIndex member);
+// Whether one has succeeded, and so is never held again.
+bool has_passed_barrier(NodeContext& context, NodeIndex member);
 
 // The words of two parameters of barriers, by their places: at_barrier="tick", idle="ignore".
 inline constexpr std::string_view kAtBarrierChoices[] = {"wait", "tick"};
 inline constexpr std::int64_t kTicksAtBarrier = 1;
 inline constexpr std::string_view kIdleChoices[] = {"wait", "ignore"};
 inline constexpr std::int64_t kIgnoresIdle = 1;
+
+inline constexpr std::string_view kHoldChoices[] = {"tick", "between"};
+inline constexpr std::int64_t kHoldsBetween = 1;
+inline constexpr Parameter kHoldParameter{
+    .name = "hold",
+    .type = ValueType::String,
+    .doc =
+        "When to look whether a child is far enough to be held: at the start of a tick, or also "
+        "between the children of a Sequence in it, before the next one begins.",
+    .default_text = "tick",
+    .choices = kHoldChoices,
+    .constant = true};
 
 // The constant of a parameter that the node has, and what binds parameters to entries; null: all
 // are constants.
@@ -112,5 +126,11 @@ bool ticks_at_barrier(const Tree& tree, NodeIndex node);
 std::uint32_t entry_of_barriers(const Tree& tree, NodeIndex node);
 // A group that leaves out the members that are idle.
 bool ignores_idle(const Tree& tree, NodeIndex node);
+// hold="between"
+bool holds_between(const Tree& tree, NodeIndex node);
+
+// Within the tick of a node: what it is in has reached the limit of a synchronized node with
+// hold="between". What it ran through is a control node of a plugin: then it is not known.
+bool is_limit_reached(NodeContext& context, NodeIndex node);
 
 }  // namespace lockstep::host

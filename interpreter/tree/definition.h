@@ -213,6 +213,14 @@ struct Definition {
            (on_change != nullptr && *on_change != Value("release"));
   }
 
+  // A synchronized node, or a barrier, that also looks between the children of a Sequence.
+  bool holds_between(const DefinitionNode& node) const {
+    const unsigned hold = node.type->holding.hold;
+    if (hold == HoldingParameters::kNone) return false;
+    const Value* const value = constant(node, hold);
+    return value != nullptr && *value == Value("between");
+  }
+
   // A control node with memory="false". To one of a plugin, and so to a stand-in, a port of that
   // name means something else.
   bool forgets(const DefinitionNode& node) const {

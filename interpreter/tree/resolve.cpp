@@ -108,6 +108,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   note_openings(definition, report);
   note_unfairness(definition, report);
   note_handovers(definition, report);
+  note_unused_holds(definition, report);
   return definition;
 }
 

@@ -22,6 +22,9 @@ constexpr SynchronizedTrace kRelativeTraces[] = {
 constexpr TickRow kParallelRelativeRows[] = {
 //  law
 //    tree  |  leaves, tick by tick  |  expected
+  {"hold=between looks at delta before a Sequence begins its next child",
+   "ParallelRelative[delta=.25 hold=between](Sequence[memory=true](a b) c)", "a=S b=R c=R.1R.3",
+   "R[a c] R[c] R[b c]"},
   {"R5: keeps perpetual actions in step, in every corner of their progress",
    "ParallelRelative[delta=.5](a b)", "a=R~0,0,1,1 b=R~0,1,0,1",
    "R[a b] R[a] pause[b] R[b] pause[a] resume[b] R[a b] resume[a]"},

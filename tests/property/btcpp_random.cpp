@@ -205,6 +205,7 @@ class Generator {
       const auto some = [&] { return std::to_string(1 + below(all)); };
       if (below(3) == 0) it.attributes["success_count"] = some();
       if (below(3) == 0) it.attributes["failure_count"] = some();
+      if (all == 3) it.attributes["hold"] = "between";
       return;
     }
     const auto count = [&] { return std::to_string(below(all + 3) - 2); };

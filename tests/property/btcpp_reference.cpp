@@ -74,6 +74,7 @@ class Node {
     for (const Element& child : element.children) {
       children_.push_back(std::make_unique<Node>(child, board, world));
     }
+    for (const auto& child : children_) child->parent_ = this;
   }
 
   Status execute() {
@@ -424,14 +425,23 @@ class Node {
         world_.is_asked = true;
         return Status::Running;
       }
+      if (goes_on == Status::Success && at_ < children_.size() && is_limit_reached())
+        return Status::Running;
     }
     return end(skipped_ == children_.size() ? Status::Skipped : goes_on);
   }
 
   Status reactive(Status goes_on) {
     std::size_t skipped = 0;
+    const std::size_t last = status_ == Status::Running ? at_ : 0;
+    at_ = 0;
     for (const auto& child : children_) {
+      if (goes_on == Status::Success && at_ > last && is_limit_reached()) {
+        for (const auto& each : children_) each->reset();
+        return Status::Running;
+      }
       const Status result = child->execute();
+      if (result != Status::Running) ++at_;
       if (result == goes_on) continue;
       if (result == Status::Skipped) {
         child->reset();
@@ -510,6 +520,28 @@ class Node {
   // Of a child of a synchronized node: nobody waits for one that has failed.
   double reached() const { return status_ == Status::Failure && !is_guard() ? 1 : progress(); }
 
+  // "hold=\"between\" looks at the barrier also between the children of a Sequence in a tick."
+  bool is_limit_reached() {
+    if (is_guard()) return false;
+    for (Node* branch = this; branch->parent_ != nullptr; branch = branch->parent_) {
+      const Node& holder = *branch->parent_;
+      if (holder.text("hold") != "between") continue;
+      if (holder.is_held(progress_in_tick(*branch), holder.least_)) return true;
+    }
+    return false;
+  }
+  // Of a node around this one: as if the tick ended here.
+  double progress_in_tick(Node& branch) {
+    std::vector<std::pair<Node*, Status>> before;
+    for (Node* node = this; node != branch.parent_; node = node->parent_) {
+      before.emplace_back(node, node->status_);
+      node->status_ = Status::Running;
+    }
+    const double progress = branch.progress();
+    for (auto& [node, status_before] : before) node->status_ = status_before;
+    return progress;
+  }
+
   bool is_held(double reached, double least) const {
     constexpr double kEpsilon = 1e-9;
     if (element_.tag == "ParallelRelative") {
@@ -528,7 +560,7 @@ class Node {
   Status synchronized() {
     if (status_ != Status::Running) reset_children();
     std::vector<double> snapshot;
-    double least = 1;
+    double& least = least_ = 1;
     for (const auto& child : children_) {
       snapshot.push_back(child->was_skipped_ ? -1 : child->reached());
       if (!child->was_skipped_) least = std::min(least, snapshot.back());
@@ -582,7 +614,8 @@ class Node {
       return (rounds_ - (runs ? 1 : 0) + running(child)) / 3;
     }
     // Its child has succeeded, and begins again in the next tick.
-    if (tag == "KeepRunningUntilFailure" && child.last_ == Status::Success) return 1;
+    const bool begins_again = child.status_ != Status::Running && child.last_ == Status::Success;
+    if (tag == "KeepRunningUntilFailure" && begins_again) return 1;
     return tag == "Repeat" ? running(child) : child.progress();
   }
 
@@ -599,6 +632,8 @@ class Node {
       if (element_.tag == "ReactiveFallback") return child;
       return (static_cast<double>(i) + child) / static_cast<double>(children_.size());
     }
+    if (element_.tag == "ReactiveSequence")  // it is held between two children
+      return static_cast<double>(at_) / static_cast<double>(children_.size());
     return 0;
   }
 
@@ -808,7 +843,9 @@ class Node {
   std::vector<std::pair<std::string, Entry>> literals_;
   std::vector<std::pair<char, std::optional<double>>> steps_;  // of a leaf
   double progress_ = 0;                                        // of a leaf
-  Status last_ = Status::Idle;                                 // what its last tick returned
+  Node* parent_ = nullptr;
+  double least_ = 1;            // of the snapshot of a synchronized node
+  Status last_ = Status::Idle;  // what its last tick returned
   bool was_skipped_ = false, is_paused_ = false, was_ticked_ = false;
   std::size_t ticks_ = 0, at_ = 0, skipped_ = 0;
   unsigned seen_ = 0;

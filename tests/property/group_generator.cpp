@@ -134,7 +134,10 @@ void GroupGenerator::ends_late(Plan& parallel) {
   parallel.forgets = one_in(8);
   if (!one_in(4)) parallel.failure_count = one_in(3) ? between(1, children) : children;
   if (!one_in(4)) parallel.success_count = between(1, children);
-  if (parallel.kind == "ParallelRelative") parallel.delta = fraction();
+  if (parallel.kind == "ParallelRelative") {
+    parallel.delta = fraction();
+    parallel.holds_between = one_in(3);
+  }
   if (parallel.kind == "ParallelAbsolute") barriers(parallel);
 }
 

@@ -135,6 +135,7 @@ class SmallTree : LeafRules {
     if (one_in(2)) plan.failure_count = between(1, count);
     plan.forgets = one_in(8);
     if (plan.kind == "ParallelRelative") plan.delta = delta();
+    if (plan.kind == "ParallelRelative") plan.holds_between = one_in(3);
     if (plan.kind == "ParallelAbsolute") bars(plan);
     return plan;
   }
@@ -195,6 +196,7 @@ class SmallTree : LeafRules {
                     : one_in(2)              ? std::vector{1.0}
                                              : std::vector{.5};
     plan.tick_at_barrier = one_in(4);
+    plan.holds_between = one_in(3);
   }
   Plan barrier(const char* name) {
     Plan plan{.kind = "barrier", .name = name, .ignores_idle = one_in(2)};
@@ -318,6 +320,7 @@ class SmallDocument : LeafRules {
       if (one_in(4)) it.attributes["at_barrier"] = "tick";
     }
     if (it.tag == "ParallelRelative") it.attributes["delta"] = one_in(2) ? "0" : half();
+    if (is_synchronized && one_in(3)) it.attributes["hold"] = "between";
     return it;
   }
   std::string half() const { return parts_ == 0 ? "1" : "0.5"; }

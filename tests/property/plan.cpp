@@ -42,6 +42,7 @@ class AttributeList {
     const bool may_tick = plan_.tick_at_barrier || plan_.from_entries.contains("at_barrier");
     if (may_tick) add("at_barrier", "tick");
     if (plan_.kind == "ParallelRelative") add("delta", plan_.delta);
+    if (plan_.holds_between) add("hold", "between");
   }
 
   void add_barrier() {

@@ -27,6 +27,7 @@ struct Plan {
   int barrier_count = -1;
   bool tick_at_barrier = false;
   double delta = 0;
+  bool holds_between = false;
   int times = -1;  // of Repeat, attempts of Retry
   double seconds = 0;
   bool wall_clock = false;   // Timeout, Delay, Rate

@@ -155,7 +155,9 @@ class Branches : public ReferenceNode {
     }
     return branch_->tick();
   }
-  double on_progress() override { return branch_ == nullptr ? 0 : branch_->progress(); }
+  double on_progress() override {
+    return branch_ == nullptr || child().runs() ? 0 : branch_->progress();
+  }
   void keep(KeptState& state) override {
     ReferenceNode::keep(state);
     keep_child(state, branch_);
@@ -225,9 +227,19 @@ class Wait : public ReferenceNode {
 class Ordered : public ReferenceNode {
  public:
   using ReferenceNode::ReferenceNode;
-  Status on_tick(bool) override {
+  Status on_tick(bool first) override {
     const Status go_on = plan.kind == "Sequence" ? Status::Success : Status::Failure;
+    const std::size_t last = first ? 0 : current();
+    waits_before_ = -1;
     for (std::size_t i = 0; i < children.size(); ++i) {
+      if (plan.kind == "Sequence" && i > last) {
+        waits_before_ = static_cast<int>(i);
+        if (is_limit_reached()) {
+          note("a Sequence is held between two children");
+          return Status::Running;
+        }
+        waits_before_ = -1;
+      }
       const Status before = children[i]->status;
       if (plan.memory && (before == go_on || before == Status::Skipped)) continue;
       const Status result = children[i]->tick();
@@ -245,6 +257,7 @@ class Ordered : public ReferenceNode {
   double on_progress() override {
     double done = 0;
     for (auto& child : children) {
+      if (done == waits_before_) return done / static_cast<double>(children.size());
       if (child->status != Status::Running) {
         ++done;
       } else if (plan.kind == "Fallback") {
@@ -255,6 +268,43 @@ class Ordered : public ReferenceNode {
     }
     throw std::logic_error("a running Sequence or Fallback without a running child");
   }
+  void on_halt() override { waits_before_ = -1; }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state(waits_before_);
+  }
+
+ private:
+  // The child at which the last tick ended.
+  std::size_t current() const {
+    if (waits_before_ >= 0) return static_cast<std::size_t>(waits_before_);
+    const auto running = std::ranges::find_if(children, [](auto& it) { return it->runs(); });
+    return static_cast<std::size_t>(running - children.begin());
+  }
+
+  // "hold=\"between\" looks at the barrier also between the children of a Sequence in a tick." What
+  // has no actions is a guard, which is never held.
+  bool is_limit_reached() {
+    if (is_guard(plan)) return false;
+    for (ReferenceNode* branch = this; branch->parent != nullptr; branch = branch->parent) {
+      if (branch->parent->is_reached_between(progress_in_tick(*branch))) return true;
+    }
+    return false;
+  }
+
+  // Of a node around this one: as if the tick ended here.
+  double progress_in_tick(ReferenceNode& branch) {
+    std::vector<std::pair<ReferenceNode*, Status>> before;
+    for (ReferenceNode* node = this; node != branch.parent; node = node->parent) {
+      before.emplace_back(node, node->status);
+      node->status = Status::Running;
+    }
+    const double progress = branch.progress();
+    for (auto& [node, status_before] : before) node->status = status_before;
+    return progress;
+  }
+
+  int waits_before_ = -1;
 };
 
 class Parallel : public ReferenceNode {
@@ -339,6 +389,9 @@ class Synchronized : public Parallel {
       if (child->status != Status::Skipped) least = std::min(least, reached(*child));
     }
     return least;
+  }
+  bool is_reached_between(double progress) const override {
+    return plan.holds_between && ProgressLimit(plan).holds(progress, least_of(snapshot));
   }
 
  private:

@@ -41,10 +41,10 @@ void ReferenceBarrier::before_tick() {
   for (Member& it : members_) it.is_held = false;
   // "A limit in an entry is read while a member runs, and only then."
   if (somebody_runs()) {
-    const ProgressLimit now = limit();
-    for (std::size_t place = 0; place < count(); ++place) hold(place, now);
+    limit_ = limit();
+    for (std::size_t place = 0; place < count(); ++place) hold(place, *limit_);
   } else {
-    note_wrong_limit();
+    read_limit();
   }
   if (begins_together()) hold_beginners();
   status = all_succeeded() ? Status::Success : Status::Running;
@@ -141,12 +141,18 @@ ProgressLimit ReferenceBarrier::limit() const {
   }
 }
 
-void ReferenceBarrier::note_wrong_limit() const {
+void ReferenceBarrier::read_limit() {
+  limit_.reset();
   try {
-    ProgressLimit(plan, world.entries);
+    limit_ = ProgressLimit(plan, world.entries);
   } catch (const ProgressLimit::BadEntry&) {
     note("a limit in an entry is wrong while no member runs");
   }
+}
+
+bool ReferenceBarrier::is_reached_between(const ReferenceNode& node, double progress) const {
+  return plan.holds_between && limit_ && !members_[place_of(node)].has_succeeded &&
+         limit_->holds(progress, least_of(snapshot));
 }
 
 bool ReferenceBarrier::somebody_runs() const {

@@ -20,6 +20,7 @@ class ReferenceBarrier : public ReferenceGroup {
 
   bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
   bool holds(const ReferenceNode& node) const { return members_[place_of(node)].is_held; }
+  bool is_reached_between(const ReferenceNode& node, double progress) const;
   // A tick has reached a member.
   void reach(const ReferenceNode& member);
 
@@ -40,6 +41,7 @@ class ReferenceBarrier : public ReferenceGroup {
   std::string doubt(std::size_t place, std::size_t parallel) const;
   bool never_begins_again(const ReferenceNode& node, const ReferenceNode& below) const;
   ProgressLimit limit() const;
+  void read_limit();  // while no member runs
   bool somebody_runs() const;
   void hold(std::size_t place, const ProgressLimit& limit);
   bool begins_together() const;
@@ -50,10 +52,10 @@ class ReferenceBarrier : public ReferenceGroup {
   // The cases that came up.
   void note_counted(std::size_t place, double progress);
   void note_gone(std::size_t place, std::size_t parallel) const;
-  void note_wrong_limit() const;
   void note_held(std::size_t place) const;
 
   std::vector<Member> members_;
+  std::optional<ProgressLimit> limit_;  // of this tick
 };
 
 class SyncProgress : public ReferenceNode {
@@ -62,6 +64,9 @@ class SyncProgress : public ReferenceNode {
   Status on_tick(bool first) override;
   double on_progress() override { return child().progress(); }
   bool is_held() const { return barrier().holds(*this); }
+  bool is_reached_between(double progress) const override {
+    return barrier().is_reached_between(*this, progress);
+  }
 
  private:
   ReferenceBarrier& barrier() const;

@@ -52,6 +52,8 @@ class ReferenceNode {
 
   virtual Status on_tick(bool first) = 0;
   virtual double on_progress() = 0;
+  // Of one with hold="between": a branch that has come so far within this tick is held.
+  virtual bool is_reached_between(double /*progress*/) const { return false; }
   virtual void on_halt() {}
   virtual void on_pause() {}
   // What the next ticks read of it.

@@ -43,6 +43,7 @@ Plan across(const Plan& parallel) {
   barrier.barrier_count = parallel.barrier_count;
   barrier.tick_at_barrier = parallel.tick_at_barrier;
   barrier.delta = parallel.delta;
+  barrier.holds_between = parallel.holds_between;
   plan.beside.push_back(barrier);
   return plan;
 }

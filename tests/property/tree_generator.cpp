@@ -131,7 +131,10 @@ Plan TreeGenerator::control(std::string kind, int depth) {
   if (is_parallel && one_in(6)) plan.forgets = true;
   if (is_parallel && one_in(2)) plan.success_count = between(1, children);
   if (is_parallel && one_in(2)) plan.failure_count = between(1, children);
-  if (plan.kind == "ParallelRelative") plan.delta = one_in(4) ? between(0, 1) : fraction();
+  if (plan.kind == "ParallelRelative") {
+    plan.delta = one_in(4) ? between(0, 1) : fraction();
+    plan.holds_between = one_in(3);
+  }
   if (plan.kind == "ParallelAbsolute") barriers(plan);
   return plan;
 }
@@ -176,6 +179,7 @@ Plan TreeGenerator::guard(int depth) {
 }
 
 void TreeGenerator::barriers(Plan& plan) {
+  plan.holds_between = one_in(3);
   plan.tick_at_barrier = one_in(3);
   if (one_in(3)) {
     plan.barrier_count = between(0, 5);
@@ -195,6 +199,7 @@ Plan TreeGenerator::barrier(std::string name) {
     barriers(plan);
   } else {
     plan.delta = one_in(4) ? between(0, 1) : fraction();
+    plan.holds_between = one_in(3);
   }
   return plan;
 }

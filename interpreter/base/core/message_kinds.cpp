@@ -252,6 +252,10 @@ std::span<const MessageKind> message_kinds() {
        "Correct the key, or remove the attribute."},
       {"unused-group", "No node of the tree uses this barrier or pool.",
        "Remove the declaration, or name it in a node."},
+      {"unused-hold",
+       "A node has hold=\"between\", and there is no Sequence in it that could be held between its "
+       "children.",
+       "Leave out the attribute, or put the steps into a Sequence."},
       {"unwritten-entry", "A node reads an entry that no node writes and that has no start value.",
        "Correct the key, or give a start value: `--set KEY=VALUE`."},
       {"useless-value",

@@ -116,6 +116,7 @@ struct HoldingParameters {
   unsigned barriers = kNone, at_barrier = kNone;  // of one that may be Absolute
   unsigned delta = kNone;                         // of one that may be Relative
   unsigned idle = kNone;                          // of a barrier beside the trees
+  unsigned hold = kNone;                          // whether a Sequence in it looks at the limit
 };
 
 struct NodeType {

@@ -17,7 +17,9 @@ constexpr unsigned kBarrierDelta = 3;
 constexpr unsigned kIdle = 4;
 
 constexpr Parameter kBarrierParameters[] = {
-    absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
+    absolute::kBarriersParameter,
+    absolute::kBarrierCountParameter,
+    absolute::kAtBarrierParameter,
     Parameter{.name = "delta",
               .type = ValueType::Double,
               .doc = "Instead of barriers: how far a member may be ahead of the slowest and still "
@@ -30,7 +32,8 @@ constexpr Parameter kBarrierParameters[] = {
                   "others wait for it at the first barrier) or ignore (nothing).",
               .default_text = "wait",
               .choices = kIdleChoices,
-              .constant = true}};
+              .constant = true},
+    kHoldParameter};
 
 std::optional<RuleBreak> rule_of_barrier(const ParameterValues& given) {
   const bool listed =
@@ -249,12 +252,11 @@ Status tick_member(NodeContext& context, NodeIndex self) {
   return status;
 }
 
-// A script has decided for it, so it has begun and ended.
+// A script has decided for it, so it has begun and ended; or it is skipped.
 void member_decided(NodeContext& context, NodeIndex self, Status result) {
-  if (!is_complete(result)) return;
   const Member& member = context.tree().membership(self);
   MemberState& own = member_state(context, member.group, member.number);
-  own.begun = true;
+  own.begun |= is_complete(result);
   note_result(context, member, own, result);
 }
 
@@ -263,6 +265,11 @@ void member_decided(NodeContext& context, NodeIndex self, Status result) {
 bool is_held_at_barrier(NodeContext& context, NodeIndex node) {
   const Member& member = context.tree().membership(node);
   return member_state(context, member.group, member.number).held;
+}
+
+bool has_passed_barrier(NodeContext& context, NodeIndex node) {
+  const Member& member = context.tree().membership(node);
+  return member_state(context, member.group, member.number).succeeded;
 }
 
 const NodeKind kBarrier{
@@ -279,7 +286,8 @@ const NodeKind kBarrier{
              .holding = {.barriers = absolute::kBarriers,
                          .at_barrier = absolute::kAtBarrier,
                          .delta = kBarrierDelta,
-                         .idle = kIdle}},
+                         .idle = kIdle,
+                         .hold = kIdle + 1}},
     .tick = tick_barrier,
     .progress = [](NodeContext& context,
                    NodeIndex self) { return least_progress(context.child_states<double>(self)); },

@@ -6,6 +6,7 @@
 
 #include "engine/leaf_loop.h"
 #include "engine/nodes/fold.h"
+#include "engine/synchronized.h"
 
 namespace lockstep::host::ordered {
 
@@ -79,6 +80,36 @@ Status tick(NodeContext& context, NodeIndex self) {
   return Status::Skipped;
 }
 
+// The same below a node with hold="between". Before a Sequence begins a child, it looks whether it
+// is held there: not before its first one, nor before those that it has been at already.
+template <Status kGoOn, Memory kMemory>
+Status tick_between(NodeContext& context, NodeIndex self) {
+  State& state = context.state<State>(self);
+  const NodeIndex end = context.end_of(self);
+  const NodeIndex previous = context.first_tick(self) ? self + 1 : state.current;
+  const bool resume = !context.first_tick(self) && has_memory<kMemory>(context, self);
+  if (!resume) state = {self + 1, 0, 0};
+  for (NodeIndex child = resume ? previous : self + 1; child != end; ++state.done) {
+    state.current = child;
+    if (kGoOn == Status::Success && child > previous && is_limit_reached(context, self))
+      return Status::Running;
+    const NodeIndex next = context.end_of(child);
+    const Status status = context.tick(child);
+    if (status != kGoOn && status != Status::Skipped) {
+      if (child < previous) context.halt_range(next, context.end_of(previous));
+      return status;
+    }
+    if (status == Status::Skipped) {
+      if (!has_memory<kMemory>(context, self)) context.forget_range(child, next);
+      ++state.skipped;
+    }
+    child = next;
+  }
+  if (state.skipped != context.node(self).children) return kGoOn;
+  context.forget_range(self + 1, end);
+  return Status::Skipped;
+}
+
 inline double progress_of_sequence(NodeContext& context, NodeIndex self) {
   const auto& state = context.state<State>(self);
   return (state.done + context.progress(state.current)) / context.node(self).children;
@@ -105,6 +136,7 @@ constexpr NodeKind kind(std::string_view id, std::string_view doc) {
                 .progress = kIsSequence ? progress_of_sequence : progress_of_fallback,
                 .state_size = sizeof(State),
                 .fold = fold::dead_when_idle,
+                .tick_between = tick_between<kGoOn, kMemory>,
                 .if_moved = IfMoved::FromChild};
   if (kMemory == Memory::ByParameter) kind.type.parameters = kParameters;
   return kind;

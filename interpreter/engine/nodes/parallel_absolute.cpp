@@ -9,8 +9,13 @@ namespace {
 constexpr parallel::Counts kAbsoluteCounts{.success_count = 3, .failure_count = 4};
 
 constexpr Parameter kAbsoluteParameters[] = {
-    absolute::kBarriersParameter, absolute::kBarrierCountParameter, absolute::kAtBarrierParameter,
-    parallel::kSuccessCount,      parallel::kFailureCount,          parallel::kMemory,
+    absolute::kBarriersParameter,
+    absolute::kBarrierCountParameter,
+    absolute::kAtBarrierParameter,
+    parallel::kSuccessCount,
+    parallel::kFailureCount,
+    parallel::kMemory,
+    kHoldParameter,
 };
 
 std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
@@ -47,7 +52,9 @@ const NodeKind kParallelAbsolute{
              .rule = rule_of_absolute,
              .sign = "⇉A",
              .synchronization = Synchronization::Absolute,
-             .holding = {.barriers = absolute::kBarriers, .at_barrier = absolute::kAtBarrier},
+             .holding = {.barriers = absolute::kBarriers,
+                         .at_barrier = absolute::kAtBarrier,
+                         .hold = 6},
              .latches = true},
     .tick = tick_absolute,
     .progress = synchronized::least_progress,

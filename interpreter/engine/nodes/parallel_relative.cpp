@@ -18,6 +18,7 @@ constexpr Parameter kRelativeParameters[] = {
     parallel::kSuccessCount,
     parallel::kFailureCount,
     parallel::kMemory,
+    kHoldParameter,
 };
 
 Status tick_relative(NodeContext& context, NodeIndex self) {
@@ -40,7 +41,7 @@ const NodeKind kParallelRelative{
              .rule = parallel::rule<kRelativeCounts>,
              .sign = "⇉R",
              .synchronization = Synchronization::Relative,
-             .holding = {.delta = kDelta},
+             .holding = {.delta = kDelta, .hold = 4},
              .latches = true},
     .tick = tick_relative,
     .progress = synchronized::least_progress,

@@ -17,4 +17,7 @@ void note_openings(const Definition& definition, const Reporter& report);
 // Notes actions of one device that overlap for a tick, where a pool would keep them apart.
 void note_handovers(const Definition& definition, const Reporter& report);
 
+// Notes nodes with hold="between" that hold no Sequence.
+void note_unused_holds(const Definition& definition, const Reporter& report);
+
 }  // namespace lockstep::host

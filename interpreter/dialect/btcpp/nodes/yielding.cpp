@@ -17,7 +17,8 @@ void begin(NodeContext& context, NodeIndex self, State& state, Place place) {
   state.skipped = 0;
 }
 
-template <Status kGoOn, Place kPlace>
+// kLooks: below a node with hold="between".
+template <Status kGoOn, Place kPlace, bool kLooks>
 Status tick_yielding(NodeContext& context, NodeIndex self) {
   State& state = context.state<State>(self);
   begin(context, self, state, kPlace);
@@ -28,10 +29,12 @@ Status tick_yielding(NodeContext& context, NodeIndex self) {
     if (status == Status::Skipped) ++state.skipped;
     state.current = context.end_of(state.current);
     ++state.done;
-    if (status == kGoOn && was_idle && state.current != context.end_of(self)) {
+    if (state.current == context.end_of(self)) break;
+    if (status == kGoOn && was_idle) {
       context.ask_for_another_tick(self);
       return Status::Running;
     }
+    if (kLooks && is_limit_reached(context, self)) return Status::Running;
   }
   const bool all_skipped = state.skipped == context.node(self).children;
   state = {};
@@ -48,7 +51,8 @@ template <Status kGoOn, Place kPlace>
 constexpr NodeKind kind_of_yielding(std::string_view id, std::string_view doc) {
   NodeKind kind = ordered::kind<kGoOn, ordered::Memory::Always>(id, doc);
   kind.type.can_run = true;
-  kind.tick = tick_yielding<kGoOn, kPlace>;
+  kind.tick = tick_yielding<kGoOn, kPlace, false>;
+  kind.tick_between = tick_yielding<kGoOn, kPlace, kGoOn == Status::Success>;
   if (kPlace == Place::Kept) kind.fold = fold_place;
   return kind;
 }
