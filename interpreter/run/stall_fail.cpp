@@ -59,6 +59,9 @@ void StallFail::before_tick(Ticker& ticker, Nanoseconds now) {
   for (Standing& it : nodes_.all()) {
     if (it.is_over(nodes_.limit(), now) && now >= it.next_look) look(ticker, it, now);
   }
+  while (auto circle = nodes_.circle_of_pools(moments_.now(ticker), now)) {
+    order(ticker, std::move(*circle));
+  }
 }
 
 void StallFail::look(Ticker& ticker, Standing& at, Nanoseconds now) {
@@ -69,6 +72,10 @@ void StallFail::look(Ticker& ticker, Standing& at, Nanoseconds now) {
     return;
   }
   if (found.is_circle() && comes_on(ticker, found)) return;
+  order(ticker, std::move(found));
+}
+
+void StallFail::order(Ticker& ticker, Standstill found) {
   const NodeIndex node = stalled_node(tree_, found);
   if (std::ranges::find(orders_, node, &Order::node) != orders_.end()) return;
   ticker.fail_next(node);

@@ -27,6 +27,7 @@ class StallFail {
     NodeIndex node;
   };
   void look(Ticker& ticker, Standing& at, Nanoseconds now);
+  void order(Ticker& ticker, Standstill found);
   static bool is_due(const Standstill& found, NodeIndex node);
   bool comes_on(Ticker& ticker, Standing& at);
   bool comes_on(Ticker& ticker, const Standstill& circle);

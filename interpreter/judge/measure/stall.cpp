@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/core/resource_set.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -40,8 +42,12 @@ void StallDetector::after_tick(const SynchronizedTick& tick, bool holds_somebody
 
 StandingNodes::StandingNodes(const Shape& shape, Nanoseconds limit) : shape_(shape), limit_(limit) {
   for (const NodeIndex node : synchronized_nodes(shape)) {
-    if (!compares_progress(shape.nodes[node].synchronization)) continue;
-    nodes_.push_back({.ticks = SynchronizedTicks(shape, node, false)});
+    if (compares_progress(shape.nodes[node].synchronization)) {
+      nodes_.push_back({.ticks = SynchronizedTicks(shape, node, false)});
+      continue;
+    }
+    for (const NodeIndex child : shape.nodes[node].members)
+      users_.push_back({.pool = node, .user = child - 1});
   }
 }
 
@@ -50,6 +56,42 @@ void StandingNodes::after_tick(const Moment& moment) {
     const SynchronizedTick tick = it.ticks.read(moment);
     it.detector.after_tick(tick, tick.ticked && holds_somebody(shape_, moment, it.node()));
   }
+  for (Waiting& it : users_) {
+    const bool waits =
+        moment.status(it.user) == Status::Running && host::waits(moment.limit(it.user));
+    if (std::exchange(it.waits, waits) == waits) continue;
+    it = {.pool = it.pool, .user = it.user, .waits = waits, .since = moment.time};
+  }
+}
+
+std::optional<Standstill> StandingNodes::circle_of_pools(const Moment& moment, Nanoseconds now) {
+  for (Waiting& it : users_) {
+    if (!is_over(it, now)) continue;
+    it.next_look = now + limit_;
+    if (auto circle = circle_at(moment, it, now)) return circle;
+  }
+  return std::nullopt;
+}
+
+// One that has a synchronized node in it is that node's to report. It stands since its last member
+// waits.
+std::optional<Standstill> StandingNodes::circle_at(const Moment& moment, Waiting& at,
+                                                   Nanoseconds now) {
+  if (lasting_owners(shape_, moment, at.user).empty()) return std::nullopt;
+  Standstill found{.chain = wait_chain(shape_, moment, {at.pool, at.user}), .time = now};
+  if (!found.is_circle()) return std::nullopt;
+  std::vector<Waiting*> members;
+  for (const WaitLink& link : found.chain.links) {
+    const auto it = std::ranges::find(users_, link.waiting, &Waiting::user);
+    if (it == users_.end()) return std::nullopt;
+    found.since = std::max(found.since, it->since);
+    members.push_back(&*it);
+  }
+  if (now - found.since <= limit_) return std::nullopt;
+  const bool is_known = std::ranges::all_of(members, &Waiting::is_told);
+  for (Waiting* it : members) it->is_told = true;
+  at.is_told = true;
+  return is_known ? std::nullopt : std::optional(std::move(found));
 }
 
 StandingNodes::Standing* StandingNodes::find(NodeIndex node) {
@@ -100,6 +142,7 @@ void StallWatch::after_tick(const Moment& moment) {
     if (!it.is_over(nodes_.limit(), moment.time) || moment.time < it.next_look) continue;
     if (it.told_as_circle != it.detector.number()) look(moment, it);
   }
+  while (const auto circle = nodes_.circle_of_pools(moment, moment.time)) report_(*circle);
 }
 
 // The youngest node of a circle reports it, and of a chain the one that is to blame. If that comes

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,14 +79,27 @@ class StandingNodes {
   Standing* find(NodeIndex node);  // null: a pool
   // Describes a node that stands.
   Standstill standstill(const Moment& moment, const Standing& at, Nanoseconds now);
+  // Members of pools alone that wait for each other for longer than the limit. Each circle once.
+  std::optional<Standstill> circle_of_pools(const Moment& moment, Nanoseconds now);
 
  private:
+  // A member of a pool that waits.
+  struct Waiting {
+    NodeIndex pool, user;
+    bool waits = false, is_told = false;
+    Nanoseconds since{0}, next_look{0};
+  };
+  bool is_over(const Waiting& it, Nanoseconds now) const {
+    return it.waits && !it.is_told && now - it.since > limit_ && now >= it.next_look;
+  }
+  std::optional<Standstill> circle_at(const Moment& moment, Waiting& at, Nanoseconds now);
   void describe_circle(Standstill& circle);
   void describe_chain(Standstill& found, const Standing& at);
 
   const Shape& shape_;
   Nanoseconds limit_;
   std::vector<Standing> nodes_;
+  std::vector<Waiting> users_;
 };
 
 // Reports each standstill once: of several nodes that stand for the same reason, the first one. One

@@ -174,7 +174,11 @@ bool holds_somebody(const Shape& shape, const Moment& moment, NodeIndex node) {
 }
 
 WaitChain wait_chain(const Shape& shape, const Moment& moment, NodeIndex node) {
-  return WaitSearch(shape, moment).from({node, first_held(shape, moment, node).value_or(node)});
+  return wait_chain(shape, moment, {node, first_held(shape, moment, node).value_or(node)});
+}
+
+WaitChain wait_chain(const Shape& shape, const Moment& moment, Withheld begin) {
+  return WaitSearch(shape, moment).from(begin);
 }
 
 }  // namespace lockstep::host

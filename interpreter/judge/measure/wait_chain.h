@@ -33,5 +33,7 @@ bool holds_somebody(const Shape& shape, const Moment& moment, NodeIndex node);
 // From such a node on. If it only leads to a circle, that circle. A circle begins with its first
 // node in the tree.
 WaitChain wait_chain(const Shape& shape, const Moment& moment, NodeIndex node);
+// The same from something that gets no ticks, such as a member of a pool.
+WaitChain wait_chain(const Shape& shape, const Moment& moment, Withheld begin);
 
 }  // namespace lockstep::host

@@ -147,5 +147,13 @@ TEST_CASE("a long task of an owner that keeps is no standstill") {
               "x+.01 y+.25", 90, 0.55) == "");
 }
 
+TEST_CASE("members of pools alone that wait for each other are a standstill, reported once") {
+  CHECK(watch("Parallel(UseResources[pool=p resources=A keep=true](Sequence[memory=true](a "
+              "UseResources[pool=p resources=B keep=true](x)))"
+              " UseResources[pool=p resources=B keep=true](Sequence[memory=true](b "
+              "UseResources[pool=p resources=A keep=true](y)))) resources[name=p]",
+              "a=RS b=RS x=R y=R", 40, 0.55) == "Sequence@7 since 1;");
+}
+
 }  // namespace
 }  // namespace lockstep::host
