@@ -242,7 +242,8 @@ class Compiler {
                               .ancestor = definition_.common_ancestor(group.members),
                               .first = first,
                               .count = count,
-                              .resources = group.resources});
+                              .resources = group.resources,
+                              .has_relatives = group.has_relatives});
       first += count;
     }
   }

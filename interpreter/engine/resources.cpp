@@ -15,9 +15,47 @@ bool is_open(NodeContext& context, NodeIndex gate) {
   return has_asked(context, outer) && outer.grant == Grant::Owned;
 }
 
-// What it keeps whatever the answer is.
-ResourceSet kept_set(NodeContext& context, NodeIndex node) {
-  return keeps(context, node) ? context.state<ResourceUse>(node).owned : 0;
+bool is_inside(const Tree& tree, NodeIndex inner, NodeIndex outer) {
+  return outer < inner && inner < tree.nodes[outer].end;
+}
+
+// Whether a Sequence has ticked the one before it comes to the other.
+bool is_before(const Tree& tree, NodeIndex one, NodeIndex other) {
+  if (one >= other) return false;
+  NodeIndex ancestor = tree.labels[other].parent;
+  while (!is_inside(tree, one, ancestor)) ancestor = tree.labels[ancestor].parent;
+  return tree.labels[ancestor].type->goes_on_after == Status::Success;
+}
+
+// What other members own in this tick.
+struct Owned {
+  ResourceSet by_others = 0;
+  ResourceSet before = 0;   // by those that a member takes over from
+  ResourceSet related = 0;  // by those around it and inside of it: no obstacle
+};
+
+Owned owned_by_others(NodeContext& context, NodeIndex node, bool takes_over) {
+  const Tree& tree = context.tree();
+  const NodeIndex pool = tree.membership(node).group;
+  Owned owned;
+  if (!tree.group(pool).has_relatives) {
+    owned.by_others = context.state<ResourcePool>(pool).owned & ~kept_set(context, node);
+    return owned;
+  }
+  for (const Member& it : tree.members_of(pool)) {
+    const NodeIndex other = it.node;
+    const ResourceSet set = owned_set(context.state<ResourceUse>(other).limit);
+    if (set == 0 || other == node) continue;
+    if (is_inside(tree, other, node) || is_inside(tree, node, other)) {
+      owned.related |= set;
+    } else if (takes_over && context.status(other) != Status::Running &&
+               is_before(tree, other, node)) {
+      owned.before |= set;
+    } else {
+      owned.by_others |= set;
+    }
+  }
+  return owned;
 }
 
 // It owns these in this tick.
@@ -97,16 +135,24 @@ std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned param
 void ask(NodeContext& context, NodeIndex node) {
   const Member& member = context.tree().membership(node);
   auto& use = context.state<ResourceUse>(node);
-  if (context.status(node + 1) != Status::Running) use.owned = 0;
-  const ResourceSet kept = kept_set(context, node);
   const auto request = context.parameters().numbers(node, kResources);
+  const OnChange what = on_change(context.tree(), node);
+  const bool begins = context.first_tick(node);
+  if (context.status(node + 1) != Status::Running) use.owned = 0;
+  if (begins || keeps(context, node)) use.handed = 0;
+  const Owned owned = owned_by_others(context, node, begins && what != OnChange::Release);
+  if (begins) {
+    const ResourceSet needed = what == OnChange::Keep ? all_resources(request) : owned.before;
+    use.handed = owned.before & needed & ~owned.by_others;
+  }
+  const ResourceSet kept = kept_set(context, node);
   const auto gates = context.tree().gates_of(member);
   if (!std::ranges::all_of(gates, [&](NodeIndex gate) { return is_open(context, gate); })) {
     return refuse(context, member, Grant::Closed, 0, kept);
   }
-  const ResourceSet taken = context.state<ResourcePool>(member.group).owned & ~kept;
-  const ResourceSet wanted = choose(request, taken, use.owned);
-  if ((taken & wanted) != 0) return refuse(context, member, Grant::Denied, wanted, kept);
+  const ResourceSet wanted = choose(request, owned.by_others, use.owned | use.handed);
+  if ((owned.by_others & wanted) != 0)
+    return refuse(context, member, Grant::Denied, wanted & ~(owned.related & ~owned.by_others), kept);
   use.owned = wanted;
   own(context, member, wanted | kept);
 }
@@ -116,26 +162,34 @@ bool keeps(NodeContext& context, NodeIndex node) {
          context.status(node + 1) == Status::Running && context.state<ResourceUse>(node).owned != 0;
 }
 
+ResourceSet kept_set(NodeContext& context, NodeIndex node) {
+  const auto& use = context.state<ResourceUse>(node);
+  return keeps(context, node) ? use.owned : use.handed;
+}
+
 bool keep(NodeContext& context, NodeIndex node) {
   const Member& member = context.tree().membership(node);
   auto& use = context.state<ResourceUse>(node);
-  if (on_change(context.tree(), node) == OnChange::Exchange) {
+  bool asks = !keeps(context, node);
+  if (!asks && on_change(context.tree(), node) == OnChange::Exchange) {
     const bool is_readable = context.parameters().read(node).empty();
     const auto request = context.parameters().numbers(node, kResources);
-    if (!is_readable || choose(request, 0, use.owned) != use.owned) {
-      use.limit = static_cast<double>(use.owned);
-      context.state<ResourcePool>(member.group).owned |= use.owned;
-      return false;
-    }
+    asks = !is_readable || choose(request, 0, use.owned) != use.owned;
   }
-  own(context, member, use.owned);
-  return true;
+  if (!asks) {
+    own(context, member, use.owned);
+    return true;
+  }
+  const ResourceSet kept = kept_set(context, node);
+  use.limit = static_cast<double>(kept);
+  context.state<ResourcePool>(member.group).owned |= kept;
+  return false;
 }
 
 void give_back(NodeContext& context, NodeIndex node) {
   auto& use = context.state<ResourceUse>(node);
   context.state<ResourcePool>(context.tree().membership(node).group).owned &= ~use.owned;
-  use.owned = 0;
+  use.owned = use.handed = 0;
   use.limit = 0.0;
 }
 

@@ -20,6 +20,7 @@ enum class Grant : std::uint8_t {
 // waits for: base/core/resource_set.h.
 struct ResourceUse : SynchronizedState {
   ResourceSet owned;      // since its last grant in this activation; 0: none yet
+  ResourceSet handed;     // by members before it, until its child runs
   std::int64_t priority;  // rises with each tick in which it is Denied
   std::uint32_t asked;    // in this tick, for its number
   Grant grant;
@@ -74,11 +75,15 @@ inline bool owned_in_last_tick(const ResourceUse& use, ResourceSet any) {
   return (owned_set(use.limit) & any) != 0;
 }
 
-// Decides for this tick whether a member gets its resources: those that no other member owns.
+// Decides for this tick whether a member gets its resources: those that no other member owns. What
+// members around it and inside of it own is no obstacle. In its first tick it takes over what those
+// before it in a Sequence have owned in this tick, if it keeps resources.
 void ask(NodeContext& context, NodeIndex member);
 // Its child runs and has resources that no other member gets, whatever the member waits for. A
 // SyncProgress that waits to begin runs without any.
 bool keeps(NodeContext& context, NodeIndex member);
+// The same, or it has taken over resources and has not begun: which.
+ResourceSet kept_set(NodeContext& context, NodeIndex member);
 // Before the root is ticked: the member keeps what it has. True: it asks for nothing else.
 bool keep(NodeContext& context, NodeIndex member);
 // The child of a member was skipped without having run: others may have its resources in this tick.

@@ -98,6 +98,7 @@ struct Group {
   NodeIndex ancestor;                       // the lowest that all members are below
   std::uint32_t first, count;               // in Tree::members
   std::vector<std::string> resources = {};  // of a pool: their names, in the order of their bits
+  bool has_relatives = false;  // a member is inside of another one, or takes over from one
 };
 
 struct Member {

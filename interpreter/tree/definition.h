@@ -87,6 +87,8 @@ struct DefinitionGroup {
   std::vector<std::uint32_t> members = {};  // in pre-order
   std::vector<std::string> resources = {};  // of a pool: their names
   std::uint32_t rank = 0;                   // before each tick, lower ranks are ticked first
+  // Of a pool: a member is inside of another one, or comes after one in a Sequence.
+  bool has_relatives = false;
 };
 
 // A property that the main file declares. Its text names nodes of the expanded tree.

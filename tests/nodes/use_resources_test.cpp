@@ -122,6 +122,46 @@ constexpr TickRow kExchangeRows[] = {
    "R[a x z] R[a b x z] R[x z] pause[b] F[x z] halt[b x]"},
 };
 
+constexpr TickRow kHandoverRows[] = {
+  {"two in a row: the second takes over what both need, in the same tick",
+   "Parallel(Sequence[memory=true](UseResources[pool=p resources=A;B keep=true](a) UseResources[pool=p resources=B;C keep=true](b))"
+   " UseResources[pool=p resources=B](x)) resources[name=p]", "a=RS b=RS x=R", "R[a] R[a b] R[b] R[x]"},
+  {"two in a row: the second keeps what both need while it waits for the rest",
+   "Parallel(Sequence[memory=true](UseResources[pool=p resources=A;B keep=true](a) UseResources[pool=p resources=B;C keep=true](b))"
+   " UseResources[pool=p resources=B](x) UseResources[pool=p resources=C keep=true](y)) resources[name=p]",
+   "a=RS b=R x=R y=RRRS", "R[a y] R[a y] R[y] R[y] R[b]"},
+  {"two in a row: what the second does not need is free in the next tick",
+   "Parallel(Sequence[memory=true](UseResources[pool=p resources=A;B keep=true](a) UseResources[pool=p resources=B;C keep=true](b))"
+   " UseResources[pool=p resources=A](x)) resources[name=p]", "a=RS b=R x=R", "R[a] R[a b] R[b x]"},
+  {"two in a row, with exchange: the second keeps all that the first has owned until it gets its own",
+   "Parallel(Sequence[memory=true](UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=B on_change=exchange](b))"
+   " UseResources[pool=p resources=A](x) UseResources[pool=p resources=B keep=true](y)) resources[name=p]",
+   "a=RS b=R x=R y=RRRS", "R[a y] R[a y] R[y] R[y] R[b] R[b x]"},
+  {"two in a row: one that does not keep takes over nothing",
+   "Parallel(Sequence[memory=true](UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=A](b))"
+   " UseResources[pool=p resources=A](x)) resources[name=p]", "a=RS b=R x=RS", "R[a] R[a] R[x]"},
+  {"two in a row: other nodes may be around them, and between them in the same tick",
+   "Parallel(Sequence[memory=true](SubTree(UseResources[pool=p resources=A keep=true](a)) z Timeout[seconds=9](UseResources[pool=p resources=A keep=true](b)))"
+   " UseResources[pool=p resources=A](x)) resources[name=p]", "a=RS z=S b=RS x=R", "R[a] R[a z b] R[b] R[x]"},
+  {"two in a row: not one after the other in a Fallback",
+   "Parallel(Fallback[memory=true](UseResources[pool=p resources=A keep=true](a) UseResources[pool=p resources=A keep=true](b))"
+   " UseResources[pool=p resources=A](x)) resources[name=p]", "a=RF b=R x=RS", "R[a] R[a] R[x]"},
+  {"nested: an inner member asks for more while the outer one keeps its own",
+   "Parallel(UseResources[pool=p resources=B keep=true](Sequence[memory=true](UseResources[pool=p resources=A keep=true](a)"
+   " UseResources[pool=p resources=C keep=true](b))) UseResources[pool=p resources=B](x)) resources[name=p]",
+   "a=RS b=RS x=R", "R[a] R[a b] R[b] R[x]"},
+  {"nested: what the outer one owns is no obstacle",
+   "UseResources[pool=p resources=A;B](UseResources[pool=p resources=B](a)) resources[name=p]", "a=RRS", "R[a] R[a] S[a]"},
+  {"nested: what an inner one keeps is no obstacle to the outer one",
+   "UseResources[pool=p resources=A](UseResources[pool=p resources=A;B keep=true](a)) resources[name=p]", "a=RRS", "R[a] R[a] S[a]"},
+  {"nested: two inner ones do not own the same",
+   "UseResources[pool=p resources=A keep=true](Parallel(UseResources[pool=p resources=A](a) UseResources[pool=p resources=A](b)))"
+   " resources[name=p increment=0]", "a=RS b=R", "R[a] R[a] R[b]"},
+  {"nested: without keep, the more urgent one gets both, as its outer one asks early for it",
+   "Parallel(UseResources[pool=p resources=B](UseResources[pool=p resources=A](a)) UseResources[pool=p resources=A](UseResources[pool=p resources=B](b)))"
+   " resources[name=p]", "a=R b=R", "R[a] R pause[a] R[a] resume[a] R[b] pause[a] R[a] resume[a] pause[b]"},
+};
+
 constexpr TickRow kChoiceRows[] = {
   {"any: the first that is free, in the written order",
    "Parallel(UseResources[pool=p resources=B](a) UseResources[pool=p resources=any(B;A)](b) UseResources[pool=p resources=any(B;A)](c)) resources[name=p increment=0]",
@@ -193,6 +233,10 @@ TEST_CASE("UseResources: exchange") {
     row.tree = tree;
     check_rows(std::span(&row, 1));
   }
+}
+
+TEST_CASE("UseResources: two in a row, and nested ones of one pool") {
+  check_rows(kHandoverRows);
 }
 
 TEST_CASE("UseResources: any of several") {

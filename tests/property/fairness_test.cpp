@@ -21,7 +21,7 @@ class PoolWatch {
   PoolWatch(ScriptedRun& run, NodeIndex pool, int increment, bool keeps)
       : run_(run),
         members_(run.tree().members_of(pool)),
-        is_fair_(increment > 0 && !keeps),
+        is_fair_(increment > 0 && !keeps && !run.tree().group(pool).has_relatives),
         keeps_(keeps),
         waits_(members_.size()) {}
 
@@ -33,7 +33,6 @@ class PoolWatch {
   }
 
   void after_tick() {
-    ResourceSet owned = 0;
     bool somebody_waits = false, somebody_asked_first = false;
     for (std::size_t i = 0; i < members_.size(); ++i) {
       const auto& use = run_.ticker().state<ResourceUse>(members_[i].node);
@@ -46,8 +45,7 @@ class PoolWatch {
       waited_ += waits;
       if (!asked || use.grant != Grant::Owned) continue;
       somebody_asked_first = true;  // it has given back what it owned if its child was skipped
-      CHECK((owned & owned_set(use.limit)) == 0);
-      owned |= owned_set(use.limit);
+      for (std::size_t other = 0; other < i; ++other) CHECK(!share(other, i));
     }
     // Members that wait for other resources while they keep some may all wait.
     if (somebody_waits && !keeps_) CHECK(somebody_asked_first);
@@ -57,6 +55,17 @@ class PoolWatch {
   bool is_longest() const { return most_ + 1 == static_cast<int>(members_.size()); }
 
  private:
+  // One may own what it is inside of owns, and what one that has ended in this tick has owned.
+  bool share(std::size_t one, std::size_t other) const {
+    const NodeIndex outer = members_[one].node, node = members_[other].node;
+    if (node < run_.ticker().end_of(outer)) return false;
+    if (run_.ticker().status(outer) != Status::Running) return false;
+    const auto owned = [&](NodeIndex it) {
+      return owned_set(run_.ticker().state<ResourceUse>(it).limit);
+    };
+    return (owned(outer) & owned(node)) != 0;
+  }
+
   ScriptedRun& run_;
   std::span<const Member> members_;
   bool is_fair_, keeps_;

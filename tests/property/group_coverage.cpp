@@ -42,13 +42,17 @@ constexpr std::array kOftenSeen{
     "a member keeps its resources",
     "a priority saturates",
     "an increment of 0",
+    "a Sequence is held between two children",
     "nested pools",
+    "nested members of one pool",
     "resources come from an entry",
     "a gate is closed: a barrier around it",
     "a gate is closed: the SyncProgress directly inside of it",
 };
 
 constexpr std::array kSeldomSeen{
+    "a member asks early for one inside of it",
+    "a member takes over from the one before it",
     "a member is held by an entry: barriers",
     "a member is held by an entry: barrier_count",
     "a member is held by an entry: at_barrier",

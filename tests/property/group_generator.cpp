@@ -164,6 +164,7 @@ Plan GroupGenerator::node_on_way(int depth) {
     case 2:
     case 3:
     case 4:
+      if (has_pool_left() && one_in(3)) return row_of_pool_members(depth);
       return ordered_on_way(depth);
     case 5:
       return branches_on_way(depth);
@@ -189,6 +190,20 @@ Plan GroupGenerator::member(int depth) {
 Plan GroupGenerator::pool_member(int depth) {
   Plan plan = use_resources([&] { return one_in(2) ? way(depth + 1) : working_leaf(); });
   if (scripts_ && one_in(2)) add_hooks(plan);
+  return plan;
+}
+
+// Members of one pool, one after the other.
+Plan GroupGenerator::row_of_pool_members(int depth) {
+  Plan plan{.kind = "Sequence", .memory = !one_in(4)};
+  for (int i = between(2, 3); i > 0; --i) plan.children.push_back(pool_member(depth + 1));
+  // The first one may be around members of any other.
+  const auto of = [&](const Plan& it) { return meaning(names_, it.pool); };
+  const std::string pool = std::ranges::min_element(plan.children, {}, of)->pool;
+  for (Plan& it : plan.children) {
+    it.pool = pool;
+    if (one_in(2)) it.keep = it.on_change.empty();
+  }
   return plan;
 }
 

@@ -24,6 +24,7 @@ class GroupGenerator : public TreeGenerator {
   Plan way(int depth);
   Plan member(int depth);
   Plan pool_member(int depth);
+  Plan row_of_pool_members(int depth);
   Plan outliving_parallel();
   Plan node_on_way(int depth);
   Plan parallel_on_way(int depth);

@@ -628,7 +628,8 @@ void Reference::order_groups() {
   }
   while (!pools.empty()) {
     const auto outermost = std::ranges::find_if(pools, [&](const ReferenceGroup* pool) {
-      return std::ranges::none_of(pools, [&](auto* other) { return pool->is_inside_of(*other); });
+      return std::ranges::none_of(
+          pools, [&](auto* other) { return other != pool && pool->is_inside_of(*other); });
     });
     if (outermost == pools.end()) throw std::logic_error("pools inside of each other");
     ordered.push_back(*outermost);

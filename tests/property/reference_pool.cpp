@@ -66,8 +66,8 @@ std::string ReferencePool::text_of(const Resources& set) const {
   return text;
 }
 
-bool ReferencePool::is_free(const Resources& set) const {
-  return std::ranges::none_of(set, [this](const auto& name) { return owned_.contains(name); });
+UseResources& ReferencePool::user(std::size_t place) const {
+  return dynamic_cast<UseResources&>(member(place));
 }
 
 bool ReferencePool::is_owned(const std::string& name) const {
@@ -77,31 +77,82 @@ bool ReferencePool::is_owned(const std::string& name) const {
   return false;
 }
 
-void ReferencePool::take_back(const Resources& set) {
-  for (const std::string& name : set) owned_.erase(name);
-}
-
 // "Before the root is ticked: of the members that are active and unfinished, by (priority falling,
 // document order), grant each whose set is disjoint from what is granted in this tick and whose
 // gates are open". Those that keep their set come before all others.
 void ReferencePool::before_tick() {
   status = Status::Running;
-  owned_.clear();
   std::vector<UseResources*> asking;
+  for (std::size_t place = 0; place < count(); ++place) user(place).begin_tick();
   for (std::size_t place = 0; place < count(); ++place) {
-    auto& it = dynamic_cast<UseResources&>(member(place));
-    it.begin_tick();
-    if (it.runs() && it.keeps()) {
-      if (!it.wants_another()) {
-        it.keep_set();
-        continue;
-      }
-      it.keep_old_set();
+    UseResources& it = user(place);
+    if (it.runs() && it.keeps() && !it.wants_another()) {
+      it.keep_set();
+      continue;
     }
+    if (it.runs()) it.keep_old_set();
     if (it.is_active() && it.is_right(it.wanted())) asking.push_back(&it);
   }
   std::ranges::stable_sort(asking, std::greater<>(), &UseResources::priority);
-  for (UseResources* it : asking) it->ask();
+  for (UseResources* it : asking) it->ask_after_outer(asking);
+}
+
+// "However urgent it is, those around it ask before it."
+void UseResources::ask_after_outer(const std::vector<UseResources*>& asking) {
+  for (UseResources* other : asking) {
+    if (other == this || !is_inside_of(*other) || other->asked_in_ == world.tick) continue;
+    note("a member asks early for one inside of it");
+    other->ask_after_outer(asking);
+  }
+  if (asked_in_ != world.tick) ask();
+}
+
+bool UseResources::is_inside_of(const ReferenceNode& other) const {
+  for (const ReferenceNode* node = parent; node != nullptr; node = node->parent) {
+    if (node == &other) return true;
+  }
+  return false;
+}
+
+bool UseResources::is_related(const UseResources& other) const {
+  return is_inside_of(other) || other.is_inside_of(*this);
+}
+
+// "what the members before it in the same Sequence have owned in this tick"
+bool UseResources::takes_over_from(const UseResources& other) {
+  const bool may_keep = plan.keep || exchanges() || plan.on_change == "keep";
+  if (!may_keep || runs() || other.runs() || number < other.number || is_related(other))
+    return false;
+  const ReferenceNode* common = parent;
+  while (!other.is_inside_of(*common)) common = common->parent;
+  return common->plan.kind == "Sequence";
+}
+
+// "What members around it and inside of it own is no obstacle", nor what it takes over.
+bool UseResources::is_free(const Resources& set) {
+  for (std::size_t place = 0; place < pool().users(); ++place) {
+    const UseResources& other = pool().user(place);
+    if (&other == this || is_related(other) || takes_over_from(other)) continue;
+    for (const std::string& name : set) {
+      if (other.in_tick_.contains(name)) return false;
+    }
+  }
+  return true;
+}
+
+Resources UseResources::handed_over() {
+  const Resources wishes = wanted().everything();
+  Resources handed;
+  for (std::size_t place = 0; place < pool().users(); ++place) {
+    const UseResources& before = pool().user(place);
+    if (&before == this || !takes_over_from(before)) continue;
+    for (const std::string& name : before.in_tick_) {
+      const bool is_needed = exchanges() || wishes.contains(name);
+      if (is_needed && is_free({name})) handed.insert(name);
+    }
+  }
+  if (!handed.empty()) note("a member takes over from the one before it");
+  return handed;
 }
 
 ReferencePool& UseResources::pool() const {
@@ -128,17 +179,18 @@ bool UseResources::is_right(const Wish& wish) const {
 }
 
 // "the first free in the written order"; "it prefers the one that it had"
-Resources UseResources::choose(const Wish& wish) const {
+Resources UseResources::choose(const Wish& wish) {
   if (wish.any.empty()) return wish.all;
   Resources set = wish.all;
   for (const std::string& name : wish.any) {
-    if (!owned_.contains(name) || !pool().is_free({name})) continue;
+    const bool had = owned_.contains(name) || handed_.contains(name);
+    if (!had || !is_free({name})) continue;
     note("a member chooses again what it had");
     set.insert(name);
     return set;
   }
   for (const std::string& name : wish.any) {
-    if (!pool().is_free({name})) continue;
+    if (!is_free({name})) continue;
     note(name == wish.any[0] ? "a member chooses the first"
                              : "a member chooses the first that is free");
     set.insert(name);
@@ -154,22 +206,19 @@ void UseResources::ask() {
   asked_in_ = world.tick;
   is_granted_ = false;
   if (!child().runs()) owned_.clear();
+  if (!runs()) handed_ = handed_over();
+  if (keeps()) handed_.clear();
+  const Resources old = kept();
+  in_tick_ = old;
   is_open_ = has_open_gates();
   if (!is_open_) return;
-  // "a requester's own old set never blocks it"
-  const Resources kept = keeps() ? owned_ : Resources();
-  in_tick_ = kept;
-  pool().take_back(kept);
   const Resources set = choose(wanted());
-  const bool is_free = pool().is_free(set);
-  pool().give(kept);  // until the tick is over
-  if (!is_free)
-    return note(kept.empty() ? "a member is denied" : "a member keeps what it has and is denied");
-  if (!kept.empty()) note("a member exchanges its resources");
+  if (!is_free(set))
+    return note(old.empty() ? "a member is denied" : "a member keeps what it has and is denied");
+  if (!old.empty()) note("a member exchanges its resources");
   is_granted_ = true;
   owned_ = set;
   in_tick_.insert(set.begin(), set.end());
-  pool().give(owned_);
   // "A grant sets the priority to 0, used or not"
   priority_ = 0;
 }
@@ -188,11 +237,6 @@ bool UseResources::wants_another() const {
   return !has_choice || same != owned_;
 }
 
-void UseResources::keep_old_set() {
-  in_tick_ = owned_;
-  pool().give(owned_);
-}
-
 // Before the child is ticked.
 void UseResources::write_granted() {
   const auto key = plan.from_entries.find("granted");
@@ -209,13 +253,13 @@ void UseResources::keep_set() {
   is_granted_ = true;
   priority_ = 0;
   in_tick_ = owned_;
-  pool().give(owned_);
 }
 
 void UseResources::keep(KeptState& state) {
   ReferenceNode::keep(state);
   state.tick(asked_in_);
-  state(is_granted_, is_open_, owned_, in_tick_, priority_);
+  if (!runs() || keeps()) handed_.clear();
+  state(is_granted_, is_open_, owned_, in_tick_, handed_, priority_);
 }
 
 void UseResources::note_kept() const {
@@ -233,7 +277,8 @@ bool UseResources::has_open_gates() const {
     const auto* around = dynamic_cast<const SyncProgress*>(node);
     if (around != nullptr && around->is_held()) return is_closed("a barrier around it");
     const auto* outer = dynamic_cast<const UseResources*>(node);
-    if (outer != nullptr) note("nested pools");
+    if (outer != nullptr)
+      note(&outer->pool() == &pool() ? "nested members of one pool" : "nested pools");
     if (outer != nullptr && !outer->is_granted()) return is_closed("an outer UseResources");
   }
   const auto* inside = dynamic_cast<const SyncProgress*>(directly_inside());
@@ -291,8 +336,9 @@ Status UseResources::on_tick(bool first) {
     note("a member is skipped after it has run");
   } else if (result == Status::Skipped) {
     note("a member is skipped and gives back what it owned");
-    pool().take_back(owned_);
     in_tick_.clear();
+    owned_.clear();
+    handed_.clear();
   }
   return result;
 }

@@ -20,6 +20,8 @@ struct Wish {
   Resources everything() const;
 };
 
+class UseResources;
+
 class ReferencePool : public ReferenceGroup {
  public:
   ReferencePool(Reference& tree, const Plan& its_plan, ReferenceNode& root);
@@ -30,9 +32,6 @@ class ReferencePool : public ReferenceGroup {
   bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
   void reach() { last_tick = world.tick; }
   bool knows(const std::string& name) const { return std::ranges::count(names_, name) != 0; }
-  bool is_free(const Resources& set) const;  // in this tick
-  void give(const Resources& set) { owned_.insert(set.begin(), set.end()); }
-  void take_back(const Resources& set);
   bool is_owned(const std::string& name) const;  // when a tick begins: by one that still runs
   // In the order of the pool.
   std::string text_of(const Resources& set) const;
@@ -40,11 +39,13 @@ class ReferencePool : public ReferenceGroup {
   // "saturating at 2 N x increment"
   int most_priority() const { return 2 * static_cast<int>(count()) * plan.increment; }
 
+  UseResources& user(std::size_t place) const;
+  std::size_t users() const { return count(); }
+
  private:
   void add_names(std::string list);
 
   std::vector<std::string> names_;
-  Resources owned_;
 };
 
 class UseResources : public ReferenceNode {
@@ -60,15 +61,18 @@ class UseResources : public ReferenceNode {
     return may_keep && !owned_.empty() && child().runs();
   }
   bool exchanges() const { return plan.on_change == "exchange"; }
+  // What it has whatever the answer is.
+  Resources kept() { return keeps() ? owned_ : handed_; }
   // It is for another set than what it keeps.
   bool wants_another() const;
   void keep_set();
-  void keep_old_set();
+  void keep_old_set() { in_tick_ = kept(); }
   void begin_tick() { in_tick_.clear(); }
   bool is_active() const { return runs() && !was_held_by_parallel(); }
   Wish wanted() const;
   bool is_right(const Wish& wish) const;
   void ask();
+  void ask_after_outer(const std::vector<UseResources*>& asking);
   // When a tick begins: whether it owned that in the last one.
   bool owned(const std::string& name) const { return runs() && in_tick_.contains(name); }
   int priority() const { return priority_; }
@@ -77,7 +81,12 @@ class UseResources : public ReferenceNode {
 
  private:
   ReferencePool& pool() const;
-  Resources choose(const Wish& wish) const;
+  bool is_inside_of(const ReferenceNode& other) const;
+  bool is_related(const UseResources& other) const;
+  bool takes_over_from(const UseResources& other);
+  bool is_free(const Resources& set);
+  Resources handed_over();
+  Resources choose(const Wish& wish);
   void write_granted();
   Status deny();
   void note_kept() const;
@@ -90,6 +99,7 @@ class UseResources : public ReferenceNode {
   bool is_granted_ = false, is_open_ = false;  // then
   Resources owned_;                            // since its last grant, while its child runs
   Resources in_tick_;                          // in this tick
+  Resources handed_;                           // by those before it, until its child runs
   int priority_ = 0;
 };
 

@@ -217,7 +217,10 @@ Plan TreeGenerator::sync_progress(const std::string& barrier, Plan child) {
 Plan TreeGenerator::use_resources(const std::function<Plan()>& child) {
   Plan plan{.kind = "UseResources"};
   const auto last = static_cast<int>(pools_.size()) - 1;
-  const auto place = static_cast<std::size_t>(between(static_cast<int>(next_pool_), last));
+  const bool is_nested_again = next_pool_ > 0 && one_in(3);
+  const auto place = is_nested_again
+                         ? next_pool_ - 1
+                         : static_cast<std::size_t>(between(static_cast<int>(next_pool_), last));
   plan.pool = written(pools_[place]);
   plan.resources = pick(std::array{"A", "B", "C", "A;B", "B;C", "A;C", "A;B;C", "any(A;B)",
                                    "any(C;B;A)", "B;any(C;A)"});

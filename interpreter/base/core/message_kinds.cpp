@@ -122,10 +122,8 @@ std::span<const MessageKind> message_kinds() {
        "paused.",
        "Give the leaf a pause that stops the robot, if the synchronization must be tight."},
       {"needs-entry", "An output or a key is written as a value.", "Write `port=\"{key}\"`."},
-      {"nested-pools",
-       "A node of a pool is inside another node of the same pool, or two pools are nested in both "
-       "orders. The nodes may deadlock.",
-       "Name all resources in the outer node, or nest pools in one order."},
+      {"nested-pools", "Two pools are nested in both orders. The nodes may deadlock.",
+       "Nest pools in one order, or make them one."},
       {"no-main-tree", "The file has several trees, and none is chosen.",
        "Add `main_tree_to_execute`, or give `--tree ID`."},
       {"no-progress",

@@ -4,6 +4,7 @@
 #include "engine/nodes/fold.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "engine/nodes/kinds.h"
 
@@ -39,13 +40,29 @@ std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
     context.state<ResourceUse>(member.node).limit = 0;
     if (context.status(member.node) != Status::Running) continue;
     const bool asks =
-        !resources::keeps(context, member.node) || !resources::keep(context, member.node);
+        resources::kept_set(context, member.node) == 0 || !resources::keep(context, member.node);
     if (asks && !is_held_by_parallel(context, member.node) &&  // else a tick that reaches it asks
         context.parameters().read(member.node).empty()) {
       numbers[count++] = member.number;
     }
   }
   return numbers.first(count);
+}
+
+// Those around it come first, however urgent they are: it owns nothing without them.
+void ask_in_turn(NodeContext& context, const Member& member,
+                 std::span<const std::uint32_t> asking) {
+  const Tree& tree = context.tree();
+  const auto has_asked = [&](NodeIndex node) {
+    return resources::has_asked(context, context.state<ResourceUse>(node));
+  };
+  for (const NodeIndex gate : tree.gates_of(member) | std::views::reverse) {
+    const Member& outer = tree.membership(gate);
+    const bool asks = outer.group == member.group && !has_asked(gate) &&
+                      std::ranges::find(asking, outer.number) != asking.end();
+    if (asks) resources::ask(context, gate);
+  }
+  if (!has_asked(member.node)) resources::ask(context, member.node);
 }
 
 Status tick_resources(NodeContext& context, NodeIndex self) {
@@ -59,7 +76,7 @@ Status tick_resources(NodeContext& context, NodeIndex self) {
     if (priority(one) != priority(other)) return priority(one) > priority(other);
     return one < other;
   });
-  for (const std::uint32_t number : asking) resources::ask(context, members[number].node);
+  for (const std::uint32_t number : asking) ask_in_turn(context, members[number], asking);
   return Status::Running;
 }
 

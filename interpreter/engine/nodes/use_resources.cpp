@@ -115,6 +115,8 @@ void fold_use_resources(NodeContext& context, NodeIndex self) {
                           context.parameters().numbers(self, resources::kResources).size() > 1;
   const bool runs = context.status(self + 1) == Status::Running;
   if (resources::keeps(context, self) || (may_choose && runs)) folded.owned = use.owned;
+  const bool waits = context.status(self) == Status::Running;
+  if (waits && !resources::keeps(context, self)) folded.handed = use.handed;
   if (context.status(self) == Status::Running && is_read(context, self)) {
     folded.limit = static_cast<double>(owned_set(use.limit));
   }

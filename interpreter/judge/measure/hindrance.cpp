@@ -135,7 +135,8 @@ std::vector<NodeIndex> lasting_owners(const Shape& shape, const Moment& moment, 
     const NodeIndex owner = *shape.nodes[child].parent;
     if (owner == denied || (owned_set(moment.limit(owner)) & wanted) == 0) continue;
     const ShapeNode& user = shape.nodes[owner];
-    const bool keeps = user.keeps_resources && moment.status(child) == Status::Running;
+    const bool keeps = user.keeps_resources &&
+                       (moment.status(child) == Status::Running || waits(moment.limit(owner)));
     const bool is_before = user.number < shape.nodes[denied].number;
     if (keeps || (pool.first_wins && is_before)) owners.push_back(owner);
   }

@@ -44,7 +44,21 @@ class PoolResolver {
         }
       }
     }
+    const auto neighbors = std::ranges::adjacent_find(group.members, [this](auto one, auto other) {
+      return is_around(one, other) || is_before(one, other);
+    });
+    group.has_relatives = neighbors != group.members.end();
     check_count(group);
+  }
+
+  bool is_around(std::uint32_t outer, std::uint32_t node) const {
+    return outer < node && node < at(outer).end;
+  }
+  // They are in different children of a Sequence, in this order.
+  bool is_before(std::uint32_t one, std::uint32_t other) const {
+    const std::uint32_t pair[] = {one, other};
+    return !is_around(one, other) &&
+           at(definition_.common_ancestor(pair)).type->goes_on_after == Status::Success;
   }
 
   void unknown(const DefinitionGroup& group, std::uint32_t member, std::string_view name) {
@@ -80,14 +94,18 @@ class PoolResolver {
   }
 
   // One that may wait for other resources while it owns some.
-  bool exchanges(const DefinitionNode& member) const {
-    const Value* on_change = definition_.constant(member, "on_change");
-    return on_change != nullptr && *on_change == Value("exchange");
+  bool exchanges(const DefinitionGroup& group, std::uint32_t member) const {
+    const Value* on_change = definition_.constant(at(member), "on_change");
+    if (on_change != nullptr && *on_change == Value("exchange")) return true;
+    return definition_.keeps(at(member)) &&
+           std::ranges::any_of(group.members, [&](std::uint32_t other) {
+             return other < member && is_before(other, member);
+           });
   }
 
   void check_exchanges(const DefinitionGroup& group) const {
     const auto member =
-        std::ranges::find_if(group.members, [&](std::uint32_t it) { return exchanges(at(it)); });
+        std::ranges::find_if(group.members, [&](auto it) { return exchanges(group, it); });
     if (member == group.members.end()) return;
     report_.at("pool-size"_code, at(*member).place,
                fmt::format("the pool '{}' has {} resources, more than a member can exchange",
@@ -95,8 +113,7 @@ class PoolResolver {
                fmt::format("the limit is {}: split it into several pools", kMaxExchanged));
   }
 
-  // A member of a pool below another one would wait for what that owns. Where two pools are nested
-  // both ways, two members could wait for each other.
+  // Where two pools are nested both ways, two members could wait for each other.
   void check_nesting() {
     for (const DefinitionGroup& group : definition_.groups) {
       if (!definition_.is_pool(group)) continue;
@@ -115,13 +132,7 @@ class PoolResolver {
 
   void check_nested(std::uint32_t pool, std::uint32_t inner, std::uint32_t outer) {
     const std::uint32_t outer_pool = pools_.at(outer);
-    if (outer_pool == pool) {
-      add(inner,
-          fmt::format("'{}' is inside of '{}', which uses the same pool", brief(at(inner).name),
-                      brief(at(outer).name)),
-          "name all of the resources in the outer one");
-      return;
-    }
+    if (outer_pool == pool) return;
     nested_.emplace(outer_pool, pool);
     if (!is_inside(outer_pool, pool)) return;
     add(inner,
