@@ -159,7 +159,7 @@ constexpr TickRow kHandoverRows[] = {
    " resources[name=p increment=0]", "a=RS b=R", "R[a] R[a] R[b]"},
   {"nested: without keep, the more urgent one gets both, as its outer one asks early for it",
    "Parallel(UseResources[pool=p resources=B](UseResources[pool=p resources=A](a)) UseResources[pool=p resources=A](UseResources[pool=p resources=B](b)))"
-   " resources[name=p]", "a=R b=R", "R[a] R pause[a] R[a] resume[a] R[b] pause[a] R[a] resume[a] pause[b]"},
+   " resources[name=p]", "a=R b=R", "R[a] R[] pause[a] R[a] resume[a] R[b] pause[a] R[a] resume[a] pause[b]"},
 };
 
 constexpr TickRow kChoiceRows[] = {

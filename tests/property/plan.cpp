@@ -175,7 +175,10 @@ std::vector<std::string> readings_in(const Plan& plan) {
 
 namespace {
 
-void collect_readable(const Plan& plan, const GroupNames& names, std::set<std::string>& all) {
+// A leaf whose name another one has, in a copy of its SubTree, comes twice.
+using Readable = std::multiset<std::string>;
+
+void collect_readable(const Plan& plan, const GroupNames& names, Readable& all) {
   if (!plan.script.empty()) all.insert(plan.name);
   const std::string pool = meaning(names, plan.pool);
   for (const char* name : {"A", "B", "C"}) {
@@ -188,11 +191,14 @@ void collect_readable(const Plan& plan, const GroupNames& names, std::set<std::s
   for (const Plan& child : plan.children) collect_readable(child, inside, all);
 }
 
-void replace_readings(Plan& plan, const std::set<std::string>& readable) {
+void replace_readings(Plan& plan, const Readable& readable) {
   const auto repair = [&](std::string& script) {
     const auto open = script.find('('), close = script.find(')');
     if (close == std::string::npos || is_assignment(script)) return;
-    if (!readable.contains(script.substr(open + 1, close - open - 1))) script = "1>0";
+    const std::string name = script.substr(open + 1, close - open - 1);
+    const bool is_resource = name.find('/') != std::string::npos;
+    const auto count = readable.count(name);
+    if (count == 0 || (count > 1 && !is_resource)) script = "1>0";
   };
   repair(plan.code);
   for (auto& [attribute, script] : plan.hooks) repair(script);
@@ -202,7 +208,7 @@ void replace_readings(Plan& plan, const std::set<std::string>& readable) {
 }  // namespace
 
 void take_out_unknown_readings(Plan& plan) {
-  std::set<std::string> readable;
+  Readable readable;
   collect_readable(plan, {}, readable);
   replace_readings(plan, readable);
 }
