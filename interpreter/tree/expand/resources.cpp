@@ -99,8 +99,18 @@ class PoolResolver {
     if (on_change != nullptr && *on_change == Value("exchange")) return true;
     return definition_.keeps(at(member)) &&
            std::ranges::any_of(group.members, [&](std::uint32_t other) {
-             return other < member && is_before(other, member);
+             return other < member && is_before(other, member) && may_share(other, member);
            });
+  }
+
+  // With an entry that is not known.
+  bool may_share(std::uint32_t one, std::uint32_t other) const {
+    const Value* const its = definition_.constant(at(one), "resources");
+    if (its == nullptr || definition_.constant(at(other), "resources") == nullptr) return true;
+    const auto names = resource_names(definition_.resources_of(at(one)));
+    return std::ranges::any_of(resource_names(definition_.resources_of(at(other))), [&](auto name) {
+      return std::ranges::find(names, name) != names.end();
+    });
   }
 
   void check_exchanges(const DefinitionGroup& group) const {
