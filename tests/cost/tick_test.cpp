@@ -76,7 +76,8 @@ constexpr const char* kTree = R"xml(
   <barrier name="close" delta="1e-8"/>
   <resources name="hands"/>
   <BehaviorTree ID="Main">
-    <Parallel success_count="16">
+    <Parallel success_count="17">
+      <Repeat><ParallelAbsolute barriers="0.3;0.6" hold="between"><SubTree ID="Road"/><Advance step="0.1"/></ParallelAbsolute></Repeat>
       <SyncProgress barrier="close"><Sequence memory="true"><SyncProgress barrier="early"><Advance step="1e-9"/></SyncProgress></Sequence></SyncProgress>
       <Sequence memory="true"><Wait seconds="0.5"/><SyncProgress barrier="close"><SubTree ID="Other" barrier="early"/></SyncProgress></Sequence>
       <SubTree ID="Planned" plan="0.3;0.6"/>
@@ -103,6 +104,14 @@ constexpr const char* kTree = R"xml(
     <UseResources pool="hands" resources="{hand}" on_change="exchange" granted="{got}">
       <Repeat><Advance step="0.3" on_success="hand = hand == 'foot' ? 'any(left;foot)' : 'foot'"/></Repeat>
     </UseResources>
+  </BehaviorTree>
+  <BehaviorTree ID="Road">
+    <Sequence memory="true">
+      <UseResources pool="hands" resources="nose" keep="true"><Advance step="0.4"/></UseResources>
+      <UseResources pool="hands" resources="nose;ear" on_change="exchange">
+        <UseResources pool="hands" resources="nose"><Advance step="0.4"/></UseResources>
+      </UseResources>
+    </Sequence>
   </BehaviorTree>
   <BehaviorTree ID="Planned">
     <ParallelAbsolute barriers="{plan}"><Advance step="1e-9"/><Advance step="2e-9"/></ParallelAbsolute>
