@@ -83,7 +83,7 @@ std::optional<Standstill> StandingNodes::circle_at(const Moment& moment, Waiting
   std::vector<Waiting*> members;
   for (const WaitLink& link : found.chain.links) {
     const auto it = std::ranges::find(users_, link.waiting, &Waiting::user);
-    if (it == users_.end()) return std::nullopt;
+    if (it == users_.end() || !shape_.nodes[link.node].is_pool()) return std::nullopt;
     found.since = std::max(found.since, it->since);
     members.push_back(&*it);
   }
