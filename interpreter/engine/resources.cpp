@@ -58,14 +58,15 @@ Owned owned_by_others(NodeContext& context, NodeIndex node, bool takes_over) {
   return owned;
 }
 
-// It owns these in this tick.
-void own(NodeContext& context, const Member& member, ResourceSet set) {
+// It owns these in this tick, and what it keeps.
+void own(NodeContext& context, const Member& member, ResourceSet granted, ResourceSet kept) {
   auto& use = context.state<ResourceUse>(member.node);
   use.asked = context.tick_number();
   use.grant = Grant::Owned;
-  use.limit = static_cast<double>(set);
+  use.granted = granted;
+  use.limit = static_cast<double>(granted | kept);
   use.priority = 0;
-  context.state<ResourcePool>(member.group).owned |= set;
+  context.state<ResourcePool>(member.group).owned |= granted | kept;
 }
 
 // It owns what it keeps.
@@ -152,9 +153,10 @@ void ask(NodeContext& context, NodeIndex node) {
   }
   const ResourceSet wanted = choose(request, owned.by_others, use.owned | use.handed);
   if ((owned.by_others & wanted) != 0)
-    return refuse(context, member, Grant::Denied, wanted & ~(owned.related & ~owned.by_others), kept);
-  use.owned = wanted;
-  own(context, member, wanted | kept);
+    return refuse(context, member, Grant::Denied, wanted & ~(owned.related & ~owned.by_others),
+                  kept);
+  if (!keeps(context, node)) use.owned = wanted;
+  own(context, member, wanted, kept);
 }
 
 bool keeps(NodeContext& context, NodeIndex node) {
@@ -177,7 +179,7 @@ bool keep(NodeContext& context, NodeIndex node) {
     asks = !is_readable || choose(request, 0, use.owned) != use.owned;
   }
   if (!asks) {
-    own(context, member, use.owned);
+    own(context, member, use.owned, 0);
     return true;
   }
   const ResourceSet kept = kept_set(context, node);

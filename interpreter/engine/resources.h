@@ -21,6 +21,7 @@ enum class Grant : std::uint8_t {
 struct ResourceUse : SynchronizedState {
   ResourceSet owned;      // since its last grant in this activation; 0: none yet
   ResourceSet handed;     // by members before it, until its child runs
+  ResourceSet granted;    // in this tick; those that it exchanges, it owns when a tick reaches it
   std::int64_t priority;  // rises with each tick in which it is Denied
   std::uint32_t asked;    // in this tick, for its number
   Grant grant;

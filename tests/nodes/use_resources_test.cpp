@@ -162,6 +162,13 @@ constexpr TickRow kHandoverRows[] = {
    " resources[name=p]", "a=R b=R", "R[a] R[] pause[a] R[a] resume[a] R[b] pause[a] R[a] resume[a] pause[b]"},
 };
 
+constexpr TickRow kHeldExchangeRows[] = {
+  {"exchange: held in the tick in which it gets the new set, it keeps the old one until a tick reaches it",
+   "Sequence[memory=true](Script[code=r:='A'] Parallel(ParallelAbsolute[barriers=.5](UseResources[pool=p resources={r} on_change=exchange]"
+   "(Sequence[memory=true](a[on_success=r='B'] b)) s) UseResources[pool=p resources=A](x))) resources[name=p resources=A;B]",
+   "a=S b=R s=R.1R.2R.6 x=R", "R[a b s] R[s] pause[b] R[s] R[b s] resume[b] R[b s x]"},
+};
+
 constexpr TickRow kChoiceRows[] = {
   {"any: the first that is free, in the written order",
    "Parallel(UseResources[pool=p resources=B](a) UseResources[pool=p resources=any(B;A)](b) UseResources[pool=p resources=any(B;A)](c)) resources[name=p increment=0]",
@@ -233,6 +240,7 @@ TEST_CASE("UseResources: exchange") {
     row.tree = tree;
     check_rows(std::span(&row, 1));
   }
+  check_rows(kHeldExchangeRows);
 }
 
 TEST_CASE("UseResources: two in a row, and nested ones of one pool") {

@@ -217,7 +217,8 @@ void UseResources::ask() {
     return note(old.empty() ? "a member is denied" : "a member keeps what it has and is denied");
   if (!old.empty()) note("a member exchanges its resources");
   is_granted_ = true;
-  owned_ = set;
+  granted_ = set;
+  if (!keeps()) owned_ = set;
   in_tick_.insert(set.begin(), set.end());
   // "A grant sets the priority to 0, used or not"
   priority_ = 0;
@@ -251,6 +252,7 @@ void UseResources::keep_set() {
   note_kept();
   asked_in_ = world.tick;
   is_granted_ = true;
+  granted_ = owned_;
   priority_ = 0;
   in_tick_ = owned_;
 }
@@ -326,7 +328,11 @@ Status UseResources::on_tick(bool first) {
   // What a barrier holds inside withholds the ticks itself.
   if (!is_granted_ && is_open_) return deny();
   // "Granted: tick the child, return its status."
-  if (is_granted_) write_granted();
+  // "In the tick in which it gets the new set, its child is ticked": until then it has the old one.
+  if (is_granted_) {
+    owned_ = granted_;
+    write_granted();
+  }
   const bool has_run = child().runs();
   const Status result = child().tick();
   // "A member whose child returns Skipped after it has run has used its resources in that tick, so

@@ -98,7 +98,8 @@ class UseResources : public ReferenceNode {
   std::uint32_t asked_in_ = 0;                 // the last tick in which it asked
   bool is_granted_ = false, is_open_ = false;  // then
   Resources owned_;                            // since its last grant, while its child runs
-  Resources in_tick_;                          // in this tick
+  Resources granted_;                          // in this tick
+  Resources in_tick_;                          // in this tick, with what it exchanges
   Resources handed_;                           // by those before it, until its child runs
   int priority_ = 0;
 };

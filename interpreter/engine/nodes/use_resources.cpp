@@ -88,8 +88,10 @@ Status tick_child(NodeContext& context, NodeIndex self) {
     raise_priority(context, self, use);
     if (context.hold_firmly(self + 1)) return Status::Running;
   }
-  if (use.grant == Grant::Owned && !context.parameters().are_constant(self))
-    tell_granted(context, self);
+  if (use.grant == Grant::Owned) {
+    use.owned = use.granted;
+    if (!context.parameters().are_constant(self)) tell_granted(context, self);
+  }
   const bool has_run = context.status(self + 1) == Status::Running;
   const Status status = context.tick(self + 1);
   // A child that ran until now has used the resources in this tick.
