@@ -215,9 +215,11 @@ constexpr Field kTickFields[] = {
      "`[index, status, ticked, held]` of each node that differs from the moment after it; in the "
      "last moment, from the state after the tick"},
     {"leaf_progress", "LeafProgress[]", kMaybe,
-     "only of a tick with `moments`: {} for each leaf whose progress at the start of a moment "
-     "differs "
-     "from that at the start of the moment before it. The first moment is 0; before that, it is 0"},
+     "of a tick with `moments`: {} for each leaf whose progress at the start of a moment differs "
+     "from that at the start of the moment before it. The first moment is 0; before that, it is 0. "
+     "Of a tick without `moments`: with moment 0, each running leaf whose progress differs from "
+     "the "
+     "number in `nodes`"},
     {"more", "NodeCounts[]", kMaybe,
      "only of a tick with more moments than there is room for: {} for each node, how often this "
      "happened to it after the `moments`"},

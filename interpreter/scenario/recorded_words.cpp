@@ -123,7 +123,7 @@ class WordMaker {
 
   // That of a leaf at the start of a moment, or of the tick.
   static double progress_at(const RecordedTick& tick, NodeIndex node, std::size_t moment) {
-    double progress = tick.moments.progress.empty() ? tick.nodes[node].progress : 0;
+    double progress = tick.moments.empty() ? tick.nodes[node].progress : 0;
     for (const LeafProgress& it : tick.moments.progress) {
       if (it.node == node && it.moment <= moment) progress = it.progress;
     }

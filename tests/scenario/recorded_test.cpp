@@ -262,3 +262,38 @@ result="success;failure" progress="grid:10" step="0..3"/></leaves>)",
     }
   }
 }
+
+TEST_CASE("a leaf has its own progress in a scenario where something else was compared") {
+  struct Row {
+    std::string_view tree, leaves, does;
+  };
+  const Row rows[] = {
+      // It has succeeded, so the barrier takes it for 1 when it begins again.
+      {R"(<root lockstep="1"><barrier name="b" barriers="0.5"/><BehaviorTree ID="T"><Parallel>
+<Repeat times="2"><SyncProgress barrier="b"><Action ID="A" name="a"/></SyncProgress></Repeat>
+<SyncProgress barrier="b"><Action ID="A" name="c"/></SyncProgress>
+<WaitUntil code="progress(a) &gt;= 0.5" timeout="0.4"/></Parallel></BehaviorTree></root>)",
+       "T/Parallel/Repeat/SyncProgress/a = S R0.1 R0.2\nT/Parallel/SyncProgress/c = R0.1\n",
+       R"(a" does="S R0.1 R0.2)"},
+      // It succeeds in a later moment of its first tick.
+      {R"(<root BTCPP_format="4"><BehaviorTree ID="T"><Sequence><Script code="y := 0"/>
+<ParallelAbsolute barriers="0.9"><AsyncSequence><AlwaysSuccess/><AlwaysSuccess/><Sleep msec="500"/>
+<ScriptCondition code="y == 1"/></AsyncSequence><Action ID="A" name="b" _onSuccess="y = 1"/>
+</ParallelAbsolute></Sequence></BehaviorTree></root>)",
+       "T/Sequence/ParallelAbsolute/b = R0 S\n", R"(b" does="R0 S")"},
+  };
+  for (const Row& row : rows) {
+    const TemporaryDirectory directory;
+    const std::string tree = directory.file("t.xml", std::string(row.tree));
+    const std::string run = directory.path("run.jsonl"), file = directory.path("t.test.xml");
+    const std::string leaves = directory.file("l.leaves", "@rate 10\n" + std::string(row.leaves));
+    REQUIRE(run_lockstep({"run", tree, "--mock", "--leaves", leaves, "--clock", "virtual", "--view",
+                          "none", "--record", run})
+                .code < 2);
+    REQUIRE(run_lockstep({"log", "scenario", run, "--save", file}).code == 0);
+    const Outcome played = run_lockstep({"test", file, "--out", directory.path("failed")});
+    INFO(read_file(run) << read_file(file) << played.out << played.err);
+    CHECK(contains(read_file(file), row.does));
+    CHECK(played.code == 0);
+  }
+}

@@ -55,12 +55,16 @@ RunDelta::RunDelta(const Shape& shape)
       kept_(shape.nodes.size()),
       kept_progress_(shape.nodes.size()),
       changes_(shape.nodes.size()) {
+  for (const ShapeNode& it : shape.nodes) is_leaf_.push_back(it.children.empty());
+  std::size_t compared = 0;
   for (const NodeIndex node : synchronized_nodes(shape)) {
     kept_limits_.push_back({.node = node});
     const ShapeNode& it = shape.nodes[node];
     if (it.is_pool()) continue;
     keepers_.push_back({.node = node, .held = it.held(), .is_group = it.is_group()});
+    compared += keepers_.back().held.size();
   }
+  own_progress_.reserve(compared);
   first_user_ = kept_limits_.size();
   for (const NodeIndex node : users_of_pools(shape)) kept_limits_.push_back({.node = node});
   limits_.reserve(kept_limits_.size());
@@ -170,12 +174,19 @@ void RunDelta::set_progress(NodeIndex node, double progress) {
 
 // The numbers that a synchronized node has used replace those from before its tick.
 void RunDelta::take_used(const Moment& moment) {
+  own_progress_.clear();
   for (const Keeper& it : keepers_) {
     if (!asked_children(moment, it.node, it.held, it.is_group)) continue;
     const std::span<const double> used = moment.used(it.node);
     for (std::size_t child = 0; child < it.held.size(); ++child) {
-      set_progress(it.held[child], is_left_out(used[child]) ? 0 : used[child]);
-      source_[it.held[child]] = kUnknown;
+      const NodeIndex node = it.held[child];
+      const double number = is_left_out(used[child]) ? 0 : used[child];
+      const bool has_run = source_[node] == kUnknown;
+      if (has_run && is_leaf_[node] && number != progress_[node]) {
+        own_progress_.push_back({.node = node, .progress = progress_[node]});
+      }
+      set_progress(node, number);
+      source_[node] = kUnknown;
     }
   }
 }

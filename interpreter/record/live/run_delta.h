@@ -31,6 +31,9 @@ class RunDelta {
   // was ticked where it was not, or the other way round; and a node has begun.
   bool has_turns() const { return has_turns_; }
   bool has_begun() const { return has_begun_; }
+  // About the last result of changes(): the running leaves of which another number than their
+  // progress was compared, with their progress. Valid until the next call.
+  std::span<const LeafProgress> own_progress() const { return own_progress_; }
   // The rounds that are not what was kept. Valid until the next call.
   std::span<const RoundChange> rounds(const Moment& moment);
   // The next results of changes(), limits() and rounds() also have all that differs from the state
@@ -53,6 +56,8 @@ class RunDelta {
     bool is_group;
   };
   std::vector<Keeper> keepers_;
+  std::vector<bool> is_leaf_;
+  std::vector<LeafProgress> own_progress_;
   std::vector<NodeIndex> measured_;  // that succeeded() may have
   std::vector<NodeIndex> succeeded_;
   std::vector<LimitChange> kept_limits_;  // of each synchronized node, then of users of resources

@@ -75,6 +75,7 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
 }
 
 Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
+  const std::span<const NodeChange> nodes = delta_.changes(moment);
   TickEnd end{.limits = delta_.limits(moment),
               .rounds = delta_.rounds(moment),
               .succeeded = delta_.succeeded(moment),
@@ -83,9 +84,10 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
               .entries = entries_.changes(moment.entries),
               .logs = lines_.lines(),
               .is_full = is_full_};
+  if (end.moments.empty()) end.moments.progress = delta_.own_progress();
   if (is_whole_) end.whole = entries_.values();
   json_lines::set_tick_end(line_end_, end);
-  Packet packet{.nodes = delta_.changes(moment), .text = line_end_};
+  Packet packet{.nodes = nodes, .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
                 !end.succeeded.empty() || !end.moments.empty() || !end.faults.empty() ||
                 !end.entries.empty() || !end.logs.empty();

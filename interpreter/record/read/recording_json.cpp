@@ -326,7 +326,7 @@ RecordedEnd end_from(JsonObject object) {
 // Each moment says what differs from the one after it, so they are made from the last one back to
 // the first; the changes then lead forward.
 MomentsView RecordingJson::moments(const std::vector<RecordedState>& states) {
-  if (moments_.empty()) return {};
+  if (moments_.empty()) return {.progress = leaf_progress_};
   first_moment_.clear();
   for (const RecordedState& it : states) first_moment_.push_back(it.state());
   for (NodeTotals& it : totals_) it.after = first_moment_[it.node];
