@@ -142,6 +142,40 @@ TEST_CASE("a file that is included with `as` has its own barriers and pools") {
   }
 }
 
+TEST_CASE("scripts name the barriers and pools of a file as the file does") {
+  for (const Language& language : kLanguages) {
+    const Files files(language);
+    files.add("crew.xml",
+              "<barrier name=\"meet\" barriers=\"0.5\"/><resources name=\"yard\" "
+              "resources=\"dock\"/><resources name=\"port\" resources=\"dock\"/>" +
+                  files.tree("Crew",
+                             "<Parallel><SyncProgress barrier=\"meet\">" + files.wait() +
+                                 "</SyncProgress><SyncProgress barrier=\"meet\">" + files.wait() +
+                                 "</SyncProgress><UseResources pool=\"yard\" resources=\"dock\">" +
+                                 files.wait() +
+                                 "</UseResources><WaitUntil code=\"owner(dock) == none and "
+                                 "owner(yard/dock) == none and progress(meet) &gt;= 0\" "
+                                 "timeout=\"1\"/></Parallel>"));
+    const std::string main = " main_tree_to_execute=\"Main\"";
+    const std::string own = files.add(
+        "own.xml",
+        "<include path=\"crew.xml\" as=\"a\"/><include path=\"crew.xml\" as=\"b\"/>" +
+            files.tree("Main",
+                       "<Parallel><SubTree ID=\"a.Crew\"/><SubTree ID=\"b.Crew\"/></Parallel>"),
+        main);
+    const std::string given = files.add(
+        "given.xml",
+        "<include path=\"crew.xml\" as=\"a\"/><resources name=\"place\" resources=\"dock\"/>" +
+            files.tree("Main", "<SubTree ID=\"a.Crew\" yard=\"place\"/>"),
+        main);
+    for (const std::string& file : {files.path("crew.xml"), own, given}) {
+      const Outcome run = run_lockstep({"run", file, "--view", "none", "--clock", "virtual"});
+      INFO(file << run.err);
+      CHECK(run.code == 0);
+    }
+  }
+}
+
 TEST_CASE("a file without its own barrier means the project's, also with `as`") {
   for (const Language& language : kLanguages) {
     const Files files(language);
@@ -281,6 +315,10 @@ TEST_CASE("a project file names the folders of trees") {
     CHECK(contains(message_of("<trees folder=\"/\"/>"), "is not below the project file"));
     CHECK(contains(message_of("<trees/>"), "needs the attribute 'folder'"));
     CHECK(contains(message_of("<trees folder=\"shared\""), "lockstep.project.xml:"));
+    files.file("lockstep.project.xml", "<project lockstep=\"2\"/>");
+    CHECK(contains(run_lockstep({"check", main}).err, "unknown version '2'"));
+    files.file("lockstep.project.xml", "<project/>");
+    CHECK(contains(run_lockstep({"check", main}).err, "names no version"));
   }
 }
 

@@ -70,6 +70,15 @@ class ProjectFileReader {
           "wrong-root"_code, elements[0].place,
           fmt::format("the first element must be 'project', not '{}'", brief(elements[0].tag)));
     }
+    const Attribute* version = document->find_attribute(0, "lockstep");
+    if (version == nullptr || version->value != "1") {
+      const Place place = version == nullptr ? elements[0].place : version->place;
+      return report_.at("unknown-version"_code, place,
+                        version == nullptr
+                            ? std::string("the project file names no version")
+                            : fmt::format("unknown version '{}'", brief(version->value)),
+                        "this lockstep knows version 1: <project lockstep=\"1\">");
+    }
     for (const std::uint32_t child : children_in(elements, 0)) read(*document, child);
   }
 

@@ -51,7 +51,7 @@ class ReadingResolver {
   }
 
   Result<BoundReading> find(std::uint32_t inside, const Reading& reading) {
-    if (reading.what == Reading::What::Owner) return find_resource(reading.of);
+    if (reading.what == Reading::What::Owner) return find_resource(inside, reading.of);
     const auto key = std::tuple(inside, std::string_view(reading.of));
     auto known = nodes_.find(key);
     if (known == nodes_.end()) known = nodes_.emplace(key, find_node_in(inside, reading.of)).first;
@@ -65,33 +65,95 @@ class ReadingResolver {
       const std::size_t end = definition_.nodes[inside].end;
       const auto paths = std::span(paths_).subspan(inside, end - inside);
       if (const auto found = find_node(name, paths)) return inside + *found;
-      do {
-        inside = definition_.nodes[inside].parent;
-      } while (inside != 0 && definition_.nodes[inside].type->category != NodeCategory::SubTree);
+      for (const auto& [written, group] : groups_in(inside)) {
+        if (written == name) return group->node;
+      }
+      inside = around(inside);
     }
     return find_node(name, paths_);
   }
 
-  // "dock", or "yard/dock" where several pools have one.
-  Result<BoundReading> find_resource(std::string_view name) const {
-    std::vector<BoundReading> found;
-    std::vector<std::string> full;
-    std::vector<std::string_view> names;
+  using NamedGroups = std::vector<std::pair<std::string_view, const DefinitionGroup*>>;
+
+  // The SubTree around a node; 0: none.
+  std::uint32_t around(std::uint32_t node) const {
+    while (node != 0) {
+      node = definition_.nodes[node].parent;
+      if (definition_.nodes[node].type->category == NodeCategory::SubTree) break;
+    }
+    return node;
+  }
+
+  // The barriers and pools that the nodes of a SubTree use, as they name them: an include as north,
+  // or an attribute of the SubTree, gives them others.
+  NamedGroups groups_in(std::uint32_t tree) const {
+    NamedGroups groups;
     for (const DefinitionGroup& group : definition_.groups) {
-      if (!definition_.is_pool(group)) continue;
-      const std::string_view pool = definition_.nodes[group.node].name;
-      for (std::uint32_t i = 0; i < group.resources.size(); ++i) {
-        const std::string path = fmt::format("{}/{}", pool, group.resources[i]);
-        names.push_back(group.resources[i]);
-        if (group.resources[i] != name && path != name) continue;
-        found.push_back({.node = group.node, .what = Reading::What::Owner, .resource = i});
-        full.push_back(path);
+      for (const std::uint32_t member : group.members) {
+        if (around(member) == tree) groups.emplace_back(written_group(member), &group);
       }
     }
-    if (found.size() == 1) return found.front();
+    std::ranges::sort(groups);
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    return groups;
+  }
+
+  std::string_view written_group(std::uint32_t member) const {
+    const DefinitionNode& node = definition_.nodes[member];
+    const auto of_group = std::ranges::find_if(node.type->parameters,
+                                               [](const auto& it) { return !it.group.empty(); });
+    for (std::uint32_t i = node.written; i < definition_.written.size(); ++i) {
+      const WrittenAttribute& it = definition_.written[i];
+      if (it.name == of_group->name) return it.value;
+      if (it.is_last) break;
+    }
+    return {};
+  }
+
+  // "dock", or "yard/dock" where several pools have one. First of the pools that the tree of the
+  // script uses, then of those that the trees around it use, then of all.
+  Result<BoundReading> find_resource(std::uint32_t inside, std::string_view name) const {
+    for (; inside != 0; inside = around(inside)) {
+      const NamedGroups groups = groups_in(inside);
+      if (!resources_of(groups, name).empty()) return the_one(groups, name);
+    }
+    NamedGroups all;
+    for (const DefinitionGroup& group : definition_.groups) {
+      all.emplace_back(definition_.nodes[group.node].name, &group);
+    }
+    return the_one(all, name);
+  }
+
+  struct NamedResource {
+    std::string path;
+    BoundReading owner;
+  };
+
+  std::vector<NamedResource> resources_of(const NamedGroups& groups, std::string_view name) const {
+    std::vector<NamedResource> found;
+    for (const auto& [pool, group] : groups) {
+      for (std::uint32_t i = 0; i < group->resources.size(); ++i) {
+        std::string path = fmt::format("{}/{}", pool, group->resources[i]);
+        if (group->resources[i] != name && path != name) continue;
+        found.push_back(
+            {std::move(path), {.node = group->node, .what = Reading::What::Owner, .resource = i}});
+      }
+    }
+    return found;
+  }
+
+  Result<BoundReading> the_one(const NamedGroups& groups, std::string_view name) const {
+    const std::vector<NamedResource> found = resources_of(groups, name);
+    if (found.size() == 1) return found.front().owner;
     if (!found.empty()) {
+      std::vector<std::string> paths;
+      for (const NamedResource& it : found) paths.push_back(it.path);
       return problem(fmt::format("'{}' is a resource of {} pools", brief(name), found.size()),
-                     fmt::format("write which one is meant: {}", joined(full, " or ")));
+                     fmt::format("write which one is meant: {}", joined(paths, " or ")));
+    }
+    std::vector<std::string_view> names;
+    for (const auto& [pool, group] : groups) {
+      names.insert(names.end(), group->resources.begin(), group->resources.end());
     }
     if (names.empty()) {
       return problem(fmt::format("no resource '{}': no node of the tree uses a pool", brief(name)),
