@@ -191,7 +191,9 @@ struct Definition {
     }
     for (const DefinitionNode& node : nodes) {
       const NodeCategory category = node.type->category;  // a decorator's decides, too
-      if (category != NodeCategory::Condition && category != NodeCategory::Decorator) continue;
+      const bool waits = category == NodeCategory::Action && node.type->can_run;
+      if (category != NodeCategory::Condition && category != NodeCategory::Decorator && !waits)
+        continue;
       for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
         add(ports[node.first + i].script);
       }
