@@ -98,6 +98,22 @@ TEST_CASE("converted there and back, a tree runs as before") {
   CHECK(ticks(directory.file("back.xml", back.out)) == ticks(ours));
 }
 
+TEST_CASE("a script that reads a node by its default name reads the same node after convert") {
+  const TemporaryDirectory directory;
+  const std::string ours = directory.file("ours.xml", around("lockstep=\"1\"", R"(
+<Sequence memory="true" name="top">
+<Sequence><AlwaysSuccess/></Sequence>
+<Sequence memory="true"><AlwaysSuccess/></Sequence>
+<WaitUntil code="status(Sequence#2) == success" timeout="1"/>
+<Sequence memory="true"><AlwaysSuccess/></Sequence>
+</Sequence>)"));
+  const Outcome there = run_lockstep({"convert", "--to", "btcpp4", ours});
+  INFO(there.out << there.err);
+  CHECK(there.code == 0);
+  CHECK(contains(there.out, "<ReactiveSequence name=\"Sequence\">"));
+  CHECK(ticks(directory.file("theirs.xml", there.out)) == ticks(ours));
+}
+
 TEST_CASE("convert warns of what BehaviorTree.CPP does not replace") {
   const TemporaryDirectory directory;
   const std::string ours = directory.file(

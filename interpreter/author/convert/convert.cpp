@@ -21,6 +21,7 @@
 #include "dialect/btcpp/words.h"
 #include "language/document/scanner.h"
 #include "language/document/value_text.h"
+#include "language/expression/reading.h"
 #include "tree/check/node_check.h"
 
 namespace lockstep::host {
@@ -36,6 +37,24 @@ constexpr std::string_view kModels = "TreeNodesModel";
 // BehaviorTree.CPP 4.10 refuses elements that are deeper below BehaviorTree.
 constexpr std::size_t kMostLevels = 256;
 
+// Whether some value looks as a script that reads a node: status(arm).
+bool reads_nodes(const Document& document) {
+  const auto reads = [](const Attribute& it) {
+    return std::ranges::any_of(kReadings, [&](const ReadingRow& row) {
+      for (auto at = it.value.find(row.name); at != it.value.npos;
+           at = it.value.find(row.name, at + 1)) {
+        const auto behind = it.value.find_first_not_of(" \t\r\n", at + row.name.size());
+        if (behind != it.value.npos && it.value[behind] == '(') return true;
+      }
+      return false;
+    });
+  };
+  for (std::uint32_t element = 0; element < document.elements().size(); ++element) {
+    if (std::ranges::any_of(document.attributes(element), reads)) return true;
+  }
+  return false;
+}
+
 class Converter {
  public:
   Converter(const Document& document, const Conversion& conversion, const Reporter& report)
@@ -44,7 +63,8 @@ class Converter {
         report_(report),
         circumstances_(document, conversion),
         text_(document.source()->text()),
-        scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict) {}
+        scanner_(text_, to_ours() ? Grammar::Lenient : Grammar::Strict),
+        reads_nodes_(reads_nodes(document)) {}
 
   std::optional<std::string> convert() {
     bool before_end = true;
@@ -124,6 +144,7 @@ class Converter {
                            kMostLevels));
       }
       convert_node(element, token);
+      if (reads_nodes_) keep_default_name(element, token);
     } else if (open_.size() == 2) {
       convert_child_of_root(element);
     } else if (open_.size() == 1) {
@@ -134,6 +155,16 @@ class Converter {
 
   void insert(std::size_t at, const std::string& text) {
     if (!text.empty()) edits_.insert(at, text);
+  }
+
+  // A script may name a node by its type, or by its number among those of the type: Sequence#2.
+  void keep_default_name(std::uint32_t element, const XmlToken& token) {
+    const Attribute* id =
+        is_explicit_tag(token.name) ? document_.find_attribute(element, "ID") : nullptr;
+    const std::string_view type = id != nullptr ? id->value : token.name;
+    const bool is_named = document_.find_attribute(element, "name") != nullptr;
+    if (!is_named && open_.back().tag != token.name && open_.back().tag != type)
+      add_attribute(token, "name", type);
   }
 
   void rename(std::size_t at, std::string_view name) {
@@ -649,6 +680,7 @@ class Converter {
   const Circumstances circumstances_;
   std::string_view text_;
   Scanner scanner_;
+  const bool reads_nodes_;
   TextEdit edits_;
   std::vector<Open> open_;
   std::uint32_t next_ = 0;          // element
