@@ -245,6 +245,12 @@ class Features(Session):
         self.assertEqual([], self.client.diagnostics(self.path))
         found = self.client.at("textDocument/definition", self.path, *place)
         self.assertEqual([part.as_uri()], [it["uri"] for it in found])
+        # While it is broken, the file that includes it has a message.
+        whole = part.read_text().replace("Saved", "Unsaved")
+        self.client.change(part, whole.replace("</BehaviorTree>", ""))
+        self.assertNotEqual([], self.client.diagnostics(self.path))
+        self.client.change(part, whole)
+        self.assertEqual([], self.client.diagnostics(self.path))
         self.assertIn("Unsaved", self.complete(text.replace("Unsav|ed", "|")))
 
     def renamed(self, text, name):

@@ -52,9 +52,14 @@ void Workspace::mark_dirty(const OpenFile& changed) {
   for (auto& [uri, file] : files_) {
     if (file.identity == identity) file.is_dirty = true;
     if (file.analysis == nullptr) continue;
-    file.is_dirty |= std::ranges::any_of(file.analysis->texts, [&](const auto& source) {
-      return file_identity(source->path()) == identity;
-    });
+    // Where something is wrong, not all that it needs may have been found.
+    const bool has_errors =
+        std::ranges::any_of(file.analysis->diagnostics,
+                            [](const Diagnostic& it) { return it.severity == Severity::Error; });
+    file.is_dirty |=
+        has_errors || std::ranges::any_of(file.analysis->texts, [&](const auto& source) {
+          return file_identity(source->path()) == identity;
+        });
   }
 }
 
