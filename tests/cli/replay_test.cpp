@@ -89,6 +89,21 @@ TEST_CASE("without a terminal a replay prints one tick: that of --at, else the l
   }
 }
 
+TEST_CASE("one tick of a replay has the entries that were written before it") {
+  const TemporaryDirectory directory;
+  const std::string file = record_tree(
+      directory,
+      tree_text("<Sequence memory=\"true\"><Script code=\"x := 5\"/><Advance step=\"0.25\"/>"
+                "<Script code=\"x = 6\"/><Advance step=\"0.25\"/></Sequence>"),
+      "30");
+  const auto shown = [&](const std::string& tick) {
+    return call({"replay", file, "--at", tick}).out;
+  };
+  CHECK(contains(shown("0"), "\nx = 5  tick 0\n"));
+  CHECK(contains(shown("1"), "\nx = 5  tick 0\n"));
+  CHECK(contains(shown("5"), "\nx = 6  tick 3\n"));
+}
+
 TEST_CASE("a replay of what is cut, damaged or has gaps shows what is there") {
   const TemporaryDirectory directory;
   const std::string text = read_file(record_tree(directory));

@@ -126,7 +126,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const TimelineTick& moment,
 std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const TimelineTick& moment,
                         const DrawOptions& options) {
   DrawOptions tree = options;
-  tree.entries = 0;  // those of this tick follow
+  tree.entries = snapshot.entries.size();
   std::string text = draw(shape, snapshot, tree);
   for (const RecordedFault& fault : moment.faults) {
     TextLine line = new_line(options);
@@ -138,11 +138,6 @@ std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Time
     line.add(fmt::format("{}{}: {}", kWithin, shape.nodes[node].path, results));
     text += line.text() + "\n";
   });
-  for (const RecordedEntry& entry : moment.entries) {
-    TextLine line = new_line(options);
-    line.add(shape.entries[entry.entry].key + " = " + shown_value(entry));
-    text += line.text() + "\n";
-  }
   for (const LeafLine& log : moment.logs) text += log_line(log, options);
   return text;
 }
