@@ -66,7 +66,9 @@ class ModelMaker {
     find_levels();
     list_declared();
     for (std::size_t i = 0; i < models_.leaves.size(); ++i) {
-      models_.unstated_results += !states_result_[i] && models_.leaves[i].fact == kNoFact;
+      const LeafModel& model = models_.leaves[i];
+      models_.unstated_results += !states_result_[i] && model.fact == kNoFact;
+      models_.unstated_steps += !states_step_[i] && model.levels.size() > 1;
     }
     return std::move(models_);
   }
@@ -82,6 +84,7 @@ class ModelMaker {
     ways_.resize(tree_.leaves.size());
     said_.resize(tree_.leaves.size());
     states_result_.resize(tree_.leaves.size());
+    states_step_.resize(tree_.leaves.size());
     for (std::size_t i = 0; i < tree_.leaves.size(); ++i) {
       const NodeType& type = type_of(i);
       LeafModel& model = models_.leaves.emplace_back();
@@ -123,6 +126,7 @@ class ModelMaker {
     if (row.fact && forget("result")) model.results = {};
     if (!row.progress) return;
     if (forget("step")) {
+      states_step_[leaf] = false;
       model.least_step = 0;
       model.most_step = kNoEnd;
     }
@@ -202,6 +206,7 @@ class ModelMaker {
     if (row.ends) model.ends = *row.ends;
     if (row.progress) ways_[leaf] = {*row.progress, place};
     if (row.step) {
+      states_step_[leaf] = true;
       model.least_step = row.step->least;
       model.most_step = row.step->most.value_or(kNoEnd);
     }
@@ -467,8 +472,8 @@ class ModelMaker {
   const GivenOutputs& outputs_;
   std::vector<std::vector<Statement>> said_;  // of each leaf, by its plugin, what counts
   std::optional<Reporter> report_;
-  std::vector<Way> ways_;            // of each leaf
-  std::vector<bool> states_result_;  // of each leaf: the leaf model or its plugin
+  std::vector<Way> ways_;                          // of each leaf
+  std::vector<bool> states_result_, states_step_;  // of each leaf: the leaf model or its plugin
   std::set<std::uint32_t> told_;
   LeafModels models_;
 };

@@ -74,7 +74,8 @@ struct LeafModels {
   std::vector<bool> entries;  // by slot: those whose values matter
   // The types whose leaves do as their plugin says, each with the statements that count.
   std::vector<std::string> declared;
-  std::size_t unstated_results = 0;  // leaves: one of them may also return Skipped
+  // Leaves: one of them may also return Skipped, or lose progress while it is ticked.
+  std::size_t unstated_results = 0, unstated_steps = 0;
 };
 
 // The progress and entries that somebody looks at beside the tree itself, and the values that

@@ -592,6 +592,12 @@ class VerdictMaker {
                       "Skipped ({} {})",
                       count, count == 1 ? "leaf" : "leaves"));
     }
+    if (models_.unstated_steps > 0) {
+      assumed.push_back(
+          fmt::format("no action without step=\"…\" in the leaf model loses progress while it is "
+                      "ticked ({})",
+                      counted(models_.unstated_steps, "action")));
+    }
     for (const std::uint32_t it : parts) {
       assumed.push_back(
           fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));

@@ -152,6 +152,24 @@ for line in sys.stdin:
   CHECK(contains(said, "finding property/q"));
 }
 
+TEST_CASE("that progress does not fall is named as assumed, where it matters") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><BehaviorTree ID="T">
+<ParallelAbsolute barriers="0.5"><Action ID="A"/><Action ID="B"/></ParallelAbsolute></BehaviorTree></root>)");
+  const auto verified = [&](const std::string& step) {
+    const std::string leaves = directory.file(
+        "t.leaves.xml", "<leaves lockstep=\"1\"><leaf path=\"*/A\"" + step + "/></leaves>");
+    return run_lockstep(
+               {"verify", tree, "--mock", "--leaves", leaves, "--out", directory.path("out")})
+        .out;
+  };
+  const std::string assumed =
+      "no action without step=\"…\" in the leaf model loses progress while it is ticked (";
+  CHECK(contains(verified(""), assumed + "2 actions)"));
+  CHECK(contains(verified(" step=\"-1..1\""), assumed + "1 action)"));
+  CHECK(contains(verified(" progress=\"none\""), assumed + "1 action)"));
+}
+
 TEST_CASE("what a limit has stopped is not called verified") {
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/predictability.xml";
   for (const auto& limit :
