@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "cli/command_walk.h"
@@ -137,9 +138,10 @@ std::string wrapped(std::string_view text, std::size_t width) {
 }
 
 void only_in_help_all(CLI::App& command, std::span<const char* const> options) {
-  for (const char* name : options) {
-    CLI::Option* const option = command.get_option(name);
-    option->group(option->get_group() + std::string(kMore));
+  const std::set<std::string_view> names(options.begin(), options.end());
+  for (CLI::Option* const option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (names.contains(name)) option->group(option->get_group() + std::string(kMore));
   }
   command.option_defaults()->group("Options");
   command.set_help_all_flag("--help-all", "Print the help with all options and exit");

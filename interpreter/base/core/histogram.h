@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/core/clock.h"
+#include "base/core/zeroed_memory.h"
 
 namespace lockstep::host {
 
@@ -34,7 +35,7 @@ class Histogram {
   std::uint64_t largest_of(std::size_t bucket) const;
 
   unsigned bits_;
-  std::vector<std::uint64_t> buckets_;
+  std::vector<std::uint64_t, ZeroedMemory<std::uint64_t>> buckets_;
   std::uint64_t count_ = 0;
   Nanoseconds max_{0};
 };

@@ -28,12 +28,15 @@ Result<void> check_kind(const struct stat& status, FileKinds kinds) {
 Result<std::string> read_all(int file, const struct stat& status, std::size_t limit) {
   std::string text;
   constexpr std::size_t kChunk = 1u << 16u;
-  const auto size = static_cast<std::size_t>(status.st_size);
-  text.reserve(std::min(size, limit) + 2 * kChunk);
+  const auto size = std::min(static_cast<std::size_t>(status.st_size), limit);
+  const bool is_file = S_ISREG(status.st_mode);
+  text.reserve(size + (is_file ? 1 : 2 * kChunk));
   while (text.size() <= limit) {
     const auto before = text.size();
-    text.resize(before + kChunk);
-    const auto count = ::read(file, text.data() + before, kChunk);
+    // To ask for what is there is enough for a file, unless it grows meanwhile.
+    const std::size_t chunk = is_file && before <= size ? size - before + 1 : kChunk;
+    text.resize(before + chunk);
+    const auto count = ::read(file, text.data() + before, chunk);
     const int error = errno;
     text.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
     if (count == 0) break;
