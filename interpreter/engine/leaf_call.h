@@ -23,13 +23,14 @@ class LeafCall {
         around_(mark_.enter(*leaf.site, function)),
         in_line_(std::exchange(context.in_line_, nullptr)),
         in_leaf_(context.board_.lock.get()) {
-    if (context.watch_ != nullptr) begun_ = context.watch_->begin(mark_);
+    if (context.watch_ != nullptr) begun_ = context.watch_->begin(mark_, leaf.is_timed());
   }
   ~LeafCall() {
     mark_.leave(around_);
     if (context_.watch_ != nullptr) {
       const std::uint32_t place = context_.node(node_).params;
       context_.watch_->end(begun_, place, function_, mark_);
+      context_.timer_ = context_.watch_->timer();
     }
     context_.in_line_ = context_.state_.interrupted ? nullptr : in_line_;
   }
@@ -47,7 +48,9 @@ class LeafCall {
                ? marked<kFunction, true>(context, mark, leaf, function, is_usual)
                : marked<kFunction, false>(context, mark, leaf, function, is_usual);
   }
-  static bool can_be_in_line(const NodeContext& context) { return context.in_line_ != nullptr; }
+  static bool can_be_in_line(const NodeContext& context, const LeafSlot& leaf) {
+    return context.in_line_ != nullptr && !leaf.is_timed();
+  }
 
  private:
   friend class LeafLoop;
@@ -65,6 +68,8 @@ class LeafCall {
                          lockstep_status result);
   static double spoiled_progress(NodeContext& context, NodeIndex node, double reported);
   static void note_exception(NodeContext& context, const LeafSlot& leaf);
+  static void note_unusual(NodeContext& context, CallMark& mark, const LeafSlot& leaf,
+                           PluginFunction function);
 
   NodeContext& context_;
   CallMark& mark_;
@@ -93,7 +98,7 @@ inline Result LeafCall::marked(NodeContext& context, CallMark& mark, const LeafS
   }
   is_usual = context.is_usual_.is_set();
   if (!is_usual) [[unlikely]]
-    ForkGuard::check();
+    note_unusual(context, mark, leaf, kFunction);
   mark.leave_alone();
   if constexpr (kTimed) {
     context.timer_->note(place_of(context, leaf), kFunction, mark);

@@ -77,6 +77,11 @@ class LeafLoop {
       return true;
     return leaf.marks == LeafSlot::kStarts && activity == Activity::Running;
   }
+  // After a call that was not the usual one.
+  template <bool kTimed>
+  static bool goes_on(const NodeContext& context) {
+    return context.in_line_ != nullptr && (context.timer_ != nullptr) == kTimed;
+  }
   // One that has failed as a program is not held: its progress is 0.
   template <class While>
   [[gnu::always_inline]] static bool stays_held(Activity before, While& chosen) {
@@ -125,7 +130,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
     } else if (*activity != Activity::Running) {
       if (stays_held(*activity, chosen)) continue;
       break;
-    } else if (!chosen.next() || leaf->is_faulty()) {
+    } else if (!chosen.next() || leaf->is_unusual()) {
       break;
     }
     bool is_usual = true;
@@ -136,7 +141,7 @@ LeafLoop::Stop LeafLoop::tick_row(NodeContext& context, NodeIndex child, NodeInd
       context.is_usual_.set();
       const Status status = LeafCall::complete(context, here(), *leaf, result);
       if (status != kGoesOn) return {here(), status};
-      if (context.in_line_ != nullptr) continue;
+      if (goes_on<kTimed>(context)) continue;
       pass();
       break;
     }
@@ -163,7 +168,7 @@ NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex en
     return leaf != last;
   };
   do {
-    if (status_of(*activity) != Status::Running || leaf->is_faulty()) break;
+    if (status_of(*activity) != Status::Running || leaf->is_unusual()) break;
     double reported = 0.0;
     bool is_usual = true;
     if (leaf->kept_progress != nullptr) {
@@ -181,7 +186,7 @@ NodeIndex LeafLoop::read_row(NodeContext& context, NodeIndex child, NodeIndex en
     }
     *progress = reported;
     lowest = std::min(lowest, std::bit_cast<std::uint64_t>(reported));
-    if (is_usual || context.in_line_ != nullptr) [[likely]]
+    if (is_usual || goes_on<kTimed>(context)) [[likely]]
       continue;
     pass();
     break;

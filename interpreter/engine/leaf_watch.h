@@ -1,12 +1,15 @@
 // Watches the calls of the leaves of one run: times them, and restores the rounding mode if a leaf
 // changes it. A call begins, for the watch, where the one before it in the same tick ended: that is
 // one reading of the time for each call, and the engine's own work between two calls counts for the
-// second. One thread at a time.
+// second. With a TickAlarm, only some ticks are timed so: the first ones, samples of the others,
+// and each tick from the call on in which the alarm rang. In a tick that took no longer than the
+// budget, no call did. One thread at a time.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +18,8 @@
 #include "base/system/call_mark.h"
 #include "base/system/cycle_clock.h"
 #include "base/system/float_mode.h"
+#include "base/system/tick_alarm.h"
+#include "engine/leaf_slot.h"
 #include "engine/node_kind.h"
 
 namespace lockstep::host {
@@ -25,7 +30,8 @@ struct LeafWatchOptions {
   // A longer call is reported to on_slow, at most once a second for all leaves. None: calls are not
   // timed.
   std::optional<Nanoseconds> budget;
-  Clock* clock = nullptr;  // that times the calls; null: a CycleClock
+  Clock* clock = nullptr;      // that times the calls; null: a CycleClock
+  TickAlarm* alarm = nullptr;  // tells of ticks that last; null: each call is timed
   // The floating-point mode is looked at after each call. Else it is once a tick, and after each
   // call while somebody who changes it is looked for.
   bool looks_after_each_call = false;
@@ -48,16 +54,26 @@ class LeafWatch {
 
   // --- for the Ticker ----------------------------------------------------------------------------
 
-  // The mode of floating-point that leaves must keep is the one of now. Always the same tree.
-  void begin_run(const Tree& tree);
+  // The mode of floating-point that leaves must keep is the one of now. Always the same tree. The
+  // byte is cleared when the alarm rings.
+  void begin_run(const Tree& tree, std::span<LeafSlot> leaves, ForkGuard::Byte* byte);
+  void end_run();
+  // Who watches may ask for progress before the tick: that is a part of it.
+  void expect_tick() {
+    if (options_.alarm != nullptr) open_tick();
+  }
   void begin_tick();
   void end_tick();
   // The first call in line of a tick begins now, and not where the last call ended.
   void begin_calls() {
-    if (is_timed()) last_end_ = read();
+    if (!is_timed()) return;
+    if (!times_each_) time_each_if_rung();
+    if (times_each_) last_end_ = read();
   }
 
   bool is_timed() const { return options_.budget.has_value(); }
+  // This, while each call is timed.
+  LeafWatch* timer() { return is_timed() && times_each_ ? this : nullptr; }
   // Calls go through `begin` and `end`; else a leaf that is called in its parent's loop needs
   // `note` only, when calls are timed.
   bool looks_after_each_call() const { return looks_left_ != 0; }
@@ -70,16 +86,21 @@ class LeafWatch {
       return note_unusual(place, function, took, std::exchange(mark.carried, Nanoseconds(0)));
     }
     if (function == PluginFunction::Tick) {
-      ticks_->record_in_range(place, static_cast<std::uint64_t>(took));
+      ticks_->record_in_range(place, static_cast<std::uint64_t>(took), times_);
     }
   }
+  // The same at the end of a call that was not timed: it is now, if the alarm rang in it, and so
+  // are all others of this tick.
+  void note_if_rung(std::uint32_t place, PluginFunction function, CallMark& mark);
 
   // Around any call, which may be within another one.
   struct Begun {
     std::int64_t start = 0, inner = 0;  // `inner`: calls within the one around this one, so far
     Nanoseconds carried{0};             // of the call around this one
+    bool is_timed = false;
   };
-  Begun begin(CallMark& mark);
+  // `is_timed`: this one is, whatever others are.
+  Begun begin(CallMark& mark, bool is_timed);
   void end(const Begun& begun, std::uint32_t place, PluginFunction function, CallMark& mark);
 
   // --- for the owner of the run ------------------------------------------------------------------
@@ -95,7 +116,8 @@ class LeafWatch {
   // The statistics of a leaf that exceeded its budget at least once, in all runs of this watch.
   struct Timing {
     NodeIndex leaf = 0;
-    std::uint64_t ticks = 0;        // calls of tick
+    bool is_sampled = false;  // until it exceeded the budget; what it ticked is estimated then
+    std::uint64_t ticks = 0;  // calls of tick
     std::uint64_t over_budget = 0;  // calls of any function that took longer
     Nanoseconds p50{0}, p99{0};     // of tick, at most a sixteenth too large
     Nanoseconds max{0};             // of any function, exact
@@ -107,7 +129,11 @@ class LeafWatch {
   struct OverBudget {
     std::uint64_t calls = 0;
     std::int64_t max = 0;
+    bool is_sampled = false;
   };
+  // The first ticks are all timed, then one of so many is, at random.
+  static constexpr std::uint64_t kFirstTicks = 64;
+  static constexpr std::uint32_t kSampled = 64;
 
   // Times are counts of the processor's counter, or of the clock that was given: ns.
   std::int64_t read() const {
@@ -116,7 +142,19 @@ class LeafWatch {
   Nanoseconds time_of(std::int64_t count) const {
     return options_.clock == nullptr ? cycles_.time_of(count) : Nanoseconds(count);
   }
+  std::int64_t count_of(Nanoseconds time) const {
+    return options_.clock == nullptr ? cycles_.count_of(time) : time.count();
+  }
   NodeIndex leaf_at(std::uint32_t place) const;
+  void open_tick();
+  void close_tick();
+  void choose_what_is_timed();
+  bool is_rung() const { return options_.alarm->rang().has_value(); }
+  void time_each_if_rung() {
+    if (is_rung()) time_each();
+  }
+  void time_each();
+  void note_rung(std::uint32_t place, PluginFunction function, std::int64_t inner, CallMark& mark);
   void note_unusual(std::uint32_t place, PluginFunction function, std::int64_t took,
                     Nanoseconds carried);
   void note_over_budget(std::uint32_t place, PluginFunction function, std::int64_t took);
@@ -136,6 +174,20 @@ class LeafWatch {
   Slowest slowest_;                   // without its time
   std::optional<std::int64_t> told_;  // when on_slow was
   std::vector<OverBudget> over_;      // of each leaf; when calls are timed
+  std::span<LeafSlot> leaves_;
+
+  bool times_each_ = true;          // calls, at this moment
+  std::uint32_t times_ = 1;         // for how many ticks of a leaf one counts that is timed now
+  bool is_open_ = false;            // a tick has begun, or is about to
+  bool is_timed_whole_ = true;      // this tick, from its first call on
+  bool is_explained_ = false;       // that it took long: by a call over the budget
+  Nanoseconds opened_at_{0};        // on the clock of the alarm
+  std::int64_t opened_ = 0;         // the same, as a count
+  std::uint64_t first_serial_ = 0;  // of the mark, before the first call
+  std::uint64_t opened_ticks_ = 0, random_ = 0x9E3779B97F4A7C15;
+  std::uint32_t searches_left_ = 0;  // ticks that are timed to find who takes long
+  std::uint32_t next_searches_ = kSampled;
+
   FloatMode mode_;
   std::uint32_t looks_left_ = 0;  // ticks with a look after each call, with this one
   std::uint32_t next_looks_ = 1;  // as many, when a tick without has found a change

@@ -58,12 +58,13 @@ NodeContext::NodeContext(const Tree& tree, std::span<LeafSlot> leaves, Blackboar
       readings_(beside_->readings),
       policy_(policy),
       watch_(watch),
-      timer_(watch != nullptr && watch->is_timed() ? watch : nullptr),
       notes_halts_(tree.has_halt_hooks) {
-  if (watch_ != nullptr) watch_->begin_run(tree);
+  if (watch_ != nullptr) watch_->begin_run(tree, leaves_, &is_usual_);
 }
 
-NodeContext::~NodeContext() = default;
+NodeContext::~NodeContext() {
+  if (watch_ != nullptr) watch_->end_run();
+}
 
 void NodeContext::share_progress() {
   if (shares_progress_) return;

@@ -212,7 +212,7 @@ class NodeContext : public RunView {
   Readings& readings_;
   const FaultPolicy policy_;
   LeafWatch* const watch_;
-  LeafWatch* const timer_;  // the same if it times calls, else null
+  LeafWatch* timer_ = nullptr;  // the same while it times each call, else null
   // The mark of the ticking thread, while a leaf is called with nothing around it but this mark and
   // `timer_`; else null.
   CallMark* in_line_ = nullptr;

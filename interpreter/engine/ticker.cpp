@@ -83,7 +83,9 @@ void Ticker::begin_calls() {
   const bool gives_back = board_.lock != nullptr;  // around each call
   in_line_ =
       state_.interrupted || is_careful || gives_back || !is_usual_.is_guarded() ? nullptr : &mark;
-  if (watch_ != nullptr) watch_->begin_calls();
+  if (watch_ == nullptr) return;
+  watch_->begin_calls();
+  timer_ = watch_->timer();
 }
 
 Status Ticker::end_calls(Status result) {
@@ -122,7 +124,7 @@ void Ticker::reset() {
   parameters_.reset();
   scripts_.reset();
   held_leaves_.reset();
-  if (watch_ != nullptr) watch_->begin_run(tree_);
+  if (watch_ != nullptr) watch_->begin_run(tree_, leaves_, &is_usual_);
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;
 }
 

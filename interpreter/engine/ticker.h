@@ -26,6 +26,7 @@ class Ticker : public NodeContext {
   void set_now(Nanoseconds now) {
     state_.now = now;
     shares_progress_ = false;
+    if (watch_ != nullptr) watch_->expect_tick();
   }
 
   // Ticks the root once, at that time. The result is Running while the tree runs, and after a

@@ -1,5 +1,7 @@
 #include "run/watchdog.h"
 
+#include <sys/prctl.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <semaphore>
@@ -32,6 +34,10 @@ struct Watchdog::Implementation {
       : options(std::move(given)), mark(watched), time(interval_of(options), monotonic_now()) {}
 
   void look();
+  Nanoseconds next_look(Nanoseconds now) {
+    const Nanoseconds next = now + time.interval();
+    return options.alarm == nullptr ? next : std::min(next, options.alarm->look(now));
+  }
 
   const WatchdogOptions options;
   const CallMark& mark;
@@ -125,11 +131,13 @@ void Watchdog::Patrol::work() {
   // To begin takes a lock of the dynamic linker, which a plugin that hangs while it is loaded
   // keeps.
   ready_.release();
+  prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);  // an alarm is to ring in time
   Lock lock(mutex_);
   while (!watched_.empty()) {
-    Nanoseconds interval = Nanoseconds::max();
-    for (const Implementation* it : watched_) interval = std::min(interval, it->time.interval());
-    lock.wait_for(changed_, interval);
+    const Nanoseconds now = monotonic_now();
+    Nanoseconds next = Nanoseconds::max();
+    for (Implementation* it : watched_) next = std::min(next, it->next_look(now));
+    lock.wait_for(changed_, next - now);
     for (Implementation* it : watched_) it->look();
   }
 }

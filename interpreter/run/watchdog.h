@@ -1,6 +1,6 @@
 // One thread that watches the calls of all other threads and reports a call that does not return.
-// It costs those threads nothing. It also handles the stop signals, so a leaf that blocks them in
-// the tick thread cannot prevent a stop.
+// It costs those threads nothing. It looks at a TickAlarm too. It also handles the stop signals, so
+// a leaf that blocks them in the tick thread cannot prevent a stop.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,7 @@
 
 #include "base/core/clock.h"
 #include "base/system/call_mark.h"
+#include "base/system/tick_alarm.h"
 
 namespace lockstep::host {
 
@@ -18,6 +19,7 @@ struct WatchdogOptions {
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_long_halt = {};
   std::function<void(const CallMark::Look& call, Nanoseconds lasts)> on_hang =
       {};                       // may not return
+  TickAlarm* alarm = nullptr;   // must outlive the watchdog; null: none
   bool handles_signals = true;  // in the watching thread; false: they are another program's
 };
 

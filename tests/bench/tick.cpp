@@ -327,16 +327,22 @@ void changing(benchmark::internal::Benchmark* benchmark) {
 OBSERVED(parallel, "Parallel", "");
 OBSERVED(synchronized, "ParallelRelative", "delta='1'");
 
-void watched(benchmark::State& state, bool timed, const char* control, const char* attributes,
+// Timed: each call, or by default as `lockstep run` does it on the wall clock.
+enum class Timed : std::uint8_t { No, Each, Default };
+
+void watched(benchmark::State& state, Timed timed, const char* control, const char* attributes,
              const char* leaf) {
+  TickAlarm alarm(std::chrono::milliseconds(100), std::chrono::seconds(1));
   LeafWatchOptions options;
-  if (timed) options.budget = std::chrono::seconds(1);
+  if (timed != Timed::No) options.budget = std::chrono::seconds(1);
+  if (timed == Timed::Default) options.alarm = &alarm;
   LeafWatch watch(options);
   tick_all(state, BenchTree(control, attributes, leaf, kLeaves), &watch);
 }
-#define WATCHED(name, ...)                                       \
-  BENCHMARK_CAPTURE(watched, name##_marked, false, __VA_ARGS__); \
-  BENCHMARK_CAPTURE(watched, name##_timed, true, __VA_ARGS__)
+#define WATCHED(name, ...)                                                 \
+  BENCHMARK_CAPTURE(watched, name##_marked, Timed::No, __VA_ARGS__);       \
+  BENCHMARK_CAPTURE(watched, name##_default, Timed::Default, __VA_ARGS__); \
+  BENCHMARK_CAPTURE(watched, name##_timed, Timed::Each, __VA_ARGS__)
 WATCHED(sequence, "Sequence", "", "BenchSuccess");
 WATCHED(parallel, "Parallel", "", "BenchRunning");
 WATCHED(absolute, "ParallelAbsolute", "barriers='0.75'", "BenchRunning");

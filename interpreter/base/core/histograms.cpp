@@ -1,16 +1,10 @@
 #include "base/core/histograms.h"
 
 #include <cmath>
-#include <new>
 
 namespace lockstep::host {
 
-Histograms::Histograms(std::size_t many)
-    : many_(many),
-      counts_(static_cast<std::uint32_t*>(
-          std::calloc(std::max<std::size_t>(many, 1) * kRows * kInRow, sizeof(std::uint32_t)))) {
-  if (counts_ == nullptr) throw std::bad_alloc();
-}
+Histograms::Histograms(std::size_t many) : many_(many), counts_(many * kRows * kInRow) {}
 
 std::uint64_t Histograms::count(std::size_t which) const {
   std::uint64_t all = 0;
@@ -36,12 +30,12 @@ std::uint64_t Histograms::quantile(std::size_t which, double fraction) const {
 }
 
 // A bucket has overflown: all of them go on from half of what they had, in the same proportions.
-void Histograms::halve(std::size_t which, std::uint32_t& full) {
-  --full;
+void Histograms::halve(std::size_t which, std::uint32_t& full, std::uint32_t times) {
+  full -= times;
   for (unsigned row = 0; row < kRows; ++row) {
     for (unsigned i = 0; i < kInRow; ++i) of(which, row)[i] /= 2;
   }
-  ++full;
+  full += times;
 }
 
 }  // namespace lockstep::host

@@ -6,9 +6,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
-#include <memory>
+#include <vector>
+
+#include "base/core/zeroed_memory.h"
 
 namespace lockstep::host {
 
@@ -19,14 +20,14 @@ class Histograms {
   static constexpr std::uint64_t kLargest = (std::uint64_t{1} << 40) - 1;
 
   // Allocates nothing. What is larger than kLargest counts as that.
-  void record(std::size_t which, std::uint64_t value) {
-    record_in_range(which, std::min(value, kLargest));
+  void record(std::size_t which, std::uint64_t value, std::uint32_t times = 1) {
+    record_in_range(which, std::min(value, kLargest), times);
   }
   // The same of what is not larger.
-  void record_in_range(std::size_t which, std::uint64_t value) {
+  void record_in_range(std::size_t which, std::uint64_t value, std::uint32_t times) {
     std::uint32_t& count = at(which, value);
-    if (++count == 0) [[unlikely]]
-      halve(which, count);
+    if (__builtin_add_overflow(count, times, &count)) [[unlikely]]
+      halve(which, count, times);
   }
 
   // How many values were recorded. From 2^32 in one bucket on it is rounded.
@@ -47,16 +48,16 @@ class Histograms {
     const std::uint64_t leading = value >> shift;  // with the highest bit from the second row on
     return of(which, shift + (leading >> kBits))[leading & (kInRow - 1)];
   }
-  std::uint32_t* of(std::size_t which, std::size_t row) const {
+  std::uint32_t* of(std::size_t which, std::size_t row) {
     return &counts_[(row * many_ + which) * kInRow];
   }
-  void halve(std::size_t which, std::uint32_t& full);
+  const std::uint32_t* of(std::size_t which, std::size_t row) const {
+    return &counts_[(row * many_ + which) * kInRow];
+  }
+  void halve(std::size_t which, std::uint32_t& full, std::uint32_t times);
 
-  struct Free {
-    void operator()(std::uint32_t* counts) const { std::free(counts); }
-  };
   std::size_t many_;
-  std::unique_ptr<std::uint32_t[], Free> counts_;  // of calloc, which does not touch it
+  std::vector<std::uint32_t, ZeroedMemory<std::uint32_t>> counts_;
 };
 
 }  // namespace lockstep::host

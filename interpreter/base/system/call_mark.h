@@ -148,6 +148,7 @@ class CallMark {
   RunOfStudy run() const { return {cell_.load(), run_number_.load(), seed_.load()}; }
 
   Look look() const;
+  std::uint64_t serial() const { return serial_.load(std::memory_order_relaxed); }
   std::uint64_t tick() const { return tick_.load(std::memory_order_relaxed); }
   static constexpr std::uint64_t kNoTick = ~std::uint64_t{0};  // before the first
 

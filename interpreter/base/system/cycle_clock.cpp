@@ -32,14 +32,17 @@ CycleClock::CycleClock() : system_(monotonic_now()), counter_(counter()) {
   adjust();
 }
 
-void CycleClock::adjust() {
-  if (scale_ == 0) return;
-  const Nanoseconds passed = monotonic_now() - system_;
-  const std::uint64_t counted = counter() - counter_;
-  if (counted == 0 || (scale_ != 1 && passed < kLeastComparison)) return;
+CycleClock::Reading CycleClock::adjust() {
+  const Nanoseconds now = monotonic_now();
+  if (scale_ == 0) return {now, now.count()};
+  const Nanoseconds passed = now - system_;
+  const std::uint64_t count = counter(), counted = count - counter_;
+  const Reading reading{now, static_cast<std::int64_t>(count)};
+  if (counted == 0 || (scale_ != 1 && passed < kLeastComparison)) return reading;
   scale_ = static_cast<std::uint64_t>(static_cast<double>(passed.count()) /
                                       static_cast<double>(counted) *
                                       static_cast<double>(std::uint64_t{1} << kShift));
+  return reading;
 }
 
 }  // namespace lockstep::host

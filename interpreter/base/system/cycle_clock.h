@@ -35,7 +35,12 @@ class CycleClock {
     return static_cast<std::int64_t>((static_cast<Wide>(time.count()) << kShift) / scale_);
   }
   // Compares the two again over all the time since the clock was made: the longer, the more exact.
-  void adjust();
+  // Returns the time on the system's clock, at which the count was that.
+  struct Reading {
+    Nanoseconds time;
+    std::int64_t count;
+  };
+  Reading adjust();
 
  private:
   static std::uint64_t counter() {

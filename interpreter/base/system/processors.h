@@ -21,6 +21,7 @@ class Processors {
   // As `parse` reads it; "" if there is none.
   std::string text() const;
   bool has(int processor) const { return CPU_ISSET(processor, &set_) != 0; }
+  int count() const { return CPU_COUNT(&set_); }
 
   // Why the calling thread may not run on one of them; nothing: it may.
   std::optional<Problem> refusal() const;

@@ -17,6 +17,8 @@ namespace lockstep::host {
 namespace {
 
 constexpr lockstep_log_level kNoLogs = LOCKSTEP_LOG_WARNING + 1;
+// A budget that is exceeded before a thread may have looked is none of a TickAlarm.
+constexpr Nanoseconds kLeastAlarmed = std::chrono::milliseconds(1);
 
 // Of the options that follow.
 void begin_group(CLI::App& app, const char* title) {
@@ -107,9 +109,13 @@ void define_time_options(CLI::App& app, RunCommandOptions& options) {
                    "tree again at once, or in the next period");
   app.add_option("--tick-budget", options.tick_budget_ms,
                  "Report a leaf that takes longer than MS milliseconds; 0 = do not time leaves "
-                 "(default: the period)")
+                 "(default: the period, at least 1)")
       ->type_name("MS")
       ->check(number_between(0.0, 1e9));
+  app.add_flag(
+      "--time-calls", options.times_calls,
+      "Time each call of a leaf, not only those of some ticks: exact times in the summary, "
+      "for a longer tick");
   app.add_flag("--realtime", options.realtime.realtime,
                "Tick with real-time priority (SCHED_FIFO), memory locked and timer slack 1 ns; "
                "needs privileges");
@@ -274,6 +280,7 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--overrun",
                                       "--tick",
                                       "--tick-budget",
+                                      "--time-calls",
                                       "--realtime",
                                       "--priority",
                                       "--cpu",
@@ -299,9 +306,16 @@ constexpr const char* kOfExperts[] = {"--ros-package",
 
 std::optional<Nanoseconds> RunCommandOptions::tick_budget() const {
   if (!is_real()) return std::nullopt;
-  if (!tick_budget_ms) return deadline_of(1, rate);
+  if (!tick_budget_ms) return std::max(deadline_of(1, rate), kLeastAlarmed);
   if (*tick_budget_ms == 0) return std::nullopt;
   return from_seconds(*tick_budget_ms / 1e3);
+}
+
+// The thread that looks at ticks needs a processor at the right time.
+bool RunCommandOptions::times_each_call() const {
+  const auto budget = tick_budget();
+  return budget && (times_calls || *budget < kLeastAlarmed || realtime.realtime ||
+                    Processors::allowed().count() < 2);
 }
 
 std::optional<Nanoseconds> RunCommandOptions::end_limit() const {

@@ -30,7 +30,8 @@ struct RunCommandOptions {
 
   OverrunPolicy overrun = OverrunPolicy::Skip;
   bool exactly_once = false;  // a tick of the tree in each period, also when a node asks for more
-  std::optional<double> tick_budget_ms;  // none: the period; 0: no budget
+  std::optional<double> tick_budget_ms;  // none: the period, at least 1 ms; 0: no budget
+  bool times_calls = false;              // each of them
   RealtimeOptions realtime;
   std::optional<Processors> helper_processors;  // of lockstep's other threads
   double spin_us = 0;                           // before each tick, without sleep
@@ -63,6 +64,8 @@ struct RunCommandOptions {
   bool has_plugin_clock() const { return is_real() && clock != "wall"; }
   // None on the virtual clock and with --tick-budget 0.
   std::optional<Nanoseconds> tick_budget() const;
+  // Each call is timed, and not only those of some ticks.
+  bool times_each_call() const;
   // The limit of all that waits after the last halt; nothing: none.
   std::optional<Nanoseconds> end_limit() const;
   LoopOptions loop() const;

@@ -43,8 +43,14 @@ RunWatch::RunWatch(const Shape& shape, const RunCommandOptions& options,
 }
 
 LeafWatchOptions RunWatch::leaf_watch_options() {
-  LeafWatchOptions watch{.budget = options_.tick_budget(),
+  const auto budget = options_.tick_budget();
+  constexpr int kShare = 10;  // of the budget: how exactly a call is timed that lasts
+  if (budget && !options_.times_each_call()) {
+    alarm_.emplace(*budget / kShare, deadline_of(1, options_.rate));
+  }
+  LeafWatchOptions watch{.budget = budget,
                          .clock = nullptr,
+                         .alarm = alarm_ ? &*alarm_ : nullptr,
                          .looks_after_each_call = false,
                          .on_slow = {},
                          .on_carried = {},
@@ -72,7 +78,8 @@ LeafWatchOptions RunWatch::leaf_watch_options() {
 WatchdogOptions RunWatch::watchdog_options() {
   // Hangs are watched since plugins were loaded.
   WatchdogOptions watchdog{.hang_limit = Nanoseconds(0),
-                           .halt_limit = from_seconds(options_.load.plugins.halt_limit)};
+                           .halt_limit = from_seconds(options_.load.plugins.halt_limit),
+                           .alarm = alarm_ ? &*alarm_ : nullptr};
   watchdog.on_long_halt = [this](const CallMark::Look& call, Nanoseconds lasts) {
     print_(fmt::format("the {} {} has not returned from halt for {:.1f} s", call.site->origin->kind,
                        call.site->text(), to_seconds(lasts)));
@@ -119,6 +126,7 @@ void RunWatch::add_to(Summary& summary) const {
   if (const auto budget = options_.tick_budget()) summary.tick_budget = to_seconds(*budget);
   for (const LeafWatch::Timing& timing : leaves_.over_budget()) {
     summary.over_budget.push_back({.path = shape_.nodes[timing.leaf].path,
+                                   .is_sampled = timing.is_sampled,
                                    .calls = timing.ticks,
                                    .over_budget = timing.over_budget,
                                    .p50 = to_seconds(timing.p50),

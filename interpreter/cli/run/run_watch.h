@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "cli/run/run_options.h"
@@ -35,6 +36,7 @@ class RunWatch final : public Observer {
   const Shape& shape_;
   const RunCommandOptions& options_;
   std::function<void(const std::string& line)> print_;
+  std::optional<TickAlarm> alarm_;  // none: each call is timed, or none is
   LeafWatch leaves_;
   Watchdog watchdog_;
   sigset_t signal_mask_;                        // of the tick thread, as it was

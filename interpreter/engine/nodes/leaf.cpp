@@ -105,7 +105,7 @@ Status out(NodeContext& context, NodeIndex self) {
   if (is_unreset) {
     leaf.mark(LeafSlot::kUnreset, false);
     call<PluginFunction::StartUnreset>(context, self, leaf.type->start_unreset);
-  } else if (LeafCall::can_be_in_line(context) && context.end_of(self) == self + 1) {
+  } else if (LeafCall::can_be_in_line(context, leaf) && context.end_of(self) == self + 1) {
     LeafCall::in_line<PluginFunction::Start>(context, leaf, leaf.type->start);
     if (leaf.error != nullptr) take_error(context, self, leaf);
   } else {
@@ -185,7 +185,7 @@ Status tick_leaf(NodeContext& context, NodeIndex self) {
     const Reach reach(leaf, ChildAccess::Tick);
     result = call_tick(context, self);
     is_out_now = is_out(context, leaf);
-  } else if (LeafCall::can_be_in_line(context)) {
+  } else if (LeafCall::can_be_in_line(context, leaf)) {
     result = LeafCall::in_line<PluginFunction::Tick>(context, leaf, leaf.type->tick);
   } else {
     result = call_tick(context, self);
@@ -288,6 +288,16 @@ double LeafCall::spoiled_progress(NodeContext& context, NodeIndex node, double r
 
 [[gnu::cold]] void LeafCall::note_exception(NodeContext& context, const LeafSlot& leaf) {
   context.set_fault(context.tree().leaves[place_of(context, leaf)].node, describe_exception());
+}
+
+// The process may be a forked child; or the tick lasts, and from now on its calls are timed.
+[[gnu::cold]] void LeafCall::note_unusual(NodeContext& context, CallMark& mark,
+                                          const LeafSlot& leaf, PluginFunction function) {
+  ForkGuard::check();
+  LeafWatch* const watch = context.watch_;
+  if (watch == nullptr || context.timer_ != nullptr) return;
+  watch->note_if_rung(place_of(context, leaf), function, mark);
+  context.timer_ = watch->timer();
 }
 
 std::optional<double> look_at_progress(NodeContext& context, NodeIndex node) {

@@ -87,11 +87,12 @@ std::string worst_tick(const Summary& summary) {
 void write_over_budget(const Summary& summary, std::string& out, bool color) {
   for (const LeafTimingSummary& leaf : summary.over_budget) {
     out += fmt::format(
-        "  {} of {:.6g} ms: {} in {}, max {:.3f} ms; {}: p50 {:.3f} ms, p99 {:.3f} ms\n",
+        "  {} of {:.6g} ms: {} in {}, max {:.3f} ms; {}{}: p50 {:.3f} ms, p99 {:.3f} ms\n",
         styled("over the tick budget", Style::Warning, color),
         summary.tick_budget.value_or(0) * 1e3, printable(leaf.path),
-        counted(leaf.over_budget, "call"), leaf.max * 1e3, counted(leaf.calls, "tick"),
-        leaf.p50 * 1e3, leaf.p99 * 1e3);
+        counted(leaf.over_budget, "call"), leaf.max * 1e3,
+        leaf.is_sampled ? "sampled from about " : "", counted(leaf.calls, "tick"), leaf.p50 * 1e3,
+        leaf.p99 * 1e3);
   }
 }
 

@@ -73,6 +73,7 @@ struct LatenessSummary {
 // The ticks of a leaf that was over the budget.
 struct LeafTimingSummary {
   std::string path;
+  bool is_sampled = false;  // not each call was timed: `calls`, p50 and p99 are estimated
   std::uint64_t calls = 0, over_budget = 0;  // ticks of the leaf, and those that were over it
   double p50 = 0, p99 = 0, max = 0;          // seconds
 };

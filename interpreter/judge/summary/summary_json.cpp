@@ -64,6 +64,7 @@ Json json_of(const std::vector<LeafTimingSummary>& leaves) {
                     {"p50_s", leaf.p50},
                     {"p99_s", leaf.p99},
                     {"max_s", leaf.max}});
+    if (leaf.is_sampled) list.back()["sampled"] = true;
   }
   return list;
 }

@@ -418,5 +418,124 @@ TEST_CASE("who changes the mode now and then is found, for the search takes long
   CHECK(std::fegetround() == FE_TONEAREST);
 }
 
+// --- where only some ticks are timed -------------------------------------------------------------
+
+// Ticks that are not timed, with a budget of 10 ms. The alarm rings when somebody looks at it.
+struct Alarmed {
+  Alarmed()
+      : it([this] {
+          LeafWatchOptions options{.budget = 10ms, .alarm = &alarm};
+          options.on_slow = [this](NodeIndex leaf, PluginFunction function, Nanoseconds took) {
+            slow.push_back(std::to_string(leaf) + " " + name_of(function) + " " +
+                           std::to_string(took / 1us));
+          };
+          return options;
+        }()) {
+    it.tick(kTimed);
+  }
+  ~Alarmed() { on_probe_call = nullptr; }
+  Alarmed(const Alarmed&) = delete;
+  Alarmed& operator=(const Alarmed&) = delete;
+
+  // In each tick the two leaves take this long; the alarm looks when so much of that is over.
+  void tick(Nanoseconds first, Nanoseconds second, std::optional<Nanoseconds> look = {}) {
+    const Nanoseconds begin = it.clock.time;
+    int calls = 0;
+    on_probe_call = [&, first, second, look, begin](PluginFunction, void*) {
+      const Nanoseconds end = it.clock.time + (calls++ == 0 ? first : second);
+      if (look && begin + *look > it.clock.time && begin + *look <= end) alarm.look(begin + *look);
+      it.clock.time = end;
+    };
+    it.tick();
+    on_probe_call = nullptr;
+  }
+  const LeafWatch::Timing* over() const {
+    over_ = it.watch.over_budget();
+    return over_.empty() ? nullptr : &over_[0];
+  }
+
+  static constexpr int kTimed = 64;  // each of the first ones
+  TickAlarm alarm{1ms, 100ms};
+  Strings slow;
+  Ticking it;
+  mutable std::vector<LeafWatch::Timing> over_;
+};
+
+TEST_CASE("a tick within the budget takes two readings of the time, and times no call") {
+  Alarmed alarmed;
+  int least = 1000;
+  for (int i = 0; i < 100; ++i) {  // some are samples
+    alarmed.it.clock.reads = 0;
+    alarmed.tick(3ms, 4ms);
+    least = std::min(least, alarmed.it.clock.reads);
+  }
+  CHECK(least == 2);
+  CHECK(alarmed.slow.empty());
+  CHECK(alarmed.it.watch.over_budget().empty());
+}
+
+TEST_CASE("a call over the budget is named the first time, to a tenth of the budget") {
+  for (const auto& [first, second, wanted] : {std::tuple{15ms, 1ms, "1 tick 15000"},
+                                              {500us, 15ms, "2 tick 15"},
+                                              {11ms, 12ms, "1 tick 11000"}}) {
+    Alarmed alarmed;
+    alarmed.tick(first, second, 1ms);
+    REQUIRE(alarmed.slow.size() == 1);
+    CHECK(alarmed.slow[0].starts_with(wanted));
+    REQUIRE(alarmed.over() != nullptr);
+    const Nanoseconds longest = std::max<Nanoseconds>(first, second);
+    CHECK(std::chrono::abs(alarmed.over()->max - longest) <= 1ms);
+  }
+}
+
+TEST_CASE(
+    "where the alarm does not ring in time, the next ticks are timed, and the call is found") {
+  Alarmed alarmed;
+  alarmed.tick(15ms, 1ms);
+  CHECK(alarmed.slow.empty());
+  alarmed.tick(15ms, 1ms);
+  CHECK(alarmed.slow == Strings{"1 tick 15000"});
+}
+
+TEST_CASE("a leaf that was over the budget is timed in each tick, and others in none") {
+  Alarmed alarmed;
+  alarmed.tick(15ms, 1ms, 1ms);
+  alarmed.it.clock.time += 1s;
+  for (int i = 0; i < 200; ++i) alarmed.tick(2ms, 1ms);
+  REQUIRE(alarmed.over() != nullptr);
+  CHECK(alarmed.over()->leaf == 1);
+  CHECK(alarmed.over()->is_sampled);
+  CHECK(alarmed.over()->ticks == Alarmed::kTimed + 1 + 200);
+  CHECK(alarmed.over()->p50 >= 2ms);
+  CHECK(alarmed.over()->p50 < 2200us);
+  alarmed.tick(15ms, 1ms);  // and is told of without an alarm
+  CHECK(alarmed.slow == Strings{"1 tick 15000", "1 tick 15000"});
+  alarmed.tick(15ms, 1ms, 1ms);  // nor does one blame the leaf behind it
+  CHECK(alarmed.it.watch.over_budget().size() == 1);
+}
+
+TEST_CASE("an alarm rings once in a tick, when the tick lasts, and expects the next one") {
+  TickAlarm alarm(1ms, 10ms);
+  ForkGuard::Byte byte;
+  alarm.attach(&byte);
+  alarm.begin_tick(100ms);
+  CHECK(alarm.look(100ms) == 101ms);
+  CHECK_FALSE(alarm.rang());
+  CHECK(alarm.look(101ms) == 111ms);
+  CHECK(alarm.rang() == Nanoseconds(101ms));
+  CHECK_FALSE(byte.is_set());
+  byte.set();
+  alarm.look(102ms);
+  CHECK(byte.is_set());
+  CHECK(alarm.rang() == Nanoseconds(101ms));
+  alarm.end_tick();
+  CHECK_FALSE(alarm.rang());
+  CHECK(alarm.look(103ms) == 111ms);
+  CHECK(byte.is_set());
+  CHECK(alarm.look(111ms) == 112ms);  // the next one is late
+  CHECK(alarm.look(150ms) == 160ms);  // there is none
+  alarm.attach(nullptr);
+}
+
 }  // namespace
 }  // namespace lockstep::host::test
