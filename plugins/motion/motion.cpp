@@ -30,13 +30,12 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
       throw std::runtime_error("port 'noise_per' is neither 'tick' nor 'run'");
     }
     if (is_constant_ && !of_run_) of_run_ = uniform(-1, 1);
+    is_noisy_ = !noise.is_constant() || noise.get() != 0;
   }
 
   Status tick() override {
     if (report_.is_late()) report_.sample(now(), progress_);
-    const double half_width = noise.get();
-    const double change =
-        step.get() + (is_constant_ ? half_width * *of_run_ : uniform(-half_width, half_width));
+    const double change = is_noisy_ ? step.get() + drawn() : step.get();
     progress_ = std::clamp(progress_ + change, 0.0, 1.0);
     actual.set(progress_);
     set_progress(progress_);
@@ -49,11 +48,16 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
   }
 
  private:
+  double drawn() {
+    const double half_width = noise.get();
+    return is_constant_ ? half_width * *of_run_ : uniform(-half_width, half_width);
+  }
   bool keeps_progress() const override { return report.is_plain(); }
 
   Report report_;
   double progress_ = 0;
   bool is_constant_ = false;
+  bool is_noisy_ = true;          // false: it never is, so that no number is drawn
   std::optional<double> of_run_;  // in [-1, 1)
 };
 

@@ -8,14 +8,20 @@
 
 #include "bench/bench_study.h"
 #include "bench/bench_tree.h"
+#include "judge/summary/repeated_halts.h"
+#include "judge/summary/standstills.h"
+#include "judge/summary/statistics.h"
+#include "run/loop.h"
 #include "run/run.h"
+#include "run/shape_of.h"
 #include "support/step_clock.h"
 
 namespace {
 
 using namespace lockstep::host;
 
-enum class Watched : bool { No, Yes };  // as `lockstep run` does on the wall clock
+// Yes: each call is timed. Default: as `lockstep run` does on the wall clock.
+enum class Watched : std::uint8_t { No, Yes, Default };
 
 struct Case {
   const char* name;
@@ -38,6 +44,10 @@ constexpr Case kCases[] = {
     {"Parallel, timed", "Parallel", "", "BenchRunning", Watched::Yes},
     {"ParallelAbsolute, timed", "ParallelAbsolute", "barriers='0.75'", "BenchRunning",
      Watched::Yes},
+    {"Sequence, by default", "Sequence", "", "BenchSuccess", Watched::Default},
+    {"Parallel, by default", "Parallel", "", "BenchRunning", Watched::Default},
+    {"ParallelAbsolute, by default", "ParallelAbsolute", "barriers='0.75'", "BenchRunning",
+     Watched::Default},
     {"Sequence, leaf with on_success='n = n + 1'", "Sequence", "",
      "BenchSuccess on_success='n = n + 1'", Watched::No, "<Script code='n := 1'/>"},
     {"Sequence, leaf over leaf.hpp", "Sequence", "", "SdkSuccess"},
@@ -59,7 +69,7 @@ constexpr Case kCases[] = {
 };
 
 // Ticks a tree of one control node and this many leaves.
-constexpr int kLeaves = 1000, kTicks = 10;
+constexpr int kLeaves = 1000, kTicks = 10, kManyTicks = 300;
 
 }  // namespace
 
@@ -76,14 +86,45 @@ bool measure_ticks(const Case& it) {
   const BenchTree tree(
       fmt::format("<{0} {1}>{2}{3}</{0}>", it.control, it.attributes, it.first, leaves));
   test::StepClock clock;
-  LeafWatch watch({.budget = std::chrono::hours(1), .clock = &clock});
-  Run run(tree.tree(), {.watch = it.watched == Watched::Yes ? &watch : nullptr});
-  for (int i = 0; i < 3; ++i) run.tick(Nanoseconds(0));
+  TickAlarm alarm(std::chrono::hours(1), std::chrono::hours(1));
+  const bool is_default = it.watched == Watched::Default;
+  LeafWatch watch(
+      {.budget = std::chrono::hours(1), .clock = &clock, .alarm = is_default ? &alarm : nullptr});
+  Run run(tree.tree(), {.watch = it.watched != Watched::No ? &watch : nullptr});
+  // By default, some ticks are timed: the first ones, and samples.
+  const int first = is_default ? 100 : 3, ticks = is_default ? kManyTicks : kTicks;
+  for (int i = 0; i < first; ++i) run.tick(Nanoseconds(0));
   measured([&] {
-    for (int i = 0; i < kTicks; ++i) run.tick(Nanoseconds(0));
+    for (int i = 0; i < ticks; ++i) run.tick(Nanoseconds(0));
   });
-  std::printf("%d %s\n", kLeaves * kTicks, it.name);
+  std::printf("%d %s\n", kLeaves * ticks, it.name);
   return run.fault() == nullptr;
+}
+
+// Ticks as `lockstep run` makes them on the virtual clock, with all that its summary measures.
+void measure_run() {
+  Diagnostics diagnostics;
+  PluginSet plugins;
+  plugins.load_file(LOCKSTEP_BENCH_MOTION, diagnostics);
+  const Tree tree =
+      test::compiled(fmt::format("<root lockstep=\"1\"><BehaviorTree ID=\"B\"><ParallelAbsolute "
+                                 "barrier_count='10'>{}</ParallelAbsolute></BehaviorTree></root>",
+                                 BenchTree::repeated("<Advance step='0.00001'/>", kLeaves)),
+                     plugins);
+  const Shape shape = shape_of(tree);
+  Statistics statistics(shape);
+  RepeatedHalts halts(shape, [](NodeIndex, const std::string&) {});
+  Standstills standstills(shape, std::chrono::seconds(5), [](NodeIndex, const auto&) {});
+  Observer* const observers[] = {&statistics, &halts, &standstills};
+  LeafWatch watch({});
+  Run run(tree, {.virtual_time = true, .watch = &watch});
+  VirtualClock clock;
+  LoopOptions loop;
+  loop.rate = 100;
+  loop.max_ticks = kManyTicks;
+  run_loop(run, clock, loop, observers);
+  measured([&] { run_loop(run, clock, loop, observers); });
+  std::printf("%d ParallelAbsolute of Advance, with the measures of a run\n", kLeaves * kManyTicks);
 }
 
 // The same runs as a study makes them, and as a loop that knows two leaves and nothing else.
@@ -127,6 +168,7 @@ int main() {
   for (const Case& it : kCases) {
     if (!measure_ticks(it)) return 1;
   }
+  measure_run();
   measure_study();
   measure_load("built-in leaf with a name", "AlwaysSuccess");
   measure_load("built-in leaf with a name and a parameter", "Wait seconds='0.5'");

@@ -5,6 +5,7 @@
 // the children is bounded. Where none falls while held and all rise, the node ends.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,24 @@ class FallWatch {
   // What comes first is not the first tick of the run.
   void join() { runs_ = true; }
   void after_tick(const SynchronizedTick& tick);
+  // The same in parts, for who goes over the children for more than this: each child, if the node
+  // was ticked, then the tick.
+  void see(const SynchronizedTick& tick, std::size_t child) {
+    const double now = tick.progress[child], last = last_[child];
+    const bool differs =
+        !runs_ ? now > kRounding
+               : now < last - kRounding || (was_held_[child] != 0 && now > last + kRounding);
+    if (differs) [[unlikely]]
+      note(tick, child);
+    last_[child] = now;
+    was_held_[child] = tick.held[child];
+  }
+  void end_tick(const SynchronizedTick& tick) {
+    // One that is not ticked and does not run was halted.
+    runs_ = (runs_ || tick.ticked) && tick.status == Status::Running;
+  }
+  // In the last tick that the node got.
+  bool was_held(std::size_t child) const { return was_held_[child] != 0; }
   // The first of each kind.
   const std::optional<Fall>& while_ticked() const { return while_ticked_; }
   const std::optional<Fall>& while_held() const { return while_held_; }
@@ -35,8 +54,12 @@ class FallWatch {
   const std::optional<Fall>& rise_before() const { return rise_before_; }
 
  private:
+  static constexpr double kRounding = 1e-9;
+
+  void note(const SynchronizedTick& tick, std::size_t child);
+
   std::vector<double> last_;
-  std::vector<bool> was_held_;
+  std::vector<std::uint8_t> was_held_;
   bool begins_at_0_;
   bool runs_ = false;
   std::optional<Fall> while_ticked_, while_held_, rise_while_held_, rise_before_;

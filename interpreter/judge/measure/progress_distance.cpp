@@ -2,48 +2,81 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "base/core/synchronization.h"
 #include "base/core/value.h"
 
 namespace lockstep::host {
 
-namespace {
-
-// Without what is left out. A general sort takes most of the time for the few children that a
-// parallel has.
-std::span<double> copy_sorted(std::span<const double> values, std::span<double> sorted) {
-  constexpr std::size_t kFew = 16;
-  std::size_t count = 0;
-  if (values.size() > kFew) {
-    for (const double value : values) {
-      if (!std::isnan(value)) sorted[count++] = value;
-    }
-    std::ranges::sort(sorted.first(count));
-    return sorted.first(count);
-  }
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    std::size_t place = count++;
-    for (; place > 0 && sorted[place - 1] > value; --place) sorted[place] = sorted[place - 1];
-    sorted[place] = value;
-  }
-  return sorted.first(count);
-}
-
-}  // namespace
-
-double progress_distance(std::span<const double> progress, std::span<double> scratch) {
-  if (progress.size() == 2) {
-    const bool is_alone = std::isnan(progress[0]) || std::isnan(progress[1]);
-    return is_alone ? 0 : std::abs(progress[0] - progress[1]);
-  }
-  const auto sorted = copy_sorted(progress, scratch);
-  // The gap between two neighbors is part of the distance of each pair that lies around it.
+// The gap between two neighbors is part of the distance of each pair that lies around it.
+template <class Number>
+static double sum_of_gaps(std::size_t count, Number number) {
   double sum = 0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    sum += (sorted[i] - sorted[i - 1]) * static_cast<double>(i * (sorted.size() - i));
+  for (std::size_t i = 1; i < count; ++i) {
+    sum += (number(i) - number(i - 1)) * static_cast<double>(i * (count - i));
   }
   return sum;
+}
+
+PairDistance::PairDistance(std::size_t numbers) : sorted_(numbers) {
+  if (numbers <= kFew) return;
+  order_.resize(numbers);
+  std::iota(order_.begin(), order_.end(), 0u);
+}
+
+// False also where a number is left out, which is none.
+bool PairDistance::is_ordered(std::span<const double> progress, double& sum) const {
+  const std::size_t count = order_.size();
+  double before = progress[order_[0]];
+  for (std::size_t i = 1; i < count; ++i) {
+    const double number = progress[order_[i]];
+    if (!(before <= number)) return false;
+    sum += (number - before) * static_cast<double>(i * (count - i));
+    before = number;
+  }
+  return true;
+}
+
+// Most of the order is often the same as before.
+double PairDistance::of_new_order(std::span<const double> progress) {
+  if (std::ranges::any_of(progress, is_left_out)) return of_few(progress);
+  const auto is_less = [&](std::uint32_t one, std::uint32_t other) {
+    return progress[one] < progress[other];
+  };
+  std::size_t moves_left = 8 * order_.size();
+  for (auto it = order_.begin() + 1; it != order_.end(); ++it) {
+    const std::uint32_t place = *it;
+    auto to = it;
+    for (; to != order_.begin() && is_less(place, *(to - 1)); --to) {
+      *to = *(to - 1);
+      if (moves_left != 0) --moves_left;
+    }
+    *to = place;
+    if (moves_left != 0) continue;
+    std::ranges::sort(order_, is_less);
+    break;
+  }
+  return sum_of_gaps(order_.size(), [&](std::size_t i) { return progress[order_[i]]; });
+}
+
+// A general sort takes most of the time for the few children that a parallel has.
+double PairDistance::of_few(std::span<const double> progress) {
+  if (progress.size() == 2) {
+    const bool is_alone = is_left_out(progress[0]) || is_left_out(progress[1]);
+    return is_alone ? 0 : std::abs(progress[0] - progress[1]);
+  }
+  std::size_t count = 0;
+  for (const double number : progress) {
+    if (is_left_out(number)) continue;
+    std::size_t place = count++;
+    if (progress.size() <= kFew) {
+      for (; place > 0 && sorted_[place - 1] > number; --place) sorted_[place] = sorted_[place - 1];
+    }
+    sorted_[place] = number;
+  }
+  if (progress.size() > kFew) std::ranges::sort(std::span(sorted_).first(count));
+  return sum_of_gaps(count, [&](std::size_t i) { return sorted_[i]; });
 }
 
 void ProgressDistance::after_tick(const TickView& view) {
@@ -52,7 +85,7 @@ void ProgressDistance::after_tick(const TickView& view) {
   const std::uint64_t sample = seen_++;
   if (sample < range_.first || sample > range_.last) return;
   ++samples_;
-  sum_ += progress_distance(tick.progress, scratch_);
+  sum_ += distance_.of(tick.progress);
 }
 
 namespace {

@@ -10,9 +10,29 @@
 
 namespace lockstep::host {
 
-// The sum of |p_i - p_j| over all unordered pairs. `scratch` must be as long as `progress`; what
-// it holds afterwards has no meaning. O(n log n), no allocation.
-double progress_distance(std::span<const double> progress, std::span<double> scratch);
+// The sum of |p_i - p_j| over all unordered pairs, of one list of numbers after the other. Their
+// order is kept from list to list: as long as it does not change, the sum takes one pass.
+class PairDistance {
+ public:
+  explicit PairDistance(std::size_t numbers);
+
+  // No allocation.
+  double of(std::span<const double> progress) {
+    double sum = 0;
+    if (progress.size() > kFew && is_ordered(progress, sum)) return sum;
+    return progress.size() > kFew ? of_new_order(progress) : of_few(progress);
+  }
+
+ private:
+  static constexpr std::size_t kFew = 16;
+
+  bool is_ordered(std::span<const double> progress, double& sum) const;
+  double of_new_order(std::span<const double> progress);
+  double of_few(std::span<const double> progress);
+
+  std::vector<double> sorted_;
+  std::vector<std::uint32_t> order_;  // the places of the numbers, from the least; of many
+};
 
 class ProgressDistance : public Accumulator {
  public:
@@ -22,7 +42,7 @@ class ProgressDistance : public Accumulator {
   };
   explicit ProgressDistance(const MeasureTarget& target) : ProgressDistance(target, Samples()) {}
   ProgressDistance(const MeasureTarget& target, Samples samples)
-      : place_(target.place), range_(samples), scratch_(target.children) {}
+      : place_(target.place), range_(samples), distance_(target.children) {}
 
   void reset() override { seen_ = samples_ = 0, sum_ = 0; }
   void after_tick(const TickView& view) override;
@@ -35,7 +55,7 @@ class ProgressDistance : public Accumulator {
  private:
   std::size_t place_;
   Samples range_;
-  std::vector<double> scratch_;
+  PairDistance distance_;
   std::uint64_t seen_ = 0;  // samples, also those that do not count
   std::uint64_t samples_ = 0;
   double sum_ = 0;

@@ -1,18 +1,13 @@
 #include "judge/measure/spread.h"
 
-#include <algorithm>
-
 namespace lockstep::host {
 
 void Spread::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
   if (!tick.ticked) return;
-  double least = 1, most = 0;
-  for (const double one : tick.progress) {  // no comparison is true for one that is left out
-    if (one < least) least = one;
-    if (one > most) most = one;
-  }
-  largest_ = std::fmax(largest_, std::max(0.0, most - least));
+  Extent extent;
+  for (const double one : tick.progress) extent.see(one);
+  take(extent);
 }
 
 extern const Measure kSpread{

@@ -5,16 +5,9 @@ namespace lockstep::host {
 void StepLength::after_tick(const TickView& view) {
   const SynchronizedTick& tick = view.parallels[place_];
   if (tick.ticked) {
-    longest_ = std::fmax(longest_, 0);
-    for (std::size_t child = 0; child < last_.size(); ++child) {
-      const double progress = tick.progress[child];
-      if (running_) longest_ = std::fmax(longest_, std::abs(progress - last_[child]));
-      // The next snapshot would show it, but there may be none.
-      if (tick.succeeded[child]) longest_ = std::fmax(longest_, std::abs(1 - progress));
-      last_[child] = progress;
-    }
+    for (std::size_t child = 0; child < last_.size(); ++child) see(tick, child);
   }
-  running_ = tick.status == Status::Running;
+  end_tick(tick);
 }
 
 extern const Measure kStepLength{

@@ -20,16 +20,35 @@ SynchronizedMeasure::SynchronizedMeasure(std::size_t children, const Guards& gua
 void SynchronizedMeasure::after_tick(const SynchronizedTick& tick) {
   const TickView view{.parallels = {&tick, 1}};
   distance_.after_tick(view);
-  spread_.after_tick(view);
-  step_length_.after_tick(view);
-  falls_.after_tick(tick);
-  for (HeldChild& child : held_) child.after_tick(view);
-  if (!tick.ticked) return;
-  const auto left_out = std::ranges::count_if(tick.progress, is_left_out);
-  left_out_ |= static_cast<std::size_t>(left_out) > guards_;
-  const double least = least_progress(tick.progress);
-  const double most = std::min(1.0, farthest(synchronization_, tick.limit, least));
-  widest_ = std::max(widest_, most - least);
+  tick.ticked ? see_children(view) : pass_time_of_held(view);
+  step_length_.end_tick(tick);
+  falls_.end_tick(tick);
+}
+
+// All measures in one pass.
+void SynchronizedMeasure::see_children(const TickView& view) {
+  const SynchronizedTick& tick = view.parallels[0];
+  Extent extent;
+  std::size_t left_out = 0;
+  for (std::size_t child = 0; child < held_.size(); ++child) {
+    const double progress = tick.progress[child];
+    if (is_left_out(progress)) ++left_out;
+    extent.see(progress);
+    // That it was held ends now, if it did.
+    if (tick.held[child] || falls_.was_held(child)) held_[child].after_tick(view);
+    step_length_.see(tick, child);
+    falls_.see(tick, child);
+  }
+  spread_.take(extent);
+  left_out_ |= left_out > guards_;
+  const double most = std::min(1.0, farthest(synchronization_, tick.limit, extent.least));
+  widest_ = std::max(widest_, most - extent.least);
+}
+
+void SynchronizedMeasure::pass_time_of_held(const TickView& view) {
+  for (std::size_t child = 0; child < held_.size(); ++child) {
+    if (falls_.was_held(child)) held_[child].after_tick(view);
+  }
 }
 
 std::optional<double> SynchronizedMeasure::bound() const {

@@ -35,6 +35,9 @@ class SynchronizedMeasure {
   std::span<const HeldChild> held() const { return held_; }
 
  private:
+  void see_children(const TickView& view);
+  void pass_time_of_held(const TickView& view);
+
   ProgressDistance distance_;
   Spread spread_;
   StepLength step_length_;

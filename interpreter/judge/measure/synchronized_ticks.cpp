@@ -1,6 +1,7 @@
 #include "judge/measure/synchronized_ticks.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/core/resource_set.h"
 #include "base/core/synchronization.h"
@@ -40,6 +41,8 @@ SynchronizedTicks::SynchronizedTicks(const Shape& shape, NodeIndex node, bool wi
       is_group_(shape.nodes[node].is_group()),
       is_pool_(shape.nodes[node].synchronization == Synchronization::Resources),
       compares_(compares_progress(shape.nodes[node].synchronization)),
+      are_leaves_(!is_group_ && !children_.empty() &&
+                  children_.back() - children_.front() + 1 == children_.size()),
       with_flags_(with_flags),
       held_(children_.size()),
       guards_(guards_of(shape, node)) {
@@ -63,9 +66,33 @@ void SynchronizedTicks::read_held(const Moment& moment, bool asked) {
   }
 }
 
+// As most often. They are looked at eight at a time.
+bool SynchronizedTicks::all_run(const Moment& moment) const {
+  if (!are_leaves_ || is_pool_ || !moment.ended.empty()) return false;
+  const auto all = moment.activity.subspan(children_.front(), children_.size());
+  constexpr std::uint64_t kRun = 0x0101010101010101u * static_cast<std::uint8_t>(Activity::Running);
+  std::size_t child = 0;
+  for (std::uint64_t eight = 0; child + sizeof eight <= all.size(); child += sizeof eight) {
+    std::memcpy(&eight, &all[child], sizeof eight);
+    if (eight != kRun) return false;
+  }
+  return std::ranges::all_of(all.subspan(child),
+                             [](Activity it) { return it == Activity::Running; });
+}
+
+void SynchronizedTicks::read_flags(const Moment& moment, bool asked) {
+  if (all_run(moment)) return held_.set_all_run();
+  held_.set_others();
+  read_held(moment, asked);
+  if (!asked) return;
+  for (std::size_t child = 0; child < children_.size(); ++child) {
+    held_.set_succeeded(child, moment.has_succeeded(children_[child]));
+  }
+}
+
 void SynchronizedTicks::read(const Moment& moment, SynchronizedTick& tick) {
   const bool asked = asked_children(moment, node_, children_, is_group_);
-  if (with_flags_) read_held(moment, asked);
+  if (with_flags_) read_flags(moment, asked);
   if (!asked) {
     tick = {.time = moment.time, .status = moment.status(node_)};
     return;
@@ -77,9 +104,6 @@ void SynchronizedTicks::read(const Moment& moment, SynchronizedTick& tick) {
   tick.used = moment.used(node_);
   tick.progress = guards_.leave_out(tick.used);
   if (!with_flags_) return;
-  for (std::size_t child = 0; child < children_.size(); ++child) {
-    held_.set_succeeded(child, moment.has_succeeded(children_[child]));
-  }
   tick.held = held_.held();
   tick.succeeded = held_.succeeded();
 }

@@ -2,10 +2,12 @@
 // progress of its children, and which of them are held.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "judge/measure/tick_view.h"
@@ -26,6 +28,14 @@ class HeldChildren {
     flags_[child] = held || (status == Status::Idle && running && !reached);
     running = status == Status::Running;
   }
+  // All run, and none is held.
+  void set_all_run() {
+    if (std::exchange(all_run_, true)) return;
+    std::fill_n(flags_.get(), children_, false);
+    std::fill_n(flags_.get() + children_, children_, true);
+    std::fill_n(flags_.get() + 2 * children_, children_, false);
+  }
+  void set_others() { all_run_ = false; }
   // The answer of a pool decides alone, also about a child that has not begun.
   void set(std::size_t child, bool waits) { flags_[child] = waits; }
   void set_succeeded(std::size_t child, bool succeeded) {
@@ -37,6 +47,7 @@ class HeldChildren {
  private:
   std::unique_ptr<bool[]> flags_;  // held, running, succeeded
   std::size_t children_;
+  bool all_run_ = false;
 };
 
 // Which children of a parallel, or members of a barrier, are guards: they contain no action, and
@@ -75,12 +86,15 @@ class SynchronizedTicks {
   const Guards& guards() const { return guards_; }
 
  private:
+  bool all_run(const Moment& moment) const;
+  void read_flags(const Moment& moment, bool asked);
   void read_held(const Moment& moment, bool asked);
 
   NodeIndex node_;
   std::vector<NodeIndex> children_;
   std::vector<NodeIndex> members_;  // of a group: the parents of the children
   bool is_group_, is_pool_, compares_;
+  bool are_leaves_;  // all children, so that they are next to each other
   bool with_flags_;
   HeldChildren held_;
   Guards guards_;

@@ -1,6 +1,7 @@
 #include "judge/measure/wait_chain.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <utility>
@@ -27,6 +28,9 @@ bool is_denied(const Shape& shape, const Moment& moment, NodeIndex user) {
 
 std::optional<NodeIndex> first_held(const Shape& shape, const Moment& moment, NodeIndex node) {
   const ShapeNode& it = shape.nodes[node];
+  const bool has_held = std::memchr(&moment.activity[node], static_cast<int>(Activity::Paused),
+                                    it.end - node) != nullptr;
+  if (!it.is_group() && !has_held) return std::nullopt;
   for (const NodeIndex child : it.held()) {
     const NodeIndex named = it.is_group() ? child - 1 : child;
     const bool is_held = !it.is_group() ? moment.held(named)

@@ -30,17 +30,19 @@ class RepeatedHalts final : public Observer {
  private:
   struct Action {
     NodeIndex node;
-    bool runs = false;        // after the last tick
     std::uint64_t halts = 0;  // in this run
     bool is_told = false;
     std::array<Nanoseconds, kHalts> times = {};  // of the last halts
   };
+  void look(const Moment& moment, std::size_t place);
   void note_halt(const Moment& moment, Action& action);
   std::string cause_of_halt(const Moment& moment, NodeIndex action) const;
 
   const Shape shape_;
   const Tell tell_;
   std::vector<Action> actions_;
+  NodeIndex first_ = 0;           // of the actions
+  std::vector<Activity> before_;  // of the nodes from there on, after the last tick
 };
 
 }  // namespace lockstep::host
