@@ -100,6 +100,7 @@ void ModelLeaves::begin_tick() {
     marks_[leaf].clear();
   }
   touched_.clear();
+  chooses_ = kNobody;
   std::fill(asked_.begin(), asked_.end(), false);
   for (const std::uint32_t leaf : drifting_) {
     if (states_[leaf].phase != Phase::Paused) continue;
@@ -143,6 +144,7 @@ void ModelLeaves::tell_broken(std::uint32_t leaf, const char* what) {
 void ModelLeaves::start(std::uint32_t leaf) {
   is(leaf, states_[leaf].phase == Phase::Idle, "start, and it runs");
   states_[leaf] = {.phase = Phase::Running};
+  chooses_ = leaf;
   mark(leaf);
   set_level(leaf, 0);
   if (!rules_[leaf].is_plain && models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
@@ -225,6 +227,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
     mark.clear();
   }
   mark.ticked = true;
+  chooses_ = leaf;
   ++state.ticks;
   if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
 

@@ -88,14 +88,22 @@ class ModelLeaves {
   // Visits what a fold forgets that counts within the tick.
   template <class Visit>
   void for_each_of_tick(Visit visit) const {
-    for (const FactState it : facts_) visit(it);
-    for (const bool it : asked_) visit(it);
+    for_each_fact(visit);
     for (const std::uint32_t leaf : touched_) {
       visit(leaf);
       visit(marks_[leaf].ticked);
       visit(marks_[leaf].ended);
     }
   }
+  // The facts, and which of them were asked for in this tick.
+  template <class Visit>
+  void for_each_fact(Visit visit) const {
+    for (const FactState it : facts_) visit(it);
+    for (const bool it : asked_) visit(it);
+  }
+  // The leaf whose call asks for an answer.
+  static constexpr std::uint32_t kNobody = 0xffffffff;  // what drifts does so before the tick
+  std::uint32_t chooses() const { return chooses_; }
   // The call of the engine that the contract forbids; "" for none.
   const std::string& broken() const { return broken_; }
 
@@ -164,6 +172,7 @@ class ModelLeaves {
   std::vector<LeafMark> marks_;
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> drifting_;  // the leaves that may
+  std::uint32_t chooses_ = kNobody;
   std::string broken_;
   BeforeTickAgain before_tick_again_;
 };

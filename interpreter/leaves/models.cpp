@@ -24,6 +24,7 @@ namespace {
 constexpr std::int64_t kNoEnd = 1'000'000'000;
 constexpr std::string_view kProgress = "progress";
 constexpr std::uint32_t kUsualParts = 10, kMostParts = 1000;
+constexpr std::uint64_t kMostOfInterval = 1'000'000;
 
 bool is_whole(double value) {
   return std::abs(value - std::round(value)) < 1e-6;
@@ -259,19 +260,35 @@ class ModelMaker {
     models_.leaves[leaf].outputs.push_back(std::move(output));
   }
 
+  // "0..1024", of whole numbers.
+  static bool add_interval(ValueType type, std::string_view text, std::vector<Value>& values) {
+    const auto dots = text.find("..");
+    if (type != ValueType::Int || dots == std::string_view::npos) return false;
+    const auto first = parse_int(text.substr(0, dots)), last = parse_int(text.substr(dots + 2));
+    if (!first || !last || *first > *last) return false;
+    // The difference may be too large for an int.
+    if (static_cast<std::uint64_t>(*last) - static_cast<std::uint64_t>(*first) >= kMostOfInterval) {
+      return false;
+    }
+    for (std::int64_t it = *first; it <= *last; ++it) values.emplace_back(it);
+    return true;
+  }
+
   std::vector<Value> values_of(const Parameter& parameter, const LeafRow::Named& named) {
     std::vector<Value> values;
     std::string_view rest = named.text;
     while (true) {
       const std::string_view part = rest.substr(0, rest.find('|'));
-      const auto value = parse_value(parameter.type, part);
-      if (!value) {
+      const bool is_interval = add_interval(parameter.type, part, values);
+      const std::optional<Value> value =
+          is_interval ? std::nullopt : parse_value(parameter.type, part);
+      if (!value && !is_interval) {
         report().at_value("bad-value"_code, named.place,
                           fmt::format("'{}' is not a value of '{}'", brief(part), parameter.name),
                           fmt::format("expected {}", expected_text(parameter.type)));
         return {};
       }
-      values.push_back(*value);
+      if (!is_interval) values.push_back(*value);
       if (part.size() == rest.size()) return values;
       rest.remove_prefix(part.size() + 1);
     }

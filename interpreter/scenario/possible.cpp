@@ -28,7 +28,7 @@ std::optional<NodeCoverage> possible_coverage(const Tree& tree, const LeafFile* 
   // Each tick of the search once more, now with what was before it.
   NodeCoverage coverage(tree);
   Stepper stepper(tree, models, {}, rate, found.symmetry, found.rising_answers,
-                  found.few_root_ticks);
+                  found.few_root_ticks, found.few_ticks);
   LiveMoments moments(tree, {.within = true});
   for (StateId state = 0; state < found.store.size(); ++state) {
     stepper.load(found.store[state], state == 0);

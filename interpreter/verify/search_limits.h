@@ -18,11 +18,19 @@ inline constexpr std::size_t kLaterBytesOfState = 64;
 // (verify/rounds.h). Most states have fewer: to look at them costs more than it saves.
 inline constexpr std::uint64_t kFewRootTicks = 256;
 
+// The points of a tick at which leaves choose are looked at from so many ticks on that begin in one
+// state (verify/tick_points.h), for the same reason.
+inline constexpr std::uint64_t kFewTicks = 64;
+inline constexpr std::uint64_t kAllTicks = std::numeric_limits<std::uint64_t>::max();
+
 struct SearchProgress {
   std::uint64_t states = 0, waiting = 0, transitions = 0;
   std::uint32_t depth = 0;
   std::size_t memory = 0;
 };
+
+// So many values of one entry are not yet a sign that it takes more and more.
+inline constexpr std::size_t kUsualValues = 100'000;
 
 struct SearchLimits {
   std::uint64_t states = 5'000'000;
@@ -31,7 +39,7 @@ struct SearchLimits {
   std::size_t memory = std::size_t{1} << 30u;            // bytes
   std::optional<Nanoseconds> time = {};                  // of a real clock
   std::optional<std::uint32_t> depth = {};               // ticks
-  std::size_t values = 1000;                             // of one entry
+  std::size_t values = kUsualValues;                     // of one entry
   std::function<int()> stop_signal = {};                 // nonzero: stop; any thread calls it
   std::function<void(const SearchProgress&)> tell = {};  // about ten times a second
   unsigned jobs = 1;                                     // threads; all find the same
@@ -40,6 +48,7 @@ struct SearchLimits {
   bool rising_answers = true;  // of equal leaves in equal states: one of all orders
   bool cycles = true;          // their edges have labels
   std::uint64_t few_root_ticks = kFewRootTicks;
+  std::uint64_t few_ticks = kFewTicks;
 };
 
 enum class SearchEnd : std::uint8_t {

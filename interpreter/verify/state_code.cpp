@@ -234,6 +234,11 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
   write(read_, writer);
   writer.bytes(leaves.facts().data(), leaves.facts().size());
   writer.bytes(properties.data(), properties.size());
+  add_entries(ticker, into);
+}
+
+void StateCode::add_entries(const Ticker& ticker, StateBytes& to) const {
+  Writer writer(to);
   for (const std::uint32_t slot : entries_) {
     const Entry& entry = ticker.blackboard().entries[slot];
     writer.plain(static_cast<std::uint8_t>(entry.value().index() | (entry.is_present ? 16u : 0u)));

@@ -38,6 +38,8 @@ class StateCode {
   enum class Children : std::uint8_t { Sorted, AsTheyAre };
   void encode(const Ticker& ticker, ModelLeaves& leaves, std::span<const std::byte> properties,
               Children children, StateBytes& into);
+  // Adds the entries only, of any run.
+  void add_entries(const Ticker& ticker, StateBytes& to) const;
   // The node that was in each place before it was encoded; empty if none has moved.
   std::span<const NodeIndex> origins() const { return order_.origins(); }
   // The state in which each node is at one of these places.

@@ -19,7 +19,7 @@ SavedRun saved(const Ticker& ticker) {
 
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                  double rate, const Symmetry& symmetry, bool rising_answers,
-                 std::uint64_t few_root_ticks)
+                 std::uint64_t few_root_ticks, std::uint64_t few_ticks)
     : deadlines_(rate),
       board_(tree),
       answers_(tree, rising_answers ? symmetry : kNoSymmetry,
@@ -36,9 +36,13 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       property_bytes_(watch_.state_size()),
       from_properties_(property_bytes_),
       rounds_(few_root_ticks),
+      points_(tree, models, nodes_of(properties, tree), few_ticks),
       has_gone_round_(tree.nodes.size() + properties.size()) {
   ticker_.set_deadlines(deadlines_);
   ticker_.keep_moments();
+  answers_.set_is_known([this](std::uint32_t asker) {
+    return points_.add(ticker_, leaves_, answers_, code_, asker, root_ticks_);
+  });
 }
 
 StateBytes Stepper::first_state() {
@@ -59,12 +63,16 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   time_ = deadlines_.at(is_first ? 0 : 1);
   answers_.begin_state(from_.run, from_leaves_);
   rounds_.begin_state();
+  points_.begin_state(from_leaves_);
 }
 
 Status Stepper::tick(std::uint64_t most) {
   ticker_.restore(from_);
   leaves_.restore_again(from_leaves_, from_facts_);
   answers_.begin();
+  points_.begin_tick();
+  answers_.look_at_points(points_.are_looked_at());
+  root_ticks_ = 0;
   rounds_.begin_tick(answers_.same_as_before());
   leaves_.begin_tick();
   is_known_ = is_going_round_ = is_short_ = is_cut_ = false;
@@ -75,6 +83,7 @@ Status Stepper::tick(std::uint64_t most) {
   }
   const Status status = tick_again(ticker_.tick_root(time_), most);
   rounds_.count(root_ticks_);
+  is_known_ = is_known_ || answers_.is_known();
   if (is_short_) {
     watch_.skip_tick();
   } else if (!watch_.empty()) {
@@ -90,6 +99,7 @@ Status Stepper::tick_again(Status status, std::uint64_t most) {
     if (gives_up_ && root_ticks_ % kTicksBetweenQuestions == 0 && gives_up_()) break;
     const auto node = ticker_.take_request();
     if (!node || status != Status::Running || ticker_.faulted()) break;
+    if (answers_.is_known()) break;
     if (root_ticks_ == kMostTicksAtOnce) {
       fault(*node);
       break;

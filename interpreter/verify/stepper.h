@@ -15,6 +15,7 @@
 #include "verify/search_limits.h"
 #include "verify/state_code.h"
 #include "verify/tick_answers.h"
+#include "verify/tick_points.h"
 
 namespace lockstep::host {
 
@@ -23,7 +24,7 @@ class Stepper {
   // All must outlive this.
   Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
           double rate, const Symmetry& symmetry, bool rising_answers,
-          std::uint64_t few_root_ticks = kFewRootTicks);
+          std::uint64_t few_root_ticks = kFewRootTicks, std::uint64_t few_ticks = kAllTicks);
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
@@ -98,6 +99,7 @@ class Stepper {
   Nanoseconds time_{0};
   std::uint64_t root_ticks_ = 0;
   Rounds rounds_;
+  TickPoints points_;
   bool is_known_ = false, is_going_round_ = false, is_short_ = false, is_cut_ = false;
   std::vector<bool> has_gone_round_;  // of each node: there was a fault of it; then of properties
   SavedRun round_;

@@ -71,12 +71,14 @@ bool TickAnswers::are_equal(const EqualChildren& it, std::size_t place, const Ru
 
 void TickAnswers::give(std::span<const LeafAnswer> answers) {
   is_given_ = true;
-  given_.assign(answers.begin(), answers.end());
+  given_.resize(children_of_.size());
+  for (std::vector<std::uint32_t>& it : given_) it.clear();
+  for (const LeafAnswer& it : answers) given_[it.asker].push_back(it.value);
 }
 
 void TickAnswers::begin() {
   at_ = 0;
-  repeats_ = false;
+  repeats_ = is_known_ = false;
   repeated_.clear();
   if (!is_given_) return;
   digits_.clear();
@@ -106,7 +108,10 @@ void TickAnswers::repeat_from(std::size_t first) {
 std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
   if (count <= 1) return 0;
   if (repeats_) return repeat(asker);
+  if (is_known_) return 0;
   if (at_ == digits_.size()) {
+    is_known_ = looks_ && !is_given_ && is_known_before_(asker);
+    if (is_known_) return 0;
     digits_.push_back({is_given_ ? given(asker, count) : least(asker), count, asker});
     note(digits_.back());
   }
@@ -167,11 +172,10 @@ void TickAnswers::undo(const Digit& digit) {
 
 std::uint32_t TickAnswers::given(std::uint32_t asker, std::uint32_t count) {
   std::size_t& next = next_given_[asker];
-  while (next < given_.size() && given_[next].asker != asker) ++next;
-  if (next == given_.size() || given_[next].value >= count) {
+  if (next == given_[asker].size() || given_[asker][next] >= count) {
     throw std::logic_error("a tick requests more than it did before");
   }
-  return given_[next++].value;
+  return given_[asker][next++];
 }
 
 std::vector<LeafAnswer> TickAnswers::asked() const {

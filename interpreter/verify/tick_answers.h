@@ -7,8 +7,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/run_state.h"
@@ -42,6 +44,12 @@ class TickAnswers final : public Answers {
   // Within it: from here on those since the first of these are given again and again.
   void repeat_from(std::size_t first);
   std::uint32_t choose(std::uint32_t count, std::uint32_t asker) override;
+  // Asked before a new answer, where `looks`: whether what follows is known, from another tick.
+  using IsKnown = std::function<bool(std::uint32_t asker)>;
+  void set_is_known(IsKnown is_known) { is_known_before_ = std::move(is_known); }
+  void look_at_points(bool looks) { looks_ = looks; }
+  // It was: then the rest of the tick has had the first answers.
+  bool is_known() const { return is_known_; }
 
   bool are_given() const { return is_given_; }
   std::size_t count() const { return at_; }
@@ -97,9 +105,11 @@ class TickAnswers final : public Answers {
   std::size_t at_ = 0;
   std::size_t repeats_from_ = 0;
   bool is_given_ = false, repeats_ = false;
+  bool looks_ = false, is_known_ = false;
+  IsKnown is_known_before_;
   std::vector<LeafAnswer> repeated_;
-  std::vector<LeafAnswer> given_;
-  std::vector<std::size_t> next_given_;  // of each asker: where its next one may be
+  std::vector<std::vector<std::uint32_t>> given_;  // of each asker
+  std::vector<std::size_t> next_given_;            // likewise: its next one
 };
 
 }  // namespace lockstep::host

@@ -109,7 +109,15 @@ static const lockstep_leaf_type kRead = {.struct_size = sizeof(lockstep_leaf_typ
                                          .destroy = free,
                                          .tick = read_ports};
 
-static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun, &kAdvance, &kRead};
+static const lockstep_leaf_type kSees = {.struct_size = sizeof(lockstep_leaf_type),
+                                         .kind = LOCKSTEP_CONDITION,
+                                         .id = "BenchCondition",
+                                         .create = create,
+                                         .destroy = destroy,
+                                         .tick = succeed};
+
+static const lockstep_leaf_type* const kLeaves[] = {&kSucceed, &kFail, &kRun,
+                                                    &kAdvance, &kRead, &kSees};
 
 LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJOR,
                                                                LOCKSTEP_ABI_MINOR,
@@ -117,7 +125,7 @@ LOCKSTEP_EXPORT const lockstep_plugin lockstep_plugin_entry = {LOCKSTEP_ABI_MAJO
                                                                "bench_leaves",
                                                                NULL,
                                                                NULL,
-                                                               5,
+                                                               6,
                                                                kLeaves,
                                                                NULL,
                                                                NULL,

@@ -34,6 +34,35 @@ std::string mixed() {
   return "<Parallel>" + arm + arm + "</Parallel>";
 }
 
+// The Fallback over the conditions that x is one of these.
+std::string any_of(int first, int last) {
+  if (first == last) return fmt::format("<Check code='x == {}'/>", first);
+  const int middle = (first + last) / 2;
+  return "<Fallback>" + any_of(first, middle) + any_of(middle + 1, last) + "</Fallback>";
+}
+
+// The public case of BehaVerify, written anew: so many levels of Fallbacks and their conditions
+// between two groups, and one entry that counts the ticks; 2,055 nodes with 11 levels.
+std::string binary(int levels) {
+  const int values = 1 << (levels - 1);
+  return fmt::format(
+      "<Sequence><RunOnce><Script code='x := 0'/></RunOnce>{}"
+      "<Fallback><Check code='x == {}'/><Sequence><Script code='x = x + 1'/><AlwaysRunning/>"
+      "</Sequence></Fallback></Sequence>",
+      any_of(0, values - 1), values - 1);
+}
+
+// So many conditions whose results change nothing.
+std::string free_conditions(std::int64_t many) {
+  return "<Sequence memory=\"true\">" +
+         BenchTree::repeated("<ForceSuccess><BenchCondition/></ForceSuccess>", many) +
+         "</Sequence>";
+}
+
+std::string parallel_of(const char* child, std::int64_t many) {
+  return "<Parallel>" + BenchTree::repeated(child, many) + "</Parallel>";
+}
+
 // Whether states of equal children count once, or each for itself.
 enum class Equal : bool { Each, Once };
 
@@ -95,6 +124,15 @@ int main(int argc, char** argv) {
       "", Equal::Once);
   add("sequence/400",
       "<Sequence memory=\"true\">" + BenchTree::repeated(kLeaf, 400) + "</Sequence>");
+  for (const int levels : {9, 10, 11})
+    add(fmt::format("binary/{}", levels).c_str(), binary(levels));
+  add("conditions/20", free_conditions(20));
+  add("conditions/40", free_conditions(40));
+  add("retries/20", parallel_of("<Retry attempts=\"2\"><BenchAdvance/></Retry>", 20), "",
+      Equal::Once);
+  add("sequences/12",
+      parallel_of("<Sequence memory=\"true\"><BenchAdvance/><BenchAdvance/></Sequence>", 12), "",
+      Equal::Once);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

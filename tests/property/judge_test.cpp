@@ -232,9 +232,10 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed) {
     properties.push_back(std::move(*property));
   }
   // Each second tree with its rounds told apart from the first tick on.
-  const SearchResult found =
-      search(tree, models, properties, kRate,
-             {.transitions = 200'000, .few_root_ticks = seed % 2 == 0 ? 0 : kFewRootTicks});
+  const SearchResult found = search(tree, models, properties, kRate,
+                                    {.transitions = 200'000,
+                                     .few_root_ticks = seed % 2 == 0 ? 0 : kFewRootTicks,
+                                     .few_ticks = seed % 3 == 0 ? kFewTicks : 0});
   Outcome outcome{.is_conclusive = true, .states = judgment.states};
   if (!judgment.broken.empty())
     outcome.wrong = "the reference breaks the contract: " + judgment.broken;

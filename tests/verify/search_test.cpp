@@ -387,6 +387,52 @@ TEST_CASE("a loop within a tick is gone through once, whatever others do meanwhi
   }
 }
 
+TEST_CASE(
+    "conditions that change nothing take a few ticks each, and not one for all combinations") {
+  for (const char* node :
+       {"ForceSuccess(c?)", "Fallback(c? AlwaysSuccess)", "Inverter(ForceFailure(c?))",
+        "Parallel[success_count=1 failure_count=2](c? AlwaysSuccess)"}) {
+    INFO(node);
+    std::string children;
+    for (int i = 0; i < 20; ++i) children += std::string(node) + " ";
+    const Verified twenty("Sequence[memory=true](" + children + ")");
+    CHECK(twenty.found.is_complete());
+    CHECK(twenty.found.transitions <= kFewTicks + 2 * 20);
+    for (NodeIndex node = 0; node < twenty.tree.nodes.size(); ++node) {
+      if (twenty.tree.labels[node].type->leaf == nullptr) continue;
+      CHECK(twenty.found.coverage.has_been(node, Status::Success));
+      CHECK(twenty.found.coverage.has_been(node, Status::Failure));
+    }
+  }
+}
+
+TEST_CASE("points of a tick at which the same follows change nothing in what is found") {
+  for (const char* tree :
+       {"Parallel(Fallback[memory=true](Sequence(a b) c) Sequence[memory=true](Inverter(d) e))",
+        "ParallelAbsolute[barriers=.5](Sequence(c? a) Fallback(d? b))",
+        "Parallel[success_count=2](a b Fallback(c? ForceFailure(d?)))",
+        "ReactiveSequence(Fallback(c? d?) Retry[attempts=3](a) ForceSuccess(b))",
+        "Sequence(Script[code=n:=0] Fallback(c? Script[code=n=1]) Fallback(d? Script[code=n=2]) "
+        "Retry[attempts=2](a) Fallback(Check[code=n==2] b))"}) {
+    INFO(tree);
+    const auto verified = [&](std::uint64_t few) {
+      return Verified(
+          tree, R"(<leaf path="*" progress="grid:2"/>)", {.few_ticks = few}, 10,
+          {"never a.failure and b.running", "a.success leads to b.success", "sometimes a.success"});
+    };
+    const Verified all = verified(kAllTicks), shared = verified(0);
+    REQUIRE(all.found.is_complete());
+    CHECK(shared.found.is_complete());
+    CHECK(shared.found.transitions <= all.found.transitions);
+    check_same(shared.found.graph, all.found.graph);
+    CHECK(shared.found.store.size() == all.found.store.size());
+    CHECK(shared.findings() == all.findings());
+    for (const char* line : {"results", "never succeeds", "never fails", "never ticked"}) {
+      CHECK(shared.said(line) == all.said(line));
+    }
+  }
+}
+
 TEST_CASE("rounds that are told apart by their states change nothing in what is found") {
   for (const char* tree : {"Parallel[success_count=2](Repeat[num_cycles=4](b) "
                            "RetryUntilSuccessful[num_attempts=3](a))",

@@ -38,6 +38,7 @@ struct VerifyOptions {
   std::optional<std::uint64_t> memory_mib;
   std::optional<double> time;
   std::optional<std::uint64_t> depth;
+  std::uint64_t values = kUsualValues;
   unsigned jobs = 1;
   bool json = false;
   std::string format = "text";
@@ -227,6 +228,7 @@ class VerifyCommand {
       const Nanoseconds until = began_ + from_seconds(*options_.time * kTimeOfSearch);
       limits.time = std::max(Nanoseconds(0), until - monotonic_now());
     }
+    limits.values = options_.values;
     if (options_.depth) limits.depth = static_cast<std::uint32_t>(*options_.depth);
     limits.stop_signal = StopSignals::received;
     limits.jobs = options_.jobs;
@@ -317,6 +319,10 @@ std::function<int()> define_verify(CLI::App& app) {
   app.add_option("--depth", options->depth, "Search only the first N ticks")
       ->type_name("N")
       ->transform(whole_number(1, 1'000'000'000));
+  app.add_option("--values", options->values, "Stop when an entry has had more than N values")
+      ->type_name("N")
+      ->transform(whole_number(1))
+      ->capture_default_str();
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
   app.add_option("-j,--jobs", options->jobs, "Threads; the verdict does not depend on it")
       ->type_name("N")

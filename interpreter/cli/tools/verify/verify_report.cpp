@@ -20,7 +20,7 @@ std::size_t count_findings(const Verdict& verdict) {
 // Why a search did not look at everything.
 std::string_view limit_of(SearchEnd end) {
   constexpr std::string_view kWords[] = {"",       "--states", "transitions", "--memory",
-                                         "--time", "--depth",  "a signal",    "values"};
+                                         "--time", "--depth",  "a signal",    "--values"};
   return kWords[static_cast<std::size_t>(end)];
 }
 
@@ -74,7 +74,8 @@ std::string to_text(const VerifyReport& report) {
     text += fmt::format("  {:<{}}  {}\n", it.name, width, it.text);
   }
   if (report.found.end == SearchEnd::Values) {
-    text += fmt::format("  the entry '{}' takes more and more values\n", report.found.note);
+    text +=
+        fmt::format("  the entry '{}' has more values than --values allows\n", report.found.note);
   }
   bool says_how = true;  // to look at the first recording
   for (const Finding& it : report.verdict.findings) {

@@ -1,0 +1,146 @@
+#include "verify/tick_points.h"
+
+#include <algorithm>
+
+#include "engine/nodes/fold.h"
+#include "verify/labels.h"
+
+namespace lockstep::host {
+namespace {
+
+// What is beside the tree looks at nodes in a way of its own.
+bool is_plain(const Tree& tree) {
+  return tree.groups.empty() && tree.members.empty() && tree.readings.empty() &&
+         tree.bound.empty() && !tree.keeps_over_skips;
+}
+
+}  // namespace
+
+TickPoints::TickPoints(const Tree& tree, const LeafModels& models, const std::vector<bool>& watched,
+                       std::uint64_t few_ticks)
+    : tree_(tree),
+      models_(models),
+      few_(few_ticks),
+      can_look_(is_plain(tree)),
+      has_properties_(std::ranges::find(watched, true) != watched.end()) {
+  std::vector<bool> counts = watched;
+  counts.resize(tree.nodes.size());
+  for (const Holdable& it : holdable(tree)) counts[it.child] = true;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    const NodeKind& kind = *tree.nodes[node].kind;
+    const std::size_t bytes =
+        kind.state_size + std::size_t{kind.state_per_child} * tree.nodes[node].children;
+    constexpr std::size_t kWord = sizeof(std::uint64_t);
+    words_.push_back({static_cast<std::uint32_t>(tree.nodes[node].state / kWord),
+                      static_cast<std::uint32_t>((bytes + kWord - 1) / kWord),
+                      kind.fold == fold::dead, kind.fold == fold::dead_when_idle});
+    const Words& words = words_.back();
+    if (words.count != 0 && !words.is_dead && !words.is_dead_when_idle) counts[node] = true;
+    if (counts[node]) kept_.push_back(node);
+  }
+}
+
+void TickPoints::begin_state(const std::vector<LeafState>& leaves) {
+  ticks_ = hits_ = 0;
+  looks_ = false;
+  if (known_.size() > 0) known_.clear();
+  if (!can_look_) return;
+  ran_.clear();
+  has_run_.assign(leaves.size(), 0);
+  for (std::uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
+    if (leaves[leaf].phase == Phase::Idle) continue;
+    has_run_[leaf] = 1;
+    if (models_.leaves[leaf].ends) ran_.push_back(leaf);
+  }
+}
+
+bool TickPoints::add(const Ticker& ticker, const ModelLeaves& leaves, const TickAnswers& answers,
+                     const StateCode& code, std::uint32_t asker, std::uint64_t root_ticks) {
+  const RunState& run = ticker.run_state();
+  // A property looks at moments.
+  if (!run.kept_values.empty() || (has_properties_ && !ticker.moments().empty())) return false;
+  point_.clear();
+  put(asker);
+  put(root_ticks);
+  put(run.asked_by);
+  put(run.interrupted);
+  const std::uint32_t chooses = leaves.chooses();
+  put(chooses);
+  if (chooses != ModelLeaves::kNobody) {
+    const LeafMark& mark = leaves.marks()[chooses];
+    put(mark.result);
+    put(mark.ended);
+    put(mark.written.size());
+  }
+  put_nodes(ticker,
+            chooses == ModelLeaves::kNobody ? tree_.nodes[0].end : tree_.leaves[chooses].node);
+  bool has_begun = false;
+  for (const std::uint32_t leaf : leaves.touched()) {  // the others are as they were
+    has_begun = has_begun || (models_.leaves[leaf].ends && has_run_[leaf] == 0);
+    const LeafState& state = leaves.states()[leaf];
+    if (state.phase == Phase::Idle) continue;
+    put(leaf);
+    put(state.ticks);
+    put(state.level);
+    put(state.phase);
+  }
+  put(ModelLeaves::kNobody);
+  put(has_begun);
+  for (const std::uint32_t leaf : ran_) {
+    put(leaves.marks()[leaf].ticked);
+    put(leaves.marks()[leaf].ended);
+  }
+  leaves.for_each_fact([this](const auto& it) { put(it); });
+  answers.for_each_tie([this](const auto& it) { put(it); });
+  code.add_entries(ticker, point_);
+  const bool is_known = !known_.add(point_).second;
+  if (is_known) ++hits_;
+  return is_known;
+}
+
+bool TickPoints::is_ticked_behind(const RunState& run, NodeIndex chooses) const {
+  bool any = false;
+  for (NodeIndex node = chooses + 1; node < tree_.nodes[0].end; ++node) {
+    const std::uint32_t tick = run.last_tick[node];
+    any |= (tick == run.tick_number) | (tick == ~run.tick_number);
+  }
+  return any;
+}
+
+// What is below a node that has completed is reset before its next tick. It has not if the leaf
+// that chooses is in it: then its tick goes on, and its status is an earlier one. What is behind
+// that leaf and has not been ticked is as it was, or follows from what is before it.
+void TickPoints::put_nodes(const Ticker& ticker, NodeIndex chooses) {
+  auto kept = kept_.begin();
+  NodeIndex end = tree_.nodes[0].end;
+  if (chooses < end && !is_ticked_behind(ticker.run_state(), chooses)) end = chooses + 1;
+  for (NodeIndex node = 0; node < end;) {
+    const NodeIndex after = tree_.nodes[node].end;
+    const bool is_in_its_tick = node <= chooses && chooses < after;
+    put_node(ticker, node, is_in_its_tick);
+    const bool is_over =
+        !is_in_its_tick && has_ended(ticker.status(node)) && ticker.ticked_so_far(node);
+    if (!is_over || after == node + 1) {
+      ++node;
+      continue;
+    }
+    kept = std::lower_bound(kept, kept_.end(), node + 1);
+    for (; kept != kept_.end() && *kept < after; ++kept) put_node(ticker, *kept, false);
+    node = after;
+  }
+}
+
+void TickPoints::put_node(const Ticker& ticker, NodeIndex node, bool is_in_its_tick) {
+  put(NodeState::of(ticker.activity(node), ticker.ticked_so_far(node)).bits);
+  const Words& words = words_[node];
+  if (words.count == 0) return;
+  if (!is_in_its_tick) {
+    const bool runs = ticker.status(node) == Status::Running;
+    if (words.is_dead || (words.is_dead_when_idle && !runs)) return;
+  }
+  const std::size_t size = point_.size(), bytes = words.count * sizeof(std::uint64_t);
+  point_.resize(size + bytes);
+  std::memcpy(point_.data() + size, &ticker.run_state().bytes[words.first], bytes);
+}
+
+}  // namespace lockstep::host
