@@ -93,7 +93,7 @@ static lockstep_status read_ports(void* leaf) {
 }
 
 #define INPUT(type, name, value) \
-  { sizeof(lockstep_port), type, LOCKSTEP_INPUT, name, value, NULL, NULL, NULL, 0, 0, NULL }
+  { sizeof(lockstep_port), type, LOCKSTEP_INPUT, name, value, NULL, NULL, NULL, 0, 0, NULL, 0 }
 static const lockstep_port kInputs[] = {
     INPUT(LOCKSTEP_DOUBLE, "a", "1"), INPUT(LOCKSTEP_DOUBLE, "b", "2"),
     INPUT(LOCKSTEP_DOUBLE, "c", "3"), INPUT(LOCKSTEP_DOUBLE, "d", "4"),

@@ -398,10 +398,10 @@ TEST_CASE(
     const Verified twenty("Sequence[memory=true](" + children + ")");
     CHECK(twenty.found.is_complete());
     CHECK(twenty.found.transitions <= kFewTicks + 2 * 20);
-    for (NodeIndex node = 0; node < twenty.tree.nodes.size(); ++node) {
-      if (twenty.tree.labels[node].type->leaf == nullptr) continue;
-      CHECK(twenty.found.coverage.has_been(node, Status::Success));
-      CHECK(twenty.found.coverage.has_been(node, Status::Failure));
+    for (NodeIndex it = 0; it < twenty.tree.nodes.size(); ++it) {
+      if (twenty.tree.labels[it].type->leaf == nullptr) continue;
+      CHECK(twenty.found.coverage.has_been(it, Status::Success));
+      CHECK(twenty.found.coverage.has_been(it, Status::Failure));
     }
   }
 }
@@ -411,7 +411,7 @@ TEST_CASE("points of a tick at which the same follows change nothing in what is 
        {"Parallel(Fallback[memory=true](Sequence(a b) c) Sequence[memory=true](Inverter(d) e))",
         "ParallelAbsolute[barriers=.5](Sequence(c? a) Fallback(d? b))",
         "Parallel[success_count=2](a b Fallback(c? ForceFailure(d?)))",
-        "ReactiveSequence(Fallback(c? d?) Retry[attempts=3](a) ForceSuccess(b))",
+        "Sequence(Fallback(c? d?) Retry[attempts=3](a) ForceSuccess(b))",
         "Sequence(Script[code=n:=0] Fallback(c? Script[code=n=1]) Fallback(d? Script[code=n=2]) "
         "Retry[attempts=2](a) Fallback(Check[code=n==2] b))"}) {
     INFO(tree);

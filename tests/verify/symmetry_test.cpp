@@ -170,7 +170,8 @@ void check_same_states(const Verified& one, const Verified& all) {
   const SearchResult &a = one.found, &b = all.found;
   REQUIRE(a.store.size() == b.store.size());
   CHECK(a.depths == b.depths);
-  CHECK(a.transitions <= b.transitions);
+  // Of ticks that come to the same point more are followed where answers have one order.
+  if (a.few_ticks == kAllTicks) CHECK(a.transitions <= b.transitions);
   for (StateId id = 0; id < a.store.size(); ++id) {
     const StateId same = b.store.find(a.store[id], hash_of(a.store[id]));
     if (same == kNoState || a.depth_of(id) != b.depth_of(same)) FAIL("state " << id);
@@ -187,6 +188,7 @@ TEST_CASE("equal children: random trees have the same verdict with and without s
     const std::string tree = random.text(), rows = random.rows(tree);
     INFO("seed " << seed << ": " << tree << ' ' << rows);
     SearchLimits limits{.states = 1500, .transitions = 15'000, .symmetry = false};
+    limits.few_ticks = seed % 2 == 0 ? kAllTicks : 0;
     const Verified plain(tree, rows, limits);
     if (!plain.found.is_complete()) continue;
     limits.symmetry = true;
@@ -225,6 +227,7 @@ TEST_CASE("equal leaves: one order of their answers has the verdict that each ch
     const std::string tree = random.text(), rows = random.rows();
     INFO("seed " << seed << ": " << tree << ' ' << rows);
     SearchLimits limits{.states = 1500, .transitions = 15'000, .symmetry = false};
+    limits.few_ticks = seed % 2 == 0 ? kAllTicks : 0;
     const Verified plain(tree, rows, limits);
     if (!plain.found.is_complete()) continue;
     limits.symmetry = true;

@@ -9,6 +9,8 @@
 namespace lockstep::host {
 namespace {
 
+constexpr std::size_t kMany = 8;  // children: of fewer, each is looked at by itself
+
 // A pool compares nothing.
 Guards guards_of(const Shape& shape, NodeIndex node) {
   std::vector<bool> guards;
@@ -41,7 +43,7 @@ SynchronizedTicks::SynchronizedTicks(const Shape& shape, NodeIndex node, bool wi
       is_group_(shape.nodes[node].is_group()),
       is_pool_(shape.nodes[node].synchronization == Synchronization::Resources),
       compares_(compares_progress(shape.nodes[node].synchronization)),
-      are_leaves_(!is_group_ && !children_.empty() &&
+      are_leaves_(!is_group_ && children_.size() >= kMany &&
                   children_.back() - children_.front() + 1 == children_.size()),
       with_flags_(with_flags),
       held_(children_.size()),

@@ -94,7 +94,7 @@ class SynchronizedTicks {
   std::vector<NodeIndex> children_;
   std::vector<NodeIndex> members_;  // of a group: the parents of the children
   bool is_group_, is_pool_, compares_;
-  bool are_leaves_;  // all children, so that they are next to each other
+  bool are_leaves_;  // all children, so that they are next to each other; and many
   bool with_flags_;
   HeldChildren held_;
   Guards guards_;

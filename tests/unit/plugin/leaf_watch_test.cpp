@@ -475,15 +475,19 @@ TEST_CASE("a tick within the budget takes two readings of the time, and times no
 }
 
 TEST_CASE("a call over the budget is named the first time, to a tenth of the budget") {
-  for (const auto& [first, second, wanted] : {std::tuple{15ms, 1ms, "1 tick 15000"},
-                                              {500us, 15ms, "2 tick 15"},
-                                              {11ms, 12ms, "1 tick 11000"}}) {
+  struct Row {
+    Nanoseconds first, second;
+    const char* wanted;
+  };
+  for (const auto& [first, second, wanted] :
+       {Row{15ms, 1ms, "1 tick 15000"}, Row{500us, 15ms, "2 tick 15"},
+        Row{11ms, 12ms, "1 tick 11000"}}) {
     Alarmed alarmed;
     alarmed.tick(first, second, 1ms);
     REQUIRE(alarmed.slow.size() == 1);
     CHECK(alarmed.slow[0].starts_with(wanted));
     REQUIRE(alarmed.over() != nullptr);
-    const Nanoseconds longest = std::max<Nanoseconds>(first, second);
+    const Nanoseconds longest = std::max(first, second);
     CHECK(std::chrono::abs(alarmed.over()->max - longest) <= 1ms);
   }
 }
