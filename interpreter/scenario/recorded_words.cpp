@@ -121,9 +121,12 @@ class WordMaker {
     std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
 
-  // That of a leaf at the start of a moment, or of the tick.
-  static double progress_at(const RecordedTick& tick, NodeIndex node, std::size_t moment) {
-    double progress = tick.moments.empty() ? tick.nodes[node].progress : 0;
+  // That of a leaf at the start of a moment, or of the tick. A node that compares progress may have
+  // compared another number, and in a later moment.
+  double progress_at(const RecordedTick& tick, NodeIndex node, std::size_t moment) const {
+    const bool is_own =
+        header_.nodes[node].keeper ? tick.moments.empty() : tick.moments.progress.empty();
+    double progress = is_own ? tick.nodes[node].progress : 0;
     for (const LeafProgress& it : tick.moments.progress) {
       if (it.node == node && it.moment <= moment) progress = it.progress;
     }
