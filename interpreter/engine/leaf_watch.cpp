@@ -77,11 +77,8 @@ void LeafWatch::close_tick() {
   options_.alarm->end_tick();
   is_open_ = false;
   times_each_ = true;
-  if (is_explained_) {
-    next_searches_ = kSampled;
-  } else if (is_long && !is_timed_whole_ && (!rang || *rang - opened_at_ > *options_.budget)) {
-    searches_left_ = std::exchange(next_searches_, std::min(next_searches_ * 2, 1u << 20));
-  }
+  const bool is_late = !rang || *rang - opened_at_ > *options_.budget;
+  if (is_long && !is_explained_ && !is_timed_whole_ && is_late) searches_left_ = kSearched;
 }
 
 void LeafWatch::time_each() {

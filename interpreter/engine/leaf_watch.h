@@ -134,6 +134,7 @@ class LeafWatch {
   // The first ticks are all timed, then one of so many is, at random.
   static constexpr std::uint64_t kFirstTicks = 64;
   static constexpr std::uint32_t kSampled = 64;
+  static constexpr std::uint32_t kSearched = 64;  // ticks, for a call that the alarm has missed
 
   // Times are counts of the processor's counter, or of the clock that was given: ns.
   std::int64_t read() const {
