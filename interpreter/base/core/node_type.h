@@ -146,6 +146,7 @@ struct NodeType {
   bool limits_time = false;             // a decorator that fails, and halts its child, after a time
   bool real_time = false;               // an action that continues to work between ticks
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
+  bool can_be_slowed = false;           // an action that obeys a pace: docs/pacing.md
   bool opens_entries = false;           // a leaf that uses entries that no port names
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in

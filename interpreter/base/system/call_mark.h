@@ -40,6 +40,7 @@ enum class PluginFunction : std::uint8_t {
   ToBytes,
   FromBytes,
   Reads,
+  SetPace,
   End,  // of a thread or the process: destructors of static objects, and what atexit was given
 };
 

@@ -294,12 +294,14 @@ void PlayedLeaves::take_over(Definition& definition) {
         type.leaf.behavior_count = type.node.leaf->behavior_count;
         type.leaf.behavior = type.node.leaf->behavior;
       }
+      type.leaf.set_pace = nullptr;       // what it does is given
       type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
       if (!type.node.has_progress) type.leaf.progress = nullptr;
       type.node.mock = nullptr;
       type.node.leaf = &type.leaf;
       type.node.origin = &plugin_;
       type.node.real_time = false;
+      type.node.can_be_slowed = false;
       if (type.node.plugin.empty()) type.node.plugin = plugin_.name;
       it->second = &type.node;
     }

@@ -26,9 +26,9 @@ void destroy(void* self) {
   leaf->end();
 }
 
-template <auto kMember>
-auto call(void* leaf) {
-  return (static_cast<RemoteLeaf*>(leaf)->*kMember)();
+template <auto kMember, class... Given>
+auto call(void* leaf, Given... given) {
+  return (static_cast<RemoteLeaf*>(leaf)->*kMember)(given...);
 }
 
 }  // namespace
@@ -71,6 +71,7 @@ const lockstep_leaf_type& proxy_leaf_type() {
     type.pause = call<&RemoteLeaf::pause>;
     type.resume = call<&RemoteLeaf::resume>;
     type.progress = call<&RemoteLeaf::progress>;
+    type.set_pace = call<&RemoteLeaf::set_pace, double>;
     return type;
   }();
   return kType;

@@ -29,6 +29,7 @@ class RemoteLeaf : public ProcessLeaf {
   virtual void pause() = 0;
   virtual void resume() = 0;
   virtual double progress() = 0;
+  virtual double set_pace(double /*factor*/) { return 1; }
   // The last call.
   virtual void end() = 0;
 

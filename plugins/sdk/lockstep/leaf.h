@@ -138,6 +138,14 @@ typedef struct lockstep_leaf_type {
   const struct lockstep_leaf_type* (*describe)(const lockstep_fixed* fixed, uint32_t count,
                                                lockstep_refusal* why);
   const void* data; /* what the plugin likes: lockstep_place::data */
+
+  /* [run] (optional) Since 1.5. Of an action below a node with pace="true": how fast to be from now
+   * on, in (0, 1]; 1 is as fast as the leaf is by itself. Called after start or resume and before
+   * tick, only when it has changed, never while paused. Each activation begins with 1, without a
+   * call, and the end of an activation ends it, halt included: undo there what a device was told.
+   * Returns what the leaf takes up, from factor to 1: its least speed, or 1 where it cannot be
+   * slower now. What is less or more is clamped, NaN is a fault. */
+  double (*set_pace)(void* leaf, double factor);
 } lockstep_leaf_type;
 
 typedef struct lockstep_plugin {

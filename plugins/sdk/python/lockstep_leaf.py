@@ -86,7 +86,7 @@ def _plain(value):
 
 # What a leaf has in addition to its ports.
 _TAKEN = {"behavior", "clock", "describe", "halt", "log", "more_ports", "name", "now", "path", "pause",
-          "period", "progress", "random", "real_time", "resume", "start", "tick"}
+          "period", "progress", "random", "real_time", "resume", "set_pace", "start", "tick"}
 
 
 class _Attribute:
@@ -196,7 +196,7 @@ class _Leaf:
                 "ports": [port.fact for port in cls._ports.values()]}
         if cls.more_ports:
             fact["more_ports"] = [cls.more_ports] if isinstance(cls.more_ports, str) else list(cls.more_ports)
-        flags = {"progress": hasattr(cls, "progress"), "real_time": cls.real_time,
+        flags = {"progress": hasattr(cls, "progress"), "set_pace": hasattr(cls, "set_pace"), "real_time": cls.real_time,
                  "pause": cls._pauses(), "answers_pause": cls._pauses()}
         said = {"behavior": {word: str(value) for word, value in cls.behavior.items()}} if cls.behavior else {}
         return fact | {name: True for name, is_set in flags.items() if is_set} | said
@@ -295,6 +295,11 @@ class _Server:
 
     def resume(self, leaf, request):
         self.call(leaf, "resume")
+
+    def set_pace(self, leaf, request):
+        taken = leaf.set_pace(request["factor"])
+        if taken is not None and taken > request["factor"]:
+            say(leaf=leaf._number, pace=taken)
 
     def destroy(self, leaf, request):
         del self.leaves[leaf._number]

@@ -12,6 +12,7 @@
 #include "base/core/behavior.h"
 #include "base/core/element_types.h"
 #include "base/core/parameter_value.h"
+#include "base/core/progress.h"
 #include "base/core/random.h"
 #include "base/core/wording.h"
 #include "engine/leaf_watch.h"
@@ -31,7 +32,7 @@ constexpr std::uint32_t kMostChildren = 2;
 constexpr std::size_t kLong = std::size_t{64} << 10;
 
 // The steps of a scenario.
-enum class Do : std::uint8_t { Tick, Pause, Halt, Restart };
+enum class Do : std::uint8_t { Tick, Pause, Halt, Restart, Slow, Full };
 
 struct Exercise {
   const char* name;
@@ -49,6 +50,22 @@ const std::vector<Exercise>& exercises() {
       {"is destroyed while it is held", {Tick, Pause}},
   };
   return kAll;
+}
+
+const Exercise& exercise_of_pace() {
+  using enum Do;
+  static const Exercise kPace{"moves slower, and as before",
+                              {Tick, Slow, Tick, Pause, Slow, Tick, Full, Tick, Slow, Halt, Tick}};
+  return kPace;
+}
+
+// "" or what it takes up against the contract.
+std::string tell_pace(const LeafSlot& leaf, double factor) {
+  const double taken = leaf.type->set_pace(leaf.self, factor);
+  const bool is_good = taken >= factor - kProgressEpsilon && taken <= 1 + kProgressEpsilon;
+  return is_good ? ""
+                 : fmt::format("accepts a pace of {:g} in response to {:g}, expected {:g} to 1",
+                               taken, factor, factor);
 }
 
 // Values at the edges of a type; those that the port refuses are left out.
@@ -132,6 +149,8 @@ class Examiner {
       for (const Exercise& it : exercises()) {
         if (!passes(*tree, it.name, it.steps)) return;
       }
+      const Exercise& pace = exercise_of_pace();
+      if (type_.leaf->set_pace != nullptr && !passes(*tree, pace.name, pace.steps)) return;
       if (!survives_values(*tree)) return;
       tree = tree_of(child, 2);
       if (!tree ||
@@ -203,6 +222,11 @@ class Examiner {
       if (run.fault() != nullptr) break;
       const bool is_running = run.ticker().status(0) == Status::Running;
       if (step == Do::Pause && is_running) run.ticker().pause(0);
+      const bool tells = step == Do::Slow || step == Do::Full;
+      if (tells && is_running && !run.ticker().held(1)) {
+        found.breach = tell_pace(run.ticker().leaf(1), step == Do::Slow ? 0.5 : 1.0);
+        if (!found.breach.empty()) break;
+      }
       if (step == Do::Halt) run.halt();
       if (step == Do::Restart) run.restart(2);
       if (step == Do::Restart) fill(run, it.tree, values);

@@ -258,6 +258,11 @@ double Conversation::progress(std::uint32_t leaf) {
   return leaves_[leaf - 1].progress;
 }
 
+double Conversation::least_pace(std::uint32_t leaf) {
+  const Lock lock(mutex_);
+  return leaves_[leaf - 1].least_pace;
+}
+
 void Conversation::forget(std::uint32_t number) {
   const Lock lock(mutex_);
   Leaf& leaf = leaves_[number - 1];
@@ -405,6 +410,8 @@ std::string Conversation::take_reply() {
     take_error(*leaf);
   } else if (reply_.what == Reply::What::Progress) {
     leaf->progress = *reply_.progress;
+  } else if (reply_.what == Reply::What::Pace) {
+    leaf->least_pace = std::clamp(reply_.pace, 0.0, 1.0);
   } else {
     return take_answer(*leaf);
   }

@@ -60,6 +60,8 @@ class Conversation {
   // Takes only the error of the news; the rest stays for the next tick.
   News take_error(std::uint32_t leaf);
   double progress(std::uint32_t leaf);
+  // The pace below which it does not go, as it has said; else 0.
+  double least_pace(std::uint32_t leaf);
   // A new activation: what it has said before does not count.
   void forget(std::uint32_t leaf);
   // The time in which the leaf was held does not count as its own.
@@ -111,6 +113,7 @@ class Conversation {
     bool has_erred = false;  // for the tick it may still have an answer
     News news = {};
     double progress = 0;
+    double least_pace = 0;
 
     bool owes(Asked what) const { return what == Asked::Pause ? pauses > 0 : asked == what; }
     bool owes_anything() const { return asked != Asked::Nothing || pauses > 0; }

@@ -31,13 +31,15 @@ struct Hello::Reader {
     leaf.start_unreset = nullptr;
     std::string kind = "action";
     std::vector<std::string> more_ports;
-    bool progress = false, pause = false, answers_pause = false, real_time = false;
+    bool progress = false, set_pace = false, pause = false, answers_pause = false,
+         real_time = false;
     bool has_ticks = false;  // more than one
     value.object().read(
         {{"id", into_text(leaf.id)},
          {"kind", into(kind), kMayLack},
          {"doc", into_text(leaf.doc), kMayLack},
          {"progress", into_flag(progress), kMayLack},
+         {"set_pace", into_flag(set_pace), kMayLack},
          {"pause", into_flag(pause), kMayLack},
          {"answers_pause", into_flag(answers_pause), kMayLack},
          {"real_time", into_flag(real_time), kMayLack},
@@ -68,6 +70,7 @@ struct Hello::Reader {
       }
     }
     if (!progress) leaf.progress = nullptr;
+    if (!set_pace) leaf.set_pace = nullptr;
     Hold its = hold;
     if (hold == Hold::AsItSays) its = pause || answers_pause ? Hold::Message : Hold::None;
     if (its == Hold::Message && answers_pause) its = Hold::Answered;

@@ -96,6 +96,7 @@ bool ProgramLeaf::create() {
 
 // It is sent with the first tick, which may be later than this: when the last halt is answered.
 void ProgramLeaf::start() {
+  factor_.reset();
   has_begun_ = false;
   if (!is_condition_) conversation_.forget(number_);
 }
@@ -113,6 +114,8 @@ void ProgramLeaf::ask_tick() {
     request_.begin("start", number_).field("now", now()).ports(caller_, sent_).end();
     has_begun_ = true;
   }
+  if (factor_) request_.begin("set_pace", number_).field("factor", *factor_).end();
+  factor_.reset();
   request_.begin("tick", number_).field("now", now()).ports(caller_, sent_).end();
   if (!has_error()) send(Asked::Tick);
 }
@@ -282,6 +285,12 @@ void ProgramLeaf::resume() {
   request_.clear();
   request_.begin("resume", number_).field("now", now()).end();
   send(Asked::Nothing);
+}
+
+// It owes no answer. What it takes up is what it was asked, or the least that it has said.
+double ProgramLeaf::set_pace(double factor) {
+  factor_ = factor;
+  return std::max(factor, conversation_.least_pace(number_));
 }
 
 double ProgramLeaf::progress() {

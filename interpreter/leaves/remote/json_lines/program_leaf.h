@@ -34,6 +34,7 @@ class ProgramLeaf : public RemoteLeaf {
   void pause() override;
   void resume() override;
   double progress() override;
+  double set_pace(double factor) override;
   void end() override;
   std::string trouble() override;
 
@@ -66,7 +67,8 @@ class ProgramLeaf : public RemoteLeaf {
   std::vector<Value> sent_;
   bool has_begun_ = true;  // false: `start` is to be sent before the next tick
   bool is_held_ = false;
-  Nanoseconds told_late_{0};  // the question of which it was said; 0: none
+  std::optional<double> factor_;  // to be told before the next tick
+  Nanoseconds told_late_{0};      // the question of which it was said; 0: none
   JsonReader reader_;
 };
 

@@ -37,6 +37,12 @@ void read_fields(JsonObject object, Reply& reply) {
                 },
                 kMayLack},
                {"progress", [&](JsonValue it) { reply.progress = it.number(); }, kMayLack},
+               {"pace",
+                [&](JsonValue it) {
+                  reply.pace = it.number();
+                  is(Reply::What::Pace);
+                },
+                kMayLack},
                {"set",
                 [&](JsonValue it) {
                   reply.sets_ports = true;
@@ -65,7 +71,8 @@ void read_fields(JsonObject object, Reply& reply) {
                 kMayLack}});
   if (kinds == 0 && reply.progress) is(Reply::What::Progress);
   if (kinds != 1) {
-    throw JsonError("expected one of 'status', 'done', 'log' and 'error', or 'progress' alone");
+    throw JsonError(
+        "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' alone");
   }
   if (reply.sets_ports && reply.what != Reply::What::Status) {
     throw JsonError("'set' belongs to a 'status'");

@@ -15,6 +15,7 @@ struct Reply {
     Status,    // the answer to tick
     Done,      // the answer to create and halt
     Progress,  // unasked
+    Pace,      // likewise
     Log,
     Error,
   };
@@ -22,6 +23,7 @@ struct Reply {
   std::uint64_t leaf = 0;  // 0: the program itself
   lockstep_status status = 0;
   std::optional<double> progress;
+  double pace = 0;          // of Pace
   bool sets_ports = false;  // the line also has "set"
   std::string text;         // of Log and Error
   lockstep_log_level level = LOCKSTEP_LOG_INFO;

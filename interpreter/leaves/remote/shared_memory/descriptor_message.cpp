@@ -33,7 +33,8 @@ std::uint8_t optional_functions(const lockstep_leaf_type& leaf) {
   return static_cast<std::uint8_t>(
       (leaf.start != nullptr ? 1 : 0) | (leaf.halt != nullptr ? 2 : 0) |
       (leaf.pause != nullptr ? 4 : 0) | (leaf.resume != nullptr ? 8 : 0) |
-      (leaf.progress != nullptr ? 16 : 0) | (leaf.start_unreset != nullptr ? 32 : 0));
+      (leaf.progress != nullptr ? 16 : 0) | (leaf.start_unreset != nullptr ? 32 : 0) |
+      (leaf.set_pace != nullptr ? 64 : 0));
 }
 
 void keep_functions(lockstep_leaf_type& leaf, std::uint8_t present) {
@@ -43,6 +44,7 @@ void keep_functions(lockstep_leaf_type& leaf, std::uint8_t present) {
   if ((present & 8) == 0) leaf.resume = nullptr;
   if ((present & 16) == 0) leaf.progress = nullptr;
   if ((present & 32) == 0) leaf.start_unreset = nullptr;
+  if ((present & 64) == 0) leaf.set_pace = nullptr;
 }
 
 }  // namespace

@@ -109,6 +109,10 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
   void pause() override { call(PluginFunction::Pause); }
   void resume() override { call(PluginFunction::Resume); }
   double progress() override { return std::bit_cast<double>(call(PluginFunction::Progress)); }
+  double set_pace(double factor) override {
+    run_.begin_call(PluginFunction::SetPace, number_, caller_).put(factor);
+    return std::bit_cast<double>(run_.call(caller_, ports_));
+  }
   void end() override {
     if (run_.session_->is_gone()) return;
     run_.begin_call(PluginFunction::Destroy, number_, caller_);

@@ -179,6 +179,9 @@ std::uint64_t ServedRun::call_leaf(Object& object, PluginFunction function) {
       return static_cast<std::uint64_t>(type.tick(self));
     case PluginFunction::Progress:
       return type.progress == nullptr ? 0 : std::bit_cast<std::uint64_t>(type.progress(self));
+    case PluginFunction::SetPace:
+      return std::bit_cast<std::uint64_t>(type.set_pace == nullptr ? 1.0
+                                                                   : type.set_pace(self, factor_));
     default:
       break;
   }
@@ -241,6 +244,7 @@ bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageW
   Object* const object = function == PluginFunction::CreateRun ? create_run(request)
                          : function == PluginFunction::Create  ? create_leaf(number, request)
                                                                : find(number);
+  factor_ = function == PluginFunction::SetPace ? request.get<double>() : 1.0;
   if (object == nullptr || !read_entries(request)) return false;
   workers_.give_turns(time_.now);
   perform(*object, function, answer);

@@ -54,9 +54,10 @@ class ServedRun {
   std::string call(Object& object, PluginFunction function, std::uint64_t& result);
   std::uint64_t create(Object& object);
   std::uint64_t call_run(Object& object, PluginFunction function);
-  static std::uint64_t call_leaf(Object& object, PluginFunction function);
+  std::uint64_t call_leaf(Object& object, PluginFunction function);
   void write_entries(MessageWriter& answer) const;
   void perform(Object& object, PluginFunction function, MessageWriter& answer);
+  double factor_ = 1;         // of the call, if it tells a pace
   bool is_measured_ = false;  // there was much to carry, once
 
   const Descriptors& descriptors_;

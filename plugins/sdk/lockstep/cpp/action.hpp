@@ -28,6 +28,8 @@ class Leaf : protected Services {
   static constexpr bool kRealTime = false;
   // True in a class that calls wake().
   static constexpr bool kWakes = false;
+  // True in a ThreadedAction that obeys token.pace().
+  static constexpr bool kPaces = false;
   virtual ~Leaf() = default;
 
  protected:
@@ -70,6 +72,11 @@ class ActionFunctions : public Leaf {
   // How much of the activation is done, in [0, 1]; called only while running, also while paused. It
   // may fall.
   virtual double progress() const { return 0; }
+  // How fast to be from now on, in (0, 1]; 1 is as fast as the action is by itself. Called where a
+  // node with pace="true" slows the action, when that changes: after start() or resume(), before
+  // tick(). Each activation begins with 1. Undo at its end, and in halt(), what a device was told.
+  // Returns what the action takes up: `factor`, its least speed, or 1 where it cannot be slower.
+  virtual double set_pace(double /*factor*/) { return 1; }
 
  protected:
   static constexpr bool kKeepsProgress = false;  // see kept_progress
@@ -77,6 +84,7 @@ class ActionFunctions : public Leaf {
  private:
   friend struct detail::LeafAccess;
   virtual void before_start() {}
+  virtual void before_pace(double /*factor*/) {}
   // Where the host reads the progress without a call.
   virtual const double* kept_progress() const { return nullptr; }
   // Ends everything that must end before any part of a derived leaf is destroyed.

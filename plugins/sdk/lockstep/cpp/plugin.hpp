@@ -27,10 +27,15 @@ struct LeafAccess {
     return T::kKeepsProgress;
   }
   static void before_start(ActionFunctions& action) { action.before_start(); }
+  static void before_pace(ActionFunctions& action, double factor) { action.before_pace(factor); }
   static const double* kept_progress(const ActionFunctions& action) {
     return action.kept_progress();
   }
 };
+
+template <class T>
+inline constexpr bool kOverridesPace =
+    !std::is_same_v<decltype(&T::set_pace), double (ActionFunctions::*)(double)>;
 
 // The functions of the C table for leaf class T, which must be public in T.
 template <class T>
@@ -77,6 +82,13 @@ struct LeafFunctions {
     const T& object = *static_cast<T*>(leaf);
     return guarded(LeafAccess::caller(object), 0.0, [&] { return object.progress(); });
   }
+  static double set_pace(void* leaf, double factor) {
+    T& object = *static_cast<T*>(leaf);
+    return guarded(LeafAccess::caller(object), 1.0, [&] {
+      LeafAccess::before_pace(object, factor);
+      return kOverridesPace<T> ? object.set_pace(factor) : factor;
+    });
+  }
   static const void* get_extension(void* leaf, const char* id) {
     const bool is_known = std::string_view(id) == LOCKSTEP_KEPT_PROGRESS;
     return is_known ? LeafAccess::kept_progress(*static_cast<T*>(leaf)) : nullptr;
@@ -120,6 +132,9 @@ constexpr void add_optional_functions(lockstep_leaf_type& type) {
   if constexpr (is_overridden<decltype(&T::resume), Nothing>) type.resume = &Functions::resume;
   if constexpr (is_overridden<decltype(&T::progress), NoProgress>) {
     type.progress = &Functions::progress;
+  }
+  if constexpr (T::kPaces || kOverridesPace<T>) {
+    type.set_pace = &Functions::set_pace;
   }
   if constexpr (kKeepsProgress) type.get_extension = &Functions::get_extension;
 }

@@ -66,6 +66,9 @@ class Token {
     if (worker_ != nullptr) workers_->wait(worker_, workers_->now(worker_) + 1e-9);
   }
 
+  // How fast to be, in (0, 1]: set_pace of Action. For a class with kPaces.
+  double pace() const { return pace_.load(std::memory_order_relaxed); }
+
   void set_progress(double progress) { progress_.store(progress, std::memory_order_relaxed); }
 
   Token() = default;
@@ -91,6 +94,7 @@ class Token {
   void reset() {
     stop_ = pause_ = false;
     set_progress(0);
+    pace_.store(1, std::memory_order_relaxed);
   }
 
   mutable std::mutex mutex_;
@@ -98,6 +102,7 @@ class Token {
   bool stop_ = false;
   bool pause_ = false;
   std::atomic<double> progress_{0};
+  std::atomic<double> pace_{1};
   // The activation's, on the virtual clock; otherwise null.
   const lockstep_workers* workers_ = nullptr;
   lockstep_worker* worker_ = nullptr;
@@ -146,6 +151,7 @@ class Worker {
     join();
   }
   void pause(bool value) { token_.request(&Token::pause_, value); }
+  void set_pace(double factor) { token_.pace_.store(factor, std::memory_order_relaxed); }
   double progress() const { return token_.progress_.load(std::memory_order_relaxed); }
   // An atomic double that needs no lock is one.
   const double* kept_progress() const { return reinterpret_cast<const double*>(&token_.progress_); }
@@ -238,6 +244,7 @@ class ThreadedAction : public Action<PortsOfLeaf> {
  private:
   friend struct detail::LeafAccess;
   void before_destroy() final { worker_.stop_silently(); }
+  void before_pace(double factor) final { worker_.set_pace(factor); }
   const double* kept_progress() const final { return worker_.kept_progress(); }
 
   detail::Worker worker_;

@@ -71,6 +71,11 @@ struct Leaf {
   static void resume(void* self) {
     static_cast<Leaf*>(self)->call([](TreeNode& node, const ClassHooks& it) { it.resume(node); });
   }
+  static double set_pace(void* self, double factor) {
+    Leaf& leaf = *static_cast<Leaf*>(self);
+    return lockstep::detail::guarded(leaf.caller(), 1.0,
+                                     [&] { return leaf.hooks().pace(*leaf.node, factor); });
+  }
   static double progress(void* self) {
     const Leaf& leaf = *static_cast<const Leaf*>(self);
     return lockstep::detail::guarded(leaf.caller(), 0.0,

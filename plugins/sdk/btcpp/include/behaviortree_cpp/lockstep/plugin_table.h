@@ -157,6 +157,7 @@ class PluginTable {
     if (manifest.lockstep_hooks.pause != nullptr) type.pause = Leaf::pause;
     if (manifest.lockstep_hooks.resume != nullptr) type.resume = Leaf::resume;
     if (manifest.lockstep_hooks.progress != nullptr) type.progress = Leaf::progress;
+    if (manifest.lockstep_hooks.pace != nullptr) type.set_pace = Leaf::set_pace;
     type.flags = LOCKSTEP_HALTS_CHILDREN | LOCKSTEP_WAKES;
     if (manifest.type == NodeType::CONDITION) type.flags |= LOCKSTEP_MAY_RUN;
     if (manifest.lockstep_hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;

@@ -35,6 +35,7 @@ struct ClassHooks {
   double (*progress)(const TreeNode&) = nullptr;
   void (*pause)(TreeNode&) = nullptr;
   void (*resume)(TreeNode&) = nullptr;
+  double (*pace)(TreeNode&, double factor) = nullptr;
 };
 
 template <class T, class = void>
@@ -51,6 +52,13 @@ template <class T, class = void>
 inline constexpr bool has_on_resumed = false;
 template <class T>
 inline constexpr bool has_on_resumed<T, std::void_t<decltype(std::declval<T&>().onResumed())>> =
+    true;
+
+template <class T, class = void>
+inline constexpr bool has_on_pace = false;
+template <class T>
+inline constexpr bool has_on_pace<
+    T, std::enable_if_t<std::is_convertible_v<decltype(std::declval<T&>().onPace(1.0)), double>>> =
     true;
 
 // A class of the library whose code is in these headers.
@@ -91,6 +99,11 @@ ClassHooks hooks_of() {
   }
   if constexpr (has_on_resumed<T>) {
     hooks.resume = [](TreeNode& node) { as_class<T>(node).onResumed(); };
+  }
+  if constexpr (has_on_pace<T>) {
+    hooks.pace = [](TreeNode& node, double factor) -> double {
+      return as_class<T>(node).onPace(factor);
+    };
   }
   return hooks;
 }
