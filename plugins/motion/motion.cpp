@@ -17,6 +17,7 @@ struct AdvancePorts : lockstep::Ports {
   Input<std::string> noise_per{this, "noise_per", "tick",
                                "tick, or run: the noise is drawn once, and the pace is constant"};
   ReportPorts report{this};
+  ObeyPorts obey{this};
   Output<double> actual{this, "actual", "its progress after each tick, neither late nor in steps"};
 };
 
@@ -25,6 +26,7 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
   void start() override {
     progress_ = 0;
     report_.start(report);
+    obey_.start(obey);
     is_constant_ = noise_per.view() == "run";
     if (!is_constant_ && noise_per.view() != "tick") {
       throw std::runtime_error("port 'noise_per' is neither 'tick' nor 'run'");
@@ -35,7 +37,8 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
 
   Status tick() override {
     if (report_.is_late()) report_.sample(now(), progress_);
-    const double change = is_noisy_ ? step.get() + drawn() : step.get();
+    double change = is_noisy_ ? step.get() + drawn() : step.get();
+    if (obey_.is_told()) change *= obey_.factor(now());
     progress_ = std::clamp(progress_ + change, 0.0, 1.0);
     actual.set(progress_);
     set_progress(progress_);
@@ -43,6 +46,7 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
   }
 
   void pause() override { report_.sample(now(), progress_); }
+  double set_pace(double factor) override { return obey_.set(factor, now()); }
   double progress() const override {
     return report_.of_ticks(report_.is_late() ? now() : 0, progress_);
   }
@@ -55,6 +59,7 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
   bool keeps_progress() const override { return report.is_plain(); }
 
   Report report_;
+  Obey obey_;
   double progress_ = 0;
   bool is_constant_ = false;
   bool is_noisy_ = true;          // false: it never is, so that no number is drawn

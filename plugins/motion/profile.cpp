@@ -37,6 +37,7 @@ Curve curve_of(lockstep::ListView numbers) {
 void Profile::start() {
   pace_.start(clock.view(), now());
   report_.start(report);
+  obey_.start(obey);
   curve_ = curve_of(points.view());
   step_ = step.get();
   const double most = pace_.is_time() ? std::numeric_limits<double>::max() : 1;
@@ -49,10 +50,15 @@ void Profile::start() {
 
 Profile::Status Profile::tick() {
   report_.sample(now(), progress_at(pace_.elapsed(now())));
-  pace_.tick();
+  pace_.tick(obey_.is_told() ? obey_.factor(now()) : 1);
   const bool done = curve_.empty() ? position(pace_.elapsed(now())) >= kDone
                                    : pace_.has_reached(curve_.end(), now());
   return done ? Status::Success : Status::Running;
+}
+
+// What moves in time does so whatever it is told.
+double Profile::set_pace(double factor) {
+  return pace_.is_time() ? 1.0 : obey_.set(factor, now());
 }
 
 void Profile::pause() {

@@ -21,6 +21,7 @@ struct ProfilePorts : lockstep::Ports {
       "lines in between; the progress ends at 1"};
   Input<std::string> clock{this, "clock", "ticks", kClockDoc};
   ReportPorts report{this};
+  ObeyPorts obey{this};
 };
 
 class Profile : public lockstep::Action<ProfilePorts> {
@@ -28,6 +29,7 @@ class Profile : public lockstep::Action<ProfilePorts> {
   void start() override;
   Status tick() override;
   void pause() override;
+  double set_pace(double factor) override;
   double progress() const override;
 
  private:
@@ -37,6 +39,7 @@ class Profile : public lockstep::Action<ProfilePorts> {
 
   Pace pace_;
   Report report_;
+  Obey obey_;
   Curve curve_;  // of points
   double step_ = 0;
   bool is_sigmoid_ = false;

@@ -180,6 +180,7 @@ void Recorded::start() {
   read(file.get(), node.get());
   pace_.start(clock.view(), now());
   report_.start(report);
+  obey_.start(obey);
 }
 
 // The tick that ended the node then ends it now: the one after as many as came before it.
@@ -187,9 +188,14 @@ Recorded::Status Recorded::tick() {
   using End = RecordedProgress::End;
   const bool is_last = pace_.has_reached(curve().end(), now());
   report_.sample(now(), curve().progress(pace_.elapsed(now())));
-  pace_.tick();
+  pace_.tick(obey_.is_told() ? obey_.factor(now()) : 1);
   if (!is_last || recorded_.end == End::None) return Status::Running;
   return recorded_.end == End::Success ? Status::Success : Status::Failure;
+}
+
+// What moves in time does so whatever it is told.
+double Recorded::set_pace(double factor) {
+  return pace_.is_time() ? 1.0 : obey_.set(factor, now());
 }
 
 void Recorded::pause() {

@@ -26,6 +26,7 @@ struct RecordedPorts : lockstep::Ports {
   Input<std::string> node{this, "node", required, "the path of the node in it: Door/pull/arm"};
   Input<std::string> clock{this, "clock", "ticks", kClockDoc};
   ReportPorts report{this};
+  ObeyPorts obey{this};
 };
 
 class Recorded : public lockstep::Action<RecordedPorts> {
@@ -34,6 +35,7 @@ class Recorded : public lockstep::Action<RecordedPorts> {
   void start() override;
   Status tick() override;
   void pause() override;
+  double set_pace(double factor) override;
   double progress() const override;
 
  private:
@@ -44,6 +46,7 @@ class Recorded : public lockstep::Action<RecordedPorts> {
   RecordedProgress recorded_;
   Pace pace_;
   Report report_;
+  Obey obey_;
 };
 
 }  // namespace motion

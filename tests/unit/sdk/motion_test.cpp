@@ -20,7 +20,7 @@ const lockstep_leaf_type& kRecorded = *motion_plugin.leaf_types[2];
 
 using Numbers = std::vector<double>;
 
-// The ports behind those that are given: what it reports is neither late nor in steps.
+// The ports behind those that are given: what it reports is neither late nor in steps, and it obeys.
 class MotionLeaf : public sdk_test::FakeLeaf {
  public:
   MotionLeaf(const lockstep_leaf_type& type, std::vector<sdk_test::PortValue> ports)
@@ -28,7 +28,7 @@ class MotionLeaf : public sdk_test::FakeLeaf {
 
  private:
   static std::vector<sdk_test::PortValue> with_late_ports(std::vector<sdk_test::PortValue> ports) {
-    ports.insert(ports.end(), {0.0, 0.0});
+    ports.insert(ports.end(), {0.0, 0.0, true, 0.0, 0.0});
     return ports;
   }
 };
