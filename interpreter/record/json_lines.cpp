@@ -35,6 +35,7 @@ Json json_of(const ShapeNode& node, std::size_t index) {
   if (!node.resources.empty()) json[lines::kHeaderNode["resources"]] = node.resources;
   if (!node.members.empty()) json[lines::kHeaderNode["members"]] = node.members;
   if (node.ignores_idle) json[lines::kHeaderNode["idle"]] = "ignore";
+  if (node.paces) json[lines::kHeaderNode["pace"]] = true;
   if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
   return json;
 }
@@ -160,6 +161,12 @@ void add_limit(std::string& text, const LimitChange& it) {
   } else {
     add_number(text, it.limit);
   }
+  text += ']';
+}
+
+void add_factor(std::string& text, const FactorChange& it) {
+  add_number(text += '[', it.node);
+  add_number(text += ',', it.factor);
   text += ']';
 }
 
@@ -301,6 +308,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   text = ']';
   add_list(text, lines::kTick["limits"], end.limits, add_limit);
   add_list(text, lines::kTick["rounds"], end.rounds, add_round);
+  add_list(text, lines::kTick["factors"], end.factors, add_factor);
   add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
   add_moments(text, end.moments);
   add_list(text, lines::kTick["leaf_progress"], end.moments.progress, add_leaf_progress);

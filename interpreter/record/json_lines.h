@@ -26,6 +26,7 @@ namespace lockstep::host {
 struct TickEnd {
   std::span<const LimitChange> limits = {};
   std::span<const RoundChange> rounds = {};
+  std::span<const FactorChange> factors = {};
   std::span<const NodeIndex> succeeded = {};
   MomentsView moments = {};
   std::span<const Fault> faults = {};

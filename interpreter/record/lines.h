@@ -62,6 +62,7 @@ constexpr Tuple kTuples[] = {
     {"Moment", {{{"times", "Whole"}, {"nodes", "MomentNode[]"}}}},
     {"LimitChange", {{{"index", "Index"}, {"limit", "Real | null"}}}},
     {"RoundChange", {{{"index", "Index"}, {"number", "Whole"}, {"of", "Whole"}}}},
+    {"FactorChange", {{{"index", "Index"}, {"factor", "Real"}}}},
     {"Fault", {{{"index", "Index"}, {"message", "Text"}}}},
     {"EntryValue", {{{"index", "Index"}, {"value", "Text | null"}}}},
     {"LogLine", {{{"who", "Text"}, {"level", "Level"}, {"text", "Text"}}}},
@@ -171,6 +172,7 @@ constexpr Field kHeaderNodeFields[] = {
     {"members", "Index[]", kMaybe,
      "of what is outside the trees: the nodes that the SyncProgress nodes of a barrier hold, or "
      "the children of the UseResources nodes of a pool"},
+    {"pace", "Yes", kMaybe, "for a node that [paces](pacing.md) what it holds"},
     {"guard", "Yes", kMaybe,
      "for a child of a parallel, and for the child of a SyncProgress, that contains no action: it "
      "is a [guard](language.md#guards), and part of no measure"},
@@ -204,6 +206,9 @@ constexpr Field kTickFields[] = {
      "only if there are any: {} for each Retry or Repeat whose round differs from the line before: "
      "the number counts from 1, "
      "and is 0 when the node is not running; `of` is 0 for an endless one"},
+    {"factors", "FactorChange[]", kMaybe,
+     "only if there are any: {} for each node that is [paced](pacing.md) and whose factor differs "
+     "from the line before. Until then it is 1"},
     {"succeeded", "Index[]", kMaybe,
      "only if there are any: the synchronized nodes, the children of parallels and the children of "
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "
@@ -238,7 +243,8 @@ constexpr Field kTickFields[] = {
      "count the rest. `--log-level` has no effect"},
     {"whole", "EntryValue[]", kMaybe,
      "only in a line each few thousand ticks: {} for each entry that has a value. The `nodes`, "
-     "`limits` and `rounds` of that line are the whole state, also what has not changed. A reader "
+     "`limits`, `rounds` and `factors` of that line are the whole state, also what has not "
+     "changed. A reader "
      "may begin with it"},
     {"counts", "NodeCounts[]", kMaybe,
      "only in a line with `full`: {} for each node, how often this happened to it until then"},

@@ -31,6 +31,12 @@ struct LimitChange {
   double limit = 0;
 };
 
+// How fast a node is to be that is paced (engine/pace.h).
+struct FactorChange {
+  NodeIndex node = 0;
+  double factor = 1;
+};
+
 // The round of a node that repeats its child; number 0: it is not running.
 struct RoundChange {
   NodeIndex node = 0;

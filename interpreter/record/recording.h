@@ -21,6 +21,7 @@ struct RecordedState {
   // The limit of a synchronized node (engine/synchronized.h) or of a UseResources
   // (engine/resources.h).
   double limit = 0;
+  double factor = 1;             // of what is paced: trace/moment.h
   Round round = {};              // of a node that repeats its child; number 0: not running
   Status status = Status::Idle;  // after the tick
   bool ticked = false;

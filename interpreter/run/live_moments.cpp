@@ -1,6 +1,7 @@
 #include "run/live_moments.h"
 
 #include "engine/blackboard.h"
+#include "engine/pace.h"
 #include "engine/resources.h"
 #include "engine/ticker.h"
 
@@ -36,6 +37,11 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
   moment_.progress = progress_;
   moment_.limits = limits_;
   moment_.uses = uses_;
+  const auto paces = [](const Node& it) { return it.kind->paced_child != nullptr; };
+  if (std::ranges::any_of(tree.nodes, paces)) {
+    factors_.resize(tree.nodes.size());
+  }
+  moment_.factors = factors_;
 }
 
 void LiveMoments::begin(Ticker& ticker) const {
@@ -76,6 +82,18 @@ void LiveMoments::bind(Ticker& ticker) {
     }
   }
   for_each_resource_user(tree_, point_to_limit);
+  if (!factors_.empty()) point_to_factors(ticker);
+}
+
+void LiveMoments::point_to_factors(Ticker& ticker) {
+  for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
+    const auto paced_child = tree_.nodes[node].kind->paced_child;
+    if (paced_child == nullptr) continue;
+    std::uint32_t place = 0;
+    for_each_child(tree_, node, [&](NodeIndex child) {
+      factors_[child] = &paced_child(ticker, node, place++)->given;
+    });
+  }
 }
 
 // The numbers that a synchronized node has used replace those from before its tick.

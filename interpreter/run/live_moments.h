@@ -57,6 +57,7 @@ class LiveMoments final : private LiveRun {
 
   void ask(Ticker& ticker);
   void bind(Ticker& ticker);
+  void point_to_factors(Ticker& ticker);
   void take_used(Ticker& ticker);
 
   const Tree& tree_;
@@ -66,6 +67,7 @@ class LiveMoments final : private LiveRun {
   std::vector<double> progress_;
   std::vector<const double*> limits_;
   std::vector<std::span<const double>> uses_;
+  std::vector<const double*> factors_;  // empty: nobody paces
   const std::vector<NodeIndex> synchronized_;
   const void* bound_ = nullptr;  // where the engine keeps what these point to
   bool asks_progress_, asks_within_, asks_progress_within_;

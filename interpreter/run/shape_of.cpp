@@ -42,6 +42,7 @@ Shape shape_of(const Tree& tree) {
     if (const auto list = barriers(tree, index)) node.barriers.emplace(list->begin(), list->end());
     node.delta = delta(tree, index);
     node.ignores_idle = ignores_idle(tree, index);
+    node.paces = tree.nodes[index].kind->paced_child != nullptr;
     node.latches = label.type->latches;
     node.type = label.type;
     node.repeats = tree.nodes[index].kind->round != nullptr;

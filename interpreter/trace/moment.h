@@ -63,6 +63,8 @@ struct Moment {
   std::span<const double> progress = {};
   std::span<const double* const> limits = {};          // null: the node has none
   std::span<const std::span<const double>> uses = {};  // empty: it compares no progress
+  // How fast what a node that paces holds was to be; 0: as fast as it can. Null: of other nodes.
+  std::span<const double* const> factors = {};
   // That have succeeded in the tick, and were ended later in it.
   std::span<const NodeIndex> ended = {};
   MomentsView within = {};  // what happened within the tick
@@ -84,6 +86,11 @@ struct Moment {
   // Of a synchronized node in the last tick that reached it, and of a node that uses resources:
   // base/core/synchronization.h, base/core/resource_set.h.
   double limit(NodeIndex node) const { return *limits[node]; }
+  // In (0, 1]; 1 is as fast as the node is by itself. Of what is not paced, and does not run: 1.
+  double factor(NodeIndex node) const {
+    const bool has_one = !factors.empty() && factors[node] != nullptr && *factors[node] != 0;
+    return has_one && (ticked(node) || status(node) == Status::Running) ? *factors[node] : 1;
+  }
   // The progress of each child of a parallel, or of what a group holds, as the node used it in the
   // last tick in which it asked them; kLeftOut for one that was left out.
   std::span<const double> used(NodeIndex node) const { return uses[node]; }

@@ -27,6 +27,7 @@ struct ShapeNode {
   std::vector<NodeIndex> members = {};  // of a group: what these hold, a node below each
   bool ignores_idle = false;            // a group that leaves out who is idle
   bool is_guard = false;                // a child of a parallel, or in a member, without an action
+  bool paces = false;                   // it slows what it holds: engine/pace.h
   bool latches = false;                 // a parallel, also one that compares no progress
 
   // Only of a tree that runs (run/shape_of.h). The header of a recording has none of these.

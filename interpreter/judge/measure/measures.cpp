@@ -3,8 +3,8 @@
 namespace lockstep::host {
 
 extern const Measure kProgressDistance, kProgressDistanceMean, kProgressDistanceSeconds, kSpread,
-    kStepLength, kHeld, kHeldBy, kPauses, kWaits, kFairness, kDuration, kTicks, kSuccess, kEntry,
-    kPredictability;
+    kStepLength, kHeld, kHeldBy, kPauses, kFactor, kSpeedChanges, kWaits, kFairness, kDuration,
+    kTicks, kSuccess, kEntry, kPredictability;
 
 // In the order in which they are documented.
 std::span<const Measure* const> all_measures() {
@@ -16,6 +16,8 @@ std::span<const Measure* const> all_measures() {
                                                  &kHeld,
                                                  &kHeldBy,
                                                  &kPauses,
+                                                 &kFactor,
+                                                 &kSpeedChanges,
                                                  &kWaits,
                                                  &kFairness,
                                                  &kDuration,

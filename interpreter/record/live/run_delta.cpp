@@ -57,6 +57,11 @@ RunDelta::RunDelta(const Shape& shape)
       changes_(shape.nodes.size()) {
   for (const ShapeNode& it : shape.nodes) is_leaf_.push_back(it.children.empty());
   std::size_t compared = 0;
+  for (const ShapeNode& it : shape.nodes) {
+    if (!it.paces) continue;
+    for (const NodeIndex node : it.held()) kept_factors_.push_back({.node = node});
+  }
+  factors_.reserve(kept_factors_.size());
   for (const NodeIndex node : synchronized_nodes(shape)) {
     kept_limits_.push_back({.node = node});
     const ShapeNode& it = shape.nodes[node];
@@ -140,7 +145,18 @@ std::span<const RoundChange> RunDelta::rounds(const Moment& moment) {
   return rounds_;
 }
 
+std::span<const FactorChange> RunDelta::factors(const Moment& moment) {
+  factors_.clear();
+  for (const FactorChange& kept : kept_factors_) {
+    const double factor = moment.factor(kept.node);
+    if (factor != kept.factor || (is_whole_ && factor != 1))
+      factors_.push_back({kept.node, factor});
+  }
+  return factors_;
+}
+
 void RunDelta::start_over() {
+  for (FactorChange& kept : kept_factors_) kept.factor = 1;
   std::ranges::fill(kept_, 0);
   std::ranges::fill(kept_progress_, 0);
   for (NodeIndex node = 0; node < progress_.size(); ++node) set_progress(node, progress_[node]);
@@ -154,6 +170,11 @@ void RunDelta::keep() {
   for (const RoundChange& change : rounds_) {  // in the same order
     while (kept_round->node != change.node) ++kept_round;
     kept_round->round = change.round;
+  }
+  auto kept_factor = kept_factors_.begin();
+  for (const FactorChange& change : factors_) {  // in the same order
+    while (kept_factor->node != change.node) ++kept_factor;
+    kept_factor->factor = change.factor;
   }
   auto kept = kept_limits_.begin();
   for (const LimitChange& change : limits_) {  // in the same order

@@ -27,6 +27,9 @@ class RunDelta {
   // The synchronized nodes that the tick reached whose limit is not what was kept. Valid until the
   // next call.
   std::span<const LimitChange> limits(const Moment& moment);
+  // Of what nodes that pace hold: the factors that are not what was kept. Valid until the next
+  // call.
+  std::span<const FactorChange> factors(const Moment& moment);
   // About the last result of changes(): a node has another status than what was kept, or is held or
   // was ticked where it was not, or the other way round; and a node has begun.
   bool has_turns() const { return has_turns_; }
@@ -36,10 +39,10 @@ class RunDelta {
   std::span<const LeafProgress> own_progress() const { return own_progress_; }
   // The rounds that are not what was kept. Valid until the next call.
   std::span<const RoundChange> rounds(const Moment& moment);
-  // The next results of changes(), limits() and rounds() also have all that differs from the state
+  // The next results of all of these also have all that differs from the state
   // before a run, until keep().
   void add_whole() { is_whole_ = true; }
-  // Call when the file has accepted the last results of changes(), limits() and rounds().
+  // Call when the file has accepted the last results of all of these.
   void keep();
   // Forgets what was kept: the next results have all that differs from the state before a run.
   void start_over();
@@ -66,6 +69,8 @@ class RunDelta {
   std::vector<LimitChange> limits_;
   std::vector<RoundChange> kept_rounds_;  // of each node that repeats its child
   std::vector<RoundChange> rounds_;
+  std::vector<FactorChange> kept_factors_;
+  std::vector<FactorChange> factors_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that
 

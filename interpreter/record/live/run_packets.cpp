@@ -33,7 +33,9 @@ RunPackets::RunPackets(Shape shape, RunDescription run)
       slots_(slots_of(shape_, run_.entries)),
       entries_(slots_) {
   std::size_t more = delta_.most_succeeded() + repeating_nodes(shape_).size();
-  for (const ShapeNode& node : shape_.nodes) more += node.members.size();
+  for (const ShapeNode& node : shape_.nodes) {
+    more += node.members.size() + (node.paces ? node.held().size() : 0);
+  }
   line_end_.reserve(json_lines::most_of_tick_end(shape_.nodes.size(), more, 2 * slots_.size()));
 }
 
@@ -78,6 +80,7 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   const std::span<const NodeChange> nodes = delta_.changes(moment);
   TickEnd end{.limits = delta_.limits(moment),
               .rounds = delta_.rounds(moment),
+              .factors = delta_.factors(moment),
               .succeeded = delta_.succeeded(moment),
               .moments = moment.within,
               .faults = report.faults,
@@ -89,8 +92,8 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   json_lines::set_tick_end(line_end_, end);
   Packet packet{.nodes = nodes, .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
-                !end.succeeded.empty() || !end.moments.empty() || !end.faults.empty() ||
-                !end.entries.empty() || !end.logs.empty();
+                !end.factors.empty() || !end.succeeded.empty() || !end.moments.empty() ||
+                !end.faults.empty() || !end.entries.empty() || !end.logs.empty();
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
   packet.head.time = report.time.count();

@@ -17,6 +17,7 @@ namespace lockstep::host {
 struct NodeView {
   Activity activity = Activity::Idle;
   double progress = 0;  // children of synchronized nodes only
+  double factor = 1;    // how fast it is to be, where its parent paces it
   Round round = {};     // of a node that runs its child again and again; number 0: not known
   double limit = 0;     // synchronized nodes only: that counted, see base/core/synchronization.h
 };

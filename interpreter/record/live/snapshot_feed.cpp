@@ -111,6 +111,7 @@ void SnapshotFeed::take_progress(const Moment& moment, std::vector<NodeView>& vi
     for (std::size_t number = 0; number < used.size(); ++number) {
       NodeView& child = views[it.children()[number]];
       child.progress = shown_progress(child.activity, is_left_out(used[number]) ? 0 : used[number]);
+      child.factor = moment.factor(it.children()[number]);
     }
   }
   for (const NodeIndex node : users_) {

@@ -51,12 +51,17 @@ RecordedMoments::RecordedMoments(const RecordingHeader& header)
     if (keeps(header.nodes[node])) add(header, node);
   }
   for (const Keeper& it : keepers_) uses_[it.node] = it.used;
+  if (std::ranges::any_of(header.nodes, &ShapeNode::paces)) {
+    factor_.assign(header.nodes.size(), 1);
+    for (const double& it : factor_) factors_.push_back(&it);
+  }
   moment_ = {.activity = activity_,
              .reached = reached_,
              .number = 1,
              .progress = progress_,
              .limits = limits_,
              .uses = uses_,
+             .factors = factors_,
              .texts = texts_};
 }
 
@@ -82,6 +87,7 @@ const Moment& RecordedMoments::read(const RecordedTick& tick) {
     reached_[node] = state.ticked ? 1 : 0;
     progress_[node] = state.progress;
     limit_[node] = state.limit;
+    if (!factor_.empty()) factor_[node] = state.factor;
   }
   for (const RecordedEntry& entry : tick.entries) {
     texts_[entry.entry].text = entry.value;

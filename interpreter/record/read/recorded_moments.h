@@ -37,8 +37,8 @@ class RecordedMoments {
 
   std::vector<Activity> activity_;  // after the last tick that was read
   std::vector<std::uint32_t> reached_;
-  std::vector<double> progress_, limit_;
-  std::vector<const double*> limits_;
+  std::vector<double> progress_, limit_, factor_;
+  std::vector<const double*> limits_, factors_;
   std::vector<std::span<const double>> uses_;
   std::vector<bool> is_guard_;  // it is ticked again after it has completed
   std::vector<Keeper> keepers_;

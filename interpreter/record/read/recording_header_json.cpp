@@ -80,10 +80,10 @@ bool is_ignore(JsonValue value, std::size_t index) {
   throw JsonError(fmt::format("'idle' of node {} is neither 'wait' nor 'ignore'", index));
 }
 
-bool is_yes(JsonValue value, std::size_t index) {
+bool is_yes(JsonValue value, std::string_view key, std::size_t index) {
   bool yes = false;
   if (value.get(yes) && yes) return true;
-  throw JsonError(fmt::format("'guard' of node {} is not true", index));
+  throw JsonError(fmt::format("'{}' of node {} is not true", key, index));
 }
 
 // A recording names kinds, and does not say in which language.
@@ -98,34 +98,37 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
   ShapeNode node;
   std::uint64_t place = 0;
   bool is_absolute = false, is_relative = false;
-  object.read({{lines::kHeaderNode["index"], into(place)},
-               {lines::kHeaderNode["path"], into(node.path)},
-               {lines::kHeaderNode["kind"], into(node.kind)},
-               {lines::kHeaderNode["name"], into(node.name)},
-               {lines::kHeaderNode["parent"],
-                [&](JsonValue value) {
-                  if (!value.is_null()) node.parent = parent_from(value, index);
-                }},
-               {lines::kHeaderNode["barriers"],
-                [&](JsonValue value) {
-                  is_absolute = true;
-                  if (!value.is_null()) node.barriers = barriers_from(value, index);
-                },
-                kMayLack},
-               {lines::kHeaderNode["delta"],
-                [&](JsonValue value) {
-                  is_relative = true;
-                  if (!value.is_null()) node.delta = delta_from(value, index);
-                },
-                kMayLack},
-               {lines::kHeaderNode["idle"],
-                [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
-               {lines::kHeaderNode["resources"],
-                [&](JsonValue value) { node.resources = resources_from(value, index); }, kMayLack},
-               {lines::kHeaderNode["members"],
-                [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack},
-               {lines::kHeaderNode["guard"],
-                [&](JsonValue value) { node.is_guard = is_yes(value, index); }, kMayLack}});
+  object.read(
+      {{lines::kHeaderNode["index"], into(place)},
+       {lines::kHeaderNode["path"], into(node.path)},
+       {lines::kHeaderNode["kind"], into(node.kind)},
+       {lines::kHeaderNode["name"], into(node.name)},
+       {lines::kHeaderNode["parent"],
+        [&](JsonValue value) {
+          if (!value.is_null()) node.parent = parent_from(value, index);
+        }},
+       {lines::kHeaderNode["barriers"],
+        [&](JsonValue value) {
+          is_absolute = true;
+          if (!value.is_null()) node.barriers = barriers_from(value, index);
+        },
+        kMayLack},
+       {lines::kHeaderNode["delta"],
+        [&](JsonValue value) {
+          is_relative = true;
+          if (!value.is_null()) node.delta = delta_from(value, index);
+        },
+        kMayLack},
+       {lines::kHeaderNode["idle"],
+        [&](JsonValue value) { node.ignores_idle = is_ignore(value, index); }, kMayLack},
+       {lines::kHeaderNode["resources"],
+        [&](JsonValue value) { node.resources = resources_from(value, index); }, kMayLack},
+       {lines::kHeaderNode["members"],
+        [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack},
+       {lines::kHeaderNode["pace"],
+        [&](JsonValue value) { node.paces = is_yes(value, "pace", index); }, kMayLack},
+       {lines::kHeaderNode["guard"],
+        [&](JsonValue value) { node.is_guard = is_yes(value, "guard", index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
   if (is_absolute && is_relative)
     throw JsonError(fmt::format("node {} has both barriers and delta", index));

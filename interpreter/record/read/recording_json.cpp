@@ -101,6 +101,7 @@ NodeIndex apply(JsonValue change, std::vector<RecordedState>& states) {
   });
   state.limit = states[node].limit;
   state.round = states[node].round;
+  state.factor = states[node].factor;
   states[node] = state;
   return node;
 }
@@ -114,6 +115,18 @@ NodeIndex apply_round(JsonValue change, std::vector<RecordedState>& states) {
     return place == 0 || (item.get(fields[place]) && fields[place] <= INT64_MAX);
   });
   states[node].round = {static_cast<std::int64_t>(fields[1]), static_cast<std::int64_t>(fields[2])};
+  return node;
+}
+
+NodeIndex apply_factor(JsonValue change, std::vector<RecordedState>& states) {
+  constexpr char kNone[] = "a node's factor is not [index, factor]";
+  NodeIndex node = 0;
+  double factor = 1;
+  read_tuple(change, 2, kNone, [&](std::size_t place, JsonValue item) {
+    if (place == 0) node = node_from(item, states.size(), kNone);
+    return place == 0 || (item.get(factor) && factor > 0 && factor <= 1);
+  });
+  states[node].factor = factor;
   return node;
 }
 
@@ -365,6 +378,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   const auto read_rounds = [&](JsonValue value) {
     value.each_item([&](JsonValue change) { changed_.push_back(apply_round(change, states)); });
   };
+  const auto read_factors = [&](JsonValue value) {
+    value.each_item([&](JsonValue change) { changed_.push_back(apply_factor(change, states)); });
+  };
   const auto read_faults = [&](JsonValue value) {
     faults_.reserve(value.count_items());
     value.each_item([&](JsonValue it) { faults_.push_back(fault_from(it, states.size())); });
@@ -415,6 +431,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["nodes"], read_nodes, kMayLack},
          {lines::kTick["limits"], read_limits, kMayLack},
          {lines::kTick["rounds"], read_rounds, kMayLack},
+         {lines::kTick["factors"], read_factors, kMayLack},
          {lines::kTick["succeeded"], read_succeeded, kMayLack},
          {lines::kTick["moments"], read_moments, kMayLack},
          {lines::kTick["leaf_progress"], read_leaf_progress, kMayLack},

@@ -21,7 +21,8 @@ constexpr std::string_view kStatus =
 constexpr std::string_view kProgress =
     R"({"title":"lockstep.Progress","type":"object","properties":{"tick":{"type":"integer"},)"
     R"("limit":{"type":["number","null"]},"progress":{"type":"object","additionalProperties":)"
-    R"({"type":"number"}},"held":{"type":"object","additionalProperties":{"type":"boolean"}}}})";
+    R"({"type":"number"}},"held":{"type":"object","additionalProperties":{"type":"boolean"}},)"
+    R"("factor":{"type":"object","additionalProperties":{"type":"number"}}}})";
 constexpr std::string_view kEntry =
     R"({"title":"lockstep.Entry","type":"object","properties":{"tick":{"type":"integer"},)"
     R"("value":{"type":["string","number","boolean","null"]}}})";
@@ -140,17 +141,19 @@ void McapMessages::end_statuses(std::uint64_t time) {
 
 void McapMessages::add_progress(const Compared& compared, const RecordedTick& tick,
                                 std::uint64_t time) {
-  Json progress = Json::object(), held = Json::object();
+  Json progress = Json::object(), held = Json::object(), factor = Json::object();
   for (std::size_t i = 0; i < compared.of.children.size(); ++i) {
     const NodeIndex child = compared.of.children[i];
     const std::string& name = compared.of.names[i];
     progress[name] = tick.nodes[child].progress;
     held[name] = tick.nodes[child].held;
+    factor[name] = tick.nodes[child].factor;
   }
-  const Json message{{"tick", tick.tick},
-                     {"limit", tick.nodes[compared.of.node].limit},  // null: no barrier is left
-                     {"progress", std::move(progress)},
-                     {"held", std::move(held)}};
+  Json message{{"tick", tick.tick},
+               {"limit", tick.nodes[compared.of.node].limit},  // null: no barrier is left
+               {"progress", std::move(progress)},
+               {"held", std::move(held)}};
+  if (header_.nodes[compared.of.node].paces) message["factor"] = std::move(factor);
   file_.add(compared.channel, time, message.text());
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "base/core/csv_field.h"
@@ -23,7 +24,9 @@ bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names, Ti
   for (const ShapeNode& node : reader.header().nodes) {
     paths.push_back(csv_field(names == CsvNames::Printable ? printable(node.path) : node.path));
   }
-  std::string rows = "tick,time_s,node,path,status,progress,ticked,held,results\n";
+  const bool paces = std::ranges::any_of(reader.header().nodes, &ShapeNode::paces);
+  std::string rows = "tick,time_s,node,path,status,progress,ticked,held,results";
+  rows += paces ? ",factor\n" : "\n";
   if (range.from > 0) reader.skip_to(range.from);
   while (const auto tick = reader.next()) {
     if (tick->tick < range.from) continue;
@@ -32,9 +35,10 @@ bool write_csv(RecordingReader& reader, const CsvSink& write, CsvNames names, Ti
     for (std::size_t index = 0; index < tick->nodes.size(); ++index) {
       const RecordedState& node = tick->nodes[index];
       if (!is_active(node)) continue;
-      rows += fmt::format("{},{},{},{},{},{},{:d},{:d},{}\n", tick->tick, tick->time, index,
+      rows += fmt::format("{},{},{},{},{},{},{:d},{:d},{}", tick->tick, tick->time, index,
                           paths[index], to_string(node.status), node.progress, node.ticked,
                           node.held, results.empty() ? std::string() : csv_field(results[index]));
+      rows += paces ? fmt::format(",{}\n", node.factor) : "\n";
     }
     if (rows.size() < kFull) continue;
     if (!write(rows)) return false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/core/csv_field.h"
 #include "base/json/json.h"
@@ -21,9 +22,12 @@ std::string_view change_of(Status before, Status now) {
 class Events {
  public:
   Events(const RecordingHeader& header, TickRange range, const EventSink& take)
-      : header_(header), range_(range), take_(take), before_(header.nodes.size()) {}
+      : header_(header), range_(range), take_(take), before_(header.nodes.size()) {
+    const bool paces = std::ranges::any_of(header.nodes, &ShapeNode::paces);
+    factors_.assign(paces ? header.nodes.size() : 0, 1);
+  }
 
-  // False: no more is wanted.
+  // False: no more is wanted. How fast a node is to be comes last: what follows from a tick.
   bool take(const RecordedTick& tick) {
     at_ = {tick.tick, tick.time, {}, {}, {}};
     const bool is_first = next_ == 0 && tick.tick > 0 && tick.whole;
@@ -48,6 +52,11 @@ class Events {
       add("entry", header_.entries[it.entry].key, shown_value(it));
     }
     for (const LeafLine& it : tick.logs) add("log", it.who, it.level + ": " + it.text);
+    for (NodeIndex node = 0; node < factors_.size(); ++node) {
+      const double factor = tick.nodes[node].factor;
+      if (std::exchange(factors_[node], factor) == factor) continue;
+      add("pace", header_.nodes[node].path, fmt::format("{:.3g}", factor));
+    }
     before_ = now_;
     return is_wanted_;
   }
@@ -111,6 +120,7 @@ class Events {
   const TickRange range_;
   const EventSink& take_;
   std::vector<NodeState> before_, now_, moment_;
+  std::vector<double> factors_;
   RecordingEvent at_;
   std::uint64_t next_ = 0;  // tick
   bool is_wanted_ = true;

@@ -14,9 +14,9 @@ namespace lockstep::host {
 
 struct RecordingEvent {
   std::uint64_t tick = 0;
-  double time = 0;  // seconds
-  std::string_view
-      kind;  // start, success, failure, skipped, halt, hold, release, fault, entry, log, lost, end
+  double time = 0;        // seconds
+  std::string_view kind;  // start, success, failure, skipped, halt, hold, release, fault, entry,
+                          // log, pace, lost, end
   std::string_view what;  // the path of the node, the key of the entry, who has logged; "": the run
   std::string value;      // of the entry; the message; "": there is none
 };

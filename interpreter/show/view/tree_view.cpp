@@ -184,6 +184,9 @@ class View {
     line.fill_to(gutter + indent(node) + 3 + std::min<std::size_t>(name, 24));
     line.add(bar(self, progress[place], least), style);
     line.add(fmt::format(" {:.2f}", progress[place]));
+    if (const NodeView& view = snapshot_.nodes[node]; view.factor < 1) {
+      line.add(fmt::format(" {}{:.2f}", options_.unicode ? "×" : "x", view.factor), Style::Dim);
+    }
     if (tree_.nodes[self].synchronization == Synchronization::Resources) {
       return add_ownership(line, self, place);
     }

@@ -225,6 +225,7 @@ std::string sample_header(std::uint64_t first_tick) {
   ShapeNode& root = add("p", std::nullopt);
   root.synchronization = Synchronization::Absolute;
   root.barriers = {0.5};
+  root.paces = true;
   ShapeNode& inner = add("q", 0);
   inner.synchronization = Synchronization::Relative;
   inner.delta = 0.25;
@@ -246,6 +247,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const NodeChange node{.progress = 0.5, .node = 2, .state = 1};
   const LimitChange limit{.node = 0, .limit = 0.5};
   const RoundChange round{.node = 1, .round = {1, 2}};
+  const FactorChange factor{.node = 1, .factor = 0.5};
   const NodeIndex succeeded = 1;
   const Fault fault{.node = 2, .message = "threw"};
   const EntryChange entry{.entry = 0, .text = &value};
@@ -261,6 +263,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   std::string end;
   json_lines::set_tick_end(end, {.limits = {&limit, 1},
                                  .rounds = {&round, 1},
+                                 .factors = {&factor, 1},
                                  .succeeded = {&succeeded, 1},
                                  .moments = {.first = {},
                                              .moments = {&moment, 1},

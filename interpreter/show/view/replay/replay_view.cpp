@@ -118,6 +118,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const TimelineTick& moment,
     view.activity = state.held ? Activity::Paused : static_cast<Activity>(state.status);
     if (header.nodes[node].keeper) {
       view.progress = shown_progress(view.activity, state.progress);
+      view.factor = state.factor;
     }
   }
   return snapshot;

@@ -1,6 +1,6 @@
 // The state of all nodes in one line of the run.
 import { HELD, STATUS, TICKED } from "./columns";
-import { IDLE, SUCCESS } from "./recording";
+import { IDLE, RUNNING, SUCCESS } from "./recording";
 import type { Run } from "./run";
 
 // The progress of the children of a synchronized node.
@@ -46,6 +46,10 @@ export class Moment {
   // The limit of a synchronized node; 0 when it has none yet, infinity when no barrier is left.
   limit(node: number): number {
     return this.run.limits.get(node)?.at(this.line) ?? 0;
+  }
+  // How fast a node is to be, in (0, 1].
+  factor(node: number): number {
+    return this.status[node] === RUNNING ? this.run.factors.get(node)?.at(this.line) || 1 : 1;
   }
   round(node: number): string {
     const round = this.run.rounds.get(node);

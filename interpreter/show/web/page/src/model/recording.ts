@@ -13,6 +13,7 @@ export type MomentNode = [index: number, status: StatusName, ticked: number, hel
 export type Moment = [times: number, nodes: MomentNode[]];
 export type LimitChange = [index: number, limit: number | null];
 export type RoundChange = [index: number, number: number, of: number];
+export type FactorChange = [index: number, factor: number];
 export type Fault = [index: number, message: string];
 export type EntryValue = [index: number, value: string | null];
 export type LogLine = [who: string, level: string, text: string];
@@ -44,6 +45,7 @@ export interface TickLine {
   nodes: NodeChange[];
   limits?: LimitChange[];
   rounds?: RoundChange[];
+  factors?: FactorChange[];
   succeeded?: number[];
   moments?: Moment[];
   leaf_progress?: LeafProgress[];
@@ -80,6 +82,7 @@ export interface HeaderNode {
   idle?: "ignore" | "wait";
   resources?: string[];
   members?: number[];
+  pace?: boolean;
   guard?: boolean;
 }
 

@@ -22,6 +22,7 @@ export class Run {
   nodes: NodeColumn[] = [];
   limits = new Map<number, NumberColumn>();
   rounds = new Map<number, { number: NumberColumn; of: NumberColumn }>();
+  factors = new Map<number, NumberColumn>(); // of nodes that are paced; 1 before the first
   entries: EntryChange[][] = [];
   events = new Events(this);
   private counts = new Counts(0, 0);
@@ -89,6 +90,7 @@ export class Run {
       round.number.push(this.last, number);
       round.of.push(this.last, of);
     }
+    this.takeFactors(line);
     for (const [node, message] of line.faults ?? []) {
       this.events.fault(node, message);
       this.counts.fault(node);
@@ -107,6 +109,13 @@ export class Run {
       if (node.length === 0 || named.has(index)) return;
       if (node.flags[node.length - 1] !== 0) this.change(index, 0, 0, line.moments !== undefined);
     });
+  }
+
+  // A line with the whole state leaves out those that are 1.
+  private takeFactors(line: TickLine) {
+    const told = new Map(line.factors ?? []);
+    if (line.full) this.factors.forEach((_, node) => told.set(node, told.get(node) ?? 1));
+    for (const [node, factor] of told) column(this.factors, node, () => new NumberColumn()).push(this.last, factor);
   }
 
   // In such a tick nodes had several results. Each moment says how nodes were that differ from the one after it.

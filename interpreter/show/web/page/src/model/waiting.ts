@@ -60,6 +60,21 @@ function waitAtBarrier(moment: Moment, keeper: ShapeNode, node: number): Wait {
   return { node, keeper: keeper.index, for: slowest.slice(0, FEW).map((place) => keeper.inStep[place]), text };
 }
 
+// How fast a node is that another one paces, and why: "at 0.50 of its speed, to be at 0.5 with arm".
+export function paceText(moment: Moment, node: number): string {
+  const factor = moment.factor(node);
+  const { keeper: index } = moment.run.shape.nodes[node];
+  if (factor === 1 || index === null) return "";
+  const keeper = moment.run.shape.nodes[index];
+  const text = `at ${factor.toFixed(2)} of its speed`;
+  const { slowest } = spanOf(moment, keeper);
+  const others = slowest.filter((place) => keeper.inStep[place] !== node);
+  if (others.length === 0) return text;
+  const limit = moment.limit(index), whom = listed(others, keeper.names);
+  return keeper.synchronization === "absolute" && Number.isFinite(limit)
+    ? `${text}, to be at ${short(limit)} with ${whom}` : `${text}, to stay with ${whom}`;
+}
+
 // What a member of a barrier at 0 waits for: the members that no tick has reached.
 function waitToBegin(moment: Moment, keeper: ShapeNode, node: number): Wait {
   const late = [...keeper.inStep.keys()].filter((place) =>

@@ -1,7 +1,7 @@
 // Symbols and words for statuses and kinds: the same as in the terminal.
 import type { Moment } from "./moment";
 import { STATUSES } from "./recording";
-import { owned, ownersText, waitOf } from "./waiting";
+import { owned, ownersText, paceText, waitOf } from "./waiting";
 
 const SYMBOLS = ["·", "▶", "✓", "✗", "»"];
 const HELD_SYMBOL = "‖";
@@ -39,6 +39,8 @@ export function labelOf(moment: Moment, node: number): string {
   const parts = [segment];
   if (kind !== segment) parts.push(kind);
   parts.push(stateOf(moment, node), `progress ${moment.progress[node].toFixed(2)}`);
+  const pace = paceText(moment, node);
+  if (pace) parts.push(pace);
   const round = moment.round(node);
   if (round) parts.push(`round ${round}`);
   const sentence = sentenceOf(moment, node);

@@ -2,7 +2,7 @@
 import { activations, laneText } from "../../model/lanes";
 import type { Moment } from "../../model/moment";
 import { STATUSES } from "../../model/recording";
-import { marksOf, ownersOf, short, spanOf, waitOf } from "../../model/waiting";
+import { marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../../store/store";
 import { Panel } from "../parts/panel";
@@ -21,6 +21,8 @@ function facts(moment: Moment, node: number): [string, string][] {
   rows.push(["In this run", laneText(moment.run, node)]);
   const wait = waitOf(moment, node);
   if (wait) rows.push(["Waiting", wait.text]);
+  const pace = paceText(moment, node);
+  if (pace) rows.push(["Pace", pace]);
   if (it.synchronization === "resources") {
     for (const { resource, place } of ownersOf(moment, it)) rows.push([resource, place === null ? "free" : it.names[place]]);
     return rows;

@@ -3,7 +3,7 @@ import { decidingPath } from "../../model/decision";
 import type { EventKind, RunEvent } from "../../model/events";
 import type { Moment } from "../../model/moment";
 import { RUNNING, STATUSES, SUCCESS } from "../../model/recording";
-import { waiting, waitOf } from "../../model/waiting";
+import { paceText, waiting, waitOf } from "../../model/waiting";
 import { seconds, symbolOf } from "../../model/words";
 import type { Store } from "../../store/store";
 import { Bar } from "../parts/bar";
@@ -127,7 +127,7 @@ export function Now({ store }: { store: Store }) {
         {running.slice(0, MOST).map((node) => (
           <li key={node} class="running">
             <span aria-hidden="true" class="symbol">▶</span>
-            <span><Name store={store} node={node} /> runs</span>
+            <span><Name store={store} node={node} /> runs {paceText(moment, node)}</span>
             <Progress moment={moment} node={node} />
           </li>
         ))}

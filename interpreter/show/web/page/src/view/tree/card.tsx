@@ -66,7 +66,9 @@ function First({ moment, box }: { moment: Moment; box: Box }) {
 // Its progress; of a pool, how much of it is free.
 function numberText(moment: Moment, index: number): string {
   const node = moment.run.shape.nodes[index];
-  if (node.synchronization !== "resources") return moment.progress[index].toFixed(2);
+  const factor = moment.factor(index);
+  const slowed = factor === 1 ? "" : ` ×${factor.toFixed(2)}`;
+  if (node.synchronization !== "resources") return moment.progress[index].toFixed(2) + slowed;
   return `${ownersOf(moment, node).filter(({ place }) => place === null).length} of ${node.resources.length} free`;
 }
 
