@@ -109,6 +109,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   note_unfairness(definition, report);
   note_handovers(definition, report);
   note_unused_holds(definition, report);
+  advise_paces(definition, report);
   return definition;
 }
 

@@ -11,4 +11,7 @@ void advise(const Definition& definition, const Reporter& report);
 // Asks what robots do while their leaves are held, and names those that go on.
 void advise_holds(const Definition& definition, const Reporter& report);
 
+// Asks whether what a node paces can be slowed, and what does not go slower with it.
+void advise_paces(const Definition& definition, const Reporter& report);
+
 }  // namespace lockstep::host
