@@ -5,6 +5,7 @@
 #include "engine/compile.h"
 #include "judge/measure/property_steps.h"
 #include "run/shape_of.h"
+#include "tree/pace.h"
 
 namespace lockstep::host {
 namespace {
@@ -15,6 +16,12 @@ Tree played_tree(const Definition& given, const std::set<NodeIndex>& real, Playe
   played.take_over(definition);
   for (const NodeIndex node : real) definition.nodes[node].type = given.nodes[node].type;
   return compile(definition);
+}
+
+// What verify and coverage search.
+Tree searched_tree(Definition definition, PlayedLeaves& played) {
+  ignore_pace(definition);
+  return played_tree(definition, {}, played);
 }
 
 bool is_start(const SetEntry& it) {
@@ -68,7 +75,7 @@ std::shared_ptr<const Fixture> Fixture::load(const Key& key, const std::string* 
 Fixture::Fixture(std::string file, Loaded loaded)
     : file_(std::move(file)),
       loaded_(std::move(loaded)),
-      tree_(played_tree(loaded_.definition, {}, played_)),
+      tree_(searched_tree(loaded_.definition, played_)),
       names_(property_names(shape_of(tree_))) {}
 
 SourceLocation Fixture::location_of(NodeIndex node) const {

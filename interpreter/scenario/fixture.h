@@ -42,7 +42,8 @@ class Fixture {
   // With the values that are in force.
   const std::vector<DeclaredArgument>& arguments() const { return loaded_.project->arguments; }
   const Definition& definition() const { return loaded_.definition; }
-  // The tree with stubs in place of all leaves, and what properties may name in it.
+  // The tree with stubs in place of all leaves and without pace, and what properties may name in
+  // it.
   const Tree& tree() const { return tree_; }
   const PropertyNames& names() const { return names_; }
   const std::vector<Property>& properties() const { return loaded_.properties; }

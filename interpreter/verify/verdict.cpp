@@ -586,6 +586,10 @@ class VerdictMaker {
       assumed.push_back(fmt::format("held leaves make no progress ({})", counted(held, "action")));
     }
     if (ends) assumed.push_back("an action that is ticked again and again ends");
+    if (options_.paces) {
+      assumed.push_back(
+          "what pace slows is as slow as the leaf model lets it be, and times count in full");
+    }
     if (const std::size_t count = models_.unstated_results; count > 0) {
       assumed.push_back(
           fmt::format("no leaf without result=\"…\" in the leaf model returns "

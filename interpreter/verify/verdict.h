@@ -46,6 +46,7 @@ struct VerdictOptions {
   std::function<std::string(NodeIndex)> place = {};
   std::optional<Nanoseconds> until = {};  // of monotonic_now; what was found is shown after it, too
   std::size_t memory = std::numeric_limits<std::size_t>::max();
+  bool paces = false;  // nodes of the tree pace: the search is of the tree without that
 };
 
 Verdict make_verdict(const Tree& tree, const LeafModels& models,

@@ -7,6 +7,7 @@
 #include "engine/compile.h"
 #include "language/document/reporter.h"
 #include "leaves/play/played_leaves.h"
+#include "tree/pace.h"
 
 namespace lockstep::host {
 
@@ -18,6 +19,7 @@ void add_advice(const Project& project, Definition definition, AdviceEffort effo
   for (const DefinitionNode& node : definition.nodes) places.push_back(node.place);
   PlayedLeaves played;
   played.take_over(definition);
+  ignore_pace(definition);
   const Tree tree = compile(definition);
   const Reporter reporter(project.sources, diagnostics);
   for (Advice& it : advice_of(tree, places, effort, std::move(stop_signal))) {

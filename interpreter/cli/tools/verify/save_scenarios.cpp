@@ -20,13 +20,13 @@ class ScenarioMaker {
       : of_(of), finding_(finding), words_(std::move(words)) {}
 
   std::string make() {
-    const std::string_view kind =
+    const std::string_view what =
         std::string_view(finding_.name).substr(0, finding_.name.find('/'));
-    if (kind == "property") expect_property();
-    if (kind == "fault") expect_result_within(words_.ticks.value_or(0), kAllButFault);
-    if (kind == "starvation") expect_ticks();
-    if (kind == "cycle") expect_end();
-    if (kind == "trap" && !expect_end_of_others()) expect_end();
+    if (what == "property") expect_property();
+    if (what == "fault") expect_result_within(words_.ticks.value_or(0), kAllButFault);
+    if (what == "starvation") expect_ticks();
+    if (what == "cycle") expect_end();
+    if (what == "trap" && !expect_end_of_others()) expect_end();
     return to_text(words_, text_);
   }
 

@@ -20,6 +20,7 @@
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "run/stop_signals.h"
+#include "tree/pace.h"
 #include "verify/chance_runs.h"
 #include "verify/property_watch.h"
 #include "verify/verifiable.h"
@@ -122,6 +123,8 @@ class VerifyCommand {
     if (!loaded) return code_;
     const Places places(*loaded);
     played_.take_over(loaded->definition);
+    paces_ = paces(loaded->definition);
+    ignore_pace(loaded->definition);
     const Runnable runnable = make_runnable(std::move(*loaded));
     const auto file = read_leaves(options_.leaves, diagnostics_);
     if (!file) return refuse();
@@ -174,8 +177,8 @@ class VerifyCommand {
   int verify(const Runnable& runnable, const LeafModels& models, const Places& places) {
     const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
     StopSignals::install();
-    VerdictOptions options{.rate = rate,
-                           .place = [&](NodeIndex node) { return places.text(node); }};
+    VerdictOptions options{
+        .rate = rate, .place = [&](NodeIndex node) { return places.text(node); }, .paces = paces_};
     SearchResult found = [&] {
       SearchLine line;
       const SearchLimits limited = limits(line);
@@ -285,6 +288,7 @@ class VerifyCommand {
   const Nanoseconds began_ = monotonic_now();  // --time counts from here, with loading the tree
   Diagnostics diagnostics_;
   PlayedLeaves played_;
+  bool paces_ = false;  // nodes of the tree do
   std::vector<Property> properties_;
   int code_ = kExitSuccess;
 };
