@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "base/core/pre_order.h"
 #include "base/core/resource_set.h"
@@ -13,6 +14,7 @@
 #include "engine/node_scripts.h"
 #include "engine/nodes/kinds.h"
 #include "engine/resources.h"
+#include "tree/pace.h"
 #include "tree/paths.h"
 
 namespace lockstep::host {
@@ -46,13 +48,14 @@ const NodeKind* bound_kind_of(const NodeKind* kind) {
   static const auto by_kind = [] {
     std::unordered_map<const NodeKind*, NodeKind> map;
     for (const LanguageRules* each : languages()) {
-      for (const NodeKind* it : each->kinds) {
-        NodeKind bound = *it;
-        if (!it->chooses_to_read) {
-          bound.tick = tick_bound;
+      for (const NodeKind* plain : each->kinds) {
+        for (const NodeKind* it : {plain, plain->paced, plain->obeying}) {
+          if (it == nullptr) continue;
+          NodeKind bound = *it;
+          if (!it->chooses_to_read) bound.tick = tick_bound;
+          bound.reads_entries = true;
+          map.emplace(it, bound);
         }
-        bound.reads_entries = true;
-        map.emplace(it, bound);
       }
     }
     return map;
@@ -85,15 +88,19 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
         return context.scripts().tick(self);
       };
     };
-    for (const NodeKind* leaf : {&kPluginAction, &kPluginCondition, &kPluginControl, &kMockAction,
-                                 &kMockCondition, &kMockControl, &kMockDecorator}) {
+    for (const NodeKind* leaf :
+         {&kPluginAction, kPluginAction.obeying, &kPluginCondition, &kPluginControl, &kMockAction,
+          &kMockCondition, &kMockControl, &kMockDecorator}) {
       add(leaf);
     }
     for (const LanguageRules* each : languages()) {
-      for (const NodeKind* it : each->kinds) {
-        add(it);
-        add(bound_kind_of(it));
-        if (it->tick_between != nullptr) add(between_kind_of(it));
+      for (const NodeKind* plain : each->kinds) {
+        for (const NodeKind* it : {plain, plain->paced, plain->obeying}) {
+          if (it == nullptr) continue;
+          add(it);
+          add(bound_kind_of(it));
+          if (it->tick_between != nullptr) add(between_kind_of(it));
+        }
       }
     }
     return map;
@@ -119,6 +126,7 @@ class Compiler {
     tree_.ports.reserve(definition_.ports.size());
     tree_.constants.reserve(definition_.values.size());
     number_members();
+    find_paced();
     for (const DefinitionNode& node : definition_.nodes) add(node);
     find_guards();
     let_look_between();
@@ -150,9 +158,34 @@ class Compiler {
     return last_kind_;
   }
 
+  // Which nodes pace, with the members of a barrier that does, and which are below one.
+  void find_paced() {
+    for (NodeIndex node = 0; node < definition_.nodes.size(); ++node) {
+      if (paces(definition_, definition_.nodes[node])) pacing_.insert(node);
+    }
+    if (pacing_.empty()) return;
+    for (const Member& member : tree_.members) {
+      if (pacing_.contains(member.group)) pacing_.insert(member.node);
+    }
+    is_below_.resize(definition_.nodes.size());
+    for (NodeIndex node = 1; node < definition_.nodes[0].end; ++node) {
+      const NodeIndex parent = definition_.nodes[node].parent;
+      is_below_[node] = is_below_[parent] || pacing_.contains(parent);
+    }
+  }
+
+  // A node that paces, and a leaf or a time that obeys below one, has another kind.
+  const NodeKind* kind_at(const DefinitionNode& from, NodeIndex self) {
+    const NodeKind* plain = kind(*from.type);
+    if (pacing_.empty()) return plain;
+    if (plain->paced != nullptr && pacing_.contains(self)) return plain->paced;
+    if (plain->obeying == nullptr || !is_below_[self]) return plain;
+    return from.type->leaf == nullptr || from.type->can_be_slowed ? plain->obeying : plain;
+  }
+
   void add(const DefinitionNode& from) {
     const auto self = static_cast<NodeIndex>(tree_.nodes.size());
-    Node node{.kind = kind(*from.type),
+    Node node{.kind = kind_at(from, self),
               .end = from.end,
               .children = children_of(from) & 0x7ffffffu,  // kMaxNodes is far less
               .synchronizes = static_cast<unsigned>(definition_.synchronization(from)) & 3u,
@@ -508,6 +541,8 @@ class Compiler {
   std::vector<std::uint32_t> cells_;      // of each first port of a node: its first cell
   // The place of each member of a group in Tree::members.
   std::unordered_map<NodeIndex, std::uint32_t> numbers_;
+  std::unordered_set<NodeIndex> pacing_;
+  std::vector<bool> is_below_;
   const NodeType* last_type_ = nullptr;
   const NodeKind* last_kind_ = nullptr;
 };

@@ -10,12 +10,14 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "base/system/fork_guard.h"
 #include "engine/bound_parameters.h"
 #include "engine/leaf_slot.h"
 #include "engine/leaf_watch.h"
 #include "engine/moments.h"
+#include "engine/pace.h"
 #include "engine/run_view.h"
 
 namespace lockstep::host {
@@ -125,6 +127,16 @@ class NodeContext : public RunView {
   // What it was when it was asked for since the last call of that; 0: it was not.
   double progress_before_tick(NodeIndex node) const;
 
+  // How fast what is ticked now is to be: engine/pace.h.
+  double pace() const { return pace_; }
+  // Ticks a child that is to be so fast.
+  Status tick_at_pace(NodeIndex child, double given) {
+    const double around = std::exchange(pace_, given);
+    const Status status = tick(child);
+    pace_ = around;
+    return status;
+  }
+
   // --- what went wrong ---------------------------------------------------------------------------
 
   // Under FaultPolicy::Fail the fault is noted in RunState::tolerated, and a leaf's slot is marked
@@ -223,6 +235,7 @@ class NodeContext : public RunView {
   std::unique_ptr<Moments> moments_;      // null: nobody asks for them
   bool notes_halts_;                      // somebody is told of halts: scripts, or who watches
   bool shares_progress_ = false;          // until the next tick
+  double pace_ = kNoPace;                 // of what is ticked now
 };
 
 }  // namespace lockstep::host

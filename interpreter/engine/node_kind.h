@@ -12,6 +12,8 @@
 namespace lockstep::host {
 
 class NodeContext;
+class RunView;
+struct PacedChild;
 
 // The behavior of a node that has completed and is ticked again though its parent did not reset it.
 enum class Unreset : std::uint8_t {
@@ -56,6 +58,15 @@ struct NodeKind {
   // May be null: the same. Below a node with hold="between", in place of `tick`: keeps what its
   // progress is computed from up to date within the tick, and may look at the limit.
   Status (*tick_between)(NodeContext& context, NodeIndex self) = nullptr;
+  // The kind in its place, or null: of a node with pace="true" or a member of such a barrier; and
+  // of a leaf or a time that obeys, below one of those.
+  const NodeKind* paced = nullptr;
+  const NodeKind* obeying = nullptr;
+  // Of such a leaf that runs: how fast it is, of what it is alone. May be null.
+  double (*taken_up)(NodeContext& context, NodeIndex self) = nullptr;
+  // Of a node that paces: what it keeps of a child, by its number. May be null.
+  const PacedChild* (*paced_child)(const RunView& run, NodeIndex self,
+                                   std::uint32_t child) = nullptr;
   bool reads_entries = false;    // before each tick: its parameters are Tree::bound
   bool chooses_to_read = false;  // not before each tick: it calls reread where it needs them
   bool counts_writes = false;    // its first port names an entry whose Entry::writes it looks at

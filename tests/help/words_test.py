@@ -46,6 +46,7 @@ DONE = [
     "docs/monitor.md",
     "docs/new.md",
     "docs/nodes-and-attributes.md",
+    "docs/pacing.md",
     "docs/packages.md",
     "docs/paper.md",
     "docs/performance.md",

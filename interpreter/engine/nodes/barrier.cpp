@@ -9,12 +9,14 @@
 #include "engine/nodes/barrier_list.h"
 #include "engine/nodes/decorator.h"
 #include "engine/nodes/fold.h"
+#include "engine/nodes/pacing.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr unsigned kBarrierDelta = 3;
 constexpr unsigned kIdle = 4;
+constexpr unsigned kBarrierPace = 6;
 
 constexpr Parameter kBarrierParameters[] = {
     absolute::kBarriersParameter,
@@ -33,9 +35,12 @@ constexpr Parameter kBarrierParameters[] = {
               .default_text = "wait",
               .choices = kIdleChoices,
               .constant = true},
-    kHoldParameter};
+    kHoldParameter,
+    pacing::kPace,
+    pacing::kReaction};
 
 std::optional<RuleBreak> rule_of_barrier(const ParameterValues& given) {
+  if (auto broken = pacing::check(given, kBarrierPace)) return broken;
   const bool listed =
       given.is_given(absolute::kBarriers) || given.is_given(absolute::kBarrierCount);
   constexpr auto kOne = "give exactly one of 'barriers', 'barrier_count' and 'delta'";
@@ -54,6 +59,12 @@ struct BarrierState {
   std::uint64_t succeeded;  // how many members
 };
 static_assert(sizeof(BarrierState) % sizeof(double) == 0);
+
+// Of one that paces. What it keeps of a member is the state of that.
+struct PacedBarrierState {
+  BarrierState barrier;
+  Nanoseconds last;
+};
 
 // The history of a member since the common ancestor began its activation.
 struct MemberState {
@@ -195,7 +206,40 @@ void hold_nobody(NodeContext& context, NodeIndex self) {
   hold(context, self, kNever);
 }
 
+// Gives each member that runs its factor. A member is told with its next tick.
+void set_paces(NodeContext& context, NodeIndex self, double least) {
+  const Tree& tree = context.tree();
+  auto& state = context.state<PacedBarrierState>(self);
+  const bool begins = context.status(self) == Status::Idle;
+  const double last_limit = state.barrier.synchronized.limit;
+  const double limit = farthest(synchronization(context.node(self)), last_limit, least);
+  const pacing::Tick tick{.limit = limit,
+                          .reaction = context.parameter(self, kBarrierPace + 1).number,
+                          .given = kNoPace,
+                          .seconds = begins ? 0.0 : to_seconds(context.now() - state.last)};
+  const bool asks = limit <= std::numeric_limits<double>::max();
+  const auto progress = context.child_states<double>(self);
+  const std::uint32_t last_tick = context.tick_number() - 1;
+  pacing::set_factors(context, tick, kNoPace, asks, [&](auto visit) {
+    for (const Member& it : tree.members_of(self)) {
+      if (context.is_guard(it.node)) continue;
+      const MemberState& own = member_state(context, self, it.number);
+      const NodeIndex child = it.node + 1;
+      visit(pacing::Child{.node = child,
+                          .reached = progress[it.number],
+                          .is_in = !begins && !own.succeeded &&
+                                   context.status(it.node) == Status::Running &&
+                                   context.status(child) == Status::Running,
+                          .was_ticked = context.run_state().last_tick[child] == last_tick,
+                          .is_held = own.held},
+            context.state<PacedChild>(it.node));
+    }
+  });
+  state.last = context.now();
+}
+
 // An entry that has the limits is needed while a member runs. Before that the tree may write it.
+template <bool kPaces>
 Status tick_barrier(NodeContext& context, NodeIndex self) {
   BarrierState& state = context.state<BarrierState>(self);
   if (context.status(self) == Status::Idle) state = {};
@@ -208,6 +252,7 @@ Status tick_barrier(NodeContext& context, NodeIndex self) {
   } else {
     hold_nobody(context, self);
   }
+  if constexpr (kPaces) set_paces(context, self, snapshot.least);
   return is_complete(context, self) ? Status::Success : Status::Running;
 }
 
@@ -236,6 +281,7 @@ constexpr Parameter kMemberParameters[] = {
               .constant = true,
               .group = "barrier"}};
 
+template <bool kPaces>
 Status tick_member(NodeContext& context, NodeIndex self) {
   const Member& member = context.tree().membership(self);
   const NodeIndex child = self + 1;
@@ -247,7 +293,16 @@ Status tick_member(NodeContext& context, NodeIndex self) {
     return Status::Failure;
   }
   if (own.held && context.hold(child)) return Status::Running;
-  const Status status = context.tick(child);
+  Status status{};
+  if constexpr (kPaces) {
+    // The larger of what comes from around it and of what its barrier asks: each of the two would
+    // make strangers slow.
+    PacedChild& pace = context.state<PacedChild>(self);
+    pace.given = std::max(context.pace(), pace.given);
+    status = context.tick_at_pace(child, pace.given);
+  } else {
+    status = context.tick(child);
+  }
   note_result(context, member, own, status);
   return status;
 }
@@ -259,6 +314,8 @@ void member_decided(NodeContext& context, NodeIndex self, Status result) {
   own.begun |= is_complete(result);
   note_result(context, member, own, result);
 }
+
+extern const NodeKind kPacedBarrier, kPacedMember;
 
 }  // namespace
 
@@ -288,12 +345,13 @@ const NodeKind kBarrier{
                          .delta = kBarrierDelta,
                          .idle = kIdle,
                          .hold = kIdle + 1}},
-    .tick = tick_barrier,
+    .tick = tick_barrier<false>,
     .progress = [](NodeContext& context,
                    NodeIndex self) { return least_progress(context.child_states<double>(self)); },
     .state_size = sizeof(BarrierState),
     .state_per_child = sizeof(double) + sizeof(MemberState),
     .fold = fold_barrier,
+    .paced = &kPacedBarrier,
     .chooses_to_read = true,
     .reads_ended_members = true};
 
@@ -306,8 +364,33 @@ const NodeKind kSyncProgress{
              .arity = {1, 1},
              .parameters = kMemberParameters,
              .begins_child_once = true},
-    .tick = tick_member,
+    .tick = tick_member<false>,
     .progress = decorator::child_progress,
-    .decided = member_decided};
+    .decided = member_decided,
+    .paced = &kPacedMember};
+
+namespace {
+
+const NodeKind kPacedBarrier = [] {
+  NodeKind kind = kBarrier;
+  kind.tick = tick_barrier<true>;
+  kind.state_size = sizeof(PacedBarrierState);
+  kind.paced_child = [](const RunView& run, NodeIndex self, std::uint32_t child) {
+    return &run.state<PacedChild>(run.tree().members_of(self)[child].node);
+  };
+  kind.paced = nullptr;
+  return kind;
+}();
+
+const NodeKind kPacedMember = [] {
+  NodeKind kind = kSyncProgress;
+  kind.tick = tick_member<true>;
+  kind.state_size = sizeof(PacedChild);
+  kind.fold = fold::live;
+  kind.paced = nullptr;
+  return kind;
+}();
+
+}  // namespace
 
 }  // namespace lockstep::host

@@ -9,9 +9,12 @@ constexpr Parameter kDelayParameters[] = {
     timed::kClockParameter,
 };
 
+template <bool kObeys>
 Status tick_delay(NodeContext& context, NodeIndex self) {
-  return timed::is_over_by_clock(context, self) ? context.tick(self + 1) : Status::Running;
+  return timed::is_over_by_clock<kObeys>(context, self) ? context.tick(self + 1) : Status::Running;
 }
+
+extern const NodeKind kObeyingDelay;
 
 }  // namespace
 
@@ -23,12 +26,17 @@ const NodeKind kDelay{
              .parameters = kDelayParameters,
              .begins_child_once = true,
              .can_run = true},
-    .tick = tick_delay,
+    .tick = tick_delay<false>,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause,
     .fold = timed::fold_by_clock,
+    .obeying = &kObeyingDelay,
     .reads_own_hold = true,
     .if_moved = IfMoved::Same};
+
+namespace {
+const NodeKind kObeyingDelay = timed::obeying_kind(kDelay, tick_delay<true>);
+}  // namespace
 
 }  // namespace lockstep::host

@@ -10,6 +10,8 @@
 #include "base/core/progress.h"
 #include "engine/leaf_call.h"
 #include "engine/node_kind.h"
+#include "engine/nodes/fold.h"
+#include "engine/pace.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
@@ -174,11 +176,33 @@ lockstep_status call_tick(NodeContext& context, NodeIndex self) {
   return result;
 }
 
-template <Kind kKind>
+// Tells the leaf how fast it is to be, if that has changed. False: the leaf is out.
+bool follow_pace(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
+  auto& pace = context.state<LeafPace>(self);
+  const double wanted = factor_of(context.pace());
+  if (wanted == pace.told || leaf.type->set_pace == nullptr) return true;
+  pace.told = wanted;
+  double taken = 1;
+  guarded(context, self, PluginFunction::SetPace,
+          [&](const LeafSlot& it) { taken = it.type->set_pace(it.self, wanted); });
+  if (!take_error(context, self, leaf) && !is_out(context, leaf) && std::isnan(taken)) {
+    context.set_fault(self, "returned a pace that is not a number");
+  }
+  pace.taken = std::isnan(taken) ? 1.0 : std::clamp(taken, wanted, 1.0);
+  return !is_out(context, leaf);
+}
+
+template <Kind kKind, bool kObeys = false>
 Status tick_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
+  if constexpr (kObeys) {
+    if (context.first_tick(self)) context.state<LeafPace>(self) = {.told = 1, .taken = 1};
+  }
   if (!prepare(context, self, leaf)) [[unlikely]]
     return out<kKind>(context, self);
+  if constexpr (kObeys) {
+    if (!follow_pace(context, self, leaf)) return out<kKind>(context, self);
+  }
   lockstep_status result = LOCKSTEP_IDLE;
   bool is_out_now = false;  // what a node without children reports is its error
   if constexpr (kKind == Kind::Control) {
@@ -320,13 +344,29 @@ std::optional<double> look_at_progress(NodeContext& context, NodeIndex node) {
   return reported >= 0.0 && reported <= 1.0 ? std::optional(reported) : std::nullopt;
 }
 
+extern const NodeKind kObeyingAction;
+
 const NodeKind kPluginAction{
     .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
     .tick = tick_leaf<Kind::Action>,
     .progress = progress_of_leaf,
     .halt = halt_leaf<Kind::Action>,
     .pause = pause_leaf,
-    .unreset = unreset_leaf};
+    .unreset = unreset_leaf,
+    .obeying = &kObeyingAction};
+
+const NodeKind kObeyingAction{
+    .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
+    .tick = tick_leaf<Kind::Action, true>,
+    .progress = progress_of_leaf,
+    .state_size = sizeof(LeafPace),
+    .halt = halt_leaf<Kind::Action>,
+    .pause = pause_leaf,
+    .fold = fold::dead_when_idle,
+    .unreset = unreset_leaf,
+    .taken_up = [](NodeContext& context, NodeIndex self) {
+      return context.state<LeafPace>(self).taken;
+    }};
 
 const NodeKind kPluginCondition{
     .type = {.id = "Condition", .category = NodeCategory::Condition, .doc = "", .arity = {0, 0}},

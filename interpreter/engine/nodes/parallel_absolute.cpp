@@ -16,10 +16,14 @@ constexpr Parameter kAbsoluteParameters[] = {
     parallel::kFailureCount,
     parallel::kMemory,
     kHoldParameter,
+    pacing::kPace,
+    pacing::kReaction,
 };
+constexpr unsigned kAbsolutePace = 7;
 
 std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
   if (auto broken = parallel::check_counts(given, kAbsoluteCounts)) return broken;
+  if (auto broken = pacing::check(given, kAbsolutePace)) return broken;
   if (!given.is_given(absolute::kBarriers) && !given.is_given(absolute::kBarrierCount)) {
     return RuleBreak{-1, "'barriers' or 'barrier_count' is missing",
                      "give exactly one of the two, such as barriers=\"0.25;0.5;0.75\""};
@@ -27,6 +31,7 @@ std::optional<RuleBreak> rule_of_absolute(const ParameterValues& given) {
   return absolute::check_barriers(given);
 }
 
+template <bool kPaces>
 Status tick_absolute(NodeContext& context, NodeIndex self) {
   const auto barriers = context.parameters().numbers(self, absolute::kBarriers);
   const double least = synchronized::take_snapshot(context, self);
@@ -34,9 +39,19 @@ Status tick_absolute(NodeContext& context, NodeIndex self) {
   const double barrier = absolute::current_barrier(barriers, least, state.place);
   state.limit = barrier;
   const bool ticks = context.parameter(self, absolute::kAtBarrier).integer == kTicksAtBarrier;
-  return synchronized::tick_children(context, self, kAbsoluteCounts,
-                                     absolute::held_from(barrier, ticks));
+  const double held_from = absolute::held_from(barrier, ticks);
+  if constexpr (kPaces) {
+    const double reaction = context.parameter(self, kAbsolutePace + 1).number;
+    const auto paced =
+        synchronized::set_paces(context, self, kAbsoluteCounts, barrier, held_from, reaction);
+    return synchronized::tick_children(context, self, kAbsoluteCounts, held_from, paced);
+  } else {
+    return synchronized::tick_children(context, self, kAbsoluteCounts, held_from,
+                                       synchronized::Plain{});
+  }
 }
+
+extern const NodeKind kPacedAbsolute;
 
 }  // namespace
 
@@ -56,12 +71,17 @@ const NodeKind kParallelAbsolute{
                          .at_barrier = absolute::kAtBarrier,
                          .hold = 6},
              .latches = true},
-    .tick = tick_absolute,
+    .tick = tick_absolute<false>,
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
     .fold = fold::dead,
+    .paced = &kPacedAbsolute,
     .if_moved = IfMoved::Same,
     .has_any_order = true};
+
+namespace {
+const NodeKind kPacedAbsolute = synchronized::paced_kind(kParallelAbsolute, tick_absolute<true>);
+}  // namespace
 
 }  // namespace lockstep::host

@@ -19,15 +19,35 @@ constexpr Parameter kRelativeParameters[] = {
     parallel::kFailureCount,
     parallel::kMemory,
     kHoldParameter,
+    pacing::kPace,
+    pacing::kReaction,
 };
+constexpr unsigned kRelativePace = 5;
 
+std::optional<RuleBreak> rule_of_relative(const ParameterValues& given) {
+  if (auto broken = parallel::check_counts(given, kRelativeCounts)) return broken;
+  return pacing::check(given, kRelativePace);
+}
+
+template <bool kPaces>
 Status tick_relative(NodeContext& context, NodeIndex self) {
   const double least = synchronized::take_snapshot(context, self);
   const double delta = context.parameter(self, kDelta).number;
   context.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least);
-  return synchronized::tick_children(context, self, kRelativeCounts, least_above(most));
+  const double held_from = least_above(most);
+  if constexpr (kPaces) {
+    const double reaction = context.parameter(self, kRelativePace + 1).number;
+    const auto paced =
+        synchronized::set_paces(context, self, kRelativeCounts, most, held_from, reaction);
+    return synchronized::tick_children(context, self, kRelativeCounts, held_from, paced);
+  } else {
+    return synchronized::tick_children(context, self, kRelativeCounts, held_from,
+                                       synchronized::Plain{});
+  }
 }
+
+extern const NodeKind kPacedRelative;
 
 }  // namespace
 
@@ -38,17 +58,22 @@ const NodeKind kParallelRelative{
                     "by more than delta. Ends as Parallel does.",
              .arity = {1},
              .parameters = kRelativeParameters,
-             .rule = parallel::rule<kRelativeCounts>,
+             .rule = rule_of_relative,
              .sign = "⇉R",
              .synchronization = Synchronization::Relative,
              .holding = {.delta = kDelta, .hold = 4},
              .latches = true},
-    .tick = tick_relative,
+    .tick = tick_relative<false>,
     .progress = synchronized::least_progress,
     .state_size = sizeof(SynchronizedState),
     .state_per_child = sizeof(double),
     .fold = fold::dead,
+    .paced = &kPacedRelative,
     .if_moved = IfMoved::Same,
     .has_any_order = true};
+
+namespace {
+const NodeKind kPacedRelative = synchronized::paced_kind(kParallelRelative, tick_relative<true>);
+}  // namespace
 
 }  // namespace lockstep::host

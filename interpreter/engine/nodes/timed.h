@@ -40,18 +40,49 @@ inline void pause(NodeContext& context, NodeIndex self) {
   context.state<State>(self).paused_at = context.now();
 }
 
+// Below a node that paces: what passes counts by the factor that was given in the last tick.
+struct PacedState {
+  State times;
+  Nanoseconds last;  // tick
+  double factor;
+};
+
+inline Nanoseconds lost(const PacedState& state, Nanoseconds now) {
+  return from_seconds((1.0 - state.factor) * to_seconds(now - state.last));
+}
+
+inline void pause_paced(NodeContext& context, NodeIndex self) {
+  auto& state = context.state<PacedState>(self);
+  pause(context, self);
+  state.times.start += lost(state, context.now());
+}
+
 // Call once in each tick, before anything else.
-inline void count(NodeContext& context, NodeIndex self) {
+template <bool kObeys = false>
+void count(NodeContext& context, NodeIndex self) {
   State& state = context.state<State>(self);
-  if (context.first_tick(self)) state.start = context.now();
-  if (context.activity(self) == Activity::Paused) state.start += context.now() - state.paused_at;
+  const bool is_paused = context.activity(self) == Activity::Paused;
+  const bool begins = context.first_tick(self);
+  if (begins) state.start = context.now();
+  if (is_paused) state.start += context.now() - state.paused_at;
+  if constexpr (kObeys) {
+    auto& paced = context.state<PacedState>(self);
+    if (!begins && !is_paused) state.start += lost(paced, context.now());
+    paced.last = context.now();
+    paced.factor = factor_of(context.pace());
+  }
 }
 
 // In this tick; also for a node that is held.
-inline Nanoseconds counted(NodeContext& context, NodeIndex self) {
+template <bool kObeys = false>
+Nanoseconds counted(NodeContext& context, NodeIndex self) {
   const State& state = context.state<State>(self);
   const bool is_paused = context.activity(self) == Activity::Paused;
-  return context.passed(state.start, is_paused ? state.paused_at : context.now());
+  Nanoseconds start = state.start;
+  if constexpr (kObeys) {
+    if (!is_paused) start += lost(context.state<PacedState>(self), context.now());
+  }
+  return context.passed(start, is_paused ? state.paused_at : context.now());
 }
 
 inline bool is_over(NodeContext& context, NodeIndex self) {
@@ -92,10 +123,21 @@ inline void fold_by_clock(NodeContext& context, NodeIndex self) {
 }
 
 // For Timeout and Delay.
-inline bool is_over_by_clock(NodeContext& context, NodeIndex self) {
+template <bool kObeys>
+bool is_over_by_clock(NodeContext& context, NodeIndex self) {
   const bool goes_on = context.parameter(self, kClock).integer == kWall;
-  if (!goes_on || context.first_tick(self)) count(context, self);
+  if (!goes_on || context.first_tick(self)) count<kObeys>(context, self);
   return is_over(context, self);
+}
+
+// The same kind below a node that paces.
+inline NodeKind obeying_kind(const NodeKind& plain, Status (*tick)(NodeContext&, NodeIndex)) {
+  NodeKind kind = plain;
+  kind.tick = tick;
+  kind.state_size = sizeof(PacedState);
+  kind.pause = pause_paced;
+  kind.obeying = nullptr;
+  return kind;
 }
 
 }  // namespace lockstep::host::timed

@@ -14,11 +14,14 @@ constexpr Parameter kTimeoutParameters[] = {
     timed::kClockParameter,
 };
 
+template <bool kObeys>
 Status tick_timeout(NodeContext& context, NodeIndex self) {
-  if (!timed::is_over_by_clock(context, self)) return context.tick(self + 1);
+  if (!timed::is_over_by_clock<kObeys>(context, self)) return context.tick(self + 1);
   context.halt(self + 1);
   return Status::Failure;
 }
+
+extern const NodeKind kObeyingTimeout;
 
 }  // namespace
 
@@ -30,12 +33,17 @@ const NodeKind kTimeout{
              .parameters = kTimeoutParameters,
              .begins_child_once = true,
              .limits_time = true},
-    .tick = tick_timeout,
+    .tick = tick_timeout<false>,
     .progress = decorator::child_progress,
     .state_size = sizeof(timed::State),
     .pause = timed::pause,
     .fold = timed::fold_by_clock,
+    .obeying = &kObeyingTimeout,
     .reads_own_hold = true,
     .if_moved = IfMoved::Same};
+
+namespace {
+const NodeKind kObeyingTimeout = timed::obeying_kind(kTimeout, tick_timeout<true>);
+}  // namespace
 
 }  // namespace lockstep::host

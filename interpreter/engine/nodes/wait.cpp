@@ -14,15 +14,19 @@ Nanoseconds duration(const NodeContext& context, NodeIndex self) {
   return from_seconds(context.parameter(self, timed::kSeconds).number);
 }
 
+template <bool kObeys>
 Status tick_wait(NodeContext& context, NodeIndex self) {
-  timed::count(context, self);
+  timed::count<kObeys>(context, self);
   return timed::is_over(context, self) ? Status::Success : Status::Running;
 }
 
+template <bool kObeys>
 double progress_of_wait(NodeContext& context, NodeIndex self) {
-  return std::min(1.0,
-                  to_seconds(timed::counted(context, self)) / to_seconds(duration(context, self)));
+  return std::min(
+      1.0, to_seconds(timed::counted<kObeys>(context, self)) / to_seconds(duration(context, self)));
 }
+
+extern const NodeKind kObeyingWait;
 
 }  // namespace
 
@@ -31,13 +35,26 @@ const NodeKind kWait{.type = {.id = "Wait",
                               .doc = "Running for a time, then Success.",
                               .arity = {0, 0},
                               .parameters = kWaitParameters,
-                              .can_run = true},
-                     .tick = tick_wait,
-                     .progress = progress_of_wait,
+                              .can_run = true,
+                              .can_be_slowed = true},
+                     .tick = tick_wait<false>,
+                     .progress = progress_of_wait<false>,
                      .state_size = sizeof(timed::State),
                      .pause = timed::pause,
                      .fold = timed::fold,
+                     .obeying = &kObeyingWait,
                      .reads_own_hold = true,
                      .if_moved = IfMoved::Same};
+
+namespace {
+const NodeKind kObeyingWait = [] {
+  NodeKind kind = timed::obeying_kind(kWait, tick_wait<true>);
+  kind.progress = progress_of_wait<true>;
+  kind.taken_up = [](NodeContext& context, NodeIndex self) {
+    return context.state<timed::PacedState>(self).factor;
+  };
+  return kind;
+}();
+}  // namespace
 
 }  // namespace lockstep::host

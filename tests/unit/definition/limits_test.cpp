@@ -144,6 +144,7 @@ std::string node_with(const NodeType& type, const Parameter& parameter, const st
   const bool lacks_barriers = type.synchronization == Synchronization::Absolute &&
                               !parameter.name.starts_with("barrier") && parameter.name != "delta";
   if (lacks_barriers) text += " barrier_count=\"1\"";
+  if (parameter.name == "reaction") text += " pace=\"true\"";  // it has no meaning without
   if (type.arity.min == 0) return text + "/>";
   // Counts of children may be as many as there are.
   return text + ">" + repeated(3, "<AlwaysSuccess/>").substr(0, type.arity.max == 1 ? 16 : 48) +
