@@ -8,7 +8,8 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kAgreementTrees = 10000, kGroupTrees = 7000, kRepeatedTrees = 500;
+constexpr std::uint64_t kAgreementTrees = 10000, kGroupTrees = 7000, kRepeatedTrees = 500,
+                        kPacedTrees = 4000;
 
 // Which trials: so many, from a first seed.
 struct Seeds {
@@ -84,6 +85,17 @@ TEST_CASE("the engine agrees with the law of barriers and resources on random tr
   const Seeds trials = seeds(kGroupTrees);
   compare_all(trials, random_group_trial, nullptr, &coverage);
   if (trials.count >= kGroupTrees) coverage.check();
+}
+
+TEST_CASE("the engine agrees with the law of pacing on random trees") {
+  const auto paced_trial = [](std::uint64_t seed) { return paced(random_trial(seed), seed); };
+  compare_all(seeds(kPacedTrees), paced_trial, nullptr, nullptr);
+}
+
+TEST_CASE("the engine agrees with the law of pacing on random trees with barriers and resources") {
+  GroupCoverage coverage;
+  const auto paced_trial = [](std::uint64_t seed) { return paced(random_group_trial(seed), seed); };
+  compare_all(seeds(kPacedTrees), paced_trial, nullptr, &coverage);
 }
 
 TEST_CASE("the same tree and seed give the same run") {

@@ -21,7 +21,8 @@ namespace {
 std::string to_text(const EventLog& events) {
   std::string text;
   for (const Event& event : events)
-    text += fmt::format(" {} {},", to_string(event.call), event.leaf);
+    text += fmt::format(" {} {}{},", to_string(event.call), event.leaf,
+                        event.factor != 0 ? fmt::format(" at {}", event.factor) : "");
   return text;
 }
 

@@ -35,6 +35,7 @@ class AttributeList {
   void add_control() {
     if (plan_.memory) add("memory", "true");
     if (plan_.forgets) add("memory", "false");
+    if (plan_.kind != "barrier") add_pace();
     if (plan_.success_count >= 0) add("success_count", plan_.success_count);
     if (plan_.failure_count >= 0) add("failure_count", plan_.failure_count);
     if (plan_.has_barriers) add("barriers", fmt::format("{}", fmt::join(plan_.barriers, ";")));
@@ -45,9 +46,16 @@ class AttributeList {
     if (plan_.holds_between) add("hold", "between");
   }
 
+  void add_pace() {
+    if (!plan_.pace) return;
+    add("pace", "true");
+    add("reaction", plan_.reaction);
+  }
+
   void add_barrier() {
     if (!plan_.has_barriers && plan_.barrier_count < 0) add("delta", plan_.delta);
     if (plan_.ignores_idle) add("idle", "ignore");
+    add_pace();
   }
 
   void add_group() {

@@ -28,6 +28,8 @@ struct Plan {
   bool tick_at_barrier = false;
   double delta = 0;
   bool holds_between = false;
+  bool pace = false;  // of those that compare progress
+  double reaction = 1;
   int times = -1;  // of Repeat, attempts of Retry
   double seconds = 0;
   bool wall_clock = false;   // Timeout, Delay, Rate

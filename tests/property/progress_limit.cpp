@@ -90,6 +90,11 @@ std::optional<double> ProgressLimit::next_barrier(double least) const {
   return std::nullopt;
 }
 
+double ProgressLimit::farthest(double least) const {
+  if (delta_) return least + *delta_;
+  return next_barrier(least).value_or(std::numeric_limits<double>::infinity());
+}
+
 bool ProgressLimit::holds(double progress, double least) const {
   if (is_left_out(progress)) return false;
   if (delta_) return progress > least + *delta_ + kEpsilon;

@@ -28,6 +28,8 @@ class ProgressLimit {
   struct BadEntry {};
 
   bool holds(double progress, double least) const;
+  // The progress at which it holds; infinity: it holds nobody.
+  double farthest(double least) const;
   // A barrier at 0.
   bool begins_together() const { return !delta_ && !barriers_.empty() && barriers_[0] == 0; }
 

@@ -28,6 +28,9 @@ struct Trial {
   std::vector<EntryWrite> writes = {};
 };
 
+// The same trees, of which some nodes pace, with leaves that obey more or less.
+Trial paced(Trial trial, std::uint64_t seed);
+
 // What gives all entries of scripts a value.
 inline constexpr auto kStart = "x:=0;y:=1";
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "property/reference_barrier.h"
+#include "property/reference_pace.h"
 #include "property/reference_pool.h"
 #include "support/scripted_leaf.h"
 
@@ -24,6 +25,11 @@ class Leaf : public ReferenceNode {
     if (first && !bare) call([&] { leaf_.start(); });
     status = Status::Running;
     if (paused && !bare) call([&] { leaf_.resume(); });
+    if (first) told_ = took_ = 1;
+    if (plan.kind == "action" && or_full(world.given) != told_) {
+      told_ = or_full(world.given);
+      call([&] { took_ = std::clamp(leaf_.set_pace(told_), told_, 1.0); });
+    }
     std::int32_t result = 0;
     call([&] { result = leaf_.tick(); });
     const bool may_run = plan.kind != "condition";
@@ -49,6 +55,10 @@ class Leaf : public ReferenceNode {
     if (plan.kind != "bare") call([&] { leaf_.pause(); });
   }
 
+  double taken(double between) override {
+    return runs() ? took_ / between : ReferenceNode::taken(between);
+  }
+
  private:
   template <class Function>
   void call(Function function) {
@@ -62,6 +72,7 @@ class Leaf : public ReferenceNode {
   }
 
   const char* error_ = nullptr;
+  double told_ = 1, took_ = 1;
   ScriptedLeaf leaf_;
 };
 
@@ -194,6 +205,11 @@ class Switch : public ReferenceNode {
   ReferenceNode* chosen_ = nullptr;
 };
 
+// "Time inside of a slowed child": it counts as slowly as the child goes.
+Nanoseconds at_pace(Nanoseconds time, double factor) {
+  return time - from_seconds((1 - factor) * to_seconds(time));
+}
+
 class Wait : public ReferenceNode {
  public:
   using ReferenceNode::ReferenceNode;
@@ -203,12 +219,17 @@ class Wait : public ReferenceNode {
     else
       waited_ = waited_so_far();
     paused = false;
+    factor_ = or_full(world.given);
     counted_until_ = world.now;
     return waited_ >= from_seconds(plan.seconds) ? Status::Success : Status::Running;
   }
-  void on_pause() override { waited_ += world.now - counted_until_; }
+  void on_pause() override { waited_ = waited_so_far_at_pace(); }
+  double taken(double between) override {
+    return runs() ? factor_ / between : ReferenceNode::taken(between);
+  }
   double on_progress() override {
-    return std::min(1.0, to_seconds(waited_so_far()) / plan.seconds);
+    const Nanoseconds whole = from_seconds(plan.seconds);  // so that it is the same to the last bit
+    return std::min(1.0, to_seconds(waited_so_far()) / to_seconds(whole));
   }
   void keep(KeptState& state) override {
     ReferenceNode::keep(state);
@@ -217,10 +238,12 @@ class Wait : public ReferenceNode {
   }
 
  private:
-  Nanoseconds waited_so_far() const {
-    return paused ? waited_ : waited_ + (world.now - counted_until_);
+  Nanoseconds waited_so_far() const { return paused ? waited_ : waited_so_far_at_pace(); }
+  Nanoseconds waited_so_far_at_pace() const {
+    return waited_ + at_pace(world.now - counted_until_, factor_);
   }
   Nanoseconds waited_{0}, counted_until_{0};
+  double factor_ = 1;
 };
 
 // Sequence goes on after Success, Fallback after Failure.
@@ -365,17 +388,24 @@ class Parallel : public ReferenceNode {
 
 class Synchronized : public Parallel {
  public:
-  using Parallel::Parallel;
-  Status on_tick(bool) override {
+  Synchronized(Reference& tree, const Plan& its_plan)
+      : Parallel(tree, its_plan), pacer_(its_plan, its_plan.children.size()) {}
+  Status on_tick(bool first) override {
     snapshot.clear();
     for (auto& child : children) {
       snapshot.push_back(child->status == Status::Skipped ? kLeftOut : reached(*child));
     }
     const ProgressLimit limit(plan);
+    if (plan.pace) pace(limit, first);
     for (std::size_t i = 0; i < children.size(); ++i) {
       if (!may_be_ticked(*children[i])) continue;
       if (is_guard(children[i]->plan) || !limit.holds(snapshot[i], least_of(snapshot))) {
-        children[i]->tick();
+        if (plan.pace) {
+          const bool is_asked = !is_guard(children[i]->plan);
+          children[i]->tick_at_pace(is_asked ? pacer_.given(i) : kNothingAsked);
+        } else {
+          children[i]->tick();
+        }
       } else {
         withhold(*children[i]);
       }
@@ -394,7 +424,46 @@ class Synchronized : public Parallel {
     return plan.holds_between && ProgressLimit(plan).holds(progress, least_of(snapshot));
   }
 
+  void on_pause() override { pacer_.pause(world.now); }
+  double taken(double between) override {
+    if (!plan.pace || !runs()) return Parallel::taken(between);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      least = std::min(least, children[i]->taken(between * pacer_.told(i)));
+    }
+    return least;
+  }
+
  private:
+  void pace(const ProgressLimit& limit, bool first) {
+    std::vector<ReferencePacer::Child> all;
+    std::ptrdiff_t actions = 0;
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      ReferenceNode& it = *children[i];
+      const bool guard = is_guard(it.plan);
+      actions += !guard;
+      all.push_back({.node = &it,
+                     .reached = snapshot[i],
+                     .takes_part = !first && !guard && it.runs(),
+                     .was_ticked = it.last_tick == last_tick,
+                     .is_held = limit.holds(snapshot[i], least_of(snapshot)),
+                     .is_guard = guard});
+    }
+    const double farthest = limit.farthest(least_of(snapshot));
+    // "if success_count is less than the children that contain actions, with a delta, and at a
+    // limit of 1 or more"
+    const bool is_early = plan.success_count >= 0 && plan.success_count < actions;
+    const bool is_delta = plan.kind == "ParallelRelative";
+    const bool asks = std::isfinite(farthest) && !(is_early && (is_delta || farthest >= 1));
+    pacer_.tick(all, farthest, asks, world.given, world.now, first);
+    if (asks) note("a parallel paces");
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (asks && pacer_.told(i) < 1) note("a child is slowed");
+    }
+  }
+
+  ReferencePacer pacer_;
+
   void withhold(ReferenceNode& child) const {
     child.withheld_in = world.tick;
     if (child.runs() && !child.paused) child.pause();
@@ -474,8 +543,9 @@ class Timed : public ReferenceNode {  // Timeout, Delay
     if (first)
       counted_ = Nanoseconds(0);
     else if (!paused || plan.wall_clock)
-      counted_ += world.now - counted_until_;
+      counted_ += passed();
     counted_until_ = world.now;
+    factor_ = or_full(world.given);
     paused = false;
     const bool over = counted_ >= from_seconds(plan.seconds);
     if (plan.kind == "Delay") return over ? child().tick() : Status::Running;
@@ -485,7 +555,7 @@ class Timed : public ReferenceNode {  // Timeout, Delay
   }
   void on_pause() override {
     if (plan.wall_clock) return;
-    counted_ += world.now - counted_until_;
+    counted_ += passed();
     counted_until_ = world.now;
   }
   double on_progress() override { return child().progress(); }
@@ -496,7 +566,11 @@ class Timed : public ReferenceNode {  // Timeout, Delay
   }
 
  private:
+  Nanoseconds passed() const {
+    return at_pace(world.now - counted_until_, plan.wall_clock ? 1 : factor_);
+  }
   Nanoseconds counted_{0}, counted_until_{0};
+  double factor_ = 1;
 };
 
 class Cooldown : public ReferenceNode {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace lockstep::host::test {
@@ -27,7 +30,7 @@ bool is_plain_condition(const Plan& plan) {
 }  // namespace
 
 ReferenceBarrier::ReferenceBarrier(Reference& tree, const Plan& its_plan, ReferenceNode& root)
-    : ReferenceGroup(tree, its_plan, root), members_(count()) {}
+    : ReferenceGroup(tree, its_plan, root), members_(count()), pacer_(its_plan, count()) {}
 
 void ReferenceBarrier::before_tick() {
   if (!ancestor().runs()) members_.assign(count(), {});
@@ -47,6 +50,7 @@ void ReferenceBarrier::before_tick() {
     read_limit();
   }
   if (begins_together()) hold_beginners();
+  if (plan.pace) pace();
   status = all_succeeded() ? Status::Success : Status::Running;
 }
 
@@ -199,6 +203,33 @@ void ReferenceBarrier::hold_all_that_have_not_begun() {
   }
 }
 
+// Who begins in this tick, or cannot be read, asks for nothing but speed.
+void ReferenceBarrier::pace() {
+  std::optional<ProgressLimit> limit;
+  try {
+    limit.emplace(plan, world.entries);
+  } catch (const ProgressLimit::BadEntry&) {
+  }
+  std::vector<ReferencePacer::Child> all;
+  const bool begins = !ancestor().runs();
+  for (std::size_t place = 0; place < count(); ++place) {
+    ReferenceNode& it = member(place);
+    const Member& kept = members_[place];
+    all.push_back({.node = &it.child(),
+                   .reached = snapshot[place],
+                   .takes_part = !begins && !kept.has_succeeded && it.runs() && it.child().runs(),
+                   .was_ticked = it.child().last_tick + 1 == world.tick,
+                   .is_held = kept.is_held,
+                   .is_guard = is_guard(it.plan)});
+  }
+  const double farthest =
+      limit ? limit->farthest(least_of(snapshot)) : std::numeric_limits<double>::infinity();
+  pacer_.tick(all, farthest, std::isfinite(farthest), kNothingAsked, world.now, begins);
+  for (std::size_t place = 0; place < count(); ++place) {
+    if (all[place].takes_part && pacer_.told(place) < 1) note("a member is slowed");
+  }
+}
+
 // A tick begins its activation, if that has not begun.
 void ReferenceBarrier::reach(const ReferenceNode& member) {
   last_tick = world.tick;
@@ -278,7 +309,9 @@ bool ReferenceBarrier::all_succeeded() const {
 // status."
 Status SyncProgress::on_tick(bool) {
   barrier().reach(*this);
-  if (!is_held()) return child().tick();
+  // "A member of a barrier is given the larger of what comes from around it and of what its barrier
+  // asks."
+  if (!is_held()) return child().tick_at_pace(std::max(world.given, barrier().pace_of(*this)));
   child().pause();
   return Status::Running;
 }

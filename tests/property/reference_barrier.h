@@ -3,6 +3,7 @@
 
 #include "property/progress_limit.h"
 #include "property/reference_group.h"
+#include "property/reference_pace.h"
 
 namespace lockstep::host::test {
 
@@ -17,6 +18,10 @@ class ReferenceBarrier : public ReferenceGroup {
   void was_ticked(const ReferenceNode& node) override;
   double on_progress() override { return least_of(snapshot); }
   void keep(KeptState& state) override;
+  // What the barrier asks of it.
+  double pace_of(const ReferenceNode& node) const {
+    return plan.pace ? pacer_.given(place_of(node)) : kNothingAsked;
+  }
 
   bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
   bool holds(const ReferenceNode& node) const { return members_[place_of(node)].is_held; }
@@ -48,6 +53,7 @@ class ReferenceBarrier : public ReferenceGroup {
   void hold_beginners();
   void hold_all_that_have_not_begun();
   bool all_succeeded() const;
+  void pace();
 
   // The cases that came up.
   void note_counted(std::size_t place, double progress);
@@ -56,6 +62,7 @@ class ReferenceBarrier : public ReferenceGroup {
 
   std::vector<Member> members_;
   std::optional<ProgressLimit> limit_;  // of this tick
+  ReferencePacer pacer_;
 };
 
 class SyncProgress : public ReferenceNode {

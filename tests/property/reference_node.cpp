@@ -1,6 +1,7 @@
 #include "property/reference_node.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "property/reference_group.h"
 
@@ -27,6 +28,22 @@ Status ReferenceNode::tick() {
   last_tick = world.tick;
   for (ReferenceGroup* group : world.groups) group->was_ticked(*this);
   return status;
+}
+
+Status ReferenceNode::tick_at_pace(double given) {
+  const double around = world.given;
+  world.given = given;
+  tick();
+  world.given = around;
+  return status;
+}
+
+double ReferenceNode::taken(double between) {
+  if (!runs()) return std::numeric_limits<double>::infinity();
+  if (children.empty()) return 1 / between;
+  double least = std::numeric_limits<double>::infinity();
+  for (auto& child : children) least = std::min(least, child->taken(between));
+  return least;
 }
 
 Status ReferenceNode::tick_with_scripts() {

@@ -24,6 +24,7 @@ struct Reference::World {
   const std::vector<ReferenceNode*>* nodes = nullptr;
   std::vector<ReferenceMoment> moments;  // of this tick, but for the last one
   bool is_halting = false;
+  double given = 0;  // the pace of what is ticked now; 0: nothing was asked
 
   void begin_moments();
   void end_moment();
@@ -38,6 +39,7 @@ class ReferenceNode {
   static std::unique_ptr<ReferenceNode> make(Reference& tree, const Plan& plan);
 
   Status tick();
+  Status tick_at_pace(double given);
   // Halts what runs; all of the subtree is idle then.
   void make_idle();
   void pause();
@@ -55,6 +57,9 @@ class ReferenceNode {
   // Of one with hold="between": a branch that has come so far within this tick is held.
   virtual bool is_reached_between(double /*progress*/) const { return false; }
   virtual void on_halt() {}
+  // The least that its running leaves took up of their pace, each divided by what nodes from here
+  // to it asked, and by `between`.
+  virtual double taken(double between);
   virtual void on_pause() {}
   // What the next ticks read of it.
   virtual void keep(KeptState& state);

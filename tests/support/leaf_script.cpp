@@ -82,6 +82,7 @@ LeafScript parse_leaf_script(std::string_view text) {
   LeafScript script;
   if (take(text, "+")) {
     script.growth = take_numbers(text);
+    if (take(text, "*")) script.least_pace = take_number(text);
     if (take(text, "/")) script.loss = take_number(text);
   } else {
     do {

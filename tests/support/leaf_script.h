@@ -7,6 +7,9 @@
 //   +.1  +.4,-.2  progress grows by .1 with each tick it gets (by .4, -.2, -.2, ...), and it
 //                 succeeds in the tick in which it reaches 1
 //   +.1/.2        the same, and falls by .2 in each tick that is withheld
+//   +.1*.2        the same for a leaf that obeys a pace: it grows by so much of .1, and takes up .2
+//   at
+//                 least; one without it goes on as fast as ever
 //   R~0,1         progress 0 in the first tick of the tree, then 1, whether ticked or not
 // Wrong on purpose: X sets an error in tick, T throws in tick, B returns status 7, I returns 0;
 // x and t do so in start. !halt (or pause, resume) at the end: sets an error there; ^halt: throws.
@@ -29,6 +32,7 @@ struct LeafScript {
   std::vector<Step> steps;
   bool repeats = false;
   std::vector<double> growth;  // instead of steps
+  double least_pace = 1;       // with growth
   double loss = 0;             // with growth: in each tick withheld
   std::vector<double> live;    // progress by the tick of the tree
   std::optional<Call> fails_in;

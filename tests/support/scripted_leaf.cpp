@@ -26,6 +26,7 @@ lockstep_leaf_type full(lockstep_leaf_kind kind, const char* id) {
   type.pause = [](void* self) { leaf(self).pause(); };
   type.resume = [](void* self) { leaf(self).resume(); };
   type.progress = [](void* self) { return leaf(self).progress(); };
+  type.set_pace = [](void* self, double factor) { return leaf(self).set_pace(factor); };
   return type;
 }
 
@@ -48,7 +49,7 @@ const LeafScript::Step& ScriptedLeaf::next_step() const {
 }
 
 void ScriptedLeaf::told(Call call) {
-  log_->push_back({call, number_});
+  log_->push_back({call, number_, 0});
   if (script_.fails_in != call) return;
   if (script_.throws) throw std::runtime_error("thrown by the script");
   set_error_("error of the script");
@@ -58,6 +59,7 @@ void ScriptedLeaf::start() {
   told(Call::Start);
   activation_ticks_ = 0;
   progress_ = 0;
+  pace_ = 1;
   paused_at_.reset();
   if (!script_.growth.empty()) return;
   if (next_step().letter == 'x') set_error_("error of the script");
@@ -76,9 +78,17 @@ void ScriptedLeaf::resume() {
   paused_at_.reset();
 }
 
+double ScriptedLeaf::set_pace(double factor) {
+  if (paused_at_) throw std::logic_error("told a pace while it is paused");
+  told_paces_.push_back(factor);
+  log_->push_back({Call::SetPace, number_, factor});
+  pace_ = std::max(factor, script_.least_pace);
+  return pace_;
+}
+
 std::int32_t ScriptedLeaf::grow() {
   const auto& growth = script_.growth;
-  progress_ += growth[std::min(activation_ticks_, growth.size() - 1)];
+  progress_ += growth[std::min(activation_ticks_, growth.size() - 1)] * pace_;
   ++activation_ticks_;
   // Ten steps of 0.1 are one.
   return progress_ >= 1 - 1e-9 ? LOCKSTEP_SUCCESS : LOCKSTEP_RUNNING;

@@ -30,6 +30,9 @@ class ScriptedLeaf {
   void pause();
   void resume();
   double progress() const;
+  double set_pace(double factor);
+  // All factors that it was told.
+  const std::vector<double>& told_paces() const { return told_paces_; }
   // How often it was asked for its progress.
   std::uint64_t asked() const { return asked_; }
   // As new.
@@ -38,6 +41,8 @@ class ScriptedLeaf {
     ticks_ = 0;
     activation_ticks_ = 0;
     progress_ = 0;
+    pace_ = 1;
+    told_paces_.clear();
   }
 
  private:
@@ -53,6 +58,8 @@ class ScriptedLeaf {
   std::size_t ticks_ = 0;  // in all activations
   std::size_t activation_ticks_ = 0;
   double progress_ = 0;
+  double pace_ = 1;  // that it took up
+  std::vector<double> told_paces_;
   std::optional<std::uint32_t> paused_at_;  // the first tick withheld
   mutable std::uint64_t asked_ = 0;
 };

@@ -9,6 +9,7 @@ const NodeType kScriptedActionType{.id = "Scripted",
                                    .doc = "",
                                    .arity = {0, 0},
                                    .can_run = true,
+                                   .can_be_slowed = true,
                                    .leaf = &kScriptedAction};
 const NodeType kScriptedConditionType{.id = "ScriptedCondition",
                                       .category = NodeCategory::Condition,

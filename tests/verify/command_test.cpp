@@ -213,7 +213,8 @@ TEST_CASE("a limit is heeded within a state of very many answers") {
   }
 }
 
-TEST_CASE("--time counts from the begin of the command: what it takes to load the tree") {
+TEST_CASE(
+    "the option --time counts from the start of the command: what it takes to load the tree") {
   const TemporaryDirectory directory;
   std::string leaves;
   for (int i = 0; i < 100'000; ++i) leaves += "<AlwaysSuccess/>";
