@@ -187,7 +187,6 @@ class LeafWatch {
   std::uint64_t first_serial_ = 0;  // of the mark, before the first call
   std::uint64_t opened_ticks_ = 0, random_ = 0x9E3779B97F4A7C15;
   std::uint32_t searches_left_ = 0;  // ticks that are timed to find who takes long
-  std::uint32_t next_searches_ = kSampled;
 
   FloatMode mode_;
   std::uint32_t looks_left_ = 0;  // ticks with a look after each call, with this one
