@@ -118,7 +118,7 @@ MEMBER_AT(lockstep_host, get_object, 216);
 MEMBER_AT(lockstep_host, set_object, 224);
 MEMBER_AT(lockstep_host, set_empty_port, 232);
 
-SIZE_IS(lockstep_leaf_type, 176);
+SIZE_IS(lockstep_leaf_type, 184);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
 MEMBER_AT(lockstep_leaf_type, kind, 4);
 MEMBER_AT(lockstep_leaf_type, id, 8);
@@ -143,6 +143,7 @@ MEMBER_AT(lockstep_leaf_type, behavior, 144);
 MEMBER_AT(lockstep_leaf_type, more_ports, 152);
 MEMBER_AT(lockstep_leaf_type, describe, 160);
 MEMBER_AT(lockstep_leaf_type, data, 168);
+MEMBER_AT(lockstep_leaf_type, set_pace, 176);
 
 SIZE_IS(lockstep_fixed, 16);
 MEMBER_AT(lockstep_fixed, port, 0);

@@ -167,7 +167,8 @@ static const lockstep_leaf_type the_leaf_type = {LEAF_SIZE,
                                                  LEAF_BEHAVIOR,
                                                  LEAF_MORE_PORTS,
                                                  LEAF_DESCRIBE,
-                                                 LEAF_DATA};
+                                                 LEAF_DATA,
+                                                 NULL};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};
 
