@@ -153,8 +153,8 @@ TEST_CASE("scripts name the barriers and pools of a file as the file does") {
                                  "</SyncProgress><SyncProgress barrier=\"meet\">" + files.wait() +
                                  "</SyncProgress><UseResources pool=\"yard\" resources=\"dock\">" +
                                  files.wait() +
-                                 "</UseResources><WaitUntil code=\"owner(dock) == none and "
-                                 "owner(yard/dock) == none and progress(meet) &gt;= 0\" "
+                                 "</UseResources><WaitUntil code=\"owner(dock) == none &amp;&amp; "
+                                 "owner(yard/dock) == none &amp;&amp; progress(meet) &gt;= 0\" "
                                  "timeout=\"1\"/></Parallel>"));
     const std::string main = " main_tree_to_execute=\"Main\"";
     const std::string own = files.add(

@@ -70,6 +70,9 @@ class ReadingResolver {
       }
       inside = around(inside);
     }
+    for (const auto& [written, group] : groups_in(0)) {  // the main tree may be a SubTree itself
+      if (written == name) return group->node;
+    }
     return find_node(name, paths_);
   }
 
@@ -113,9 +116,10 @@ class ReadingResolver {
   // "dock", or "yard/dock" where several pools have one. First of the pools that the tree of the
   // script uses, then of those that the trees around it use, then of all.
   Result<BoundReading> find_resource(std::uint32_t inside, std::string_view name) const {
-    for (; inside != 0; inside = around(inside)) {
+    for (bool is_main = false; !is_main; inside = around(inside)) {
       const NamedGroups groups = groups_in(inside);
       if (!resources_of(groups, name).empty()) return the_one(groups, name);
+      is_main = inside == 0;  // also where the main tree is nothing but a SubTree
     }
     NamedGroups all;
     for (const DefinitionGroup& group : definition_.groups) {
