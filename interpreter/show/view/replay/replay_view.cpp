@@ -127,7 +127,7 @@ Snapshot snapshot_of(const RecordingHeader& header, const TimelineTick& moment,
 std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const TimelineTick& moment,
                         const DrawOptions& options) {
   DrawOptions tree = options;
-  tree.entries = snapshot.entries.size();
+  tree.entries = 0;  // they follow, without the ticks of their changes: a part does not have these
   std::string text = draw(shape, snapshot, tree);
   for (const RecordedFault& fault : moment.faults) {
     TextLine line = new_line(options);
@@ -139,6 +139,15 @@ std::string draw_moment(const Shape& shape, const Snapshot& snapshot, const Time
     line.add(fmt::format("{}{}: {}", kWithin, shape.nodes[node].path, results));
     text += line.text() + "\n";
   });
+  for (std::size_t entry = 0; entry < snapshot.entries.size(); ++entry) {
+    const EntryState& state = snapshot.entries[entry];
+    if (!state.changed) continue;
+    const std::optional<std::string> value =
+        state.is_long ? std::nullopt : std::optional(state.text);
+    TextLine line = new_line(options);
+    line.add(shape.entries[entry].key + " = " + shown_value({.value = value}));
+    text += line.text() + "\n";
+  }
   for (const LeafLine& log : moment.logs) text += log_line(log, options);
   return text;
 }
