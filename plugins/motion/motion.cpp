@@ -38,7 +38,8 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
   Status tick() override {
     if (report_.is_late()) report_.sample(now(), progress_);
     double change = is_noisy_ ? step.get() + drawn() : step.get();
-    if (obey_.is_told()) change *= obey_.factor(now());
+    if (obey_.is_told()) [[unlikely]]
+      change *= obey_.factor(now());
     progress_ = std::clamp(progress_ + change, 0.0, 1.0);
     actual.set(progress_);
     set_progress(progress_);

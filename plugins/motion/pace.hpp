@@ -34,18 +34,20 @@ class Obey {
     least_ = ports.paces.get() ? ports.least_pace.get() : 1;
     latency_ = ports.pace_latency.get();
     factor_ = 1;
+    is_told_ = false;
     told_.clear();
   }
   // What it takes up.
   double set(double factor, double now) {
     const double taken = std::max(factor, least_);
+    is_told_ = true;
     told_.push_back({now + latency_, taken});
     return taken;
   }
   // Else it moves as fast as ever.
-  bool is_told() const { return factor_ != 1 || !told_.empty(); }
+  bool is_told() const { return is_told_; }
   // How fast it moves now.
-  double factor(double now) {
+  [[gnu::noinline]] double factor(double now) {
     const auto acts = [now](const Told& told) { return told.from <= now + kSameTime; };
     while (!told_.empty() && acts(told_.front())) {
       factor_ = told_.front().factor;
@@ -60,6 +62,7 @@ class Obey {
     double from, factor;
   };
   double least_ = 0, latency_ = 0, factor_ = 1;
+  bool is_told_ = false;    // in this activation
   std::vector<Told> told_;  // what does not act yet
 };
 

@@ -89,7 +89,7 @@ TEST_CASE("one node in full, and did you mean") {
   CHECK(one.code == 0);
   CHECK(contains(one.out, "<ParallelRelative delta=\"…\"> … </ParallelRelative>"));
   CHECK(contains(one.out, "double, from 0 to 1, required"));
-  CHECK(!contains(one.out, "Sequence"));
+  CHECK(!contains(one.out, "Fallback"));
   const Outcome unknown = run_lockstep({"nodes", "Sequnce"});
   CHECK(unknown.code == 2);
   CHECK(unknown.out.empty());
