@@ -48,6 +48,7 @@ class Reach : public StatefulActionNode {
 
   double progress() const { return at_; }
   void onPaused() { std::cout << name() << " holds at " << at_ << std::endl; }
+  double onPace(double factor) { return factor; }
   void onResumed() { std::cout << name() << " goes on" << std::endl; }
 
  private:
