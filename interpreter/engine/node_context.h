@@ -127,9 +127,9 @@ class NodeContext : public RunView {
   // What it was when it was asked for since the last call of that; 0: it was not.
   double progress_before_tick(NodeIndex node) const;
 
-  // How fast what is ticked now is to be: engine/pace.h.
+  // The factor of what is ticked now: engine/pace.h.
   double pace() const { return pace_; }
-  // Ticks a child that is to be so fast.
+  // Ticks a child with this factor.
   Status tick_at_pace(NodeIndex child, double given) {
     const double around = std::exchange(pace_, given);
     const Status status = tick(child);

@@ -206,7 +206,7 @@ void hold_nobody(NodeContext& context, NodeIndex self) {
   hold(context, self, kNever);
 }
 
-// Gives each member that runs its factor. A member is told with its next tick.
+// Finds the factor of each member that runs. The member hands it down in its next tick.
 void set_paces(NodeContext& context, NodeIndex self, double least) {
   const Tree& tree = context.tree();
   auto& state = context.state<PacedBarrierState>(self);

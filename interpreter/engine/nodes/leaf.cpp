@@ -176,7 +176,7 @@ lockstep_status call_tick(NodeContext& context, NodeIndex self) {
   return result;
 }
 
-// Tells the leaf how fast it is to be, if that has changed. False: the leaf is out.
+// Gives the leaf its factor, if that has changed. False: the leaf is out.
 bool follow_pace(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   auto& pace = context.state<LeafPace>(self);
   const double wanted = factor_of(context.pace());

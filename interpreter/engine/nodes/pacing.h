@@ -4,7 +4,7 @@
 // is held by its progress alone, so a leaf that does not obey breaks nothing.
 //
 // Example: delta 0.2, one child at 0.1 and one at 0.3, which make 1 and 3 a second. The limit is
-// 0.3: the first needs 0.2 s, the second nothing, so the second is told the least factor.
+// 0.3: the first needs 0.2 s, the second nothing, so the second gets the least factor.
 #pragma once
 
 #include <algorithm>

@@ -40,15 +40,8 @@ Status tick_absolute(NodeContext& context, NodeIndex self) {
   state.limit = barrier;
   const bool ticks = context.parameter(self, absolute::kAtBarrier).integer == kTicksAtBarrier;
   const double held_from = absolute::held_from(barrier, ticks);
-  if constexpr (kPaces) {
-    const double reaction = context.parameter(self, kAbsolutePace + 1).number;
-    const auto paced =
-        synchronized::set_paces(context, self, kAbsoluteCounts, barrier, held_from, reaction);
-    return synchronized::tick_children(context, self, kAbsoluteCounts, held_from, paced);
-  } else {
-    return synchronized::tick_children(context, self, kAbsoluteCounts, held_from,
-                                       synchronized::Plain{});
-  }
+  return synchronized::tick_up_to<kPaces>(context, self, kAbsoluteCounts, barrier, held_from,
+                                          kAbsolutePace);
 }
 
 extern const NodeKind kPacedAbsolute;

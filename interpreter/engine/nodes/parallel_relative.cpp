@@ -36,15 +36,8 @@ Status tick_relative(NodeContext& context, NodeIndex self) {
   context.state<SynchronizedState>(self).limit = delta;
   const double most = farthest(Synchronization::Relative, delta, least);
   const double held_from = least_above(most);
-  if constexpr (kPaces) {
-    const double reaction = context.parameter(self, kRelativePace + 1).number;
-    const auto paced =
-        synchronized::set_paces(context, self, kRelativeCounts, most, held_from, reaction);
-    return synchronized::tick_children(context, self, kRelativeCounts, held_from, paced);
-  } else {
-    return synchronized::tick_children(context, self, kRelativeCounts, held_from,
-                                       synchronized::Plain{});
-  }
+  return synchronized::tick_up_to<kPaces>(context, self, kRelativeCounts, most, held_from,
+                                          kRelativePace);
 }
 
 extern const NodeKind kPacedRelative;

@@ -125,6 +125,19 @@ inline Paced set_paces(NodeContext& context, NodeIndex self, const parallel::Cou
   return {own.data()};
 }
 
+// The rest of a tick, once its limit is known. `pace`: the place of that parameter.
+template <bool kPaces>
+Status tick_up_to(NodeContext& context, NodeIndex self, const parallel::Counts& counts,
+                  double limit, double held_from, [[maybe_unused]] unsigned pace) {
+  if constexpr (kPaces) {
+    const double reaction = context.parameter(self, pace + 1).number;
+    const Paced paced = set_paces(context, self, counts, limit, held_from, reaction);
+    return tick_children(context, self, counts, held_from, paced);
+  } else {
+    return tick_children(context, self, counts, held_from, Plain{});
+  }
+}
+
 inline void pause_paced(NodeContext& context, NodeIndex self) {
   context.state<PacedState>(self).pacing.paused_at = context.now();
 }
