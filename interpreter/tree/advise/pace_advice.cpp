@@ -83,17 +83,21 @@ class PaceAdviser {
     for (std::uint32_t below = child; below < at(child).end; ++below) {
       const DefinitionNode& it = at(below);
       if (!it.type->limits_time || stands_with_child(it)) continue;
-      report_.at(
-          "unslowed-time"_code, it.place,
-          fmt::format("the time of '{}' is not slowed when '{}' slows what is in it", it.name,
-                      at(node).name),
-          "it may fail where it did not; clock=\"active\" counts as slowly as its child goes",
-          Severity::Warning);
+      report_.at("unslowed-time"_code, it.place,
+                 fmt::format("the time of '{}' is not slowed when '{}' slows what is in it",
+                             it.name, at(node).name),
+                 has_clock(it)
+                     ? "it may end too early; clock=\"active\" counts as slowly as its child"
+                     : "it may end too early: give it a longer time",
+                 Severity::Warning);
     }
   }
+  static bool has_clock(const DefinitionNode& it) {
+    return std::ranges::find(it.type->parameters, "clock", &Parameter::name) !=
+           it.type->parameters.end();
+  }
   bool stands_with_child(const DefinitionNode& it) const {
-    const auto place = std::ranges::find(it.type->parameters, "clock", &Parameter::name);
-    if (place == it.type->parameters.end()) return false;
+    if (!has_clock(it)) return false;
     const Value* clock = definition_.constant(it, "clock");
     return clock != nullptr && *clock == Value("active");
   }

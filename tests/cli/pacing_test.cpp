@@ -1,0 +1,58 @@
+// A tree that paces, as its users see it: recordings, measures, events and tables.
+#include <catch2/catch.hpp>
+
+#include "support/json.h"
+#include "support/program.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+// Two motions of 10 s and 5 s at 100 Hz.
+std::string record(const TemporaryDirectory& directory, const std::string& pace) {
+  const std::string tree = directory.file(
+      "tree.xml",
+      tree_text("<ParallelRelative name=\"carry\" delta=\"0.1\" pace=\"" + pace +
+                "\"><Advance name=\"arm\" step=\"0.001\"/><Advance name=\"base\" step=\"0.002\"/>"
+                "</ParallelRelative>"));
+  const std::string file = directory.path(pace + ".jsonl");
+  const Outcome outcome =
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return file;
+}
+
+double value_of(const std::string& recording, const std::string& measure) {
+  const Outcome outcome =
+      run_lockstep({"log", "measure", recording, "--measure", measure, "--json"});
+  REQUIRE(outcome.code == 0);
+  return parse_json(outcome.out)[0]["value"];
+}
+
+}  // namespace
+
+TEST_CASE("a pulse of pauses becomes one slower motion, and takes as long") {
+  const TemporaryDirectory directory;
+  const std::string held = record(directory, "false"), paced = record(directory, "true");
+  CHECK(value_of(held, "pauses:base") == 399);
+  CHECK(value_of(paced, "pauses:base") == 0);
+  CHECK(value_of(held, "factor:base") == 1);
+  CHECK(value_of(paced, "factor:base") == Approx(0.503).margin(0.001));
+  CHECK(value_of(paced, "factor:arm") == 1);
+  CHECK(value_of(held, "speed-changes:base") == 797);
+  CHECK(value_of(paced, "speed-changes:base") == Approx(0.94).margin(0.01));
+  CHECK(value_of(held, "ticks") == value_of(paced, "ticks"));
+}
+
+TEST_CASE("only recordings of trees that pace have factors") {
+  const TemporaryDirectory directory;
+  const std::string held = record(directory, "false"), paced = record(directory, "true");
+  CHECK_FALSE(contains(read_file(held), "factor"));
+  CHECK_FALSE(contains(run_lockstep({"log", "csv", held}).out, "factor"));
+  CHECK(contains(run_lockstep({"log", "csv", paced}).out, ",results,factor\n"));
+  CHECK(contains(run_lockstep({"log", "csv", paced, "--from", "1", "--to", "1"}).out,
+                 "carry/base,running,0.002,1,0,,0.4975\n"));
+  CHECK(contains(run_lockstep({"log", "events", paced}).out, "carry/base: 0.497\n"));
+  CHECK(contains(run_lockstep({"replay", paced, "--print", "--at", "500"}).out, "0.50"));
+}
