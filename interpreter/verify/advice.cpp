@@ -32,8 +32,8 @@ SearchLimits bound(const Tree& tree, std::uint64_t transitions) {
       .transitions = std::min<std::uint64_t>(transitions, 200 * transitions / tree.nodes.size()),
       .memory = std::numeric_limits<std::size_t>::max()};
 }
-constexpr std::uint64_t kOfCertainties = 10'000, kOfSkipped = 200'000,
-                        kOfDeadlocks = 20'000, kOfRun = 1'000;
+constexpr std::uint64_t kOfCertainties = 10'000, kOfSkipped = 200'000, kOfDeadlocks = 20'000,
+                        kOfRun = 1'000;
 
 // The rate decides what comes first, but not in the first tick, nor where no node counts time.
 bool depends_on_rate(const Tree& tree, const SearchResult& found) {

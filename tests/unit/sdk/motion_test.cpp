@@ -20,7 +20,8 @@ const lockstep_leaf_type& kRecorded = *motion_plugin.leaf_types[2];
 
 using Numbers = std::vector<double>;
 
-// The ports behind those that are given: what it reports is neither late nor in steps, and it obeys.
+// The ports behind those that are given: what it reports is neither late nor in steps, and it
+// obeys.
 class MotionLeaf : public sdk_test::FakeLeaf {
  public:
   MotionLeaf(const lockstep_leaf_type& type, std::vector<sdk_test::PortValue> ports)
