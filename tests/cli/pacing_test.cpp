@@ -9,7 +9,7 @@ using namespace lockstep::host::test;
 namespace {
 
 // Two motions of 10 s and 5 s at 100 Hz.
-std::string record(const TemporaryDirectory& directory, const std::string& pace) {
+std::string record_carry(const TemporaryDirectory& directory, const std::string& pace) {
   const std::string tree = directory.file(
       "tree.xml",
       tree_text("<ParallelRelative name=\"carry\" delta=\"0.1\" pace=\"" + pace +
@@ -23,7 +23,7 @@ std::string record(const TemporaryDirectory& directory, const std::string& pace)
   return file;
 }
 
-double value_of(const std::string& recording, const std::string& measure) {
+double carry_value(const std::string& recording, const std::string& measure) {
   const Outcome outcome =
       run_lockstep({"log", "measure", recording, "--measure", measure, "--json"});
   REQUIRE(outcome.code == 0);
@@ -34,20 +34,22 @@ double value_of(const std::string& recording, const std::string& measure) {
 
 TEST_CASE("a pulse of pauses becomes one slower motion, and takes as long") {
   const TemporaryDirectory directory;
-  const std::string held = record(directory, "false"), paced = record(directory, "true");
-  CHECK(value_of(held, "pauses:base") == 399);
-  CHECK(value_of(paced, "pauses:base") == 0);
-  CHECK(value_of(held, "factor:base") == 1);
-  CHECK(value_of(paced, "factor:base") == Approx(0.503).margin(0.001));
-  CHECK(value_of(paced, "factor:arm") == 1);
-  CHECK(value_of(held, "speed-changes:base") == 797);
-  CHECK(value_of(paced, "speed-changes:base") == Approx(0.94).margin(0.01));
-  CHECK(value_of(held, "ticks") == value_of(paced, "ticks"));
+  const std::string held = record_carry(directory, "false"),
+                    paced = record_carry(directory, "true");
+  CHECK(carry_value(held, "pauses:base") == 399);
+  CHECK(carry_value(paced, "pauses:base") == 0);
+  CHECK(carry_value(held, "factor:base") == 1);
+  CHECK(carry_value(paced, "factor:base") == Approx(0.503).margin(0.001));
+  CHECK(carry_value(paced, "factor:arm") == 1);
+  CHECK(carry_value(held, "speed-changes:base") == 797);
+  CHECK(carry_value(paced, "speed-changes:base") == Approx(0.94).margin(0.01));
+  CHECK(carry_value(held, "ticks") == carry_value(paced, "ticks"));
 }
 
 TEST_CASE("only recordings of trees that pace have factors") {
   const TemporaryDirectory directory;
-  const std::string held = record(directory, "false"), paced = record(directory, "true");
+  const std::string held = record_carry(directory, "false"),
+                    paced = record_carry(directory, "true");
   CHECK_FALSE(contains(read_file(held), "factor"));
   CHECK_FALSE(contains(run_lockstep({"log", "csv", held}).out, "factor"));
   CHECK(contains(run_lockstep({"log", "csv", paced}).out, ",results,factor\n"));
