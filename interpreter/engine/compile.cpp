@@ -158,7 +158,7 @@ class Compiler {
     return last_kind_;
   }
 
-  // Which nodes pace, with the members of a barrier that does, and which are below one.
+  // Which nodes pace, with the members of a barrier that does.
   void find_paced() {
     for (NodeIndex node = 0; node < definition_.nodes.size(); ++node) {
       if (paces(definition_, definition_.nodes[node])) pacing_.insert(node);
@@ -167,11 +167,6 @@ class Compiler {
     for (const Member& member : tree_.members) {
       if (pacing_.contains(member.group)) pacing_.insert(member.node);
     }
-    is_below_.resize(definition_.nodes.size());
-    for (NodeIndex node = 1; node < definition_.nodes[0].end; ++node) {
-      const NodeIndex parent = definition_.nodes[node].parent;
-      is_below_[node] = is_below_[parent] || pacing_.contains(parent);
-    }
   }
 
   // A node that paces, and a leaf or a time that obeys below one, has another kind.
@@ -179,7 +174,7 @@ class Compiler {
     const NodeKind* plain = kind(*from.type);
     if (pacing_.empty()) return plain;
     if (plain->paced != nullptr && pacing_.contains(self)) return plain->paced;
-    if (plain->obeying == nullptr || !is_below_[self]) return plain;
+    if (plain->obeying == nullptr || !from.is_slowed) return plain;
     return from.type->leaf == nullptr || from.type->can_be_slowed ? plain->obeying : plain;
   }
 
@@ -422,7 +417,8 @@ class Compiler {
     const auto index = static_cast<std::uint32_t>(tree_.leaves.size());
     tree_.leaves.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
                             .type = from.type,
-                            .first_port = add_ports(from)});
+                            .first_port = add_ports(from),
+                            .is_slowed = from.is_slowed});
     return index;
   }
 
@@ -542,7 +538,6 @@ class Compiler {
   // The place of each member of a group in Tree::members.
   std::unordered_map<NodeIndex, std::uint32_t> numbers_;
   std::unordered_set<NodeIndex> pacing_;
-  std::vector<bool> is_below_;
   const NodeType* last_type_ = nullptr;
   const NodeKind* last_kind_ = nullptr;
 };

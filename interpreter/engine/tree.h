@@ -45,6 +45,7 @@ struct LeafNode {
   std::uint32_t first_child = 0;  // in Tree::children
   std::uint32_t children = 0;     // how many
   std::uint32_t followers = 0;    // actions of plugins next to it in pre-order, up to another node
+  bool is_slowed = false;         // a node above it has pace="true", and it obeys
 };
 
 // A built-in node with a parameter from an entry. Its kind in Tree::nodes reads the entries and

@@ -61,6 +61,7 @@ class ModelMaker {
       for (const FactRow& it : file_->facts) models_.facts.push_back({it.name, it.changes});
       for (const LeafRow& row : file_->leaves) apply(row);
     }
+    slow_down();
     models_.entries = entries_of_engine(tree_);
     for (const std::uint32_t slot : observed_.entries) models_.entries[slot] = true;
     add_missing_outputs();
@@ -295,6 +296,18 @@ class ModelMaker {
   }
 
   // --- what nothing is said of -------------------------------------------------------------------
+
+  // A model is of full speed. Slowed, a leaf may make less progress in a tick, and take more ticks.
+  void slow_down() {
+    for (std::size_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
+      LeafModel& model = models_.leaves[leaf];
+      const bool is_bounded = model.least_step > 0 || model.most_ticks > 0;
+      if (!tree_.leaves[leaf].is_slowed || !is_bounded) continue;
+      model.least_step = std::min<std::int64_t>(model.least_step, 0);
+      model.most_ticks = 0;
+      ++models_.slowed;
+    }
+  }
 
   // An output that only leaves read does not matter. A bool may be both.
   void add_missing_outputs() {

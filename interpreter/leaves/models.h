@@ -76,6 +76,7 @@ struct LeafModels {
   std::vector<std::string> declared;
   // Leaves: one of them may also return Skipped, or lose progress while it is ticked.
   std::size_t unstated_results = 0, unstated_steps = 0;
+  std::size_t slowed = 0;  // leaves that may be slower than their model says
 };
 
 // The progress and entries that somebody looks at beside the tree itself, and the values that

@@ -102,6 +102,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   if (report.has_errors()) return std::nullopt;
   check_groups(definition, report);
   if (report.has_errors()) return std::nullopt;
+  mark_slowed(definition);
   advise(definition, report);
   advise_holds(definition, report);
   advise_resources(definition, report);

@@ -587,8 +587,11 @@ class VerdictMaker {
     }
     if (ends) assumed.push_back("an action that is ticked again and again ends");
     if (options_.paces) {
-      assumed.push_back(
-          "what pace slows is as slow as the leaf model lets it be, and times count in full");
+      assumed.push_back("times of Wait, Timeout and Delay count in full where pace slows them");
+    }
+    if (models_.slowed > 0) {
+      assumed.push_back(fmt::format("a slowed leaf may take longer than its leaf model says ({})",
+                                    counted(models_.slowed, "action")));
     }
     if (const std::size_t count = models_.unstated_results; count > 0) {
       assumed.push_back(

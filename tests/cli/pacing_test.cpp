@@ -58,3 +58,29 @@ TEST_CASE("only recordings of trees that pace have factors") {
   CHECK(contains(run_lockstep({"log", "events", paced}).out, "carry/base: 0.497\n"));
   CHECK(contains(run_lockstep({"replay", paced, "--print", "--at", "500"}).out, "0.50"));
 }
+
+TEST_CASE("a leaf model is of full speed: verify and `log check` let a slowed leaf take longer") {
+  const TemporaryDirectory directory;
+  const std::string model = directory.file(
+      "model.leaves.xml",
+      "<leaves lockstep=\"1\"><leaf of=\"Advance\" result=\"success\" progress=\"grid:10\" "
+      "ticks=\"1..10\" finish=\"full\"/><leaf path=\"*/base\" step=\"2..2\"/></leaves>");
+  for (const bool paces : {false, true}) {
+    const std::string tree = directory.file(
+        "tree.xml",
+        tree_text("<ParallelRelative delta=\"1\" pace=\"" + std::string(paces ? "true" : "false") +
+                  "\" reaction=\"0\"><Advance name=\"arm\" step=\"0.1\"/>"
+                  "<Advance name=\"base\" step=\"0.2\"/></ParallelRelative>"));
+    const Outcome proof = run_lockstep({"verify", tree, "--leaves", model, "--property",
+                                        "base.running leads to base.done within 5 ticks"});
+    INFO(proof.out << proof.err);
+    CHECK((proof.code == 0) == !paces);
+    CHECK(contains(proof.out, "may take longer than its leaf model says") == paces);
+    const std::string recording = directory.path(paces ? "paced.jsonl" : "held.jsonl");
+    REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                          "--record", recording})
+                .code == 0);
+    CHECK(run_lockstep({"log", "check", recording, "--leaves", model, "--tree-file", tree}).code ==
+          0);
+  }
+}

@@ -11,6 +11,7 @@
 #include "support/scripted_types.h"
 #include "tree/expand/readings.h"
 #include "tree/expand/resources.h"
+#include "tree/pace.h"
 #include "tree/types/script_entries.h"
 
 namespace lockstep::host::test {
@@ -40,6 +41,7 @@ class Builder {
     definition_.id = "Test";
     if (names_at_run_time_) keep_board();
     check();
+    mark_slowed(definition_);
     return std::move(definition_);
   }
 

@@ -36,14 +36,15 @@ inline constexpr Parameter kReaction{
     .range = {.min = 0, .max = kMostReaction},
     .constant = true};
 
-// `pace` is the place of the first of the two parameters.
+// `pace` is the place of the first of the two parameters. Where pace="${pace}" is an argument that
+// a study sets to false, the reaction may stay.
 inline std::optional<RuleBreak> check(const ParameterValues& given, unsigned pace) {
   const bool paces = given.values[pace] == Value(true);
   if (!given.is_given(pace + 1)) {
     if (paces) given.values[pace + 1] = 1.0;
     return std::nullopt;
   }
-  if (paces) return std::nullopt;
+  if (given.is_given(pace)) return std::nullopt;
   return RuleBreak{static_cast<int>(pace + 1), "'reaction' is given, but the node does not pace",
                    "add pace=\"true\", or remove 'reaction'"};
 }
