@@ -590,7 +590,7 @@ class VerdictMaker {
       assumed.push_back("times of Wait, Timeout and Delay count in full where pace slows them");
     }
     if (models_.slowed > 0) {
-      assumed.push_back(fmt::format("a slowed leaf may take longer than its leaf model says ({})",
+      assumed.push_back(fmt::format("a slowed leaf may take longer than in its leaf model ({})",
                                     counted(models_.slowed, "action")));
     }
     if (const std::size_t count = models_.unstated_results; count > 0) {

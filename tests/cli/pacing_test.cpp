@@ -57,6 +57,13 @@ TEST_CASE("only recordings of trees that pace have factors") {
                  "carry/base,running,0.002,1,0,,0.4975\n"));
   CHECK(contains(run_lockstep({"log", "events", paced}).out, "carry/base: 0.497\n"));
   CHECK(contains(run_lockstep({"replay", paced, "--print", "--at", "500"}).out, "0.50"));
+  for (const std::string& file : {held, paced}) {
+    const std::string image = directory.path(file == held ? "held.svg" : "paced.svg");
+    REQUIRE(run_lockstep({"log", "plot", file, "--out", image}).code == 0);
+    const std::string data = read_file(std::filesystem::path(image).replace_extension(".dat"));
+    CHECK(contains(data, "arm base, the factor of each\n") == (file == paced));
+    CHECK(contains(data, " 0.001 0.002 1 0.4975\n") == (file == paced));
+  }
 }
 
 TEST_CASE("a leaf model is of full speed: verify and `log check` let a slowed leaf take longer") {
@@ -75,7 +82,7 @@ TEST_CASE("a leaf model is of full speed: verify and `log check` let a slowed le
                                         "base.running leads to base.done within 5 ticks"});
     INFO(proof.out << proof.err);
     CHECK((proof.code == 0) == !paces);
-    CHECK(contains(proof.out, "may take longer than its leaf model says") == paces);
+    CHECK(contains(proof.out, "may take longer than in its leaf model") == paces);
     const std::string recording = directory.path(paces ? "paced.jsonl" : "held.jsonl");
     REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
                           "--record", recording})

@@ -19,4 +19,8 @@ TEST_CASE("the numbers of docs/late_progress.md are those of its studies") {
   check_page(LOCKSTEP_SOURCE_DIR "/docs/late_progress.md", 3, 184);
 }
 
+TEST_CASE("the numbers of docs/pacing.md are those of its study") {
+  check_page(LOCKSTEP_SOURCE_DIR "/docs/pacing.md", 1, 20);
+}
+
 }  // namespace lockstep::host::test

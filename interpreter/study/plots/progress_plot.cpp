@@ -23,12 +23,15 @@ bool is_relative(const ProgressPlot& plot) {
 std::string sample_lines(const ProgressPlot& plot) {
   std::string text = "# time_s least most_allowed";
   for (const std::string& child : plot.children) text += " " + printable(child);
+  if (plot.node.paces) text += ", the factor of each";
   text += "\n";
   for (const ProgressSample& sample : plot.samples) {
     if (sample.begins && &sample != plot.samples.data()) text += "\n";
     const double most = farthest(plot.node.synchronization, sample.limit, sample.least);
-    text += fmt::format("{} {} {} {}\n", sample.time, sample.least, std::min(1.0, most),
+    text += fmt::format("{} {} {} {}", sample.time, sample.least, std::min(1.0, most),
                         joined(sample.progress, " "));
+    for (const double factor : sample.factor) text += fmt::format(" {}", factor);
+    text += "\n";
   }
   return text;
 }
@@ -128,6 +131,7 @@ std::string progress_plot_script(const ProgressPlot& plot, const std::filesystem
   text += fmt::format("legend_font = ',{}'\nchildren = {}\n", legend.letter, names.size());
   text += fmt::format("array name[children] = [{}]\n", joined(names, ", "));
   text += fmt::format("held = '{}'  # each has a block in the data\n", joined(held, " "));
+  text += fmt::format("paces = {}\n", plot.node.paces ? 1 : 0);
   text += fmt::format("kind = '{}'\nbarriers = '{}'\n\n", kind_of(plot),
                       joined(plot.node.barriers.value_or(std::vector<double>()), " "));
   return text + kProgressPlotTemplate;

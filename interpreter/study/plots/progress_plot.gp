@@ -1,5 +1,6 @@
 # The progress of the children of a synchronized node over time; below the axis, when each of them
-# was held. What this plot is of stands above. A child is a number from 1.
+# was held, and a thin line of its factor if the node paces. What this plot is of stands above. A child
+# is a number from 1.
 
 # Colors that the color-blind and gray paper keep apart (Okabe and Ito).
 color(child) = word('#0072b2 #e69f00 #009e73 #cc79a7 #56b4e9 #d55e00', 1 + (child - 1) % 6)
@@ -24,7 +25,7 @@ set ylabel 'progress'
 set xrange [begin:end]
 set yrange [middle(children + 1) + strip / 4:1.02]
 set ytics nomirror scale 0.5 0,0.25,1
-set label 'held' at graph -0.02, first (middle(1) + middle(children)) / 2 right
+set label paces ? "held,\nfactor" : 'held' at graph -0.02, first (middle(1) + middle(children)) / 2 right
 set xtics nomirror out scale 0.5
 set grid ytics lt 1 lw 0.6 lc rgb '#e6e6e6'
 set border 3 lw 0.8 lc rgb '#404040'
@@ -62,4 +63,11 @@ if (words(held) > solid) {
     .'noborder notitle'
 }
 
-plot @limits for [i=1:children] data index 0 using 1:i+3 with lines ls i title name[i] @boxes
+factors = ''
+if (paces) {
+  factors = ', for [i=1:children] data index 0 using ' \
+    .'1:(middle(i) + (column(3 + children + i) - 0.5) * 0.7 * strip) ' \
+    .'with steps lc rgb color(i) lw 1 dt 1 notitle'
+}
+
+plot @limits for [i=1:children] data index 0 using 1:i+3 with lines ls i title name[i] @boxes @factors

@@ -13,9 +13,11 @@ constexpr std::size_t kPerLine = 4;
 template <class Choose>
 void choose(ProgressSample& into, const ProgressSample& from, Choose which) {
   into.least = which(into.least, from.least);
-  for (std::size_t child = 0; child < into.progress.size(); ++child) {
-    into.progress[child] = which(into.progress[child], from.progress[child]);
-  }
+  const auto choose_each = [&](std::vector<double>& to, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] = which(to[i], values[i]);
+  };
+  choose_each(into.progress, from.progress);
+  choose_each(into.factor, from.factor);
 }
 
 // How long it is held in all of them stands in the first.

@@ -8,12 +8,13 @@
 namespace lockstep::host {
 
 struct ProgressSample {
-  double time = 0;                 // seconds
-  bool begins = false;             // a new activation of the node: no line leads here
-  double least = 0;                // of all children
-  double limit = 0;                // that counted: base/core/synchronization.h
-  std::vector<double> progress;    // of each child that is drawn
-  std::vector<double> held_until;  // of each: from `time` on; not later than it when not held
+  double time = 0;                  // seconds
+  bool begins = false;              // a new activation of the node: no line leads here
+  double least = 0;                 // of all children
+  double limit = 0;                 // that counted: base/core/synchronization.h
+  std::vector<double> progress;     // of each child that is drawn
+  std::vector<double> held_until;   // of each: from `time` on; not later than it when not held
+  std::vector<double> factor = {};  // of each, if the node paces
 };
 
 // Leaves those that give the same picture, when it has so many columns: of the line through a

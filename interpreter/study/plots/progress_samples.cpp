@@ -43,7 +43,7 @@ class Collector {
 
   void after_tick(const Moment& moment) {
     const SynchronizedTick tick = ticks_.read(moment);
-    if (tick.ticked) add(to_seconds(moment.time), tick);
+    if (tick.ticked) add(moment, tick);
     running_ = tick.status == Status::Running;
     // The last tick of an activation has no later sample that shows its result.
     if (tick.ticked && !running_) add_end(moment, tick);
@@ -57,7 +57,8 @@ class Collector {
  private:
   std::size_t drawn() const { return plot_.children.size(); }
 
-  void add(double time, const SynchronizedTick& tick) {
+  void add(const Moment& moment, const SynchronizedTick& tick) {
+    const double time = to_seconds(moment.time);
     if (running_) hold_until(time);
     const auto all = tick.used;
     push({.time = time,
@@ -65,8 +66,18 @@ class Collector {
           .least = least_progress(all),
           .limit = tick.limit,
           .progress = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(drawn())},
-          .held_until = std::vector<double>(drawn(), time)});
+          .held_until = std::vector<double>(drawn(), time),
+          .factor = factors(moment)});
     held_.assign(tick.held.begin(), tick.held.begin() + static_cast<std::ptrdiff_t>(drawn()));
+  }
+
+  std::vector<double> factors(const Moment& moment) const {
+    std::vector<double> factors;
+    if (!plot_.node.paces) return factors;
+    for (const NodeIndex child : ticks_.children()) {
+      if (factors.size() < drawn()) factors.push_back(moment.factor(child));
+    }
+    return factors;
   }
 
   // Those that the last sample found held were so until now. When the node was halted in between,
