@@ -69,8 +69,8 @@ std::optional<double> Expression::value(const Inputs& inputs, Memory& memory) co
       case What::Size:
         stack[depth++] = input_of(step, inputs);
         break;
-      case What::Elapsed:
-        stack[depth++] = inputs.elapsed;
+      case What::Given:
+        stack[depth++] = inputs.given;
         break;
       case What::First:
         if (!memory[step.index] && std::isfinite(stack[depth - 1])) {

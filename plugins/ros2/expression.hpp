@@ -19,7 +19,7 @@ class Expression {
       Number,
       Field,
       Size,
-      Elapsed,
+      Given,  // Inputs::given
       First,
       Negate,
       Add,
@@ -49,7 +49,7 @@ class Expression {
   };
   struct Inputs {
     Source first, second;
-    double elapsed = 0;
+    double given = 0;  // what the text calls `elapsed` or `factor`
   };
 
   Memory memory() const { return Memory(firsts_); }
@@ -71,5 +71,8 @@ Result<Expression> read_progress(const std::string& text, const std::vector<Fiel
 // `prefix` is that of the fields: "message.".
 Result<Expression> read_condition(const std::string& text, const std::string& prefix,
                                   const std::vector<Field>& fields);
+
+// Over `factor`. How fast a robot is to be, as the number that it is told.
+Result<Expression> read_factor(const std::string& text);
 
 }  // namespace ros2

@@ -16,6 +16,7 @@ struct Subject {
   };
   const char* what;  // "progress"
   std::vector<Part> parts;
+  const char* given = "elapsed";  // the number that no message has
 };
 
 class ExpressionReader {
@@ -143,7 +144,7 @@ class ExpressionReader {
 
   void named(const std::string& name) {
     if (name.empty()) return unexpected("a number, a field or a function");
-    if (name == "elapsed") return add({What::Elapsed});
+    if (name == subject_.given) return add({What::Given});
     if (name == "first") {
       expect('(');
       sum();
@@ -176,7 +177,9 @@ class ExpressionReader {
       std::string known;
       for (const auto& it : subject_.parts) known += it.prefix + "FIELD, ";
       return fail("knows no '" + name + "'",
-                  "use " + known + "elapsed, first(…), size(…), min(…, …) and max(…, …)");
+                  "use " + known + subject_.given +
+                      (known.empty() ? ", min(…, …) and max(…, …)"
+                                     : ", first(…), size(…), min(…, …) and max(…, …)"));
     }
     const auto& [prefix, fields] = subject_.parts[part];
     const Field* const found = find_field(fields, name.substr(prefix.size()));
@@ -253,6 +256,10 @@ Result<Expression> read_progress(const std::string& text, const std::vector<Fiel
 Result<Expression> read_condition(const std::string& text, const std::string& prefix,
                                   const std::vector<Field>& fields) {
   return ExpressionReader(text, {"condition", {{prefix, fields}}}).read();
+}
+
+Result<Expression> read_factor(const std::string& text) {
+  return ExpressionReader(text, {"value", {}, "factor"}).read();
 }
 
 }  // namespace ros2

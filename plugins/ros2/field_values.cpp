@@ -396,6 +396,17 @@ std::optional<double> number_in(const Field& field, const void* message) {
   return number_at<double>(field.member->type_id_, address_in(field, message));
 }
 
+void set_number(const Field& field, void* message, double value) {
+  void* const at = address_in(field, message);
+  if (field.kind == Kind::Bool) return put_number(field.member->type_id_, at, value != 0);
+  if (field.kind == Kind::Double) return put_number(field.member->type_id_, at, value);
+  constexpr double kMost = 9e15;  // whole numbers are exact up to here
+  const bool is_any = field.min == 0 && field.max == 0;
+  const double low = is_any ? -kMost : field.min,
+               high = is_any ? kMost : std::min(field.max, kMost);
+  put_number(field.member->type_id_, at, std::round(std::clamp(value, low, high)));
+}
+
 std::optional<double> size_in(const Field& field, const void* message) {
   if (field.kind == Kind::String) {
     return double(static_cast<const String*>(address_in(field, message))->size);

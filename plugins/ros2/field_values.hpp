@@ -41,6 +41,8 @@ std::string text_of(const Members& members, const void* message);
 
 // Nothing: it is no number. A bool is 0 or 1.
 std::optional<double> number_in(const Field& field, const void* message);
+// Of a Bool, Int or Double: a whole number is rounded, and what is out of its range is not.
+void set_number(const Field& field, void* message, double value);
 // The number of items of a list, or bytes of a string.
 std::optional<double> size_in(const Field& field, const void* message);
 

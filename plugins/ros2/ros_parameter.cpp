@@ -1,25 +1,15 @@
 #include "ros_parameter.hpp"
 
-#include <rcl_interfaces/msg/parameter.h>
-#include <rcl_interfaces/srv/get_parameters.h>
-#include <rcl_interfaces/srv/set_parameters.h>
-#include <rosidl_runtime_c/string_functions.h>
-
 #include <cmath>
 #include <memory>
 
 #include "calling_leaf.hpp"
 #include "elements.hpp"
 #include "leaf_functions.hpp"
+#include "parameter.hpp"
 
 namespace ros2 {
 namespace {
-
-using Request = rcl_interfaces__srv__GetParameters_Request;
-using Response = rcl_interfaces__srv__GetParameters_Response;
-using SetRequest = rcl_interfaces__srv__SetParameters_Request;
-using SetResponse = rcl_interfaces__srv__SetParameters_Response;
-using ParameterValue = rcl_interfaces__msg__ParameterValue;
 
 enum Own : std::uint32_t { kNode, kParameter, kAs, kDo, kTimeout, kError, kValue };
 
@@ -49,9 +39,8 @@ struct ParameterElement {
   std::string service() const { return node + (sets ? "/set_parameters" : "/get_parameters"); }
 };
 
-// rcl_interfaces/msg/ParameterType.
-std::uint8_t kind_of(const std::string& as) {
-  return as == "bool" ? 1 : as == "int" ? 2 : as == "double" ? 3 : 4;
+ParameterKind kind_of(const std::string& as) {
+  return as == "bool" ? kBool : as == "int" ? kInt : as == "double" ? kDouble : kString;
 }
 
 lockstep_type type_of(const std::string& as) {
@@ -59,10 +48,6 @@ lockstep_type type_of(const std::string& as) {
          : as == "int"    ? LOCKSTEP_INT
          : as == "double" ? LOCKSTEP_DOUBLE
                           : LOCKSTEP_STRING;
-}
-
-bool put(rosidl_runtime_c__String& into, const std::string& text) {
-  return rosidl_runtime_c__String__assignn(&into, text.data(), text.size());
 }
 
 class RosParameter : public CallingLeaf {
@@ -73,7 +58,7 @@ class RosParameter : public CallingLeaf {
   void start() {
     auto request = make_request();
     const bool is_made =
-        element_.sets ? make_set(*request->at<SetRequest>(0)) : make_get(*request->at<Request>(0));
+        element_.sets ? make_set(*request) : ask_for_parameter(*request, element_.parameter);
     if (!is_made) return fail("there is no memory, or no value");
     call(std::move(request), number(kTimeout));
   }
@@ -93,24 +78,19 @@ class RosParameter : public CallingLeaf {
                const ParameterElement& element)
       : CallingLeaf(host, caller, *element.type, element.service()), element_(element) {}
 
-  bool make_get(Request& request) const {
-    return rosidl_runtime_c__String__Sequence__init(&request.names, 1) &&
-           put(request.names.data[0], element_.parameter);
-  }
-
-  bool make_set(SetRequest& request) const {
-    if (!rcl_interfaces__msg__Parameter__Sequence__init(&request.parameters, 1)) return false;
-    ParameterValue& value = request.parameters.data[0].value;
+  bool make_set(Message& request) const {
+    ParameterValue* const made = value_to_set(request, element_.parameter);
+    if (made == nullptr) return false;
+    ParameterValue& value = *made;
     value.type = kind_of(element_.as);
-    if (!put(request.parameters.data[0].name, element_.parameter)) return false;
     const char* text = nullptr;
     std::size_t length = 0;
     switch (value.type) {
-      case 1:
+      case kBool:
         return host_.get_bool(caller_, kValue, &value.bool_value);
-      case 2:
+      case kInt:
         return host_.get_int(caller_, kValue, &value.integer_value);
-      case 3:
+      case kDouble:
         return host_.get_double(caller_, kValue, &value.double_value);
       default:
         return host_.get_string(caller_, kValue, &text, &length) &&
@@ -120,30 +100,21 @@ class RosParameter : public CallingLeaf {
 
   // "" or why there is no value.
   std::string take_answer() {
-    return element_.sets ? what_is_wrong(*static_cast<const SetResponse*>(response().get()))
-                         : take_value(*static_cast<const Response*>(response().get()));
+    if (element_.sets) return why_not_set(response());
+    const ParameterValue* const found = value_in(response());
+    return found == nullptr ? "not set" : take_value(*found);
   }
 
-  static std::string what_is_wrong(const SetResponse& response) {
-    if (response.results.size != 1) return "no answer";
-    const auto& result = response.results.data[0];
-    if (result.successful) return {};
-    return result.reason.size == 0 ? "refused" : result.reason.data;
-  }
-
-  std::string take_value(const Response& response) {
-    // Nodes answer in one of two ways when there is no such parameter.
-    if (response.values.size != 1 || response.values.data[0].type == 0) return "not set";
-    const ParameterValue& value = response.values.data[0];
+  std::string take_value(const ParameterValue& value) {
     if (value.type != kind_of(element_.as)) return "not a " + element_.as;
     switch (value.type) {
-      case 1:
+      case kBool:
         host_.set_bool(caller_, kValue, value.bool_value);
         break;
-      case 2:
+      case kInt:
         host_.set_int(caller_, kValue, value.integer_value);
         break;
-      case 3:
+      case kDouble:
         host_.set_double(caller_, kValue, value.double_value);
         break;
       default:
@@ -166,8 +137,7 @@ lockstep_leaf_type base_type() {
 std::unique_ptr<ParameterElement> make_element(const FixedTexts& texts, Refusal& refusal) {
   auto element = std::make_unique<ParameterElement>();
   element->sets = texts[kOwnPorts[kDo]] == "set";
-  auto type = service_type(element->sets ? "rcl_interfaces/srv/SetParameters"
-                                         : "rcl_interfaces/srv/GetParameters");
+  auto type = service_type(element->sets ? kSetParameters : kGetParameters);
   if (!type) {
     refusal = {&kOwnPorts[kNode], type.problem()};
     return nullptr;
