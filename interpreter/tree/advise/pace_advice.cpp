@@ -72,16 +72,47 @@ class PaceAdviser {
                  fmt::format("'{}' is not slowed by '{}', only held: none of its leaves can be "
                              "slowed",
                              at(child).name, at(node).name),
-                 {}, Severity::Note);
+                 way_to_slow(child), Severity::Note);
     }
-    for (const std::uint32_t child : actions) look_for_times(node, child);
+    for (const std::uint32_t child : actions) {
+      if (std::ranges::find(fixed, child) == fixed.end()) look_for_unslowed(node, child);
+      look_for_times(node, child);
+    }
     look_at_count(node, actions.size());
+  }
+
+  static bool has(const DefinitionNode& it, std::string_view parameter) {
+    return std::ranges::find(it.type->parameters, parameter, &Parameter::name) !=
+           it.type->parameters.end();
+  }
+  // It could be slowed, if the tree said how.
+  static bool lacks_pace(const DefinitionNode& it) {
+    return is_action(it) && has(it, "pace") && !can_be_slowed(it);
+  }
+  std::string way_to_slow(std::uint32_t node) const {
+    for (std::uint32_t below = node; below < at(node).end; ++below) {
+      if (!lacks_pace(at(below))) continue;
+      return fmt::format("give '{}' pace; `lockstep nodes {}` has the ways", at(below).name,
+                         at(below).type->id);
+    }
+    return {};
+  }
+
+  void look_for_unslowed(std::uint32_t node, std::uint32_t child) const {
+    for (std::uint32_t below = child; below < at(child).end; ++below) {
+      if (!lacks_pace(at(below))) continue;
+      report_.at(
+          "not-slowed"_code, at(below).place,
+          fmt::format("'{}' is not slowed by '{}', only held", at(below).name, at(node).name),
+          way_to_slow(below), Severity::Note);
+    }
   }
 
   // A time that goes on while its child is slow ends sooner, in the child's own time.
   void look_for_times(std::uint32_t node, std::uint32_t child) const {
     for (std::uint32_t below = child; below < at(child).end; ++below) {
       const DefinitionNode& it = at(below);
+      look_for_allowance(node, it);
       if (!it.type->limits_time || stands_with_child(it)) continue;
       report_.at("unslowed-time"_code, it.place,
                  fmt::format("the time of '{}' is not slowed when '{}' slows what is in it",
@@ -92,10 +123,20 @@ class PaceAdviser {
                  Severity::Warning);
     }
   }
-  static bool has_clock(const DefinitionNode& it) {
-    return std::ranges::find(it.type->parameters, "clock", &Parameter::name) !=
-           it.type->parameters.end();
+  // Of a goal: the server counts it.
+  void look_for_allowance(std::uint32_t node, const DefinitionNode& leaf) const {
+    for (std::size_t i = 0; i < leaf.type->parameters.size(); ++i) {
+      const std::string_view name = leaf.type->parameters[i].name;
+      const Port& port = definition_.ports[leaf.first + i];
+      const bool is_given = port.entry != Port::kNone || port.value != Port::kNone;
+      if (!is_given || (name != "time_allowance" && !name.ends_with(".time_allowance"))) continue;
+      report_.at("unslowed-time"_code, leaf.place,
+                 fmt::format("'{}' of '{}' counts in full while '{}' slows or holds it", name,
+                             leaf.name, at(node).name),
+                 "its server may end it too early: give it a longer time", Severity::Note);
+    }
   }
+  static bool has_clock(const DefinitionNode& it) { return has(it, "clock"); }
   bool stands_with_child(const DefinitionNode& it) const {
     if (!has_clock(it)) return false;
     const Value* clock = definition_.constant(it, "clock");
