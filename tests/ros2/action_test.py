@@ -252,7 +252,7 @@ class Held(World):
     def test_nothing_lets_the_robot_go_on(self):
         run = self.pair('hold="nothing"')
         self.assertGreater(self.spread, 0.55)
-        self.assertIn("went on while it was held", run.out)
+        self.assertIn("continued while it was held", run.out)
 
     def test_cancel_and_send_again_to_a_robot_that_has_a_position(self):
         self.pair('hold="cancel"', "--keep")
@@ -322,8 +322,8 @@ class Check(World):
 
     def test_a_robot_that_may_be_held_and_goes_on(self):
         pair = f"<RosAction name='a' {self.FIBONACCI}/><RosAction name='b' {self.FIBONACCI} "
-        for hold, what in (("", "'b' may be held by 'ParallelAbsolute', and does not say"),
-                           ("hold='nothing'", "holds 'b', the robot goes on")):
+        for hold, what in (("", "'b' may be held by 'ParallelAbsolute', and does not declare"),
+                           ("hold='nothing'", "holds 'b', the robot continues")):
             run = self.check(f"<ParallelAbsolute barriers='0.5'>{pair}{hold}/></ParallelAbsolute>")
             self.assertEqual(run.returncode, 0)
             self.assertIn(what, run.stdout + run.stderr)

@@ -1,9 +1,10 @@
 """Short tags from a table, as nav2.nodes has them for Nav2."""
 
 import os
+import unittest
 from unittest import mock
 
-from world import LOCKSTEP, PLUGINS, ROOT, World
+from world import LOCKSTEP, PLUGINS, ROOT, TYPES, World
 
 TABLE = """# tags of this test
 CountTo action example_interfaces/action/Fibonacci /count
@@ -129,6 +130,7 @@ class Named(World):
         run = self.check('<Lamp on="true"/>')
         self.assertIn("needs the parameter 'service_name'", run.stderr)
 
+    @unittest.skipIf((TYPES / "nav2_msgs").exists(), "there is nav2_msgs")
     def test_a_package_that_is_not_there(self):
         self.use((ROOT / "plugins/ros2/nav2.nodes").read_text())
         self.plugins = ("ros2",)
