@@ -50,23 +50,41 @@ std::string why_not(const Endpoint& other, const std::string& type, const rmw_qo
   return what.empty() ? "" : node + what;
 }
 
-std::string look(Get get, const char* topic, const std::string& type, const rmw_qos_profile_t& qos,
-                 bool receives) {
+// `is_raw`: the name is that of the middleware below.
+template <class Visit>
+void for_each_endpoint(Get get, const char* topic, bool is_raw, Visit visit) {
   rcutils_allocator_t allocator = rcutils_get_default_allocator();
   auto all = rcl_get_zero_initialized_topic_endpoint_info_array();
-  std::string first;
-  bool has_one = false;
-  if (get(&Middleware::get().node(), &allocator, topic, false, &all) == RCL_RET_OK) {
-    for (std::size_t i = 0; i < all.size; ++i) {
-      const std::string why = why_not(all.info_array[i], type, qos, receives);
-      has_one |= why.empty();
-      if (first.empty()) first = why;
-    }
+  if (get(&Middleware::get().node(), &allocator, topic, is_raw, &all) == RCL_RET_OK) {
+    for (std::size_t i = 0; i < all.size; ++i) visit(all.info_array[i]);
   }
   if (rmw_topic_endpoint_info_array_fini(&all, &allocator) != RMW_RET_OK) rcl_reset_error();
   rcl_reset_error();
+}
+
+std::string look(Get get, const char* topic, const std::string& type, const rmw_qos_profile_t& qos,
+                 bool receives) {
+  std::string first;
+  bool has_one = false;
+  for_each_endpoint(get, topic, false, [&](const Endpoint& it) {
+    const std::string why = why_not(it, type, qos, receives);
+    has_one |= why.empty();
+    if (first.empty()) first = why;
+  });
   if (has_one || first.empty()) return {};
   return "nothing goes over the topic '" + std::string(topic) + "': " + first;
+}
+
+Ids ids_of(const std::string& topic, bool is_raw) {
+  const rcl_node_t& node = Middleware::get().node();
+  const std::string name = rcl_node_get_name(&node), space = rcl_node_get_namespace(&node);
+  Ids ids;
+  for_each_endpoint(
+      rcl_get_subscriptions_info_by_topic, topic.c_str(), is_raw, [&](const Endpoint& it) {
+        if (it.node_name == name && it.node_namespace == space) return;
+        ids.emplace(reinterpret_cast<const char*>(it.endpoint_gid), sizeof it.endpoint_gid);
+      });
+  return ids;
 }
 
 // A name as the graph has it: with the namespace of this node.
@@ -130,6 +148,14 @@ std::string why_nothing_comes(const char* topic, const std::string& type,
 std::string why_nobody_receives(const char* topic, const std::string& type,
                                 const rmw_qos_profile_t& qos) {
   return look(rcl_get_subscriptions_info_by_topic, topic, type, qos, false);
+}
+
+Ids receivers_of(const std::string& topic) {
+  return ids_of(topic, false);
+}
+
+Ids servers_of(const std::string& service) {
+  return ids_of("rq" + service + "Request", true);  // as every DDS calls it
 }
 
 std::string other_actions(const std::string& name, const std::string& type) {

@@ -1,5 +1,5 @@
 // The functions of the contract for a leaf class: T(host, caller), start, tick, halt, pause,
-// resume, progress. An exception becomes an error of the leaf.
+// resume, progress, set_pace. An exception becomes an error of the leaf.
 #pragma once
 
 #include <lockstep/leaf.h>
@@ -36,6 +36,9 @@ struct LeafFunctions {
   }
   static double progress(void* leaf) {
     return call(leaf, 0.0, [](T& it) { return it.progress(); });
+  }
+  static double set_pace(void* leaf, double factor) {
+    return call(leaf, 1.0, [factor](T& it) { return it.set_pace(factor); });
   }
 
   static lockstep_leaf_type type(const char* id, const char* doc) {

@@ -13,6 +13,7 @@
 #include "hold.hpp"
 #include "leaf_base.hpp"
 #include "leaf_functions.hpp"
+#include "pace.hpp"
 #include "run_end.hpp"
 
 namespace ros2 {
@@ -27,7 +28,12 @@ enum Own : std::uint32_t {
   kOnFailure,
   kServerTimeout,
   kError,
-  kPreempt
+  kPreempt,
+  kPace,
+  kPaceType,
+  kPaceValue,
+  kLeastPace,
+  kPaceFound
 };
 
 constexpr std::uint64_t kFixedOptional = LOCKSTEP_FIXED | LOCKSTEP_OPTIONAL;
@@ -42,7 +48,8 @@ constexpr lockstep_port kOwnPorts[] = {
           kFixedOptional),
     input("hold", LOCKSTEP_STRING, nullptr,
           "While the leaf is held: cancel (the goal is canceled and sent again), service:NAME, "
-          "topic:NAME (the robot gets true, then false) or nothing (the robot goes on).",
+          "topic:NAME (the robot gets true, then false), pace (it gets the pace 0) or nothing (the "
+          "robot goes on).",
           kFixedOptional),
     input("hold_type", LOCKSTEP_STRING, nullptr,
           "The type of that service or topic; std_srvs/srv/SetBool, std_msgs/msg/Bool if left out.",
@@ -57,6 +64,25 @@ constexpr lockstep_port kOwnPorts[] = {
           "While the goal is at work and an entry of it changes, the new goal is sent. For servers "
           "that end the one before, as those of Nav2 do.",
           LOCKSTEP_FIXED),
+    input("pace", LOCKSTEP_STRING, nullptr,
+          "How the robot gets its factor below a node with pace=\"true\": topic:NAME, service:NAME "
+          "or parameter:NODE/NAME. The previous value is restored at the end.",
+          kFixedOptional),
+    input("pace_type", LOCKSTEP_STRING, nullptr,
+          "The type of that topic or service; control_msgs/msg/SpeedScalingFactor, "
+          "ur_msgs/srv/SetSpeedSliderFraction if left out.",
+          kFixedOptional),
+    input("pace_value", LOCKSTEP_STRING, nullptr,
+          "The value for a factor, an expression over factor such as 100 * factor; factor if left "
+          "out. It is the first number of the message or request.",
+          kFixedOptional),
+    {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "least_pace", "0.05", nullptr,
+     "The least factor that the robot gets.", nullptr, 0, 1, nullptr, 0},
+    input(
+        "pace_found", LOCKSTEP_NUMBER, nullptr,
+        "The value to restore, if it cannot be read. If left out: the value that was read, or that "
+        "for factor 1.",
+        LOCKSTEP_OPTIONAL),
 };
 
 // One element's: what its constants say, and the ports that follow from that.
@@ -68,9 +94,10 @@ struct ActionElement {
   Expression progress;
   bool needs_feedback = false;
   Hold hold;
+  Pace pace;
   bool faults = false, preempts = false;
   PortList ports;
-  FieldPorts goal, feedback, result;
+  FieldPorts goal, feedback, result, pace_fields;
   lockstep_leaf_type leaf{};
 };
 
@@ -98,29 +125,38 @@ class RosAction : public LeafBase {
         element_(element_of<ActionElement>(host, caller)),
         run_end_(*static_cast<RunEnd*>(run)),
         client_(std::make_shared<ActionClient>(element_.type, element_.action)),
-        signal_(make_hold_signal(element_.hold)),
+        hold_(element_.hold.way == Hold::Way::Tell ? make_teller(element_.hold.target, "default")
+                                                   : nullptr),
+        pace_(element_.pace.is_given ? std::make_shared<PaceSignal>(element_.pace) : nullptr),
         feedback_ports_(given(element_.feedback)),
         result_ports_(given(element_.result)),
         watched_(element_.preempts ? given(element_.goal) : FieldPorts()) {
-    Middleware::get().post([client = client_, signal = signal_] {
+    Middleware::get().post([client = client_, hold = hold_, pace = pace_] {
       client->open();
       Middleware::get().add(client);
-      if (signal == nullptr) return;
-      signal->open();
-      if (Waitable* const waitable = signal->waitable()) {
-        Middleware::get().add(std::shared_ptr<Waitable>(signal, waitable));
-      }
+      if (hold != nullptr) hold->open();
+      if (pace == nullptr) return;
+      pace->open();
+      Middleware::get().add(pace);
     });
   }
 
-  // A goal that was canceled is waited for, as long as the run's end may take.
+  // A goal that was canceled is waited for, and a robot that is slow, as long as the run's end may
+  // take.
   ~RosAction() {
-    run_end_.wait([&] { return !client_->is_busy(activation_); });
-    log_lines(*client_);
-    Middleware::get().post([client = std::move(client_), signal = std::move(signal_)] {
-      Middleware::get().remove(client.get());
-      if (signal != nullptr) Middleware::get().remove(signal->waitable());
+    end_pace();
+    run_end_.wait([&] {
+      return !client_->is_busy(activation_) && (pace_ == nullptr || !pace_->is_busy(activation_));
     });
+    log_all_lines();
+    Middleware::get().post(
+        [client = std::move(client_), hold = std::move(hold_), pace = std::move(pace_)] {
+          Middleware::get().remove(client.get());
+          if (hold != nullptr) hold->close();
+          if (pace == nullptr) return;
+          pace->close();
+          Middleware::get().remove(pace.get());
+        });
   }
   RosAction(const RosAction&) = delete;
   RosAction& operator=(const RosAction&) = delete;
@@ -128,6 +164,8 @@ class RosAction : public LeafBase {
   void start() {
     if (!read_goal()) return;
     ++activation_;
+    is_held_ = false;
+    if (pace_ != nullptr && !begin_pace()) return;
     progress_ = held_progress_ = 0;
     began_ = now();
     memory_ = element_.progress.memory();
@@ -136,7 +174,7 @@ class RosAction : public LeafBase {
   }
 
   lockstep_status tick() {
-    log_lines(*client_);
+    log_all_lines();
     // The result first: all feedback came before it.
     const Outcome outcome = client_->outcome(activation_);
     take_feedback();
@@ -144,6 +182,7 @@ class RosAction : public LeafBase {
       if (has_another_goal()) preempt();
       return LOCKSTEP_RUNNING;
     }
+    end_pace();
     const bool has_result = outcome == Outcome::Succeeded || outcome == Outcome::Aborted ||
                             outcome == Outcome::Canceled;
     if (has_result) write(result_ports_, client_->result());
@@ -153,22 +192,26 @@ class RosAction : public LeafBase {
   }
 
   void halt() {
+    end_pace();
+    if (is_held_ && hold_ != nullptr) tell_held(false);
     Middleware::get().post([client = client_, it = activation_] { client->cancel(it); });
   }
 
   void pause() {
     held_since_ = now();
     held_progress_ = progress_;
-    Middleware::get().post([client = client_, signal = signal_, it = activation_] {
-      signal == nullptr ? client->hold(it) : tell(*client, *signal, true);
-    });
+    hold(true);
   }
 
   void resume() {
     began_ += now() - held_since_;
-    Middleware::get().post([client = client_, signal = signal_, it = activation_] {
-      signal == nullptr ? client->resume(it) : tell(*client, *signal, false);
-    });
+    hold(false);
+  }
+
+  double set_pace(double factor) {
+    const double taken = std::clamp(factor, least_pace_, 1.0);
+    Middleware::get().post([pace = pace_, taken] { pace->slow(taken); });
+    return pace_->is_heard() ? taken : 1;
   }
 
   double progress() {
@@ -199,9 +242,51 @@ class RosAction : public LeafBase {
     Middleware::get().post([client = client_, goal = goal()] { client->replace(goal); });
   }
 
-  static void tell(ActionClient& client, HoldSignal& signal, bool held) {
-    const std::string wrong = signal.tell(held);
-    if (!wrong.empty()) client.lines().add(wrong);
+  // False after an error.
+  bool begin_pace() {
+    least_pace_ = number(kLeastPace);
+    std::shared_ptr<Message> message;
+    const Target& target = element_.pace.target;
+    if (target.way != Target::Way::Parameter) {
+      message = std::make_shared<Message>(target.members());
+      if (!read(element_.pace_fields, *message)) return false;
+    }
+    std::optional<double> found;
+    if (is_given(host_, caller_, kPaceFound)) found = number(kPaceFound);
+    Middleware::get().post(
+        [pace = pace_, it = activation_, message, found] { pace->begin(it, message, found); });
+    return true;
+  }
+
+  void end_pace() {
+    if (pace_ != nullptr) Middleware::get().post([pace = pace_] { pace->end(); });
+  }
+
+  void hold(bool held) {
+    is_held_ = held;
+    if (element_.hold.way == Hold::Way::Pace) {
+      Middleware::get().post([pace = pace_, held] { pace->hold(held); });
+    } else if (hold_ != nullptr) {
+      tell_held(held);
+    } else {
+      Middleware::get().post([client = client_, it = activation_, held] {
+        held ? client->hold(it) : client->resume(it);
+      });
+    }
+  }
+
+  void tell_held(bool held) {
+    Middleware::get().post([client = client_, teller = hold_, held] {
+      const std::string wrong = teller->tell(held ? 1 : 0);
+      if (wrong.empty()) return;
+      client->lines().add(wrong +
+                          (held ? ": the robot goes on" : ": the robot is not told to go on"));
+    });
+  }
+
+  void log_all_lines() {
+    log_lines(*client_);
+    if (pace_ != nullptr) log_lines(*pace_);
   }
 
   void take_feedback() {
@@ -237,7 +322,8 @@ class RosAction : public LeafBase {
   const ActionElement& element_;
   RunEnd& run_end_;
   std::shared_ptr<ActionClient> client_;
-  std::shared_ptr<HoldSignal> signal_;
+  std::shared_ptr<Teller> hold_;      // who tells the robot that it is held; may be null
+  std::shared_ptr<PaceSignal> pace_;  // may be null
   const FieldPorts feedback_ports_, result_ports_;  // that the tree binds
   const FieldPorts watched_;                        // of the goal; empty: it stays as it was sent
   const lockstep_changes* const changes_ =
@@ -246,14 +332,16 @@ class RosAction : public LeafBase {
   std::shared_ptr<Message> goal_;
   std::uint64_t activation_ = 0;
   unsigned sent_ = 0;
-  double progress_ = 0, held_progress_ = 0, began_ = 0, held_since_ = 0;
+  double progress_ = 0, held_progress_ = 0, began_ = 0, held_since_ = 0, least_pace_ = 0;
   Expression::Memory memory_;
-  bool has_warned_ = false;
+  bool has_warned_ = false, is_held_ = false;
 };
 
 constexpr const char* kDoc =
     "Sends a goal to an action server of ROS 2, of any type, and is done when the goal is. The "
-    "attributes goal.FIELD are the goal; result.FIELD and feedback.FIELD are put into entries.";
+    "attributes goal.FIELD are the goal; result.FIELD and feedback.FIELD are put into entries. "
+    "With "
+    "pace, message.FIELD or request.FIELD are the other fields of what slows the robot.";
 
 lockstep_leaf_type base_type() {
   lockstep_leaf_type type = LeafFunctions<RosAction>::type("RosAction", kDoc);
@@ -267,10 +355,16 @@ void describe_ports(ActionElement& element) {
   element.goal = element.ports.add("goal.", element.type.goal, LOCKSTEP_INPUT);
   element.feedback = element.ports.add("feedback.", element.type.feedback, LOCKSTEP_OUTPUT);
   element.result = element.ports.add("result.", element.type.result, LOCKSTEP_OUTPUT);
+  if (element.pace.is_given) {
+    const bool is_topic = element.pace.target.way == Target::Way::Topic;
+    element.pace_fields = element.ports.add(is_topic ? "message." : "request.",
+                                            element.pace.target.fields(), LOCKSTEP_INPUT);
+  }
   element.leaf = base_type();
   element.ports.give_to(element.leaf);
   using Functions = LeafFunctions<RosAction>;
   if (!element.progress.is_empty()) element.leaf.progress = Functions::progress;
+  if (element.pace.is_given) element.leaf.set_pace = Functions::set_pace;
   const auto way = element.hold.way;
   if (way != Hold::Way::Undecided && way != Hold::Way::Nothing) {
     element.leaf.pause = Functions::pause;
@@ -297,9 +391,20 @@ std::unique_ptr<ActionElement> make_element(const FixedTexts& texts, Refusal& re
     element->progress = std::move(*progress);
     element->needs_feedback = element->progress.uses_second();
   }
+  const lockstep_port* wrong = nullptr;
+  auto pace =
+      read_pace(texts, kOwnPorts[kPace], kOwnPorts[kPaceType], kOwnPorts[kPaceValue], wrong);
+  if (!pace) {
+    refusal = {wrong, pace.problem()};
+    return nullptr;
+  }
+  element->pace = std::move(*pace);
   auto hold = read_hold(texts[kOwnPorts[kHold]], texts[kOwnPorts[kHoldType]]);
-  if (!hold) {
-    refusal = {&kOwnPorts[kHold], hold.problem()};
+  std::optional<Problem> no_hold;
+  if (!hold) no_hold = hold.problem();
+  if (hold && hold->way == Hold::Way::Pace) no_hold = why_no_hold(element->pace);
+  if (no_hold) {
+    refusal = {&kOwnPorts[kHold], *no_hold};
     return nullptr;
   }
   element->hold = *hold;
@@ -318,12 +423,14 @@ const lockstep_leaf_type* describe(const lockstep_fixed* fixed, std::uint32_t co
 const lockstep_leaf_type& ros_action() {
   static const lockstep_leaf_type type = [] {
     lockstep_leaf_type base = base_type();
-    base.more_ports = "goal;goal.*;feedback;feedback.*;result;result.*";
+    base.more_ports =
+        "goal;goal.*;feedback;feedback.*;result;result.*;message;message.*;request;request.*";
     base.describe = describe;
     // An element may have them.
     base.progress = LeafFunctions<RosAction>::progress;
     base.pause = LeafFunctions<RosAction>::pause;
     base.resume = LeafFunctions<RosAction>::resume;
+    base.set_pace = LeafFunctions<RosAction>::set_pace;
     return base;
   }();
   return type;

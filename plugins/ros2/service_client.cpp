@@ -3,8 +3,6 @@
 #include <rcl/error_handling.h>
 #include <rcl/graph.h>
 
-#include "graph.hpp"
-
 namespace ros2 {
 
 ServiceClient::ServiceClient(const ServiceType& type, std::string service)
@@ -62,6 +60,13 @@ bool ServiceClient::has_service() {
     rcl_reset_error();
   }
   return is_there;
+}
+
+Ids ServiceClient::servers() {
+  if (!has_service()) return {};
+  Ids ids = servers_of(rcl_client_get_service_name(&client_));
+  if (ids.empty()) ids.emplace();  // of a middleware that does not tell
+  return ids;
 }
 
 bool ServiceClient::poll(Clock::time_point now) {

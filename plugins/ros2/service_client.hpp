@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "graph.hpp"
 #include "lines.hpp"
 #include "middleware.hpp"
 #include "types.hpp"
@@ -30,6 +31,8 @@ class ServiceClient final : public Waitable {
 
   // By the thread of ROS.
   void open();
+  bool has_service();
+  Ids servers();  // not empty, if there is a service
   void send(Call call);
   // Its answer is not taken any more.
   void forget(std::uint64_t activation);
@@ -40,7 +43,6 @@ class ServiceClient final : public Waitable {
   bool poll(Clock::time_point now) override;
 
  private:
-  bool has_service();
   void end(Outcome outcome);
 
   const ServiceType& type_;

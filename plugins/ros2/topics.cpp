@@ -3,8 +3,6 @@
 #include <rcl/error_handling.h>
 #include <rmw/qos_profiles.h>
 
-#include "graph.hpp"
-
 namespace ros2 {
 namespace {
 // The qualities of others are known some time after they are seen first.
@@ -48,6 +46,10 @@ void Publisher::publish(const Message& message) {
   look_who_receives(Clock::now());
 }
 
+Ids Publisher::receivers() const {
+  return is_made_ ? receivers_of(rcl_publisher_get_topic_name(&publisher_)) : Ids();
+}
+
 void Publisher::look_who_receives(Clock::time_point now) {
   if (has_told_ || now < next_look_) return;
   next_look_ = now + kBetweenLooks;
@@ -60,10 +62,11 @@ void Publisher::look_who_receives(Clock::time_point now) {
   if (has_told_) lines_.add(why);
 }
 
-Subscription::Subscription(const MessageType& type, std::string topic, std::string qos)
+Subscription::Subscription(const MessageType& type, std::string topic, std::string qos, From from)
     : type_(type),
       topic_(std::move(topic)),
       qos_(std::move(qos)),
+      from_(from),
       subscription_(rcl_get_zero_initialized_subscription()),
       received_([&] { return std::unique_ptr<Received>(new Received{Message(*type.members)}); }) {}
 
@@ -76,6 +79,7 @@ Subscription::~Subscription() {
 void Subscription::open() {
   rcl_subscription_options_t options = rcl_subscription_get_default_options();
   options.qos = qos_named(qos_);
+  options.rmw_subscription_options.ignore_local_publications = from_ == From::Others;
   is_made_ = rcl_subscription_init(&subscription_, &Middleware::get().node(), type_.support,
                                    topic_.c_str(), &options) == RCL_RET_OK;
   if (!is_made_) lines_.add("there is no subscription of '" + topic_ + "': " + last_ros_error());

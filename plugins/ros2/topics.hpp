@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "graph.hpp"
 #include "lines.hpp"
 #include "middleware.hpp"
 #include "triple_buffer.hpp"
@@ -24,6 +25,7 @@ class Publisher {
 
   void open();
   void publish(const Message& message);
+  Ids receivers() const;
   Lines& lines() { return lines_; }
 
  private:
@@ -39,7 +41,8 @@ class Publisher {
 
 class Subscription final : public Waitable {
  public:
-  Subscription(const MessageType& type, std::string topic, std::string qos);
+  enum class From { All, Others };  // Others: not from this process
+  Subscription(const MessageType& type, std::string topic, std::string qos, From from = From::All);
   ~Subscription() override;
 
   struct Received {
@@ -61,6 +64,7 @@ class Subscription final : public Waitable {
  private:
   const MessageType& type_;
   const std::string topic_, qos_;
+  const From from_;
   rcl_subscription_t subscription_;
   bool is_made_ = false, is_settled_ = false, has_looked_ = false;
   Clock::time_point next_look_{};

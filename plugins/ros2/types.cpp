@@ -88,32 +88,6 @@ Result<const MessageType*> make_message_type(const std::string& name) {
       new MessageType{name, support, members, fields_of(*members)});
 }
 
-Result<const FlagType*> make_flag_type(const std::string& name, const std::string& kind) {
-  auto type = std::make_unique<FlagType>();
-  const std::vector<Field>* fields = nullptr;
-  if (kind == "srv") {
-    auto service = service_type(name);
-    if (!service) return service.problem();
-    type->support = (*service)->support;
-    type->message = (*service)->request_message;
-    type->response = (*service)->response_message;
-    fields = &(*service)->request;
-  } else {
-    auto message = message_type(name);
-    if (!message) return message.problem();
-    type->support = (*message)->support;
-    type->message = (*message)->members;
-    fields = &(*message)->fields;
-  }
-  for (const Field& field : *fields) {
-    if (field.kind != Field::Kind::Bool) continue;
-    type->flag = field;
-    return static_cast<const FlagType*>(type.release());
-  }
-  return Problem{"'" + name + "' has no bool, which is to say whether the robot holds still",
-                 kind == "srv" ? "std_srvs/srv/SetBool is one" : "std_msgs/msg/Bool is one"};
-}
-
 // Types stay for ever. Failures are not kept: a package may be installed while an editor runs.
 template <class T, class Make>
 Result<const T*> kept(const std::string& key, Make make) {
@@ -139,10 +113,6 @@ Result<const ServiceType*> service_type(const std::string& name) {
 
 Result<const MessageType*> message_type(const std::string& name) {
   return kept<MessageType>(name, [&] { return make_message_type(name); });
-}
-
-Result<const FlagType*> flag_type(const std::string& name, const std::string& kind) {
-  return kept<FlagType>(kind + name, [&] { return make_flag_type(name, kind); });
 }
 
 }  // namespace ros2

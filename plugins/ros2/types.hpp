@@ -44,12 +44,4 @@ struct MessageType {
 };
 Result<const MessageType*> message_type(const std::string& name);
 
-// A type of services or messages whose first bool says whether a robot holds still.
-struct FlagType {
-  const void* support;
-  const Members *message, *response;  // of a message, no response
-  Field flag;
-};
-Result<const FlagType*> flag_type(const std::string& name, const std::string& kind);
-
 }  // namespace ros2

@@ -8,9 +8,16 @@
 //   --reject-order N: takes no goal with this order
 //   --accept-after N: answers a goal after N ms
 //   --hold-service NAME, --hold-topic NAME: stands while it is true
+//   --pace KIND:NAME: is as slow as it is told, by a topic or service: of real (a Float64), percent
+//     (an Int16), sum (AddTwoInts, a percent), and, if their packages are there, scaling
+//     (SpeedScalingFactor), limit (SpeedLimit) and slider (SetSpeedSliderFraction)
+//   --panel V: somebody else has set the pace V before, on a topic of real or scaling
+//   --refuse-pace: the service answers that it is not so
+// Its parameter `speed` is a pace, too: 0.5 is full speed.
 // It prints one line for each thing that happens to it.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -21,10 +28,22 @@
 #include <vector>
 
 #include "example_interfaces/action/fibonacci.hpp"
+#include "example_interfaces/srv/add_two_ints.hpp"
 #include "example_interfaces/srv/set_bool.hpp"
 #include "rclcpp/rclcpp.hpp"
 #include "rclcpp_action/rclcpp_action.hpp"
 #include "std_msgs/msg/bool.hpp"
+#include "std_msgs/msg/float64.hpp"
+#include "std_msgs/msg/int16.hpp"
+#ifdef HAS_CONTROL_MSGS
+#include "control_msgs/msg/speed_scaling_factor.hpp"
+#endif
+#ifdef HAS_NAV2_MSGS
+#include "nav2_msgs/msg/speed_limit.hpp"
+#endif
+#ifdef HAS_UR_MSGS
+#include "ur_msgs/srv/set_speed_slider_fraction.hpp"
+#endif
 
 namespace {
 
@@ -34,9 +53,9 @@ using SetBool = example_interfaces::srv::SetBool;
 
 struct Options {
   std::string node = "counting_server_" + std::to_string(getpid());
-  std::string action = "/count", hold_service, hold_topic;
+  std::string action = "/count", hold_service, hold_topic, pace, panel;
   int step = 20, abort_at = -1, die_at = -1, quit_at = -1, reject_order = -1, accept_after = 0;
-  bool keeps = false, rejects = false, refuses = false, preempts = false;
+  bool keeps = false, rejects = false, refuses = false, preempts = false, refuses_pace = false;
 };
 
 Options read_options(int argc, char** argv) {
@@ -49,6 +68,9 @@ Options read_options(int argc, char** argv) {
     if (word == "--node") options.node = text();
     if (word == "--hold-service") options.hold_service = text();
     if (word == "--hold-topic") options.hold_topic = text();
+    if (word == "--pace") options.pace = text();
+    if (word == "--panel") options.panel = text();
+    if (word == "--refuse-pace") options.refuses_pace = true;
     if (word == "--step") options.step = number();
     if (word == "--abort") options.abort_at = number();
     if (word == "--die") options.die_at = number();
@@ -101,8 +123,11 @@ class CountingServer : public rclcpp::Node {
           options_.hold_topic, 10,
           [this](std_msgs::msg::Bool::ConstSharedPtr message) { hold(message->data); });
     }
+    listen_to_pace();
     declare_parameter("speed", 0.5);
     declare_parameter("label", "slow");
+    declare_parameter("percent", 80);
+    parameters_ = add_on_set_parameters_callback([this](const auto& all) { return set(all); });
     say("ready");
   }
   // The handle of a goal that is open throws in its destructor when ROS has shut down.
@@ -112,6 +137,78 @@ class CountingServer : public rclcpp::Node {
   void hold(bool held) {
     held_ = held;
     say(held ? "hold" : "go on");
+  }
+
+  void listen_to_pace() {
+    using Scaling = std_msgs::msg::Float64;
+    const auto colon = options_.pace.find(':');
+    const std::string kind = options_.pace.substr(0, colon);
+    const std::string name = options_.pace.substr(colon + 1);
+    if (kind == "real") hear<Scaling>(name, [](const auto& it) { return it.data; });
+    if (kind == "percent")
+      hear<std_msgs::msg::Int16>(name, [](auto& it) { return it.data / 100.0; });
+    if (kind == "sum")
+      serve<example_interfaces::srv::AddTwoInts>(name, [](auto& in, auto& out) {
+        out.sum = in.a + in.b;
+        return in.a / 100.0;
+      });
+    if (!options_.panel.empty() && kind == "real") set_on_panel<Scaling>(name, &Scaling::data);
+#ifdef HAS_CONTROL_MSGS
+    using Factor = control_msgs::msg::SpeedScalingFactor;
+    if (kind == "scaling")
+      hear<Factor>(
+          name, [](const auto& it) { return it.factor; }, true);
+    if (!options_.panel.empty() && kind == "scaling") set_on_panel<Factor>(name, &Factor::factor);
+#endif
+#ifdef HAS_NAV2_MSGS
+    if (kind == "limit")
+      hear<nav2_msgs::msg::SpeedLimit>(name, [](const auto& it) {
+        return !it.percentage || it.speed_limit == 0 ? 1 : it.speed_limit / 100;
+      });
+#endif
+#ifdef HAS_UR_MSGS
+    if (kind == "slider")
+      serve<ur_msgs::srv::SetSpeedSliderFraction>(name, [this](const auto& in, auto& out) {
+        out.success = !options_.refuses_pace && in.speed_slider_fraction >= 0.01;
+        return out.success ? in.speed_slider_fraction : pace_;
+      });
+#endif
+  }
+  void set_pace(double pace) {
+    pace_ = pace;
+    char text[40];
+    std::snprintf(text, sizeof text, "pace %.3f", pace);
+    say(text);
+  }
+  // As robots do: most forget what was said before they came.
+  template <class T, class Get>
+  void hear(const std::string& topic, Get get, bool is_latched = false) {
+    const auto qos = is_latched ? rclcpp::QoS(1).transient_local() : rclcpp::QoS(10);
+    pace_topic_ = create_subscription<T>(
+        topic, qos, [this, get](typename T::ConstSharedPtr it) { set_pace(get(*it)); });
+  }
+  template <class T, class Set>
+  void serve(const std::string& service, Set set) {
+    pace_service_ = create_service<T>(
+        service, [this, set](typename T::Request::SharedPtr in,
+                             typename T::Response::SharedPtr out) { set_pace(set(*in, *out)); });
+  }
+  template <class T>
+  void set_on_panel(const std::string& topic, double T::*member) {
+    const auto panel = create_publisher<T>(topic, rclcpp::QoS(1).transient_local());
+    T message;
+    message.*member = std::atof(options_.panel.c_str());
+    panel->publish(message);
+    panel_ = panel;
+  }
+  rcl_interfaces::msg::SetParametersResult set(const std::vector<rclcpp::Parameter>& all) {
+    for (const auto& it : all) {
+      if (it.get_name() == "speed") set_pace(it.as_double() / 0.5);
+      if (it.get_name() == "percent") set_pace(static_cast<double>(it.as_int()) / 100);
+    }
+    rcl_interfaces::msg::SetParametersResult result;
+    result.successful = !options_.refuses_pace;
+    return result;
   }
 
   struct Goal {
@@ -131,6 +228,9 @@ class CountingServer : public rclcpp::Node {
   }
 
   void step() {
+    way_ += std::clamp(pace_, 0.0, 1.0);
+    if (way_ < 1 && pace_ > 0) return;
+    way_ -= std::floor(way_);
     const auto has_ended = [this](Goal& goal) { return step(goal); };
     goals_.erase(std::remove_if(goals_.begin(), goals_.end(), has_ended), goals_.end());
   }
@@ -155,7 +255,7 @@ class CountingServer : public rclcpp::Node {
       goal.handle->canceled(result);
       return end(goal, "canceled", goal.count);
     }
-    if (held_) return false;
+    if (held_ || pace_ <= 0) return false;
     ++goal.count;
     result->sequence = counted(goal);
     auto feedback = std::make_shared<Fibonacci::Feedback>();
@@ -181,6 +281,11 @@ class CountingServer : public rclcpp::Node {
   std::vector<Goal> goals_;
   int kept_ = 0;
   bool held_ = false;
+  rclcpp::SubscriptionBase::SharedPtr pace_topic_;
+  rclcpp::ServiceBase::SharedPtr pace_service_;
+  rclcpp::PublisherBase::SharedPtr panel_;
+  OnSetParametersCallbackHandle::SharedPtr parameters_;
+  double pace_ = 1, way_ = 0;  // way_: of the next step
 };
 
 }  // namespace

@@ -15,6 +15,12 @@ TREE_SERVER = ROOT / "build/ros2/installed/lib/lockstep_ros/tree_server"
 LOCKSTEP = pathlib.Path(os.environ.get("LOCKSTEP", ROOT / "build/release/lockstep"))
 PLUGINS = ROOT / "build/ros2/plugin"
 
+TYPES = pathlib.Path(os.environ.get("AMENT_PREFIX_PATH", "").split(":")[-1]) / "share"
+
+
+def has(package):
+    return unittest.skipUnless((TYPES / package).exists(), f"there is no {package}")
+
 
 def count(name, action, order=5, more=""):
     """A leaf that counts to `order` at the server of `action`."""
