@@ -91,3 +91,18 @@ TEST_CASE("a leaf model is of full speed: verify and `log check` let a slowed le
           0);
   }
 }
+
+TEST_CASE("check notes a time of a goal that counts in full where its robot is slowed") {
+  const TemporaryDirectory directory;
+  const auto said = [&](const std::string& attribute) {
+    const std::string tree = directory.file(
+        "tree.xml", tree_text("<ParallelRelative delta=\"0.1\" pace=\"true\"><Advance/>"
+                              "<Action ID=\"BackUp\" " +
+                              attribute + "/></ParallelRelative>"));
+    return run_lockstep({"check", "--mock", tree}).err;
+  };
+  const std::string note = "' of 'BackUp' counts in full while 'ParallelRelative' slows";
+  CHECK(contains(said("time_allowance=\"10\""), "note: 'time_allowance" + note));
+  CHECK(contains(said("goal.time_allowance=\"10\""), "note: 'goal.time_allowance" + note));
+  CHECK_FALSE(contains(said("goal.time=\"10\""), note));
+}

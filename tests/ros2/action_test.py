@@ -285,6 +285,19 @@ class Held(World):
         self.assertIn("go on", self.fast.lines)
         self.assertEqual(self.fast.lines.count("goal 20"), 1)
 
+    def test_halted_while_it_is_held_it_is_told_that_it_is_not(self):
+        for told, more in (("topic:/still", ""),
+                           ("service:/still", 'hold_type="example_interfaces/srv/SetBool"')):
+            fast = self.server("--action", "/fast", "--step", 10, f"--hold-{told.split(':')[0]}", "/still")
+            slow = self.server("--action", "/slow", "--step", 200)
+            nodes = count("fast", "/fast", 20, f'hold="{told}" {more}') + count("slow", "/slow", 20)
+            self.run_tree(f'<Timeout clock="wall" seconds="1"><ParallelAbsolute barriers="0.5">{nodes}'
+                          f'</ParallelAbsolute></Timeout>')
+            fast.wait_for("go on")
+            self.assertEqual([line for line in fast.lines if line in ("hold", "go on")], ["hold", "go on"])
+            fast.stop()
+            slow.stop()
+
     def test_a_service_tells_the_robot(self):
         self.pair('hold="service:/still" hold_type="example_interfaces/srv/SetBool"',
                   "--hold-service", "/still")
