@@ -47,7 +47,9 @@ inline constexpr Word kLeaf[] = {
     {"fact", "[A-Za-z_][A-Za-z0-9_]*", "Its result is this fact."},
     {"sets", "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
      "Facts that its success makes true or false."},
-    {"writes", "success|start|tick", "When it writes its outputs; on success when absent."},
+    {"writes", "success|start|tick|any",
+     "When it writes its outputs: with its success, at its start, in each tick, or any (the "
+     "default): in any of its ticks or not."},
 };
 // A leaf also has "out.PORT".
 inline constexpr std::string_view kOutput = kOutputWord;

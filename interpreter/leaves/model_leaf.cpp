@@ -44,16 +44,16 @@ ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard&
                          Answers& answers)
     : ModelLeaves(
           tree, models,
-          [&](std::uint32_t leaf, const LeafModel::Output& output, const Value& value) {
-            const Parameter& parameter = tree.leaves[leaf].type->parameters[output.port];
-            write_entry(board.entries[output.slot], parameter.type, parameter.object, value);
+          [&](std::uint32_t, const LeafModel::Output& output) {
+            return &board.entries[output.slot];
           },
           answers) {}
 
-ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Write write, Answers& answers)
+ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, EntryOf entry_of,
+                         Answers& answers)
     : tree_(tree),
       models_(models),
-      write_(std::move(write)),
+      entry_of_(std::move(entry_of)),
       answers_(answers),
       slots_(tree.leaves.size()),
       states_(tree.leaves.size()),
@@ -145,6 +145,7 @@ void ModelLeaves::start(std::uint32_t leaf) {
   is(leaf, states_[leaf].phase == Phase::Idle, "start, and it runs");
   states_[leaf] = {.phase = Phase::Running};
   chooses_ = leaf;
+  stage_ = 0;
   mark(leaf);
   set_level(leaf, 0);
   if (!rules_[leaf].is_plain && models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
@@ -165,10 +166,30 @@ bool ModelLeaves::ask(std::uint32_t fact) {
 
 void ModelLeaves::write(std::uint32_t leaf) {
   for (const LeafModel::Output& output : models_.leaves[leaf].outputs) {
+    ++stage_;
     const auto count = static_cast<std::uint32_t>(output.values.size());
-    const std::uint32_t which = answers_.choose(count, leaf);
-    mark(leaf).written.push_back(which);
-    write_(leaf, output, output.values[which]);
+    write(leaf, output, answers_.choose(count, leaf));
+  }
+}
+
+void ModelLeaves::may_write(std::uint32_t leaf, bool has_succeeded) {
+  const LeafModel& model = models_.leaves[leaf];
+  const bool needs_values = has_succeeded && model.writes == Writes::InAnyTick;
+  for (const LeafModel::Output& output : model.outputs) {
+    ++stage_;
+    const auto count = static_cast<std::uint32_t>(output.values.size());
+    const Entry* const entry = needs_values ? entry_of_(leaf, output) : nullptr;
+    const bool must = entry != nullptr && !entry->has_value();
+    const std::uint32_t choice = answers_.choose(must ? count : count + 1, leaf);
+    choice < count ? write(leaf, output, choice) : mark(leaf).written.push_back(kNoWrite);
+  }
+}
+
+void ModelLeaves::write(std::uint32_t leaf, const LeafModel::Output& output, std::uint32_t value) {
+  mark(leaf).written.push_back(value);
+  const Parameter& parameter = tree_.leaves[leaf].type->parameters[output.port];
+  if (Entry* const entry = entry_of_(leaf, output)) {
+    write_entry(*entry, parameter.type, parameter.object, output.values[value]);
   }
 }
 
@@ -176,6 +197,8 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
     : levels(model.levels.data()),
       can_run(model.can_run),
       is_plain(model.fact == kNoFact && model.sets.empty() && model.outputs.empty()),
+      may_write(model.writes >= Writes::InAnyTick && !model.outputs.empty()),
+      may_write_idle(model.writes == Writes::InAnyCall && !model.outputs.empty()),
       results(model.results) {
   const auto count = [](std::int64_t ticks) {
     constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
@@ -228,6 +251,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   }
   mark.ticked = true;
   chooses_ = leaf;
+  stage_ = 0;
   ++state.ticks;
   if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
 
@@ -258,6 +282,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
     mark.ended = true;
     mark.progress = 0;
     if (!rule.is_plain && mark.result == Status::Success) succeed(leaf);
+    if (rule.may_write) may_write(leaf, mark.result == Status::Success);
     state = {};
     return mark.result;
   }
@@ -271,6 +296,7 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   set_level(leaf, reach.first + static_cast<std::int32_t>(choice));
   mark.result = Status::Running;
   mark.progress = progress_[leaf];
+  if (rule.may_write) may_write(leaf);
   return Status::Running;
 }
 
@@ -287,12 +313,14 @@ void ModelLeaves::halt(std::uint32_t leaf) {
   is(leaf, states_[leaf].phase != Phase::Idle, "halt, and it does not run");
   states_[leaf] = {};
   mark(leaf).ended = true;
+  if (rules_[leaf].may_write_idle) may_write(leaf);
 }
 
 void ModelLeaves::pause(std::uint32_t leaf) {
   if (is(leaf, states_[leaf].phase == Phase::Running, "pause, and it gets no ticks")) {
     states_[leaf].phase = Phase::Paused;
   }
+  if (rules_[leaf].may_write_idle) may_write(leaf);
 }
 
 void ModelLeaves::resume(std::uint32_t leaf) {

@@ -28,6 +28,8 @@ struct LeafState {
 
 enum class FactState : std::uint8_t { False, True, Unknown };
 
+inline constexpr std::uint32_t kNoWrite = 0xffffffff;
+
 // A mark says what a leaf did in a tick of the tree.
 struct LeafMark {
   bool touched = false;  // it has a mark at all
@@ -37,7 +39,7 @@ struct LeafMark {
   Status result = Status::Idle;             // of its tick
   double progress = 0;                      // after it
   double held_progress = 0;                 // before it, if it has drifted
-  std::vector<std::uint32_t> written = {};  // of each output, in order: which value
+  std::vector<std::uint32_t> written = {};  // of each output, in order: which value, or kNoWrite
 
   void clear() {
     ticked = ended = faulted = drifted = false;
@@ -49,12 +51,11 @@ struct LeafMark {
 // The leaves of a run.
 class ModelLeaves {
  public:
-  // Puts a value of an output where it belongs.
-  using Write =
-      std::function<void(std::uint32_t leaf, const LeafModel::Output& output, const Value& value)>;
+  // The entry to which an output belongs; null: none.
+  using EntryOf = std::function<Entry*(std::uint32_t leaf, const LeafModel::Output& output)>;
   // All must outlive this.
   ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard& board, Answers& answers);
-  ModelLeaves(const Tree& tree, const LeafModels& models, Write write, Answers& answers);
+  ModelLeaves(const Tree& tree, const LeafModels& models, EntryOf entry_of, Answers& answers);
   ModelLeaves(const ModelLeaves&) = delete;
   ModelLeaves& operator=(const ModelLeaves&) = delete;
 
@@ -104,6 +105,8 @@ class ModelLeaves {
   // The leaf whose call asks for an answer.
   static constexpr std::uint32_t kNobody = 0xffffffff;  // what drifts does so before the tick
   std::uint32_t chooses() const { return chooses_; }
+  // How far that call is: which of its questions it asks.
+  std::uint32_t stage() const { return stage_; }
   // The call of the engine that the contract forbids; "" for none.
   const std::string& broken() const { return broken_; }
 
@@ -132,6 +135,9 @@ class ModelLeaves {
   void tell_broken(std::uint32_t leaf, const char* what);
   bool ask(std::uint32_t fact);
   void write(std::uint32_t leaf);
+  // Each output, or not.
+  void may_write(std::uint32_t leaf, bool has_succeeded = false);
+  void write(std::uint32_t leaf, const LeafModel::Output& output, std::uint32_t value);
   void succeed(std::uint32_t leaf);
   void set_level(std::uint32_t leaf, std::int32_t level) {
     states_[leaf].level = static_cast<std::uint16_t>(level);
@@ -154,13 +160,14 @@ class ModelLeaves {
     std::uint32_t least_ticks, most_ticks;
     std::vector<Reach> in_a_tick, while_held;  // from each level
     bool can_run;
-    bool is_plain;  // it has to do with no fact and no entry
+    bool is_plain;                   // it has to do with no fact and no entry
+    bool may_write, may_write_idle;  // in each tick, or not; and when it gets none
     ResultSet results;
   };
 
   const Tree& tree_;
   const LeafModels& models_;
-  const Write write_;
+  const EntryOf entry_of_;
   Answers& answers_;
   std::vector<Rule> rules_;
   std::vector<Self> selves_;
@@ -173,6 +180,7 @@ class ModelLeaves {
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> drifting_;  // the leaves that may
   std::uint32_t chooses_ = kNobody;
+  std::uint32_t stage_ = 0;
   std::string broken_;
   BeforeTickAgain before_tick_again_;
 };

@@ -71,6 +71,7 @@ class ModelMaker {
       const LeafModel& model = models_.leaves[i];
       models_.unstated_results += !states_result_[i] && model.fact == kNoFact;
       models_.unstated_steps += !states_step_[i] && model.levels.size() > 1;
+      models_.unstated_writes += model.writes == Writes::InAnyTick && !model.outputs.empty();
     }
     return std::move(models_);
   }

@@ -54,7 +54,7 @@ struct LeafModel {
     friend bool operator==(const Output&, const Output&) = default;
   };
   std::vector<Output> outputs;
-  Writes writes = Writes::OnSuccess;
+  Writes writes = Writes::InAnyTick;
 
   bool drifts() const { return least_drift != 0 || most_drift != 0; }
   friend bool operator==(const LeafModel&, const LeafModel&) = default;
@@ -74,8 +74,9 @@ struct LeafModels {
   std::vector<bool> entries;  // by slot: those whose values matter
   // The types whose leaves do as their plugin says, each with the statements that count.
   std::vector<std::string> declared;
-  // Leaves: one of them may also return Skipped, or lose progress while it is ticked.
-  std::size_t unstated_results = 0, unstated_steps = 0;
+  // Leaves: one of them may also return Skipped, lose progress while it is ticked, or write
+  // otherwise than in its ticks.
+  std::size_t unstated_results = 0, unstated_steps = 0, unstated_writes = 0;
   std::size_t slowed = 0;  // leaves that may be slower than their model says
 };
 

@@ -70,7 +70,7 @@ bool TickPoints::add(const Ticker& ticker, const ModelLeaves& leaves, const Tick
     const LeafMark& mark = leaves.marks()[chooses];
     put(mark.result);
     put(mark.ended);
-    put(mark.written.size());
+    put(leaves.stage());
   }
   put_nodes(ticker,
             chooses == ModelLeaves::kNobody ? tree_.nodes[0].end : tree_.leaves[chooses].node);

@@ -238,6 +238,7 @@ void Tracer::add_word(LeafScripts& scripts, std::uint32_t leaf) {
                 .progress = mark.result == Status::Running ? mark.progress : 0};
   const auto& outputs = models_.leaves[leaf].outputs;
   for (std::size_t i = 0; i < mark.written.size(); ++i) {
+    if (mark.written[i] == kNoWrite) continue;
     const auto& output = outputs[i % outputs.size()];
     word.written.emplace_back(tree_.leaves[leaf].type->parameters[output.port].name,
                               to_text(output.values[mark.written[i]]));

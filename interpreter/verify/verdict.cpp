@@ -605,6 +605,13 @@ class VerdictMaker {
                       "ticked ({})",
                       counted(models_.unstated_steps, "action")));
     }
+    if (const std::size_t count = models_.unstated_writes; count > 0) {
+      assumed.push_back(
+          fmt::format("no leaf without writes=\"…\" in the leaf model writes outside "
+                      "of its ticks, or succeeds before its outputs have values "
+                      "({} {})",
+                      count, count == 1 ? "leaf" : "leaves"));
+    }
     for (const std::uint32_t it : parts) {
       assumed.push_back(
           fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));

@@ -881,6 +881,12 @@ std::optional<Status> Reference::tick() {
   }
 }
 
+void Reference::write(const std::string& entry, double value) {
+  Entry& to = world_->boards.front()->make(entry);
+  to.value = value;
+  ++to.writes;
+}
+
 void Reference::keep(KeptState& state) {
   for (const auto& board : world_->boards) {
     std::map<std::string, double> numbers;

@@ -57,6 +57,8 @@ class Reference {
 
   // The result of one period, a tenth of a second after the last one; nothing after a fault.
   std::optional<Status> tick();
+  // Into an entry of the main tree.
+  void write(const std::string& entry, double value);
   // All that it keeps between two periods, and back. No duration in the document is longer than
   // `longest`, and no node looks at how often an entry was written.
   std::string save(Nanoseconds longest);

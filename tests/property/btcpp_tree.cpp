@@ -11,16 +11,20 @@
 namespace lockstep::host::test::law {
 namespace {
 
+const std::vector<Parameter> kOutput{
+    {.name = "out", .type = ValueType::Int, .doc = "", .direction = Direction::Output}};
 const NodeType kAct{.id = "Act",
                     .category = NodeCategory::Action,
                     .doc = "",
                     .arity = {0, 0},
+                    .parameters = kOutput,
                     .can_run = true,
                     .leaf = &kScriptedAction};
 const NodeType kCond{.id = "Cond",
                      .category = NodeCategory::Condition,
                      .doc = "",
                      .arity = {0, 0},
+                     .parameters = kOutput,
                      .leaf = &kScriptedCondition};
 
 }  // namespace

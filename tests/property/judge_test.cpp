@@ -63,7 +63,10 @@ class Judged : public JudgedTree {
 class JudgedPlan final : public Judged<Reference> {
  public:
   JudgedPlan(const Plan& plan, JudgedLeaves& leaves)
-      : Judged(plan, leaves), nodes_(count_nodes(plan)) {}
+      : Judged(plan, leaves), nodes_(count_nodes(plan)) {
+    leaves.set_write(
+        [this](const std::string& entry, double value) { reference_.write(entry, value); });
+  }
   std::optional<Status> tick() override {
     const Status status = reference_.tick(Reference::kRestored + kPeriod);
     return reference_.fault() ? std::nullopt : std::optional(status);
@@ -77,7 +80,10 @@ class JudgedPlan final : public Judged<Reference> {
 
 class JudgedDocument final : public Judged<law::Reference> {
  public:
-  using Judged::Judged;
+  JudgedDocument(const law::Document& document, JudgedLeaves& leaves) : Judged(document, leaves) {
+    leaves.set_write(
+        [this](const std::string& entry, double value) { reference_.write(entry, value); });
+  }
   std::optional<Status> tick() override { return reference_.tick(); }
   std::size_t nodes() const override { return reference_.nodes(); }
 };

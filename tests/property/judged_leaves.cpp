@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace lockstep::host::test {
 
@@ -13,7 +14,10 @@ std::string LeafRule::row() const {
     if (may) results += (results.empty() ? "" : ";") + std::string(word);
   }
   std::string row = fmt::format("<leaf path=\"*/{}\" result=\"{}\"", name, results);
-  if (fact >= 0) return fmt::format("<leaf path=\"*/{}\" fact=\"f{}\"/>", name, fact);
+  if (fact >= 0) row = fmt::format("<leaf path=\"*/{}\" fact=\"f{}\"", name, fact);
+  if (!entry.empty()) row += " out.out=\"0|1\"";
+  constexpr std::array kWrites{" writes=\"success\"", " writes=\"start\"", " writes=\"tick\"", ""};
+  if (!entry.empty()) row += kWrites[static_cast<std::size_t>(writes)];
   if (!is_action) return row + "/>";
   if (sets >= 0) row += fmt::format(" sets=\"f{}={}\"", sets, sets_to);
   const std::string most = most_ticks == 0 ? "inf" : std::to_string(most_ticks);
@@ -108,9 +112,29 @@ void JudgedLeaves::move(std::uint32_t leaf, int least, int most, int highest) {
 void JudgedLeaves::start(std::uint32_t leaf) {
   needs(leaves_[leaf].phase == Phase::Idle, leaf, "start");
   leaves_[leaf] = {.phase = Phase::Running};
+  if (rules_[leaf].writes == LeafRule::Writes::AtStart) write(leaf, false);
 }
 
+// "any: in any of its ticks, or not"
 Status JudgedLeaves::tick(std::uint32_t leaf) {
+  using Writes = LeafRule::Writes;
+  const Writes writes = rules_[leaf].writes;
+  const Status status = result(leaf);
+  if (writes == Writes::InAnyTick) write(leaf, true);
+  const bool has_succeeded = writes == Writes::WithSuccess && status == Status::Success;
+  if (has_succeeded || writes == Writes::InEachTick) write(leaf, false);
+  return status;
+}
+
+void JudgedLeaves::write(std::uint32_t leaf, bool may_leave_it) {
+  if (rules_[leaf].entry.empty()) return;
+  const std::uint32_t value = choose(may_leave_it ? 3 : 2);
+  if (value == 2) return;
+  write_(rules_[leaf].entry, value);
+  said_ += fmt::format("[{}={}]", rules_[leaf].entry, value);
+}
+
+Status JudgedLeaves::result(std::uint32_t leaf) {
   const LeafRule& rule = rules_[leaf];
   Leaf& it = leaves_[leaf];
   needs(it.phase == Phase::Running, leaf, "tick");

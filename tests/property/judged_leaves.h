@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "property/kept_state.h"
@@ -31,6 +33,9 @@ struct LeafRule {
   int fact = -1;         // a condition: its result
   int sets = -1;         // an action: its success makes that fact …
   bool sets_to = false;  // … true or false
+  enum class Writes : std::uint8_t { WithSuccess, AtStart, InEachTick, InAnyTick };
+  std::string entry = {};  // that its output writes; "": none
+  Writes writes = Writes::InAnyTick;
 
   // Of a leaf file.
   std::string row() const;
@@ -46,6 +51,10 @@ class JudgedLeaves final : public LeafBehavior {
   void pause(std::uint32_t leaf) override;
   void resume(std::uint32_t leaf) override;
   double progress(std::uint32_t leaf) const override;
+
+  // Gives an entry a value.
+  using Write = std::function<void(const std::string& entry, double value)>;
+  void set_write(Write write) { write_ = std::move(write); }
 
   void keep(KeptState& state);
   // The first answers of a tick, then all others: false when they have all been given.
@@ -76,12 +85,15 @@ class JudgedLeaves final : public LeafBehavior {
   };
   std::uint32_t choose(std::uint32_t count);
   bool ask(Fact& fact);
+  void write(std::uint32_t leaf, bool may_leave_it);
+  Status result(std::uint32_t leaf);
   void needs(bool holds, std::uint32_t leaf, const char* call);
   void say(std::uint32_t leaf, const std::string& word);
   Status end(std::uint32_t leaf, Status result);
   void move(std::uint32_t leaf, int least, int most, int highest);
 
   const std::vector<LeafRule> rules_;
+  Write write_;
   std::vector<Leaf> leaves_;
   std::vector<Fact> facts_;
   std::vector<std::uint32_t> answers_, counts_;

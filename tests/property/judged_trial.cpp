@@ -39,6 +39,15 @@ class LeafRules : protected RandomSource {
     leaves_.push_back(rule);
     return rule.name;
   }
+  // Of the last leaf: the entry that it writes, if any.
+  std::string output(const std::vector<std::string>& entries) {
+    LeafRule& rule = leaves_.back();
+    if (!one_in(3)) return "";
+    rule.entry = pick(entries);
+    rule.writes =
+        one_in(2) ? LeafRule::Writes::InAnyTick : static_cast<LeafRule::Writes>(between(0, 2));
+    return rule.entry;
+  }
   bool has_leaf_left() const { return leaves_.size() < kMostJudgedLeaves; }
 
   int parts_;  // of all that have progress
@@ -100,9 +109,13 @@ class SmallTree : LeafRules {
 
   Plan small() {
     const int kind = between(0, 9);
-    if (kind < 6 && has_leaf_left()) return {.kind = "action", .name = leaf(true), .script = "R"};
     if (kind < 8 && has_leaf_left()) {
-      return {.kind = "condition", .name = leaf(false), .script = "S"};
+      const bool is_action = kind < 6;
+      Plan plan{.kind = is_action ? "action" : "condition",
+                .name = leaf(is_action),
+                .script = is_action ? "R" : "S"};
+      if (scripts_) plan.output = output({"x", "y"});
+      return plan;
     }
     if (scripts_ && one_in(2)) {
       if (one_in(3)) {
@@ -283,9 +296,12 @@ class SmallDocument : LeafRules {
     const int kind = between(0, 9);
     if (kind < 8 && has_leaf_left()) {
       const bool is_action = kind < 6;
-      return {.tag = is_action ? "Act" : "Cond",
-              .attributes = {{"name", leaf(is_action)}},
-              .letters = "S"};
+      Element it{.tag = is_action ? "Act" : "Cond",
+                 .attributes = {{"name", leaf(is_action)}},
+                 .letters = "S"};
+      const std::string entry = scripts_ ? output({"n"}) : "";
+      if (!entry.empty()) it.attributes["out"] = "{" + entry + "}";
+      return it;
     }
     if (scripts_ && one_in(2)) {
       if (one_in(2)) return script(assignment());
@@ -444,6 +460,7 @@ std::vector<JudgedTrial> smaller(const JudgedTrial& trial) {
     with([](LeafRule& it) { it.finishes_full = false; });
     with([](LeafRule& it) { it.fact = -1; });
     with([](LeafRule& it) { it.sets = -1; });
+    with([](LeafRule& it) { it.writes = LeafRule::Writes::WithSuccess; });
     with([](LeafRule& it) {
       it.parts = it.least_step = it.most_step = 0;
       it.finishes_full = false;

@@ -78,6 +78,7 @@ class AttributeList {
     const bool is_switch = plan_.kind == "Switch";
     if (!plan_.code.empty()) add(is_switch ? "on" : "code", plan_.code);
     if (is_switch) add("cases", fmt::format("{}", fmt::join(plan_.cases, ";")));
+    if (!plan_.output.empty()) list.emplace_back("out", "{" + plan_.output + "}");
   }
 
   bool has_parameter(std::string_view name) const {

@@ -16,6 +16,7 @@ struct Plan {
   // Scripted leaves.
   std::string name = {};
   std::string script = {};
+  std::string output = {};  // the entry that it writes
 
   // Built-ins; each uses the ones that are its own. Absent: -1.
   bool memory = false;   // Sequence, Fallback

@@ -1,8 +1,17 @@
 #include "support/scripted_types.h"
 
+#include <vector>
+
 #include "support/scripted_leaf.h"
 
 namespace lockstep::host::test {
+namespace {
+
+const std::vector<Parameter> kOutputs{
+    {.name = "out", .type = ValueType::Int, .doc = "", .direction = Direction::Output},
+    {.name = "flag", .type = ValueType::Bool, .doc = "", .direction = Direction::Output}};
+
+}  // namespace
 
 const NodeType kScriptedActionType{.id = "Scripted",
                                    .category = NodeCategory::Action,
@@ -16,6 +25,19 @@ const NodeType kScriptedConditionType{.id = "ScriptedCondition",
                                       .doc = "",
                                       .arity = {0, 0},
                                       .leaf = &kScriptedCondition};
+const NodeType kWritingActionType{.id = "Writing",
+                                  .category = NodeCategory::Action,
+                                  .doc = "",
+                                  .arity = {0, 0},
+                                  .parameters = kOutputs,
+                                  .can_run = true,
+                                  .leaf = &kScriptedAction};
+const NodeType kWritingConditionType{.id = "WritingCondition",
+                                     .category = NodeCategory::Condition,
+                                     .doc = "",
+                                     .arity = {0, 0},
+                                     .parameters = kOutputs,
+                                     .leaf = &kScriptedCondition};
 const NodeType kBareActionType{.id = "Bare",
                                .category = NodeCategory::Action,
                                .doc = "",

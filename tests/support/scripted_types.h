@@ -7,7 +7,9 @@ namespace lockstep::host::test {
 
 extern const NodeType kScriptedActionType;
 extern const NodeType kScriptedConditionType;
-extern const NodeType kBareActionType;       // an action that has no function but tick
-extern const NodeType kStartlessActionType;  // an action that has no start
+extern const NodeType kBareActionType;        // an action that has no function but tick
+extern const NodeType kWritingActionType;     // with outputs `out` and `flag`, which it never sets
+extern const NodeType kWritingConditionType;  // likewise
+extern const NodeType kStartlessActionType;   // an action that has no start
 
 }  // namespace lockstep::host::test

@@ -87,7 +87,7 @@ class Builder {
     const bool has_scripts = rest_.starts_with('[') && !rest_.starts_with("[bare]");
     auto given = built_in || has_scripts ? attributes() : std::vector<Attribute>();
     const std::uint32_t hooks = take_hooks(given);
-    const NodeType& type = built_in ? built_in_type(name) : scripted_type();
+    const NodeType& type = built_in ? built_in_type(name) : scripted_type(!given.empty());
     join(type, given, self);
     const std::uint32_t children = take('(') ? nodes_until_end(self) : 0;
     if (children < type.arity.min || children > type.arity.max) {
@@ -197,8 +197,9 @@ class Builder {
     return count;
   }
 
-  const NodeType& scripted_type() {
-    if (take('?')) return kScriptedConditionType;
+  const NodeType& scripted_type(bool writes) {
+    if (take('?')) return writes ? kWritingConditionType : kScriptedConditionType;
+    if (writes) return kWritingActionType;
     return attributes().empty() ? kScriptedActionType : kBareActionType;
   }
 

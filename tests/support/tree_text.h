@@ -3,7 +3,7 @@
 // A name with a capital is a built-in kind, or a node of a known plugin. Any other is a scripted
 // action, with '?' behind it a scripted condition, with [bare] an action that has no function but
 // tick. Wait[seconds={pause}] takes its parameter from the entry 'pause'. a[skip_if=n>1] has a
-// script; for BehaviorTree.CPP it is a[_skipIf=n>1].
+// script; for BehaviorTree.CPP it is a[_skipIf=n>1]. a[out={n} flag={b}] has outputs.
 #pragma once
 
 #include <string_view>

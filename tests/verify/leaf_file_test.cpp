@@ -134,6 +134,8 @@ TEST_CASE("an empty leaf model is the most general leaf") {
   CHECK(model.ends);
   CHECK_FALSE(model.drifts());
   CHECK_FALSE(model.finishes_full);
+  CHECK(model.writes == Writes::InAnyTick);
+  CHECK(model_of(R"(writes="success")", "Sequence(a)").writes == Writes::OnSuccess);
 }
 
 TEST_CASE("scripts of leaves are read as they are written") {

@@ -103,6 +103,34 @@ TEST_CASE("one property that is violated does not hide another") {
   CHECK(it.findings() == "property/x, property/y");
 }
 
+TEST_CASE("a leaf may write its outputs while it runs, and with a failure") {
+  constexpr auto kTree =
+      "Sequence[memory=true](Script[code=s:=false] Parallel[success_count=1](look[flag={s}] "
+      "Sequence[memory=true](WaitUntil[code=s] AlwaysSuccess)))";
+  const std::vector<std::string> only{"q: 'AlwaysSuccess'.success only after look.done"};
+  CHECK(Verified(kTree, "", {}, 10, only).findings() == "property/q");
+  CHECK(Verified(kTree, R"(<leaf path="*/look" writes="any"/>)", {}, 10, only).findings() ==
+        "property/q");
+  CHECK(Verified(kTree, R"(<leaf path="*/look" writes="success"/>)", {}, 10, only)
+            .findings()
+            .empty());
+  constexpr auto kSensor =
+      "Sequence[memory=true](Script[code=s:=true] Fallback(look[flag={s}]? "
+      "Sequence(Check[code=!s] AlwaysSuccess)))";
+  const Verified sensor(kSensor);
+  CHECK(sensor.said("never ticked") == "none");
+  CHECK(sensor.verdict.assumed.back() ==
+        "no leaf without writes=\"…\" in the leaf model writes outside of its ticks, or succeeds "
+        "before its outputs have values (1 leaf)");
+}
+
+TEST_CASE("an output that nothing has given a value has one when its leaf succeeds") {
+  constexpr auto kTree = "Sequence[memory=true](look[flag={s}] Check[code=s])";
+  CHECK(Verified(kTree).findings().empty());
+  CHECK(Verified("Sequence[memory=true](ForceSuccess(look[flag={s}]) Check[code=s])").findings() ==
+        "fault/Test/Sequence/Check");
+}
+
 TEST_CASE("a property may name a fact of the leaf file") {
   constexpr auto kRows = R"(<fact name="charged" changes="never"/><leaf path="*/c" fact="charged"/>
     <leaf path="*/a" result="success" sets="charged=true"/>)";

@@ -433,6 +433,21 @@ TEST_CASE("points of a tick at which the same follows change nothing in what is 
   }
 }
 
+// In a later tick of the root, a leaf has the marks of an earlier one.
+TEST_CASE("points of a later tick of the root are told apart by what a leaf asks") {
+  const auto success = [](std::uint64_t few) {
+    const Verified it(
+        "ReactiveSequence(a[out={n}] AsyncSequence(ParallelAll(b[out={n} _while=n!=1] c[out={n}]?) "
+        "Sleep[msec=300]))",
+        R"(<leaf path="*" result="success" out.out="0|1" writes="success" progress="none"/>
+           <leaf path="*/b" ticks="1"/>)",
+        {.few_ticks = few}, 10, {}, btcpp::kRules);
+    return it.said("results");
+  };
+  CHECK(success(kAllTicks) == "success (from 4 ticks)");
+  CHECK(success(0) == "success (from 4 ticks)");
+}
+
 TEST_CASE("rounds that are told apart by their states change nothing in what is found") {
   for (const char* tree : {"Parallel[success_count=2](Repeat[num_cycles=4](b) "
                            "RetryUntilSuccessful[num_attempts=3](a))",

@@ -141,7 +141,7 @@ std::optional<Problem> add_statement(std::string_view word, std::string_view val
   if (word == "finish") return read_flag(word, value, {"any", "full"}, into.finishes_full);
   if (word == "held") return read_held(value, into.held);
   if (word == "writes") {
-    constexpr std::array<std::string_view, 3> kMoments{"success", "start", "tick"};
+    constexpr std::array<std::string_view, 4> kMoments{"success", "start", "tick", "any"};
     std::size_t which = 0;
     if (auto wrong = read_choice(word, value, kMoments, which)) return wrong;
     into.writes = static_cast<Writes>(which);

@@ -35,8 +35,9 @@ struct ProgressWay {
   friend bool operator==(const ProgressWay&, const ProgressWay&) = default;
 };
 
-// When a leaf writes its outputs.
-enum class Writes : std::uint8_t { OnSuccess, AtStart, InEachTick };
+// When a leaf writes its outputs. In any tick: or not, but it does not succeed before all have
+// values. In any call: or not, also when it is halted or held; no statement says so.
+enum class Writes : std::uint8_t { OnSuccess, AtStart, InEachTick, InAnyTick, InAnyCall };
 
 // A statement that is not made is not there.
 struct Behavior {

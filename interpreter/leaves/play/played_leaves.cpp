@@ -182,9 +182,8 @@ class ModelRun final : public RemoteRun {
         callers_(tree.leaves.size()),
         leaves_(
             tree, models,
-            [this](std::uint32_t leaf, const LeafModel::Output& output, const Value& value) {
-              const BoundPort& port = *callers_[leaf]->ports[output.port];
-              if (port.write != nullptr) write_entry(*port.write, port.type, port.object(), value);
+            [this](std::uint32_t leaf, const LeafModel::Output& output) {
+              return callers_[leaf]->ports[output.port]->write;
             },
             answers_) {
     for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) numbers_[tree.leaves[i].node] = i;
