@@ -109,6 +109,16 @@ LeafModels steady(LeafModels models) {
   return models;
 }
 
+// All that the contract allows but Skipped.
+void make_general(LeafModel& leaf) {
+  leaf.writes = Writes::InAnyCall;
+  const auto all = static_cast<std::int64_t>(leaf.levels.size());
+  if (leaf.has_progress) {
+    leaf.least_step = leaf.least_drift = -all;
+    leaf.most_drift = all;
+  }
+}
+
 class DeadlockText {
  public:
   explicit DeadlockText(const Tree& tree) : tree_(tree) {}
@@ -198,6 +208,10 @@ class Adviser {
     SearchLimits limits = bound(tree_, transitions);
     limits.stop_signal = stop_signal_;
     limits.cycles = cycles;
+    const bool writes_idle = std::ranges::any_of(models.leaves, [](const LeafModel& it) {
+      return it.writes == Writes::InAnyCall && !it.outputs.empty();
+    });
+    if (writes_idle) limits.few_ticks = kAllTicks;  // points are in ticks of leaves
     return host::search(tree_, models, {}, kModelRate, limits);
   }
 
@@ -208,12 +222,15 @@ class Adviser {
     return find_contradiction(tree_, models, {}, kModelRate, found, few).has_value();
   }
 
-  // A leaf may also return Skipped, which few do and which makes nearly all trees larger. So this
-  // is looked at only where there is something to say, which is otherwise said with that premise.
+  // Few leaves return Skipped, lose progress, move while they are held, or write when they get no
+  // tick, and nearly all trees are larger with those. So this is looked at only where there is
+  // something to say. Without Skipped it is said with that premise.
   void look_for_certainties() {
     auto models = this->models(Declared::Ignored);
     if (!models || has_start_values(tree_, *models)) return;
-    std::vector<Advice> likely = certainties(*models, kOfCertainties, Results::NotSkipped);
+    if (certainties(*models, kOfCertainties, Results::NotSkipped).empty()) return;
+    for (LeafModel& it : models->leaves) make_general(it);
+    std::vector<Advice> likely = certainties(*models, kOfSkipped, Results::NotSkipped);
     if (likely.empty()) return;
     for (LeafModel& it : models->leaves) it.results.skipped = true;
     std::vector<Advice> certain = certainties(*models, kOfSkipped, Results::All);
@@ -238,10 +255,10 @@ class Adviser {
                                   Results results) const {
     const SearchResult found = search(models, transitions, true);
     if (!found.is_complete() || depends_on_rate(tree_, found)) return {};
-    std::string why = "`lockstep verify` shows how";
-    const auto deadlocks = host::deadlocks(tree_, models, kModelRate, found);
-    if (!deadlocks.empty()) why = DeadlockText(tree_).explained(deadlocks.front().chain);
-    auto certain = host::certainties(tree_, places_, found, results, why);
+    const NoEnd still = why_no_end(tree_, models, kModelRate, found);
+    auto certain =
+        host::certainties(tree_, places_, found, results, still.is_everywhere,
+                          still.nearest ? DeadlockText(tree_).explained(still.nearest->chain) : "");
     if (!certain.empty() && is_wrong(models, found)) certain.clear();
     return certain;
   }

@@ -16,12 +16,13 @@ namespace {
 class Certainties {
  public:
   Certainties(const Tree& tree, std::span<const Place> places, const SearchResult& found,
-              Results results, std::string why_it_stands)
+              Results results, bool deadlocks, std::string why_it_stands)
       : tree_(tree),
         places_(places),
         found_(found),
         results_(results),
         graph_(found.graph_of_cycles()),
+        deadlocks_(deadlocks),
         why_it_stands_(std::move(why_it_stands)) {}
 
   std::vector<Advice> find() {
@@ -124,19 +125,13 @@ class Certainties {
   }
 
   void add_endless() {
-    const LabelShape& shape = graph_.shape;
-    const bool goes_on =
-        recurs(graph_, [&](const Edge& edge) { return graph_.has(edge, shape.begun_bit()); });
-    const bool holds = recurs(graph_, [&](const Edge& edge) {
-      for (std::size_t i = 0; i < shape.held; ++i) {
-        if (graph_.has(edge, shape.held_bit(i))) return true;
-      }
-      return false;
-    });
-    if (goes_on || !holds) {
+    const bool goes_on = recurs(
+        graph_, [&](const Edge& edge) { return graph_.has(edge, graph_.shape.begun_bit()); });
+    if (goes_on || !deadlocks_) {
       certainties_.push_back(
           {"endless-tree"_code, 0, Severity::Note,
-           fmt::format("this tree never ends, {}", premise("whatever its leaves do")), ""});
+           fmt::format("this tree never ends, {}", premise("whatever its leaves do")),
+           goes_on ? "" : std::move(why_it_stands_)});
       return;
     }
     certainties_.push_back({"deadlock"_code, 0, severity(),
@@ -151,6 +146,7 @@ class Certainties {
   const Results results_;
   const Graph& graph_;
   const std::vector<std::vector<NodeIndex>> writers_ = writers(tree_);
+  const bool deadlocks_;
   std::string why_it_stands_;
   std::vector<Advice> certainties_;
 };
@@ -158,9 +154,9 @@ class Certainties {
 }  // namespace
 
 std::vector<Advice> certainties(const Tree& tree, std::span<const Place> places,
-                                const SearchResult& found, Results results,
+                                const SearchResult& found, Results results, bool deadlocks,
                                 std::string why_it_stands) {
-  return Certainties(tree, places, found, results, std::move(why_it_stands)).find();
+  return Certainties(tree, places, found, results, deadlocks, std::move(why_it_stands)).find();
 }
 
 }  // namespace lockstep::host

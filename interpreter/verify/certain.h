@@ -15,9 +15,10 @@ namespace lockstep::host {
 enum class Results : std::uint8_t { All, NotSkipped };
 
 // Nodes that no behavior ticks (of a subtree, only its root), and that no behavior ends. `places`
-// are those of the nodes in their documents. `why_it_stands` explains a tree that stands still.
+// are those of the nodes in their documents. `deadlocks`: a tree that never ends deadlocks in each
+// run. `why_it_stands` explains a tree that stands still.
 std::vector<Advice> certainties(const Tree& tree, std::span<const Place> places,
-                                const SearchResult& found, Results results,
+                                const SearchResult& found, Results results, bool deadlocks,
                                 std::string why_it_stands);
 
 }  // namespace lockstep::host

@@ -18,8 +18,12 @@ constexpr std::size_t kMostDeadlocks = 10, kMostTraced = 50;
 // What is held on all of its edges is held for ever.
 class Deadlocks {
  public:
-  Deadlocks(const Tree& tree, const LeafModels& models, double rate, const SearchResult& found)
-      : tree_(tree),
+  enum class Pools : std::uint8_t { Exchanging, All };  // of which members count
+
+  Deadlocks(const Tree& tree, const LeafModels& models, double rate, const SearchResult& found,
+            Pools pools)
+      : pools_(pools),
+        tree_(tree),
         moments_(tree),
         found_(found),
         graph_(found.graph),
@@ -30,12 +34,16 @@ class Deadlocks {
     std::set<std::vector<bool>> traced;
     for (const Bottom& bottom : bottoms()) {
       std::vector<bool> holders = that_hold(bottom);
-      if (std::ranges::find(holders, true) == holders.end()) continue;
-      if (traced.size() == kMostTraced || !traced.insert(holders).second) continue;
-      look_at(bottom.first, holders);
+      const bool any = std::ranges::find(holders, true) != holders.end();
+      const bool is_looked_at = any && traced.size() < kMostTraced;
+      is_everywhere_ = is_everywhere_ && is_looked_at;
+      if (is_looked_at && traced.insert(holders).second) look_at(bottom.first, holders);
     }
     return std::move(deadlocks_);
   }
+  // After it: whether each state that no tick leaves is a deadlock, in which nobody waits for
+  // what runs.
+  bool is_everywhere() const { return is_everywhere_; }
 
  private:
   struct Bottom {
@@ -78,7 +86,8 @@ class Deadlocks {
     const bool is_frozen = bottom.states.size() == 1 && is_frozen_in(bottom.first);
     for (std::size_t i = 0; i < held_.size(); ++i) {
       const auto [holder, child] = held_[i];
-      if (is_pool(tree_, holder) && !exchanges(tree_, child - 1)) continue;
+      const bool is_taken_in_turns = is_pool(tree_, holder) && !exchanges(tree_, child - 1);
+      if (is_taken_in_turns && pools_ != Pools::All) continue;
       if (found_.symmetry.moves(child) && !is_frozen) continue;
       if (is_held_in_all(bottom, graph_.shape.held_bit(i))) {
         // The run may have another one at that place.
@@ -116,11 +125,13 @@ class Deadlocks {
     std::vector<StateId> path = found_.path_to(state);
     path.push_back(graph_.edges_of(state).begin()->to);
     tracer_.go(traced, path);
+    bool stands = false;  // somebody waits, and not for what runs
     tracer_.play({traced.run.back()}, [&](Stepper& stepper, Status, std::size_t) {
       const Moment& moment = moments_.after_tick(stepper.ticker(), 0, {});
       for (NodeIndex node = 0; node < holders.size(); ++node) {
         if (!holders[node] || !holds_somebody(shape(), moment, node)) continue;
         WaitChain chain = wait_chain(shape(), moment, node);
+        stands |= chain.obstacle != Obstacle::Running && chain.obstacle != Obstacle::Denied;
         const bool lasts = std::ranges::all_of(chain.links, [&](const WaitLink& link) {
           return shape().nodes[link.node].is_pool() || holders[link.node];
         });
@@ -129,6 +140,7 @@ class Deadlocks {
         add({std::move(chain), decider});
       }
     });
+    is_everywhere_ = is_everywhere_ && stands;
   }
 
   // The lowest node above this one that has done something in this tick, or before.
@@ -156,7 +168,9 @@ class Deadlocks {
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
+  const Pools pools_;
   const Tree& tree_;
+  bool is_everywhere_ = true;
   std::optional<Shape> shape_ = {};
   LiveMoments moments_;
   const SearchResult& found_;
@@ -175,7 +189,15 @@ bool exchanges(const Tree& tree, NodeIndex member) {
 
 std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, double rate,
                                 const SearchResult& found) {
-  return Deadlocks(tree, models, rate, found).find();
+  return Deadlocks(tree, models, rate, found, Deadlocks::Pools::Exchanging).find();
+}
+
+NoEnd why_no_end(const Tree& tree, const LeafModels& models, double rate,
+                 const SearchResult& found) {
+  Deadlocks deadlocks(tree, models, rate, found, Deadlocks::Pools::All);
+  std::vector<Deadlock> all = deadlocks.find();
+  if (all.empty()) return {};
+  return {std::move(all.front()), deadlocks.is_everywhere()};
 }
 
 }  // namespace lockstep::host

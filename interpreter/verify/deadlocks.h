@@ -3,6 +3,7 @@
 // what another barrier holds until `x` comes.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "judge/measure/wait_chain.h"
@@ -22,5 +23,13 @@ bool exchanges(const Tree& tree, NodeIndex member);
 // It need not be complete: a state counts only if all that can come after it is known.
 std::vector<Deadlock> deadlocks(const Tree& tree, const LeafModels& models, double rate,
                                 const SearchResult& found);
+
+// Why a tree that never ends does not. Members of pools that wait for each other count as well.
+struct NoEnd {
+  std::optional<Deadlock> nearest;
+  bool is_everywhere = false;  // each run comes to one, in which nobody waits for what runs
+};
+NoEnd why_no_end(const Tree& tree, const LeafModels& models, double rate,
+                 const SearchResult& found);
 
 }  // namespace lockstep::host

@@ -34,7 +34,21 @@ constexpr Row kRows[] = {
    "Sequence(Parallel(ForceSuccess(SyncProgress[barrier=g](a)) SyncProgress[barrier=g](AlwaysRunning)) b) "
    "barrier[name=g barriers=.5]",
    "'b' can never run, whatever the leaves do: 'Parallel' before it never succeeds\n"
-"this tree can never end: unless a leaf returns Skipped, it deadlocks: 'g' holds 'a' at 0.5 until 'AlwaysRunning' comes, which is at 0\n"},
+"this tree never ends, whatever its leaves do\n"
+"'SyncProgress' may be held by 'g' indefinitely: 'g' holds 'a' at 0.5 until 'AlwaysRunning' comes, which is at 0\n"},
+  {"members of a pool that take turns",
+   "Parallel(Repeat(UseResources[pool=p resources=A](AlwaysSuccess)) "
+   "Repeat(UseResources[pool=p resources=A](AlwaysSuccess))) resources[name=p]",
+   "this tree never ends, whatever its leaves do\n"},
+  {"a member that waits for one that runs for ever",
+   "Parallel(UseResources[pool=p resources=A keep=true](AlwaysRunning) "
+   "UseResources[pool=p resources=A](AlwaysSuccess)) resources[name=p]",
+   "'AlwaysSuccess' can never run, whatever the leaves do\n"
+   "this tree never ends, whatever its leaves do: 'p' keeps A from 'AlwaysSuccess' until 'AlwaysRunning' gives it back, which is at 0\n"},
+  {"what a leaf may write while it runs, and with its failure",
+   "Sequence[memory=true](Script[code=s:=false] Parallel[success_count=1](Sequence[memory=true](WaitUntil[code=s] AlwaysSuccess) w[flag={s}]))", ""},
+  {"progress that falls", "Parallel(a Sequence[memory=true](WaitUntil[code=progress(a)>=0.5] "
+   "WaitUntil[code=progress(a)<0.5] b))", ""},
   {"a hook reads what only a later node writes",
    "Sequence[memory=true](a[while=k<2] Script[code=k:=1])",
    "'Script' can never run, whatever the leaves do: 'a' before it never succeeds: its while reads "
