@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "base/core/progress.h"
 #include "base/core/wording.h"
+#include "engine/writers.h"
 #include "scenario/recorded_calls.h"
 #include "scenario/script_results.h"
 
@@ -14,6 +18,7 @@ namespace {
 
 struct AuditedLeaf {
   NodeIndex node;  // in the recording
+  const LeafNode* leaf;
   const LeafModel* model;
   std::int64_t ticks = 0;  // of this activation
   bool was_held = false;   // after the tick before
@@ -39,7 +44,22 @@ class Auditor {
       : header_(header), tree_(tree), most_(most), calls_(header, tree) {
     for (const auto& [node, leaf] : calls_.leaves()) {
       leaves_.push_back(
-          {node, &models.leaves[static_cast<std::size_t>(leaf - tree.leaves.data())]});
+          {node, leaf, &models.leaves[static_cast<std::size_t>(leaf - tree.leaves.data())]});
+    }
+    std::map<std::string, NodeIndex> recorded;
+    for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
+      recorded[header.nodes[node].path] = node;
+    }
+    const auto writers_of = writers(tree);
+    for (const ShapeEntry& entry : header.entries) {
+      WrittenEntry& it = entries_.emplace_back();
+      const auto slot = std::ranges::find(tree.slots, entry.key, &Slot::name);
+      if (slot == tree.slots.end()) continue;
+      it.slot = static_cast<std::uint32_t>(slot - tree.slots.begin());
+      for (const NodeIndex node : writers_of[*it.slot]) {
+        const auto at = recorded.find(tree.path(node));
+        if (at != recorded.end()) it.writers.push_back(at->second);
+      }
     }
   }
 
@@ -47,11 +67,51 @@ class Auditor {
     calls_.take(tick);
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
       look(tick.tick, tick.nodes[leaves_[i].node], calls_.of(i), leaves_[i]);
+      for (const RecordedEntry& entry : tick.entries) {
+        look_at_output(tick, entry, calls_.of(i), leaves_[i]);
+      }
     }
   }
   std::vector<LeafBreach> take() { return std::move(found_); }
 
  private:
+  struct WrittenEntry {
+    std::optional<std::uint32_t> slot = {};  // in the tree
+    std::vector<NodeIndex> writers = {};     // in the recording
+  };
+
+  // An entry that has changed. Where another node may have written it, nothing is known.
+  void look_at_output(const RecordedTick& tick, const RecordedEntry& entry,
+                      std::span<const RecordedCalls::Call> calls, AuditedLeaf& leaf) {
+    const WrittenEntry& written = entries_[entry.entry];
+    const bool is_from_before = tick.tick == 0;  // perhaps: a start value
+    if (!written.slot || !entry.value || calls.empty() || is_from_before) return;
+    const bool is_alone = std::ranges::all_of(written.writers, [&](NodeIndex it) {
+      return it == leaf.node || (tick.moments.empty() && !tick.nodes[it].ticked);
+    });
+    const LeafModel& model = *leaf.model;
+    const auto output = std::ranges::find(model.outputs, *written.slot, &LeafModel::Output::slot);
+    if (!is_alone || output == model.outputs.end()) return;
+    const std::string& key = header_.entries[entry.entry].key;
+    const auto any = [&](auto is_wanted) { return std::ranges::any_of(calls, is_wanted); };
+    const bool has_succeeded =
+        any([](const RecordedCalls::Call& it) { return it.status == Status::Success; });
+    const bool has_begun = any([](const RecordedCalls::Call& it) { return it.begins; });
+    if (model.writes == Writes::OnSuccess && !has_succeeded) {
+      add(tick.tick, leaf,
+          fmt::format("wrote '{}' without a success, the leaf model has writes=\"success\"", key));
+    } else if (model.writes == Writes::AtStart && !has_begun) {
+      add(tick.tick, leaf,
+          fmt::format("wrote '{}' after its start, the leaf model has writes=\"start\"", key));
+    }
+    const auto value = parse_value(leaf.leaf->type->parameters[output->port].type, *entry.value);
+    if (value && std::ranges::find(output->values, *value) == output->values.end()) {
+      add(tick.tick, leaf,
+          fmt::format("wrote {} to '{}', which the leaf model does not allow", brief(*entry.value),
+                      key));
+    }
+  }
+
   void add(std::uint64_t tick, AuditedLeaf& leaf, std::string message) {
     if (leaf.breaches++ >= most_) return;
     found_.push_back({header_.nodes[leaf.node].path, tick, std::move(message)});
@@ -105,6 +165,7 @@ class Auditor {
   const Tree& tree_;
   const std::size_t most_;
   RecordedCalls calls_;
+  std::vector<WrittenEntry> entries_;  // of the recording
   std::vector<AuditedLeaf> leaves_;
   std::vector<LeafBreach> found_;
 };

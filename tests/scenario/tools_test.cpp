@@ -173,6 +173,35 @@ TEST_CASE("log check says where the leaves of a recording broke their leaf file"
                  "had the result success, which the leaf model does not allow"));
 }
 
+TEST_CASE("log check says where a leaf wrote what or when its leaf model does not allow") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="Main"><Sequence memory="true"><Script code="x := 0.0"/>
+<Advance name="a" step="0.25" actual="{x}" failure_if="x &gt; 1"/></Sequence></BehaviorTree></root>)");
+  const std::string run = directory.path("run.jsonl");
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", run}).code ==
+        0);
+  const auto check = [&](const std::string& row) {
+    return run_lockstep(
+        {"log", "check", run, "--leaves",
+         directory.file("t.leaves.xml",
+                        "<leaves lockstep=\"1\"><leaf of=\"Advance\" " + row + "/></leaves>")});
+  };
+  const std::string values = R"(out.actual="0.25|0.5|0.75|1" )";
+  const Outcome good = check(values);
+  INFO(good.out << good.err);
+  CHECK(good.code == 0);
+  CHECK(check(values + R"(writes="tick")").code == 0);
+  const Outcome late = check(values + R"(writes="success")");
+  CHECK(late.code == 1);
+  CHECK(contains(late.out,
+                 "in tick 1: wrote 'x' without a success, the leaf model has writes=\"success\""));
+  CHECK(contains(check(values + R"(writes="start")").out,
+                 "in tick 1: wrote 'x' after its start, the leaf model has writes=\"start\""));
+  CHECK(contains(check(R"(out.actual="0.25|1")").out,
+                 "in tick 1: wrote 0.5 to 'x', which the leaf model does not allow"));
+}
+
 TEST_CASE("log check does not take the result of a script for that of its leaf") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>

@@ -91,7 +91,7 @@ int check_leaves(const LogCheckOptions& options) {
       print_diagnostics(diagnostics, Severity::Warning);
       return kExitInvalidTree;
     }
-    std::vector<NodeProblem> problems;  // of what is written: it is not compared
+    std::vector<NodeProblem> problems;  // of values that nothing declares: they are not compared
     const LeafModels models = make_models(recorded.tree(), file.get(), diagnostics, problems);
     const bool is_good = !diagnostics.has_errors();
     print_diagnostics(diagnostics, Severity::Warning);
