@@ -87,6 +87,24 @@ void check(const Outcome& outcome, bool is_bound, bool has_optional) {
 
 }  // namespace
 
+TEST_CASE("an output that its entry does not take is a fault, in the same process and isolated") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root BTCPP_format="4"><BehaviorTree ID="T">
+<Sequence><Script code="z := 1"/><Switch2 variable="{z}" case_1="0" case_2="1"><AlwaysSuccess/>
+<AlwaysSuccess/><AlwaysSuccess/></Switch2><Unbound both="{z}"/></Sequence></BehaviorTree></root>)");
+  for (const bool isolated : {false, true}) {
+    std::vector<std::string> arguments{"run",     tree,      "--plugin", kPlugins + "unbound.so",
+                                       "--clock", "virtual", "--view",   "none"};
+    if (isolated) arguments.push_back("--isolate");
+    const Outcome it = run_lockstep(arguments);
+    INFO(it.err);
+    CHECK(it.code != 0);
+    CHECK(contains(it.err,
+                   "cannot set 'both': the entry '{z}' has the type string, the port the type "
+                   "double"));
+  }
+}
+
 TEST_CASE("what a leaf sets where the tree binds no entry is discarded, in each language") {
   for (const Language& language : kLanguages) {
     INFO(language.name);

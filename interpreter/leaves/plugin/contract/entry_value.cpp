@@ -1,9 +1,12 @@
 #include "leaves/plugin/contract/entry_value.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
 #include "base/core/value_types.h"
+#include "base/core/wording.h"
 #include "leaves/plugin/contract/object_type.h"
 
 namespace lockstep::host {
@@ -131,6 +134,16 @@ bool assign(Entry& entry, const lockstep_entry_value& given) {
   }
   if (value) entry.assign(*std::move(value));
   return true;
+}
+
+std::string refusal_of(const Entry& entry, std::string_view key, ValueType type) {
+  const std::string name = fmt::format("the entry '{{{}}}'", brief(key));
+  if (entry.type == type ||
+      (entry.type != ValueType::String && std::holds_alternative<std::int64_t>(entry.value()))) {
+    return name + " has whole numbers only";
+  }
+  return fmt::format("{} has the type {}, the port the type {}", name, to_string(entry.type),
+                     to_string(type));
 }
 
 }  // namespace lockstep::host

@@ -1,6 +1,8 @@
 // A value of an entry in one piece: lockstep_entry_value.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/blackboard/entry.h"
@@ -12,5 +14,8 @@ namespace lockstep::host {
 lockstep_entry_value described(const Entry& entry, std::vector<lockstep_text>& texts);
 // Makes the entry if it is not present. False: it holds values of another type only.
 bool assign(Entry& entry, const lockstep_entry_value& value);
+
+// Why the entry `key` has not taken a value of this type, which may be of another kind of number.
+std::string refusal_of(const Entry& entry, std::string_view key, ValueType type);
 
 }  // namespace lockstep::host

@@ -17,6 +17,7 @@
 #include "base/system/fork_guard.h"
 #include "engine/node_context.h"
 #include "leaves/plugin/contract/boards.h"
+#include "leaves/plugin/contract/entry_value.h"
 #include "leaves/plugin/contract/held.h"
 #include "leaves/plugin/contract/packed_object.h"
 #include "leaves/plugin/contract/workers.h"
@@ -210,7 +211,10 @@ bool is_loose(const BoundPort& port, ValueType type) {
 
 // Sets such an entry to a value of this type.
 bool set_loose(const lockstep_caller& caller, const BoundPort& port, ValueType type, Value value) {
-  if (!write_entry(*port.write, type, port.object(), std::move(value))) return false;
+  if (!write_entry(*port.write, type, port.object(), std::move(value))) {
+    refuse_to_set(caller, port, refusal_of(*port.write, port.entry, type));
+    return false;
+  }
   if (caller.run->written != nullptr) note_written(*caller.run->written, port.write);
   return true;
 }

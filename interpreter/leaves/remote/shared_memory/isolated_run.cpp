@@ -66,7 +66,7 @@ class IsolatedRun final : public RemoteRun {
   std::uint64_t take_answer(const lockstep_caller& caller, Nanoseconds began);
   void call_last(const lockstep_caller& caller, std::span<const std::uint32_t> ports);
   std::string write(const lockstep_caller& caller, std::span<const std::uint32_t> ports);
-  bool read(const lockstep_caller& caller, MessageReader& message, bool& refused);
+  bool read(const lockstep_caller& caller, MessageReader& message, std::string& refused);
 
   IsolatedPlugin& plugin_;
   std::unique_ptr<Session> session_;
@@ -200,7 +200,8 @@ std::string IsolatedRun::write(const lockstep_caller& caller,
   return entries_.write(ports, session_->request());
 }
 
-bool IsolatedRun::read(const lockstep_caller& caller, MessageReader& message, bool& refused) {
+bool IsolatedRun::read(const lockstep_caller& caller, MessageReader& message,
+                       std::string& refused) {
   const InEngine scope(caller.run->lock);
   return entries_.read(message, refused);
 }
@@ -210,7 +211,7 @@ std::uint64_t IsolatedRun::take_answer(const lockstep_caller& caller, Nanosecond
   MessageReader message = session_->answer();
   const std::size_t size = message.rest().size();
   Answer answer;
-  bool refused = false;
+  std::string refused;
   if (!read_answer(message, answer) || !read(caller, message, refused)) {
     session_->reject_answer();
     fail(caller, session_->last_words());
@@ -221,7 +222,7 @@ std::uint64_t IsolatedRun::take_answer(const lockstep_caller& caller, Nanosecond
     entries_.forget();
     fail_too_large(caller);
   }
-  if (refused) fail(caller, "an entry has a type that does not take what it set");
+  if (!refused.empty()) fail(caller, refused);
   if (!answer.error.empty()) take_error(caller, Shortened::as_it_is(answer.error));
   if (answer.outcome == Outcome::Threw) throw PluginException(answer.thrown);
   return answer.result;

@@ -1,8 +1,11 @@
 #include "leaves/remote/shared_memory/remote_entries.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "base/blackboard/conversion.h"
+#include "leaves/plugin/contract/entry_value.h"
 
 namespace lockstep::host {
 namespace {
@@ -30,9 +33,11 @@ void put_generic(const Value& value, MessageWriter& message) {
   }
 }
 
-// The value as a port of that type can read it; no value if it cannot.
+// The value as a port of that type can read it. If it cannot, it is the one that the other side
+// names in its error, as far as that can have it.
 Value readable_value(const Value& value, ValueType type, const ObjectType* object) {
   auto converted = convert_value(value, type, object);
+  if (!converted && !std::holds_alternative<Object>(value)) return value;
   const auto* number = converted ? std::get_if<double>(&*converted) : nullptr;
   if (!converted || (number != nullptr && !std::isfinite(*number))) return {};
   return std::move(*converted);
@@ -71,6 +76,8 @@ std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
         port.object() == nullptr ? nullptr : &PackedType::of(port.object()->name());
     entries_.push_back({.read = port.read,
                         .write = nullptr,
+                        .port = {},
+                        .key = {},
                         .type = port.type,
                         .objects = objects,
                         .object = port.object(),
@@ -78,7 +85,11 @@ std::uint32_t RemoteEntries::number_of(const BoundPort& port) {
                         .is_generic = port.is_generic});
   }
   Entry& entry = entries_[found->second];
-  if (port.write != nullptr) entry.write = port.write;
+  if (port.write != nullptr) {
+    entry.write = port.write;
+    entry.port = port.name();
+    entry.key = port.entry;
+  }
   return found->second;
 }
 
@@ -107,7 +118,7 @@ std::string RemoteEntries::write(std::span<const std::uint32_t> ports, MessageWr
   return failure;
 }
 
-bool RemoteEntries::read(MessageReader& message, bool& refused) {
+bool RemoteEntries::read(MessageReader& message, std::string& refused) {
   for (auto number = message.get<std::uint32_t>(); number != kNone;
        number = message.get<std::uint32_t>()) {
     if (number >= entries_.size() || entries_[number].write == nullptr) return false;
@@ -117,13 +128,18 @@ bool RemoteEntries::read(MessageReader& message, bool& refused) {
     // A node that looks whether the entry has changed sees that it has not.
     if (is_same_object(entry.write->value(), entry.last)) entry.last = entry.write->value();
     entry.known = true;
+    bool is_taken = true;
     if (entry.is_generic) {
-      refused |= !write_generic(*entry.write, entry.last);
+      is_taken = write_generic(*entry.write, entry.last);
     } else if (entry.is_strict) {
       entry.write->assign(entry.last);
-    } else if (!write_entry(*entry.write, entry.type, entry.object, entry.last)) {
-      refused = true;
+    } else {
+      is_taken = write_entry(*entry.write, entry.type, entry.object, entry.last);
     }
+    if (is_taken || !refused.empty()) continue;
+    const auto type = static_cast<ValueType>(entry.last.index());
+    refused =
+        fmt::format("cannot set '{}': {}", entry.port, refusal_of(*entry.write, entry.key, type));
   }
   return message.good();
 }

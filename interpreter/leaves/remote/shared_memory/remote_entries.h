@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,9 +26,9 @@ class RemoteEntries {
   // The entries of these ports (kNone is skipped) whose values the other side does not have.
   // Returns "", or why an object of one cannot be sent: the other side finds no value there.
   std::string write(std::span<const std::uint32_t> ports, MessageWriter& message);
-  // Stores what the other side has set. Returns false if the message is invalid. `refused`: an
+  // Stores what the other side has set. Returns false if the message is invalid. `refused`: why an
   // entry did not take its value.
-  bool read(MessageReader& message, bool& refused);
+  bool read(MessageReader& message, std::string& refused);
   // Forgets which values the other side has, and releases them.
   void forget();
 
@@ -35,6 +36,7 @@ class RemoteEntries {
   struct Entry {
     const Value* read;
     lockstep::host::Entry* write;  // null: the other side may not set it
+    std::string_view port, key;    // by which it does
     ValueType type;
     const PackedType* objects;  // null: its values are none
     const ObjectType* object;
