@@ -1,7 +1,6 @@
 #include "engine/readings.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/node_context.h"
 #include "engine/resources.h"
@@ -19,15 +18,6 @@ std::optional<NodeIndex> owner(NodeContext& context, const BoundReading& it) {
       return member.node;
   }
   return std::nullopt;
-}
-
-// Sums of steps miss the number that is meant by a little: ten steps of 0.1 are not 1, and no
-// script would find progress(arm) == 0.3 true after three of them. Barriers look over such a
-// difference (base/core/progress.h); a script has no other way.
-constexpr double kPerUnit = 1e9;  // 1 / kProgressEpsilon, exactly
-
-double without_rest(double progress) {
-  return std::round(progress * kPerUnit) / kPerUnit;
 }
 
 }  // namespace
@@ -61,7 +51,7 @@ void Readings::read(NodeContext& context) {
     const BoundReading& it = tree_.readings[i];
     switch (it.what) {
       case Reading::What::Progress:
-        value(i) = without_rest(context.progress(it.node));
+        value(i) = context.progress(it.node);
         break;
       case Reading::What::Held:
         value(i) = context.held(it.node);

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "base/blackboard/conversion.h"
+#include "base/core/progress.h"
 #include "base/core/wording.h"
+#include "language/expression/equal.h"
 #include "language/expression/token.h"
 
 namespace lockstep::host {
@@ -246,13 +248,17 @@ class ExpressionParser {
   // a < b < c: it ends at the first that does not hold.
   bool comparisons() {
     std::vector<std::size_t> ends;
+    bool is_close = reads_progress();
     for (Binary it = binary(token_.symbol); it.strength == kCompareStrength;) {
       const std::size_t sign = token_.offset;
       if (!advance() || !right_of(it)) return false;
       const Binary next = binary(token_.symbol);
       const bool is_last = next.strength != kCompareStrength;
       const std::size_t at = emit_at(sign, is_last ? Operation::Compare : Operation::CompareNext);
+      const bool is_next_close = reads_progress(at);
       code()[at].relation = it.relation;
+      code()[at].real = is_close || is_next_close ? kProgressEpsilon : kEqualWithin;
+      is_close = is_next_close;
       if (is_last) compare_early(at);
       --depth_;
       if (!is_last) ends.push_back(at);
@@ -262,6 +268,15 @@ class ExpressionParser {
     return true;
   }
 
+  // Whether the last operand is the progress of a node.
+  bool reads_progress() { return reads_progress(code().size()); }
+  bool reads_progress(std::size_t end) {
+    if (end == 0) return false;
+    const Instruction& last = code()[end - 1];
+    return last.operation == Operation::Load && last.argument >= kFirstReading &&
+           result_.readings_[last.argument - kFirstReading].what == Reading::What::Progress;
+  }
+
   // The instruction that loads an entry, where what follows compares it with a number.
   void compare_early(std::size_t compare) {
     if (compare < 2) return;
@@ -269,7 +284,8 @@ class ExpressionParser {
     Instruction& load = code()[compare - 2];
     const bool is_real = number.operation == Operation::Real;
     const bool is_exact = number.operation == Operation::Whole && number.whole <= kLargestExact;
-    if (load.operation != Operation::Load || (!is_real && !is_exact)) return;
+    const bool is_entry = load.operation == Operation::Load && load.argument < kFirstReading;
+    if (!is_entry || (!is_real && !is_exact)) return;
     load.operation = Operation::LoadToCompare;
     load.relation = code()[compare].relation;
     load.real = is_real ? number.real : static_cast<double>(number.whole);

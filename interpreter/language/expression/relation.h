@@ -12,8 +12,9 @@ namespace lockstep::host {
 
 // NaN is neither "less or equal" nor "more or equal", and so both less and more. Without branches:
 // a bit for each relation.
-inline bool are_related(double left, Relation relation, double right) {
-  const unsigned equal = is_equal(left, right) ? 1 : 0;
+inline bool are_related(double left, Relation relation, double right,
+                        double within = kEqualWithin) {
+  const unsigned equal = std::abs(left - right) <= within ? 1 : 0;
   const unsigned not_above = equal | (left < right ? 1 : 0);
   const unsigned not_below = equal | (left > right ? 1 : 0);
   const auto bit = [](Relation of, unsigned holds) { return holds << static_cast<unsigned>(of); };
