@@ -367,10 +367,10 @@ class ExpressionParser {
 
   bool reading(const Token& token) {
     auto& all = result_.readings_;
-    const auto same = std::ranges::find_if(
-        all, [&](const Reading& it) { return it.what == token.reading && it.of == token.text; });
-    const auto number = static_cast<std::uint32_t>(same - all.begin());
-    if (same == all.end()) {
+    const auto [same, is_new] = readings_.emplace(std::pair(token.reading, token.text),
+                                                  static_cast<std::uint32_t>(all.size()));
+    const std::uint32_t number = same->second;
+    if (is_new) {
       const auto offset = static_cast<std::size_t>(token.text.data() - script_.data());
       all.push_back({token.reading, std::string(token.text), offset});
     }
@@ -445,7 +445,8 @@ class ExpressionParser {
   Expression result_;
   std::optional<Expression::Error> error_;
   std::map<std::string_view, std::uint32_t> numbers_;  // of the names
-  std::uint32_t depth_ = 0;                            // operands on the stack
+  std::map<std::pair<Reading::What, std::string_view>, std::uint32_t> readings_;
+  std::uint32_t depth_ = 0;  // operands on the stack
   unsigned level_ = 0;
   bool has_assignment_ = false;
 };

@@ -55,6 +55,29 @@ std::string_view quoted_name(std::string_view text, std::span<const std::string>
   return longest;
 }
 
+PathEnds::PathEnds(std::span<const std::string> paths) : paths_(paths) {
+  nodes_.reserve(paths.size());
+  for (std::uint32_t node = 0; node < paths.size(); ++node) {
+    nodes_.emplace_back(last_segments(paths[node], 1), node);
+  }
+  std::ranges::sort(nodes_);
+}
+
+std::optional<std::uint32_t> PathEnds::find(std::string_view name, std::uint32_t first,
+                                            std::uint32_t end) const {
+  const std::string_view last = last_segments(name, 1);
+  std::optional<std::uint32_t> found;
+  bool is_one = true;
+  for (auto it = std::ranges::lower_bound(nodes_, std::pair(last, first));
+       it != nodes_.end() && it->first == last && it->second < end; ++it) {
+    if (paths_[it->second] == name) return it->second;
+    if (!ends_with(paths_[it->second], name)) continue;
+    is_one = is_one && !found;
+    found = it->second;
+  }
+  return is_one ? found : std::nullopt;
+}
+
 Result<std::uint32_t> find_node(std::string_view name, std::span<const std::string> paths) {
   constexpr std::size_t kMostListed = 11;  // one more than a message lists
   std::vector<std::uint32_t> found;

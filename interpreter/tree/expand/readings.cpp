@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -60,11 +61,14 @@ class ReadingResolver {
   }
 
   Result<std::uint32_t> find_node_in(std::uint32_t inside, std::string_view name) {
-    if (paths_.empty()) paths_ = paths_of(definition_);
+    if (!ends_) {
+      paths_ = paths_of(definition_);
+      ends_.emplace(paths_);
+    }
     while (inside != 0) {
-      const std::size_t end = definition_.nodes[inside].end;
-      const auto paths = std::span(paths_).subspan(inside, end - inside);
-      if (const auto found = find_node(name, paths)) return inside + *found;
+      if (const auto found = ends_->find(name, inside, definition_.nodes[inside].end)) {
+        return *found;
+      }
       for (const auto& [written, group] : groups_in(inside)) {
         if (written == name) return group->node;
       }
@@ -73,7 +77,9 @@ class ReadingResolver {
     for (const auto& [written, group] : groups_in(0)) {  // the main tree may be a SubTree itself
       if (written == name) return group->node;
     }
-    return find_node(name, paths_);
+    const auto end = static_cast<std::uint32_t>(paths_.size());
+    if (const auto found = ends_->find(name, 0, end)) return *found;
+    return find_node(name, paths_);  // says why not
   }
 
   using NamedGroups = std::vector<std::pair<std::string_view, const DefinitionGroup*>>;
@@ -178,6 +184,7 @@ class ReadingResolver {
   const Reporter& report_;
   std::vector<BoundReading> found_;
   std::vector<std::string> paths_;
+  std::optional<PathEnds> ends_;
   std::map<std::tuple<std::uint32_t, std::string_view>, Result<std::uint32_t>> nodes_;
   std::set<std::pair<std::size_t, std::size_t>> told_;
 };
