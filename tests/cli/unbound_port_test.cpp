@@ -93,7 +93,7 @@ TEST_CASE("an output that its entry does not take is a fault, in the same proces
 <Sequence><Script code="z := 1"/><Switch2 variable="{z}" case_1="0" case_2="1"><AlwaysSuccess/>
 <AlwaysSuccess/><AlwaysSuccess/></Switch2><Unbound both="{z}"/></Sequence></BehaviorTree></root>)");
   for (const bool isolated : {false, true}) {
-    std::vector<std::string> arguments{"run",     tree,      "--plugin", kPlugins + "unbound.so",
+    std::vector<std::string> arguments{"run",     tree,      "--plugin", kLanguages[0].plugin,
                                        "--clock", "virtual", "--view",   "none"};
     if (isolated) arguments.push_back("--isolate");
     const Outcome it = run_lockstep(arguments);
