@@ -105,10 +105,23 @@ void ActionClient::end(Outcome outcome) {
   ended_.store(goal_.activation << 8 | static_cast<std::uint64_t>(outcome),
                std::memory_order_release);
   goal_.request.reset();
+  run_what_waits();
   if (!next_) return;
   Goal next = std::move(*next_);
   next_.reset();
   begin(std::move(next));
+}
+
+void ActionClient::when_ended(std::uint64_t activation, std::function<void()> work) {
+  when_ended_.emplace_back(activation, std::move(work));
+  run_what_waits();
+}
+
+void ActionClient::run_what_waits() {
+  const auto first = std::stable_partition(when_ended_.begin(), when_ended_.end(),
+                                           [&](const auto& it) { return is_busy(it.first); });
+  for (auto it = first; it != when_ended_.end(); ++it) it->second();
+  when_ended_.erase(first, when_ended_.end());
 }
 
 // A goal that was never begun.

@@ -5,9 +5,11 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "middleware.hpp"
@@ -57,6 +59,8 @@ class ActionClient final : public Waitable {
   // Another goal of the same activation, which comes in the place of the one that is at work.
   void replace(Goal goal);
   void cancel(std::uint64_t activation);
+  // At once, if it has ended already.
+  void when_ended(std::uint64_t activation, std::function<void()> work);
   // The goal is canceled and kept, and sent again by resume.
   void hold(std::uint64_t activation);
   void resume(std::uint64_t activation);
@@ -76,6 +80,7 @@ class ActionClient final : public Waitable {
   void begin(Goal goal);
   void send_again();
   void end(Outcome outcome);
+  void run_what_waits();
   void drop(std::uint64_t activation);
   bool has_server();
   void poll_for_server(Clock::time_point now);
@@ -115,6 +120,7 @@ class ActionClient final : public Waitable {
   Goal goal_;
   std::optional<Goal> next_;  // waits until the one before has ended
   std::vector<Unanswered> unanswered_;
+  std::vector<std::pair<std::uint64_t, std::function<void()>>> when_ended_;
   std::shared_ptr<Message> replaced_;  // by the goal that the server has not accepted yet
   unsigned sent_ = 0;
   std::int64_t goal_call_ = 0, result_call_ = 0, cancel_call_ = 0;

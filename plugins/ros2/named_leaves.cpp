@@ -70,8 +70,7 @@ void make_leaf(const lockstep_leaf_type& base, const char* name_port, NamedLeaf&
   if (!leaf.name.empty()) leaf.defaults.emplace(name_port, leaf.name);
   for (std::uint32_t i = 0; i < base.port_count; ++i) {
     lockstep_port& port = leaf.own.emplace_back(*base.ports[i]);
-    const auto given = leaf.defaults.find(port.name);
-    if (given != leaf.defaults.end()) port.default_value = given->second.c_str();
+    if (const char* const given = leaf.default_of(port.name)) port.default_value = given;
     port.name = leaf.name_of(port.name);
   }
   lockstep_port tag{};
@@ -106,6 +105,11 @@ const char* NamedLeaf::name_of(const char* port) const {
     if (means == port) return called.c_str();
   }
   return port;
+}
+
+const char* NamedLeaf::default_of(const std::string& port) const {
+  const auto given = defaults.find(port);
+  return given == defaults.end() ? nullptr : given->second.c_str();
 }
 
 const NamedLeaf* named_leaf(const std::string& tag) {

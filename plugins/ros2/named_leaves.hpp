@@ -13,7 +13,7 @@ namespace ros2 {
 struct NamedLeaf {
   std::string id, kind, type, name;
   std::map<std::string, std::string> names;     // an attribute, and the field or port that it means
-  std::map<std::string, std::string> defaults;  // of ports
+  std::map<std::string, std::string> defaults;  // of ports and fields
   std::set<std::string> ignored;                // attributes
   // Made of these: the ports that each element has, and the leaf type.
   std::vector<lockstep_port> own;
@@ -23,6 +23,8 @@ struct NamedLeaf {
 
   // What the tag calls a port of the base.
   const char* name_of(const char* port) const;
+  // Null: it has none.
+  const char* default_of(const std::string& port) const;
 };
 
 // The port that tells which row an element is of. Its only value is the tag.

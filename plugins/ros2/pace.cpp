@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <utility>
 
 namespace ros2 {
@@ -83,48 +85,86 @@ std::optional<Problem> why_no_hold(const Pace& pace) {
   return std::nullopt;
 }
 
-PaceSignal::PaceSignal(const Pace& pace)
-    : pace_(pace), teller_(make_teller(pace.target, "latched")) {}
+std::shared_ptr<PaceSignal> PaceSignal::of(const Pace& pace) {
+  static std::mutex mutex;
+  static auto& all = *new std::map<std::string, std::weak_ptr<PaceSignal>>;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<PaceSignal>& known = all[pace.target.words()];
+  std::shared_ptr<PaceSignal> signal = known.lock();
+  if (signal == nullptr) known = signal = std::make_shared<PaceSignal>(pace);
+  return signal;
+}
 
 void PaceSignal::open() {
+  if (leaves_++ != 0) return;
+  teller_ = make_teller(pace_->target, "latched");
   teller_->open();
+  Middleware::get().add(shared_from_this());
 }
 
-void PaceSignal::begin(std::uint64_t activation, std::shared_ptr<Message> message,
-                       std::optional<double> given) {
-  activation_ = activation;
-  has_ended_ = is_held_ = false;
+// The last leaf leaves no robot slow.
+void PaceSignal::close(const UserPtr& user) {
+  end(user, user->activation_);
+  if (--leaves_ != 0) return;
+  if (told_ && !is_told(wanted())) teller_->tell(wanted());
+  forget();
+  teller_->close();
+  Middleware::get().remove(this);
+}
+
+void PaceSignal::begin(const UserPtr& user, std::uint64_t activation,
+                       std::shared_ptr<Message> message, std::optional<double> given) {
+  end(user, user->activation_);
+  ending_.erase(std::remove(ending_.begin(), ending_.end(), user), ending_.end());
+  user->activation_ = activation;
+  user->factor_ = 1;
+  user->is_held_ = false;
+  users_.push_back(user);
+  pace_ = &user->pace_;
   is_obeyed_ = true;
-  factor_ = 1;
   if (!told_) given_ = given;
   if (message != nullptr) teller_->use(std::move(message));
+  update();
 }
 
-void PaceSignal::slow(double factor) {
-  if (!is_slow()) missing_since_ = Clock::now();
-  factor_ = factor;
+void PaceSignal::slow(User& user, double factor) {
+  user.factor_ = factor;
+  update();
 }
 
-void PaceSignal::hold(bool held) {
-  is_held_ = held;
+void PaceSignal::hold(User& user, bool held) {
+  user.is_held_ = held;
+  update();
 }
 
-void PaceSignal::end() {
-  has_ended_ = true;
-  is_held_ = false;
-  factor_ = 1;
+void PaceSignal::end(const UserPtr& user, std::uint64_t activation) {
+  const auto at = std::find(users_.begin(), users_.end(), user);
+  if (at == users_.end() || user->activation_ != activation) return;
+  users_.erase(at);
+  ending_.push_back(user);
+  update();
+}
+
+// Whoever is faster than another one waits for nobody, so the largest factor does no harm.
+void PaceSignal::update() {
+  const bool was_slow = is_slow();
+  factor_ = users_.empty() ? 1 : 0;
+  for (const auto& user : users_) {
+    factor_ = std::max(factor_, user->is_held_ ? 0 : user->factor_);
+  }
+  if (!was_slow) missing_since_ = Clock::now();
 }
 
 bool PaceSignal::poll(Clock::time_point now) {
   look_who_listens(now);
   take_answer();
-  const bool is_urgent = is_held_ != is_told_held_;
+  const bool is_urgent = is_held() != is_told_held_;
   if (is_open_ && !is_urgent) return true;
   if (!told_ && !is_slow()) return forget(), false;
   if (listeners_.empty()) {
-    if (has_ended_) warn("has no listener at the end: the previous value is not restored");
-    if (has_ended_) forget();
-    return false;
+    if (!users_.empty()) return false;
+    warn("has no listener at the end: the previous value is not restored");
+    return forget(), false;
   }
   if (!told_ && look(now)) return true;
   const double value = wanted();
@@ -146,7 +186,7 @@ void PaceSignal::look_who_listens(Clock::time_point now) {
   }
   is_heard_ = !listeners_.empty() && is_obeyed_;
   if (!listeners_.empty() || !is_slow()) missing_since_ = now;
-  if (is_held_ && listeners_.empty()) warn("has no listener: the robot continues");
+  if (is_held() && listeners_.empty()) warn("has no listener: the robot continues");
   if (now - missing_since_ > 1s) warn("has no listener: the robot is not slowed");
 }
 
@@ -175,23 +215,23 @@ std::optional<double> PaceSignal::found() {
 
 // Never faster than it was found.
 double PaceSignal::wanted() {
-  const double full = *pace_.at(1), standing = pace_.at(0).value_or(0);
+  const double full = *pace_->at(1), standing = pace_->at(0).value_or(0);
   const double here = found().value_or(full);
   if (!is_slow()) return here;
-  if (is_held_) return standing;
+  if (is_held()) return standing;
   const double share = (here - standing) / (full - standing);
-  return pace_.at(share > 0 && share < 1 ? factor_ * share : factor_).value_or(full);
+  return pace_->at(share > 0 && share < 1 ? factor_ * share : factor_).value_or(full);
 }
 
 bool PaceSignal::is_told(double value) const {
-  if (!told_ || is_again_ || is_held_ != is_told_held_) return false;
+  if (!told_ || is_again_ || is_held() != is_told_held_) return false;
   return value == *told_ || (is_slow() && std::abs(value - *told_) < kBand * std::abs(*told_));
 }
 
 void PaceSignal::tell(double value, Clock::time_point now) {
   const std::string wrong = teller_->tell(value);
   told_ = value;
-  is_told_held_ = is_held_;
+  is_told_held_ = is_held();
   is_again_ = false;
   next_ = now + kBetween;
   is_open_ = wrong.empty();
@@ -202,13 +242,14 @@ void PaceSignal::tell(double value, Clock::time_point now) {
 void PaceSignal::forget() {
   told_.reset();
   is_looked_ = is_told_held_ = is_again_ = false;
-  if (has_ended_) restored_ = activation_;
+  for (const auto& user : ending_) user->restored_ = user->activation_;
+  ending_.clear();
 }
 
 void PaceSignal::warn(const std::string& what) {
   if (what == warned_) return;
   warned_ = what;
-  lines_.add(pace_.target.words() + " " + what);
+  lines_.add(pace_->target.words() + " " + what);
 }
 
 }  // namespace ros2

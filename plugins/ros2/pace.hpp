@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "elements.hpp"
 #include "expression.hpp"
@@ -33,25 +34,43 @@ Result<Pace> read_pace(const FixedTexts& texts, const lockstep_port& pace,
 // Whether a robot with this pace stands still at the factor 0.
 std::optional<Problem> why_no_hold(const Pace& pace);
 
-class PaceSignal final : public Waitable {
+// Tells one robot, for all leaves that slow it.
+class PaceSignal final : public Waitable, public std::enable_shared_from_this<PaceSignal> {
  public:
-  explicit PaceSignal(const Pace& pace);
+  explicit PaceSignal(const Pace& pace) : pace_(&pace) {}
+  // The one for this target.
+  static std::shared_ptr<PaceSignal> of(const Pace& pace);
 
-  // By the leaf.
+  // A leaf, and its activation.
+  class User {
+   public:
+    explicit User(const Pace& pace) : pace_(pace) {}
+    // Whether the robot may still be as slow as an activation up to this one wanted it.
+    bool is_busy(std::uint64_t activation) const { return restored_.load() < activation; }
+
+   private:
+    friend class PaceSignal;
+    const Pace& pace_;
+    std::uint64_t activation_ = 0;
+    double factor_ = 1;
+    bool is_held_ = false;
+    std::atomic<std::uint64_t> restored_{0};
+  };
+
+  // By any thread.
   bool is_heard() const { return is_heard_.load(std::memory_order_relaxed); }
-  // Whether a robot may still be as slow as an activation up to this one has told it.
-  bool is_busy(std::uint64_t activation) const { return restored_.load() < activation; }
   Lines& lines() { return lines_; }
 
   // By the thread of ROS. An activation begins with the factor 1, and ends with what was found.
-  // `message` has the other fields; `found` is what the robot has now, if the tree knows it.
+  // `message` has the other fields; `given` is what the robot has now, if the tree knows it.
+  using UserPtr = std::shared_ptr<User>;
   void open();
-  void close() { teller_->close(); }
-  void begin(std::uint64_t activation, std::shared_ptr<Message> message,
-             std::optional<double> found);
-  void slow(double factor);
-  void hold(bool held);
-  void end();
+  void close(const UserPtr& user);
+  void begin(const UserPtr& user, std::uint64_t activation, std::shared_ptr<Message> message,
+             std::optional<double> given);
+  void slow(User& user, double factor);
+  void hold(User& user, bool held);
+  void end(const UserPtr& user, std::uint64_t activation);
 
   void add_sizes(Sizes& /*sizes*/) const override {}
   void add_to(rcl_wait_set_t& /*set*/) override {}
@@ -59,7 +78,9 @@ class PaceSignal final : public Waitable {
   bool poll(Clock::time_point now) override;
 
  private:
-  bool is_slow() const { return is_held_ || factor_ < 1; }
+  bool is_held() const { return factor_ == 0; }
+  bool is_slow() const { return factor_ < 1; }
+  void update();
   void look_who_listens(Clock::time_point now);
   void take_answer();
   void take(const std::string& wrong);
@@ -71,11 +92,12 @@ class PaceSignal final : public Waitable {
   void forget();
   void warn(const std::string& what);
 
-  const Pace& pace_;
-  const std::shared_ptr<Teller> teller_;
-  double factor_ = 1;
-  bool is_held_ = false, has_ended_ = true;
-  std::uint64_t activation_ = 0;
+  int leaves_ = 0;
+  std::shared_ptr<Teller> teller_;
+  const Pace* pace_;             // of the activation that began last
+  std::vector<UserPtr> users_;   // whose activation has not ended
+  std::vector<UserPtr> ending_;  // whose activation has ended, while the robot is slow
+  double factor_ = 1;            // the largest of the users; 0: held
   std::optional<double> given_;  // what was found, by the tree
 
   std::optional<double> told_;  // nothing: the robot has what was found
@@ -86,7 +108,6 @@ class PaceSignal final : public Waitable {
   std::string warned_;
 
   std::atomic<bool> is_heard_{false};
-  std::atomic<std::uint64_t> restored_{0};
   Lines lines_;
 };
 

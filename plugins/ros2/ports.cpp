@@ -72,6 +72,7 @@ void PortList::add_one(const std::string& name, const Field& field, lockstep_dir
   port.min = field.min;
   port.max = field.max;
   if (direction == LOCKSTEP_INPUT) port.flags = LOCKSTEP_OPTIONAL;
+  if (named_ != nullptr) port.default_value = named_->default_of(name);
   if (field.kind == Kind::Duration) port.unit = "s";
   if (field.kind == Kind::Object) port.object = &object_type(*field.message);
   if (field.kind == Kind::Time) {

@@ -127,7 +127,8 @@ class RosAction : public LeafBase {
         client_(std::make_shared<ActionClient>(element_.type, element_.action)),
         hold_(element_.hold.way == Hold::Way::Tell ? make_teller(element_.hold.target, "default")
                                                    : nullptr),
-        pace_(element_.pace.is_given ? std::make_shared<PaceSignal>(element_.pace) : nullptr),
+        pace_(element_.pace.is_given ? PaceSignal::of(element_.pace) : nullptr),
+        user_(std::make_shared<PaceSignal::User>(element_.pace)),
         feedback_ports_(given(element_.feedback)),
         result_ports_(given(element_.result)),
         watched_(element_.preempts ? given(element_.goal) : FieldPorts()) {
@@ -135,37 +136,31 @@ class RosAction : public LeafBase {
       client->open();
       Middleware::get().add(client);
       if (hold != nullptr) hold->open();
-      if (pace == nullptr) return;
-      pace->open();
-      Middleware::get().add(pace);
+      if (pace != nullptr) pace->open();
     });
   }
 
   // A goal that was canceled is waited for, and a robot that is slow, as long as the run's end may
   // take.
   ~RosAction() {
-    end_pace();
     run_end_.wait([&] {
-      return !client_->is_busy(activation_) && (pace_ == nullptr || !pace_->is_busy(activation_));
+      return !client_->is_busy(activation_) && (pace_ == nullptr || !user_->is_busy(activation_));
     });
     log_all_lines();
-    Middleware::get().post(
-        [client = std::move(client_), hold = std::move(hold_), pace = std::move(pace_)] {
-          Middleware::get().remove(client.get());
-          if (hold != nullptr) hold->close();
-          if (pace == nullptr) return;
-          pace->close();
-          Middleware::get().remove(pace.get());
-        });
+    Middleware::get().post([client = std::move(client_), hold = std::move(hold_),
+                            pace = std::move(pace_), user = std::move(user_)] {
+      Middleware::get().remove(client.get());
+      if (hold != nullptr) hold->close();
+      if (pace != nullptr) pace->close(user);
+    });
   }
   RosAction(const RosAction&) = delete;
   RosAction& operator=(const RosAction&) = delete;
 
   void start() {
-    if (!read_goal()) return;
+    if (!read_goal() || (pace_ != nullptr && !begin_pace(activation_ + 1))) return;
     ++activation_;
     is_held_ = false;
-    if (pace_ != nullptr && !begin_pace()) return;
     progress_ = held_progress_ = 0;
     began_ = now();
     memory_ = element_.progress.memory();
@@ -182,7 +177,7 @@ class RosAction : public LeafBase {
       if (has_another_goal()) preempt();
       return LOCKSTEP_RUNNING;
     }
-    end_pace();
+    end_hold_and_pace();
     const bool has_result = outcome == Outcome::Succeeded || outcome == Outcome::Aborted ||
                             outcome == Outcome::Canceled;
     if (has_result) write(result_ports_, client_->result());
@@ -192,9 +187,8 @@ class RosAction : public LeafBase {
   }
 
   void halt() {
-    end_pace();
-    if (is_held_ && hold_ != nullptr) tell_held(false);
     Middleware::get().post([client = client_, it = activation_] { client->cancel(it); });
+    end_hold_and_pace();
   }
 
   void pause() {
@@ -210,7 +204,7 @@ class RosAction : public LeafBase {
 
   double set_pace(double factor) {
     const double taken = std::clamp(factor, least_pace_, 1.0);
-    Middleware::get().post([pace = pace_, taken] { pace->slow(taken); });
+    Middleware::get().post([pace = pace_, user = user_, taken] { pace->slow(*user, taken); });
     return pace_->is_heard() ? taken : 1;
   }
 
@@ -243,7 +237,7 @@ class RosAction : public LeafBase {
   }
 
   // False after an error.
-  bool begin_pace() {
+  bool begin_pace(std::uint64_t activation) {
     least_pace_ = number(kLeastPace);
     std::shared_ptr<Message> message;
     const Target& target = element_.pace.target;
@@ -253,21 +247,31 @@ class RosAction : public LeafBase {
     }
     std::optional<double> found;
     if (is_given(host_, caller_, kPaceFound)) found = number(kPaceFound);
-    Middleware::get().post(
-        [pace = pace_, it = activation_, message, found] { pace->begin(it, message, found); });
+    Middleware::get().post([pace = pace_, user = user_, activation, message, found] {
+      pace->begin(user, activation, message, found);
+    });
     return true;
   }
 
-  void end_pace() {
-    if (pace_ != nullptr) Middleware::get().post([pace = pace_] { pace->end(); });
+  // What the robot was told is taken back when it does not move any more.
+  void end_hold_and_pace() {
+    const auto hold = is_held_ ? hold_ : nullptr;
+    if (pace_ == nullptr && hold == nullptr) return;
+    Middleware::get().post([client = client_, it = activation_, pace = pace_, user = user_, hold] {
+      client->when_ended(it, [client = client.get(), it, pace, user, hold] {
+        if (hold != nullptr) tell(*client, *hold, false);
+        if (pace != nullptr) pace->end(user, it);
+      });
+    });
   }
 
   void hold(bool held) {
     is_held_ = held;
     if (element_.hold.way == Hold::Way::Pace) {
-      Middleware::get().post([pace = pace_, held] { pace->hold(held); });
+      Middleware::get().post([pace = pace_, user = user_, held] { pace->hold(*user, held); });
     } else if (hold_ != nullptr) {
-      tell_held(held);
+      Middleware::get().post(
+          [client = client_, hold = hold_, held] { tell(*client, *hold, held); });
     } else {
       Middleware::get().post([client = client_, it = activation_, held] {
         held ? client->hold(it) : client->resume(it);
@@ -275,13 +279,10 @@ class RosAction : public LeafBase {
     }
   }
 
-  void tell_held(bool held) {
-    Middleware::get().post([client = client_, teller = hold_, held] {
-      const std::string wrong = teller->tell(held ? 1 : 0);
-      if (wrong.empty()) return;
-      client->lines().add(wrong +
-                          (held ? ": the robot goes on" : ": the robot is not told to go on"));
-    });
+  static void tell(ActionClient& client, Teller& robot, bool held) {
+    const std::string wrong = robot.tell(held ? 1 : 0);
+    if (wrong.empty()) return;
+    client.lines().add(wrong + (held ? ": the robot goes on" : ": the robot is not told to go on"));
   }
 
   void log_all_lines() {
@@ -324,6 +325,7 @@ class RosAction : public LeafBase {
   std::shared_ptr<ActionClient> client_;
   std::shared_ptr<Teller> hold_;      // who tells the robot that it is held; may be null
   std::shared_ptr<PaceSignal> pace_;  // may be null
+  std::shared_ptr<PaceSignal::User> user_;
   const FieldPorts feedback_ports_, result_ports_;  // that the tree binds
   const FieldPorts watched_;                        // of the goal; empty: it stays as it was sent
   const lockstep_changes* const changes_ =

@@ -38,6 +38,14 @@ TREES = {
         {count("fast", "/ok", 20, 'hold="cancel"')}
         {count("told", "/fast", 20, 'hold="service:/still" hold_type="example_interfaces/srv/SetBool"')}
         {count("slow", "/slow", 20, 'hold="nothing"')}</ParallelAbsolute>""",
+    "robots that are slowed": f"""<ParallelRelative delta="0.1" pace="true" reaction="0.2">
+        {count("topic", "/ok", 30, 'hold="pace" pace="topic:/slow" pace_type="std_msgs/msg/Float64"')}
+        {count("service", "/fast", 30, 'pace="service:/sum" pace_type="example_interfaces/srv/AddTwoInts" '
+               'pace_value="100 * factor" request.b="1"')}
+        <Sequence memory="true"><Inverter><Timeout seconds="2">
+          {count("halted", "/nav", 300, 'pace="parameter:/robot/speed" pace_value="0.5 * factor"')}
+        </Timeout></Inverter>{count("none", "/nav", 10, 'pace="parameter:/nobody/speed"')}</Sequence>
+        {count("slow", "/slow", 30, 'hold="nothing"')}</ParallelRelative>""",
     "services and topics": f"""<Sequence memory="true">
         <RosService {BOOL} service="/still" request.data="false" condition="response.success"/>
         <Inverter><RosService {BOOL} service="/nobody" timeout="0.3" error="{{why}}"/></Inverter>
@@ -63,11 +71,12 @@ TREES = {
 @unittest.skipUnless(shutil.which("valgrind"), "there is no valgrind")
 class Memory(World):
     def test_memory(self):
-        self.server("--action", "/ok", "--step", 20, "--keep")
+        self.server("--action", "/ok", "--step", 20, "--keep", "--pace", "real:/slow")
         self.server("--action", "/bad", "--step", 20, "--abort", 3)
-        self.server("--action", "/fast", "--step", 20, "--keep", "--hold-service", "/still")
+        self.server("--action", "/fast", "--step", 20, "--keep", "--hold-service", "/still",
+                    "--pace", "sum:/sum")
         self.server("--action", "/slow", "--step", 50, "--keep")
-        self.server("--action", "/nav", "--step", 20, "--preempt")
+        self.server("--action", "/nav", "--step", 20, "--preempt", "--node", "robot")
         self.server("camera", program="lifecycle_server")
         known = self.directory / "known.supp"
         known.write_text(NOT_OURS)

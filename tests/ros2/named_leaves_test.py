@@ -19,6 +19,15 @@ Lamp service example_interfaces/srv/SetBool
   on = request.data
   is_recovery = nothing
 
+DriveTo action example_interfaces/action/Fibonacci
+  server_name = action
+  order = goal.order
+  goal.order : 40
+  progress : size(feedback.sequence) / 40
+  hold : nothing
+  pace_type : std_msgs/msg/Float64
+  pace_value : factor / 2
+
 LampWorks service example_interfaces/srv/SetBool /lamp
   condition : not response.success
 
@@ -123,6 +132,16 @@ class Named(World):
         run = self.run_tree('<LampWorks request.data="true" error="{why}"/>')
         self.assertEqual(run.returncode, 1, run.err)
         self.assertIn('"condition"', self.recording.read_text())
+
+    def test_a_robot_that_is_slowed(self):
+        fast = self.server("--action", "/fast", "--step", 15, "--pace", "real:/slow")
+        slow = self.server("--action", "/slow", "--step", 40)
+        run = self.run_tree("""<ParallelRelative delta="0.1" pace="true" reaction="0.2">
+          <DriveTo server_name="/fast" pace="topic:/slow"/><DriveTo server_name="/slow"/></ParallelRelative>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        fast.wait_for("pace 0.500")
+        self.assertIn("succeeded 40", fast.lines)
+        self.assertIn("succeeded 40", slow.lines)
 
     def test_mistakes_in_a_tree(self):
         run = self.check('<CountTo ordr="5"/>')

@@ -118,6 +118,8 @@ class Pace(World):
         self.run_tree(f"""<Sequence memory="true"><Inverter><Timeout clock="wall" seconds="1.2">
           {self.pair(REAL, order=400)}</Timeout></Inverter><Wait seconds="0.5"/></Sequence>""")
         self.restored()
+        ended = next(line for line in self.fast.lines if line.startswith("canceled"))
+        self.assertEqual(self.fast.lines[-2:], [ended, "pace 1.000"])
 
     def test_after_a_cancel_by_somebody_else(self):
         self.robots("--pace", "real:/slow", "--quit", 20)
@@ -151,6 +153,21 @@ class Pace(World):
         run = self.run_tree(f'<Repeat times="3">{self.pair(REAL, order=20)}</Repeat>')
         self.assertEqual(run.returncode, 0, run.err)
         self.assertGreaterEqual(self.restored().count(1), 1)
+
+    def test_a_second_leaf_with_the_same_robot_does_not_find_it_slow(self):
+        for pace in (REAL, 'pace="parameter:/robot/speed" pace_value="0.5 * factor"'):
+            self.robots("--node", "robot", "--pace", "real:/slow", step=10)
+            steps = count("fast", "/fast", 30, pace) + count("again", "/fast", 30, pace)
+            run = self.run_tree(f"""<ParallelRelative delta="0.1" pace="true" reaction="0.2">
+              <Sequence memory="true">{steps}</Sequence>{count("slow", "/slow", 40, 'hold="nothing"')}
+              </ParallelRelative>""")
+            self.assertEqual(run.returncode, 0, run.err)
+            second = self.fast.lines.index("succeeded 30")
+            told = [line for line in self.fast.lines[second:] if line.startswith("pace")]
+            self.assertLessEqual(told.count("pace 1.000"), 2, told)
+            self.restored()
+            self.fast.stop()
+            self.slow.stop()
 
     # Robots that are not there, and that do not obey
 
