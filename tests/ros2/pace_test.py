@@ -115,9 +115,10 @@ class Pace(World):
 
     def test_after_a_halt(self):
         self.robots("--pace", "real:/slow")
-        self.run_tree(f"""<Sequence memory="true"><Inverter><Timeout clock="wall" seconds="1.2">
-          {self.pair(REAL, order=400)}</Timeout></Inverter><Wait seconds="0.5"/></Sequence>""")
+        run = self.start(f"""<Sequence memory="true"><Inverter><Timeout clock="wall" seconds="1.2">
+          {self.pair(REAL, order=400)}</Timeout></Inverter><Wait seconds="9"/></Sequence>""")
         self.restored()
+        self.assertIsNone(run.poll())
         ended = next(line for line in self.fast.lines if line.startswith("canceled"))
         self.assertEqual(self.fast.lines[-2:], [ended, "pace 1.000"])
 
