@@ -160,7 +160,7 @@ class Named(World):
 
     def test_mistakes_in_a_table(self):
         for text, what in (("CountTo parameter a/b/C", "own.nodes:1: expected TAG action|service|topic"),
-                           (TABLE + "\n  nothing", "own.nodes:24: expected NAME = FIELD"),
+                           (TABLE + "\n  nothing", f"own.nodes:{TABLE.count(chr(10)) + 2}: expected NAME = FIELD"),
                            (TABLE + "\nCountTo action a/action/B", "'CountTo' is there twice")):
             self.use(text)
             run = self.check("<AlwaysSuccess/>")
