@@ -199,6 +199,7 @@ void PaceSignal::take_answer() {
 
 void PaceSignal::take(const std::string& wrong) {
   is_obeyed_ = wrong.empty();
+  is_again_ |= wrong == kNoAnswer;
   if (!is_obeyed_) warn("was not set: " + wrong);
 }
 

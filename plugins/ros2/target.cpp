@@ -42,7 +42,7 @@ class TopicTeller final : public Teller {
     return wrong;
   }
   // What is kept for those who come late needs some time to come.
-  bool is_looking(Clock::time_point now) override { return !found() && now < opened_ + 300ms; }
+  bool is_looking(Clock::time_point now) override { return !found() && now < opened_ + 100ms; }
   std::optional<double> found() override {
     if (others_ != nullptr && others_->received().update()) {
       found_ = number_in(*target_.field, others_->received().front().message.get());
@@ -92,7 +92,7 @@ class Caller {
   template <class Wrong>
   std::optional<std::string> answer(Wrong wrong) const {
     if (is_open()) return std::nullopt;
-    return response() == nullptr ? "no answer" : wrong(*response());
+    return response() == nullptr ? kNoAnswer : wrong(*response());
   }
 
  private:

@@ -37,6 +37,8 @@ std::optional<Target> target_named(const std::string& text);
 std::optional<Problem> find_type(Target& target, const std::string& type,
                                  const std::vector<Field::Kind>& kinds, const char* needs);
 
+constexpr const char* kNoAnswer = "no answer";
+
 // The thread of ROS calls all functions.
 class Teller {
  public:
@@ -49,7 +51,7 @@ class Teller {
   virtual void use(std::shared_ptr<Message> /*message*/) {}
   // "" or what is wrong.
   virtual std::string tell(double value) = 0;
-  // "" or what is wrong with what was told last; nothing: that is not known yet.
+  // "" or what is wrong with what was told last, kNoAnswer too; nothing: that is not known yet.
   virtual std::optional<std::string> answer() { return std::string(); }
 
   // Begins to read what the robot has now.

@@ -205,6 +205,18 @@ class Pace(World):
     def test_a_service_that_was_killed_comes_back(self):
         self.comes_back(signal.SIGKILL)
 
+    def test_a_robot_that_hangs_when_it_is_to_be_fast_again(self):
+        self.robots("--pace", "sum:/slow")
+        run = self.start(f"""<Sequence memory="true"><Inverter><Timeout clock="wall" seconds="1.2">
+          {self.pair('pace="service:/slow" pace_type="example_interfaces/srv/AddTwoInts" pace_value="100 * factor"',
+                     order=400)}</Timeout></Inverter><Wait seconds="3.5"/></Sequence>""")
+        time.sleep(1.2)
+        self.fast.process.send_signal(signal.SIGSTOP)
+        time.sleep(2.5)
+        self.fast.process.send_signal(signal.SIGCONT)
+        run.communicate(timeout=20)
+        self.restored()
+
     def test_nobody_listens(self):
         self.robots()
         run = self.run_pair(REAL)
