@@ -1,5 +1,7 @@
 """Classes in the style of BehaviorTree.ROS2 against real servers."""
 
+import time
+
 from world import SERVERS, World
 
 
@@ -43,6 +45,38 @@ class BtNodes(World):
         server = self.server("--action", "/count")
         self.run_tree(f'<Timeout seconds="0.5">{self.count("c", "/count", 1000)}</Timeout>')
         server.wait_for("cancel")
+
+    def test_halted_before_it_is_accepted_it_is_canceled_then(self):
+        server = self.server("--action", "/count", "--accept-after", 500)
+        run = self.start(f"""<Sequence memory="true">
+          <Inverter><Timeout seconds="0.2">{self.count("c", "/count", 1000)}</Timeout></Inverter>
+          <Wait seconds="9"/></Sequence>""")
+        server.wait_for("cancel", 3)
+        self.assertIsNone(run.poll())
+
+    def test_halted_before_it_is_accepted_at_the_end_of_the_run(self):
+        server = self.server("--action", "/count", "--accept-after", 500)
+        self.run_tree(f'<Timeout seconds="0.2">{self.count("c", "/count", 1000)}</Timeout>')
+        server.wait_for("cancel")
+
+    def test_halted_twice_before_the_first_goal_is_accepted(self):
+        server = self.server("--action", "/count", "--accept-after", 600)
+        goal = f'<Timeout seconds="0.1">{self.count("c", "/count", 1000)}</Timeout>'
+        self.run_tree(f"""<Sequence memory="true"><Inverter><Retry attempts="2">{goal}</Retry></Inverter>
+          <Wait seconds="2"/></Sequence>""")
+        goals = [line for line in server.lines if line.startswith("goal")]
+        ended = [line for line in server.lines if line.startswith("canceled")]
+        self.assertEqual((len(goals), len(ended)), (2, 2), server.lines)
+
+    def test_halted_while_it_connects_it_sends_no_goal(self):
+        run = self.start(f"""<Sequence memory="true">
+          <Inverter><Timeout seconds="0.3">{self.count("c", "/count", 1000)}</Timeout></Inverter>
+          <Wait seconds="2"/>{self.count("d", "/count", 3)}</Sequence>""")
+        time.sleep(0.8)
+        server = self.server("--action", "/count")
+        _, err = run.communicate(timeout=20)
+        self.assertEqual(run.returncode, 0, err)
+        self.assertEqual([line for line in server.lines if line.startswith("goal")], ["goal 3"])
 
     def test_held_at_a_barrier(self):
         fast = self.server("--action", "/fast", "--step", 20, "--keep")

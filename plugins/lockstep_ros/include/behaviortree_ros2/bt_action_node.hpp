@@ -81,7 +81,7 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
     resetStatus();
   }
   NodeStatus tick() override {
-    lockstep_work_.spin();
+    if (!lockstep_work_.spin()) return NodeStatus::RUNNING;
     if (lockstep_phase_ == Phase::Idle) {
       Goal goal;
       lockstep_open();
@@ -97,11 +97,9 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
 
   // For onPaused: the goal is canceled and kept. For onResumed: it is sent again.
   void lockstep_hold() {
-    lockstep_work_.spin();
-    if (lockstep_result_) return;
+    if (!lockstep_work_.spin() || lockstep_phase_ == Phase::Idle || lockstep_result_) return;
     cancelGoal();
-    ++lockstep_sent_;
-    lockstep_handle_.reset();
+    lockstep_forget_goal();
     lockstep_phase_ = Phase::IsHeld;
   }
   void lockstep_go_on() {
@@ -199,12 +197,19 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
   }
 
   void lockstep_end() {
-    ++lockstep_sent_;
+    lockstep_forget_goal();
     lockstep_phase_ = Phase::Idle;
     lockstep_early_ = NodeStatus::RUNNING;
     lockstep_is_rejected_ = false;
-    lockstep_handle_.reset();
     lockstep_result_.reset();
+  }
+
+  // If the server accepts it later, it is canceled then, also if no tick comes.
+  void lockstep_forget_goal() {
+    ++lockstep_sent_;
+    lockstep_handle_.reset();
+    if (lockstep_unanswered_ == 0) return;
+    lockstep_work_.spin_apart([this] { return lockstep_unanswered_ == 0; });
   }
 
   ActionClientPtr lockstep_client_;

@@ -1,9 +1,12 @@
-// The part of ROS that each node of a tree has for itself: its callbacks run in its own tick.
+// The part of ROS that each node of a tree has for itself: its callbacks run in its own tick, and
+// after a halt, for what is late, in a thread.
 #pragma once
 
 #include <behaviortree_cpp/bt_factory.h>
 
+#include <atomic>
 #include <rclcpp/rclcpp.hpp>
+#include <thread>
 
 #include "behaviortree_ros2/ros_node_params.hpp"
 
@@ -21,14 +24,33 @@ class RosWork {
     executor_->add_callback_group(group_, node_->get_node_base_interface());
   }
 
+  ~RosWork() { stop_thread(); }
+  RosWork(const RosWork&) = delete;
+  RosWork& operator=(const RosWork&) = delete;
+
   const std::shared_ptr<rclcpp::Node>& node() const { return node_; }
   const std::shared_ptr<rclcpp::CallbackGroup>& group() const { return group_; }
   const RosNodeParams& params() const { return params_; }
 
-  // The callbacks of what has come. Returns at once.
-  void spin() { executor_->spin_some(); }
+  // The callbacks of what has come. Returns at once; false: the thread has not ended yet.
+  bool spin() {
+    if (!has_stopped_thread()) return false;
+    executor_->spin_some();
+    return true;
+  }
+  // In a thread, until `is_done()` or the next spin.
+  template <class Done>
+  void spin_apart(Done is_done) {
+    stop_thread();
+    is_needed_ = has_ended_ = false;
+    thread_ = std::thread([this, is_done] {
+      while (!is_needed_ && !is_done()) executor_->spin_once(std::chrono::milliseconds(10));
+      has_ended_ = true;
+    });
+  }
   template <class Done>
   void spin_until(Done is_done, Clock::duration most) {
+    stop_thread();
     const auto end = Clock::now() + most;
     while (!is_done() && Clock::now() < end) executor_->spin_once(std::chrono::milliseconds(10));
   }
@@ -39,6 +61,16 @@ class RosWork {
   bool has_waited_long() const { return Clock::now() >= deadline_; }
 
  private:
+  void stop_thread() {
+    is_needed_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  // Never waits.
+  bool has_stopped_thread() {
+    is_needed_ = true;
+    if (thread_.joinable() && has_ended_) thread_.join();
+    return !thread_.joinable();
+  }
   static std::shared_ptr<rclcpp::Node> find_node(const RosNodeParams& params) {
     auto node = params.nh.lock();
     if (node == nullptr && params.lockstep_make_node != nullptr) node = params.lockstep_make_node();
@@ -51,6 +83,8 @@ class RosWork {
   std::shared_ptr<rclcpp::CallbackGroup> group_;
   std::unique_ptr<rclcpp::executors::SingleThreadedExecutor> executor_;
   Clock::time_point deadline_;
+  std::thread thread_;
+  std::atomic<bool> is_needed_{false}, has_ended_{false};
 };
 
 // The port with the name of an action, a service or a topic.
