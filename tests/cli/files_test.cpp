@@ -263,6 +263,44 @@ TEST_CASE("check of a folder finds the trees of SubTrees in its other files") {
   CHECK(contains(nothing.err, "the folder has no tree files"));
 }
 
+TEST_CASE(
+    "check of a folder reports a file that is cut in its first tag, and names what is not XML") {
+  for (const Language& language : kLanguages) {
+    const Files files(language);
+    files.add("ok.xml", files.tree("Main", files.wait()));
+    static_cast<void>(files.file("empty.xml", ""));
+    static_cast<void>(files.file("package.xml", "<package><name>p</name></package>"));
+    const Outcome empty = run_lockstep({"check", files.path("")});
+    INFO(empty.err);
+    CHECK(empty.code == 0);
+    CHECK(contains(empty.err, "empty.xml: note: is not XML, so it is not checked"));
+    CHECK(!contains(empty.err, "package.xml"));
+    static_cast<void>(files.file("cut.xml", "<root " + language.root));
+    const Outcome cut = run_lockstep({"check", files.path("")});
+    INFO(cut.err);
+    CHECK(cut.code == 3);
+    CHECK(contains(cut.err, "cut.xml:"));
+  }
+}
+
+TEST_CASE("check of a folder reports an unknown tree of a file that is included by names once") {
+  for (const Language& language : kLanguages) {
+    const Files files(language);
+    files.add("common.xml", files.tree("Common", "<SubTree ID=\"Gone\"/>"));
+    for (const char* name : {"a", "b"}) {
+      files.add(name + std::string(".xml"), "<include path=\"common.xml\" as=\"c" +
+                                                std::string(name) + "\"/>" +
+                                                files.tree("T" + std::string(name), files.wait()));
+    }
+    const Outcome it = run_lockstep({"check", "--strict", files.path("")});
+    INFO(it.err);
+    CHECK(it.code == 3);
+    const std::string message = "unknown tree '";
+    CHECK(contains(it.err, message + "Gone'"));
+    CHECK(it.err.find(message) == it.err.rfind(message));
+  }
+}
+
 TEST_CASE("check --together checks files as one project") {
   for (const Language& language : kLanguages) {
     const Files files(language);

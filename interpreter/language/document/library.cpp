@@ -25,6 +25,15 @@ bool is_hidden(const fs::path& path) {
   return name.starts_with('.') && name != "." && name != "..";
 }
 
+// Whether it has the root of a tree file, of which no more need be there.
+bool is_begun(std::string_view text) {
+  const auto root = text.find("<root");
+  if (root == std::string_view::npos) return false;
+  const std::string_view tag = text.substr(root, text.find('>', root) - root);
+  return tag.find("lockstep=") != std::string_view::npos ||
+         tag.find("BTCPP_format=") != std::string_view::npos;
+}
+
 }  // namespace
 
 bool Library::may_be_tree_file(std::string_view path) {
@@ -58,8 +67,15 @@ std::vector<std::string> Library::add_folder(const std::string& folder, Diagnost
     return {};
   }
   std::ranges::sort(found);
-  std::ranges::copy_if(found, std::back_inserter(files),
-                       [this](const auto& it) { return add_file(it); });
+  for (std::string& it : found) {
+    const Kind kind = add(it);
+    if (kind == Kind::Trees) files.push_back(std::move(it));
+    // It may have been one, before a disk was full.
+    if (kind == Kind::NoXml) {
+      diagnostics.note("unreadable-file"_code, {it}, "is not XML, so it is not checked",
+                       "restore it, or remove it");
+    }
+  }
   if (is_full()) {
     diagnostics.error(
         "too-large"_code, {folder},
@@ -72,18 +88,18 @@ bool Library::is_full() const {
   return bytes_ > kMostBytes;
 }
 
-bool Library::add_file(const std::string& path) {
-  if (is_full()) return false;
+Library::Kind Library::add(const std::string& path) {
+  if (is_full()) return Kind::Others;
   auto text = read_file(path, Document::kMaxBytes);
-  if (!text) return false;
+  if (!text) return Kind::Others;
   const bool is_new = known_.insert(file_identity(path)).second;
   if (is_new) bytes_ += text->size();
-  const bool names_trees = text->find("BehaviorTree") != std::string::npos;
+  const bool names_trees = is_begun(*text) || text->find("BehaviorTree") != std::string::npos;
   Diagnostics told_later;
   const auto document = Document::parse(path, std::move(*text), told_later);
-  if (document == nullptr) return names_trees;
+  if (document == nullptr) return names_trees ? Kind::Trees : Kind::NoXml;
   const auto elements = document->elements();
-  if (elements[0].tag != "root") return false;
+  if (elements[0].tag != "root") return Kind::Others;
   bool has_content = false;
   for (const std::uint32_t child : children_in(elements, 0)) {
     constexpr std::string_view kContent[] = {"BehaviorTree", "TreeNodesModel", "include"};
@@ -93,7 +109,7 @@ bool Library::add_file(const std::string& path) {
     auto& files = files_with_[&document->rules()][std::string(id->value)];
     if (files.empty() || files.back() != path) files.push_back(path);
   }
-  return has_content;
+  return has_content ? Kind::Trees : Kind::Others;
 }
 
 void Library::add_models(const std::string& path) {

@@ -23,7 +23,7 @@ class Library {
   // place: `folder` as it was given.
   std::vector<std::string> add_folder(const std::string& folder, Diagnostics& diagnostics);
   // Returns false if it is no file of trees or models. One with mistakes is one.
-  bool add_file(const std::string& path);
+  bool add_file(const std::string& path) { return add(path) == Kind::Trees; }
   bool is_full() const;  // what is added is not known
   // A file that each tree of its language includes.
   void add_models(const std::string& path);
@@ -34,6 +34,9 @@ class Library {
   std::vector<std::string> models(const LanguageRules& rules) const;
 
  private:
+  enum class Kind { Trees, Others, NoXml };
+  Kind add(const std::string& path);
+
   struct Models {
     std::string path;
     const LanguageRules* rules;

@@ -109,7 +109,10 @@ class ProjectFileReader {
           fmt::format("there is no {} '{}'", is_file ? "file" : "folder", brief(path)));
     }
     if (it.tag == "trees") {
-      library_.add_folder(path, diagnostics_);
+      Diagnostics of_folder;
+      library_.add_folder(path, of_folder);
+      for (const Diagnostic& problem : of_folder.all())  // `check FOLDER` reports the rest
+        if (problem.severity == Severity::Error) diagnostics_.add(problem);
     } else if (is_file) {
       library_.add_models(path);
     } else if (may_name_plugins(path_)) {

@@ -108,9 +108,12 @@ class ReferenceChecker {
 
   void unknown(const CheckedSubTree& subtree) const {
     if (report_.counted_only(Severity::Error)) return;
+    // As the file has it, also where it is included under a name.
+    const std::string_view space = trees_.trees.at(chain_.back()).space;
+    const std::string_view id = id_in(space, subtree.id);
     report_.at_value("unknown-tree"_code, subtree.place,
-                     fmt::format("unknown tree '{}'", brief(subtree.id)),
-                     suggest(subtree.id, trees_.ids, "trees in this project"));
+                     fmt::format("unknown tree '{}'", brief(id)),
+                     suggest(id, ids_in(space, trees_.ids), "trees in this project"));
   }
 
   void contains_itself(const CheckedSubTree& subtree) {

@@ -17,6 +17,7 @@
 #include "base/core/wording.h"
 #include "tree/check/node_check.h"
 #include "tree/check/other_tools.h"
+#include "tree/check/references.h"
 #include "tree/language_reader.h"
 
 namespace lockstep::host {
@@ -51,7 +52,8 @@ using UsedAttributes = std::map<std::string_view, UsedAttribute>;
 struct Use {
   Place place;                                // the first
   std::optional<NodeCategory> category = {};  // as an explicit tag says
-  bool is_tree = false;  // of a SubTree; `place` is that of the attribute that has its ID
+  bool is_tree = false;         // of a SubTree; `place` is that of the attribute that has its ID
+  std::string_view space = {};  // then Project::prefixes of its file
   bool opens_entries = false;
   std::uint32_t fewest_children = 0xffffffff, children = 0;  // the most
   UsedAttributes attributes = {};
@@ -93,7 +95,10 @@ class Builder {
 
   std::shared_ptr<const StandIns> build(MissingNodes unknown, const Mocks& mocks) {
     find_trees();
-    for (const auto& document : project_.documents) find_uses(*document, unknown, mocks);
+    for (std::size_t i = 0; i < project_.documents.size(); ++i) {
+      space_ = project_.prefixes[i];
+      find_uses(*project_.documents[i], unknown, mocks);
+    }
     for (const auto& [id, use] : uses_) add(id, use, mocks);
     if (unknown == MissingNodes::AreMocked) tell_guessed();
     for (const auto& [id, mock] : mocks) check_mock(id);
@@ -151,6 +156,7 @@ class Builder {
     ids_.insert(id->value);
     Use& use = uses_.try_emplace(id->value, Use{.place = id->place}).first->second;
     use.is_tree = true;
+    use.space = space_;
     const Attribute* autoremap = document.find_attribute(node, "_autoremap");
     use.opens_entries |= autoremap != nullptr && parse_flag(autoremap->value) == true;
     note_use(document, node, use, nullptr);
@@ -241,7 +247,7 @@ class Builder {
     played.outputs = outputs_of(id, ports);
     catalog_.replace(made_->add(type, std::move(ports), played));
     if (known != nullptr) return;
-    if (use.is_tree) return tell_of_tree(id, use.place);
+    if (use.is_tree) return tell_of_tree(id, use);
     if (type.is_guess) guessed_.push_back(id);
     tell(id, use.place, has_model, type.is_guess);
   }
@@ -324,19 +330,20 @@ class Builder {
                hint, severity);
   }
 
-  void tell_of_tree(std::string_view id, Place place) const {
-    const bool is_elsewhere = elsewhere_.contains(id);
+  void tell_of_tree(std::string_view full_id, const Use& use) const {
+    const bool is_elsewhere = elsewhere_.contains(full_id);
     const Severity severity = is_elsewhere ? Severity::Note : Severity::Warning;
     if (report_.counted_only(severity)) return;
+    // As the file has it, also where it is included under a name.
+    const std::string_view id = id_in(use.space, full_id);
     if (is_elsewhere) {
-      report_.at_value("tree-elsewhere"_code, place,
+      report_.at_value("tree-elsewhere"_code, use.place,
                        fmt::format("the tree '{}' is in another file", brief(id)),
                        "here it stands for an action", severity);
       return;
     }
-    const std::vector<std::string_view> ids(trees_.begin(), trees_.end());
-    report_.at_value("unknown-tree"_code, place, fmt::format("unknown tree '{}'", brief(id)),
-                     join_hints(did_you_mean(id, ids),
+    report_.at_value("unknown-tree"_code, use.place, fmt::format("unknown tree '{}'", brief(id)),
+                     join_hints(did_you_mean(id, ids_in(use.space, trees_)),
                                 "if another file has it, include that file; until then it stands "
                                 "for an action"),
                      severity);
@@ -464,6 +471,7 @@ class Builder {
   std::shared_ptr<StandIns> made_ = std::make_shared<StandIns>();
   const std::vector<std::string_view> known_ids_ = catalog_.ids();
   std::set<std::string_view> trees_, ids_, used_outputs_;
+  std::string_view space_;  // of the document whose uses are found
   std::map<std::string_view, Use> uses_;
   std::vector<std::string_view> guessed_;  // leaves in compact form, without a model
 };
