@@ -216,6 +216,27 @@ class WordMaker {
         word.written.emplace_back(parameters[port].name, *entry.value);
       }
     }
+    note_put_back(tick, it);
+  }
+
+  // Where a script has written after the leaf and the entry has not changed, it may have put back
+  // the value.
+  void note_put_back(const RecordedTick& tick, const Leaf& it) {
+    const auto& parameters = it.leaf->type->parameters;
+    for (std::size_t port = 0; port < parameters.size(); ++port) {
+      const std::uint32_t slot = tree_.ports[it.leaf->first_port + port].slot;
+      if (slot == PortBinding::kUnbound || parameters[port].direction == Direction::Input) continue;
+      const auto key = std::ranges::find(header_.entries, tree_.slots[slot].name, &ShapeEntry::key);
+      if (key == header_.entries.end()) continue;
+      const auto entry = static_cast<std::uint32_t>(key - header_.entries.begin());
+      const bool has_changed =
+          std::ranges::find(tick.entries, entry, &RecordedEntry::entry) != tick.entries.end();
+      if (has_changed || !is_overwritten(tick, entry, it.leaf->node, slot)) continue;
+      note(Lacks::Value,
+           "a script wrote '{}' in tick {} after '{}', and it has the value that it had: what this "
+           "leaf writes is not recorded",
+           key->key, tick.tick, header_.nodes[it.node].path);
+    }
   }
 
   const RecordingHeader& header_;

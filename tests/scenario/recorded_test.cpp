@@ -146,6 +146,14 @@ type="int"/></Action></TreeNodesModel></root>)");
     CHECK(contains(it.out, after));
     CHECK(!contains(it.out, "seen="));
   }
+  // The script puts back the value that the entry had.
+  const Outcome taken = made(R"(<Sequence memory="true"><Script code="seen := 0"/>
+<Wait seconds="1"/><Action ID="Look" name="look" seen="{seen}"/><Check code="seen == 3"/>
+<Script code="seen = 0"/></Sequence>)",
+                             {});
+  INFO(taken.err);
+  CHECK(contains(taken.err, "a script wrote 'seen' in tick "));
+  CHECK(contains(taken.err, "and it has the value that it had"));
   const Outcome kept = made(R"(<Sequence memory="true"><Action ID="Look" name="look" seen="{seen}"
 on_failure="seen := 4"/><Script code="n := seen"/></Sequence>)",
                             {});
