@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/core/value.h"
 #include "base/core/wording.h"
@@ -84,7 +83,8 @@ std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts)
   return Problem{fmt::format("unknown setting '{}'", brief(name)), "there are @rate and @ticks"};
 }
 
-std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts) {
+// `at`: where in the line a problem is.
+std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts, std::size_t& at) {
   if (line.front() == '@') return read_setting(line, scripts);
   const auto sign = line.find(" = ");
   if (sign == std::string_view::npos) {
@@ -92,10 +92,14 @@ std::optional<Problem> read_line(std::string_view line, LeafScripts& scripts) {
                    "write Main/arm = R0 R0.5 S"};
   }
   std::vector<LeafWord> words;
-  std::istringstream text{std::string(line.substr(sign + 3))};
-  for (std::string it; text >> it;) {
+  for (std::size_t end = sign + 3; end < line.size();) {
+    const std::size_t begin = line.find_first_not_of(" \t", end);
+    if (begin == std::string_view::npos) break;
+    end = std::min(line.find_first_of(" \t", begin), line.size());
+    const std::string_view it = line.substr(begin, end - begin);
     auto word = parse_leaf_word(it);
     if (!word) {
+      at = begin;
       return Problem{fmt::format("'{}' is not a word of a leaf", brief(it)),
                      "there are R0.5 (running, with its progress), S, F, K (skipped), X (a fault), "
                      "~0.5 (held), each with what it writes: S[port=value]"};
@@ -156,18 +160,29 @@ bool is_leaf_file(std::string_view text) {
   return first != std::string_view::npos && text[first] == '<';
 }
 
-Result<LeafScripts> parse_leaf_scripts(std::string_view text) {
+tl::expected<LeafScripts, LeafScriptError> parse_leaf_scripts(std::string_view text) {
   LeafScripts scripts;
-  for (int number = 1; !text.empty(); ++number) {
+  for (std::uint32_t number = 1; !text.empty(); ++number) {
     std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
     if (line.empty() || line.front() == '#') continue;
-    if (auto wrong = read_line(line, scripts)) {
-      return problem(fmt::format("{}: {}", number, wrong->message), wrong->hint);
+    std::size_t at = 0;
+    if (auto wrong = read_line(line, scripts, at)) {
+      return tl::unexpected(LeafScriptError{std::move(wrong->message), std::move(wrong->hint),
+                                            number, static_cast<std::uint32_t>(at + 1)});
     }
   }
   return scripts;
+}
+
+std::uint32_t line_of_leaf(std::string_view text, std::string_view path) {
+  for (std::uint32_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    if (line.starts_with(path) && line.substr(path.size()).starts_with(" = ")) return number;
+  }
+  return 0;
 }
 
 std::string to_text(const LeafScripts& scripts) {

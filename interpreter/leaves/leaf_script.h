@@ -49,8 +49,13 @@ bool is_leaf_file(std::string_view text);
 std::optional<LeafWord> parse_leaf_word(std::string_view text);
 std::string to_text(const LeafWord& word);
 
-// An error has the line: "3: …".
-Result<LeafScripts> parse_leaf_scripts(std::string_view text);
+struct LeafScriptError {
+  std::string message, hint;
+  std::uint32_t line = 1, column = 1;
+};
+tl::expected<LeafScripts, LeafScriptError> parse_leaf_scripts(std::string_view text);
+// The line of a text that has the steps of the leaf with this path; 0: none.
+std::uint32_t line_of_leaf(std::string_view text, std::string_view path);
 std::string to_text(const LeafScripts& scripts);
 
 }  // namespace lockstep::host

@@ -1,4 +1,6 @@
 // What a leaf file says, and that each mistake in one is told at its place.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "leaves/leaf_script.h"
@@ -160,23 +162,24 @@ TEST_CASE("scripts of leaves are read as they are written") {
 
 TEST_CASE("a mistake in a script has its line") {
   struct Row {
-    std::string_view text, message;
+    std::string_view text, at, message;
   };
   constexpr Row kRows[] = {
-      {"\nM/a = R0 Q", "2: 'Q' is not a word of a leaf"},
-      {"M/a = R2", "1: 'R2' is not a word of a leaf"},
-      {"M/a = S[x]", "1: 'S[x]' is not a word of a leaf"},
-      {"M/a R", "1: expected the path of a leaf, ' = ' and its words"},
-      {"# x\nM/a = R0\nM/a = S", "3: 'M/a' is there twice"},
-      {"@rats 3", "1: unknown setting '@rats'"},
-      {"@ticks 0", "1: '@ticks' is a whole number"},
-      {"@rate no", "1: '@rate' is a number from 0.001 to 100000"},
+      {"\nM/a = R0 Q", "2:10", "'Q' is not a word of a leaf"},
+      {"M/a = R2", "1:7", "'R2' is not a word of a leaf"},
+      {"M/a = S[x]", "1:7", "'S[x]' is not a word of a leaf"},
+      {"M/a R", "1:1", "expected the path of a leaf, ' = ' and its words"},
+      {"# x\nM/a = R0\nM/a = S", "3:1", "'M/a' is there twice"},
+      {"@rats 3", "1:1", "unknown setting '@rats'"},
+      {"@ticks 0", "1:1", "'@ticks' is a whole number"},
+      {"@rate no", "1:1", "'@rate' is a number from 0.001 to 100000"},
   };
   for (const Row& row : kRows) {
     INFO(row.text);
     const auto read = parse_leaf_scripts(row.text);
     REQUIRE_FALSE(read);
     CHECK(read.error().message == row.message);
+    CHECK(fmt::format("{}:{}", read.error().line, read.error().column) == row.at);
   }
 }
 

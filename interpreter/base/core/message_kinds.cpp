@@ -22,6 +22,8 @@ std::span<const MessageKind> message_kinds() {
        "Use letters, digits and `_`, and begin with a letter or `_`."},
       {"bad-leaf-model", "A leaf model contradicts the tree or itself.",
        "Correct the row of the leaf model that the message names."},
+      {"bad-leaf-script", "A script of leaves has a mistake, or does not fit the tree.",
+       "Correct the line that the message names. `lockstep verify` writes such scripts."},
       {"bad-model",
        "A model in `TreeNodesModel` is ignored: it is a second list, has no `ID`, or describes no "
        "node.",

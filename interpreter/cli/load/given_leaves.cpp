@@ -38,11 +38,19 @@ bool GivenLeaves::read(const std::string& path) {
 bool GivenLeaves::read_scripts() {
   auto parsed = parse_leaf_scripts(text_);
   if (!parsed) {
-    print_error(printable(path_) + ':' + parsed.error().message, parsed.error().hint);
+    const LeafScriptError& wrong = parsed.error();
+    tell(wrong.line, wrong.column, wrong.message, wrong.hint);
     return false;
   }
   scripts_ = std::move(*parsed);
   return true;
+}
+
+void GivenLeaves::tell(std::uint32_t line, std::uint32_t column, const std::string& message,
+                       const std::string& hint) const {
+  Diagnostics diagnostics;
+  diagnostics.error("bad-leaf-script"_code, {path_, line, column}, message, hint);
+  print_diagnostics(diagnostics, Severity::Error);
 }
 
 void GivenLeaves::take_over(Definition& definition) {
@@ -63,7 +71,7 @@ bool GivenLeaves::give(const Tree& tree) {
     return !diagnostics.has_errors() && problems.empty();
   }
   if (const auto wrong = PlayedLeaves::check(scripts_, tree)) {
-    print_error(printable(path_) + ": " + wrong->message, wrong->hint);
+    tell(line_of_leaf(text_, wrong->leaf), 1, wrong->message, wrong->hint);
     return false;
   }
   given.played.set_scripts(scripts_);

@@ -37,6 +37,9 @@ class GivenLeaves {
 
  private:
   bool read_scripts();
+  // A mistake in the scripts.
+  void tell(std::uint32_t line, std::uint32_t column, const std::string& message,
+            const std::string& hint) const;
 
   std::string path_, text_;
   LeafScripts scripts_;

@@ -308,7 +308,8 @@ void PlayedLeaves::take_over(Definition& definition) {
   }
 }
 
-std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tree& tree) {
+std::optional<PlayedLeaves::Mistake> PlayedLeaves::check(const LeafScripts& scripts,
+                                                         const Tree& tree) {
   std::map<std::string, const NodeType*, std::less<>> leaves;
   for (const LeafNode& leaf : tree.leaves) leaves[tree.path(leaf.node)] = leaf.type;
   for (const auto& [path, words] : scripts.leaves) {
@@ -316,11 +317,12 @@ std::optional<Problem> PlayedLeaves::check(const LeafScripts& scripts, const Tre
     if (leaf == leaves.end()) {
       std::vector<std::string_view> known;
       for (const auto& it : leaves) known.emplace_back(it.first);
-      return Problem{fmt::format("the tree has no leaf '{}'", brief(path)),
-                     suggest_path(path, known, "its leaves")};
+      return Mistake{{fmt::format("the tree has no leaf '{}'", brief(path)),
+                      suggest_path(path, known, "its leaves")},
+                     path};
     }
     for (const LeafWord& word : words) {
-      if (auto wrong = check_written(*leaf->second, word)) return wrong;
+      if (auto wrong = check_written(*leaf->second, word)) return Mistake{*std::move(wrong), path};
     }
   }
   return std::nullopt;

@@ -40,7 +40,10 @@ class PlayedLeaves final : public RemotePlugin {
   // Before a run, which it must outlive; null: nobody looks.
   void set_watch(PlayedLeafWatch* watch) { watch_ = watch; }
   // The mistakes of scripts for a tree: a path that it does not have, a port, a value.
-  static std::optional<Problem> check(const LeafScripts& scripts, const Tree& tree);
+  struct Mistake : Problem {
+    std::string leaf;  // its path in the scripts
+  };
+  static std::optional<Mistake> check(const LeafScripts& scripts, const Tree& tree);
 
   const lockstep_plugin& entry() const override { return plugin_; }
   std::unique_ptr<RemoteRun> begin_run(const lockstep_caller& caller) override;
