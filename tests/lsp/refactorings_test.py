@@ -232,6 +232,19 @@ class Refactorings(Actions):
         # Its other children are reset.
         self.assertEqual({extract, wrap}, offered('<AlwaysSuccess/>\n      <|Sleep msec="20" _skipIf="k == 1"/>'))
 
+    def test_a_script_that_reads_a_node_by_its_place(self):
+        def offered(reading):
+            found = self.ask(main('    <Parallel>\n      <Sequence name="own">\n        <|Wait seconds="1"/>\n'
+                                  '      </Sequence>\n      <Sequence>\n        <Wait name="w" seconds="2"/>\n'
+                                  f'      </Sequence>\n      <WaitUntil code="status({reading}) == success"/>\n'
+                                  '    </Parallel>\n'))
+            return {it.split(" '")[0] for it in found} & {"Extract into the SubTree", "Wrap in Sequence"}
+        self.assertEqual({"Extract into the SubTree", "Wrap in Sequence"}, offered("w"))
+        self.assertEqual({"Extract into the SubTree", "Wrap in Sequence"}, offered("own"))
+        self.assertEqual({"Extract into the SubTree"}, offered("Sequence"))
+        self.assertEqual(set(), offered("Sequence/w"))
+        self.assertEqual({"Wrap in Sequence"}, offered("Wait"))
+
     def test_in_a_tree_with_errors(self):
         text = main(TWO.replace("<Wait seconds", "<Wait secnds"))
         found = self.ask(text.replace("<Wait name", "<|Wait name"), only=["refactor"])

@@ -103,6 +103,20 @@ bool differs_without_reset(const ProjectTexts& texts, ElementAt node) {
   return type->can_run || !type->plugin.empty() || type->mock != nullptr;
 }
 
+// Whether a script may read another node, or none, where nodes around it come or go: it names one
+// by a path, by its number among its siblings, or as `kind`, which is the default name of some.
+bool reads_by_place(const Question& question, std::string_view kind) {
+  const auto& meaning = question.file.analysis->meaning;
+  if (meaning == nullptr) return false;
+  const auto is_by_place = [&](const Reading& it) {
+    return it.what != Reading::What::Owner &&
+           (it.of == kind || it.of.find_first_of("/#") != std::string::npos);
+  };
+  return std::ranges::any_of(meaning->definition.scripts, [&](const BoundScript& it) {
+    return it.code != nullptr && std::ranges::any_of(it.code->readings(), is_by_place);
+  });
+}
+
 class Refactorings {
  public:
   Refactorings(const Question& question, const ProjectTexts& texts, Nodes nodes)
@@ -146,6 +160,7 @@ class Refactorings {
 
   void extract() {
     if (texts_.is_sub_tree({0, node_}) || stays_in_place({0, node_})) return;
+    if (reads_by_place(question_, kind_)) return;
     const std::string id = free_id(texts_, {0, node_});
     offer(kExtract, fmt::format("Extract into the SubTree '{}'", brief(id)),
           extract_subtree(texts_, {0, node_}, id));
@@ -154,7 +169,7 @@ class Refactorings {
   void put_in_place() {
     const std::string_view id = texts_.value({0, node_}, "ID");
     const auto tree = texts_.find_tree(id);
-    if (stays_in_place({0, node_})) return;
+    if (stays_in_place({0, node_}) || reads_by_place(question_, id)) return;
     if (tree && stays_in_place({tree->document, tree->element + 1})) return;
     offer(kInline, fmt::format("Put the tree '{}' in the place of this SubTree", brief(id)),
           inline_subtree(texts_, {0, node_}));
@@ -163,7 +178,8 @@ class Refactorings {
   void wrap(const Wrapping& in) {
     const NodeType* const type = texts_.catalog().find(in.tag);
     if (type == nullptr || !type->plugin.empty()) return;
-    if (in.tag == kSame && stays_in_place({0, node_})) return;
+    const bool changes = stays_in_place({0, node_}) || reads_by_place(question_, kSame);
+    if (in.tag == kSame && changes) return;
     if (!in.attribute.empty() && parameter_of(type, in.attribute) == nullptr) return;
     std::string tag(in.tag);
     if (!in.attribute.empty()) tag += fmt::format(" {}={}", in.attribute, quoted(in.value));
@@ -174,7 +190,8 @@ class Refactorings {
     const auto elements = document_.elements();
     if (elements[node_].end == node_ + 1) return;
     const bool is_one = elements[node_ + 1].end == elements[node_].end;
-    if (is_one && kind_ == kSame && stays_in_place({0, node_ + 1})) return;
+    const bool changes = stays_in_place({0, node_ + 1}) || reads_by_place(question_, kSame);
+    if (is_one && kind_ == kSame && changes) return;
     offer(kRewrite, fmt::format("Replace {} by its {}", kind_, is_one ? "child" : "children"),
           unwrap_element(document_, node_));
   }
