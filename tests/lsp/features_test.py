@@ -309,6 +309,59 @@ class Features(Session):
         self.assertIn("the main tree of an included file", self.renamed(text.replace("ID=\"two\"", "ID=\"tw|o\""), "three"))
         self.assertEqual(text.replace("\"Load\"", "\"All\""), self.renamed(text.replace("ID=\"Load", "ID=\"Lo|ad"), "All"))
 
+    def all_renamed(self, path, text, cursor, name):
+        """The texts of the files that a rename changes, by their names; `text` is that of the file."""
+        at = text.index(cursor.replace("|", "")) + cursor.index("|")
+        place = (text.count("\n", 0, at), at - (text.rfind("\n", 0, at) + 1))
+        changes = self.client.at("textDocument/rename", path, *place, newName=name)["changes"]
+        return {Path(uri[len("file://"):]).name: sorted(it["newText"] for it in edits) for uri, edits in changes.items()}
+
+    def test_rename_in_a_file_that_others_include(self):
+        part = Path(self.directory.name) / "common.xml"
+        own = """<root lockstep="1"><barrier name="grab" barriers="0.5"/><BehaviorTree ID="Common"><Sequence>
+<Script code="load := 1"/><SyncProgress barrier="grab"><AlwaysSuccess/></SyncProgress></Sequence></BehaviorTree></root>"""
+        part.write_text(own)
+        for named, prefix in (("", ""), (" as=\"one\"", "one.")):
+            with self.subTest(named):
+                text = f"""<root lockstep="1"><include path="common.xml"{named}/><barrier name="both" barriers="0.5"/>
+<BehaviorTree ID="Main"><SubTree ID="{prefix}Common" load="{{l}}" grab="both"/></BehaviorTree></root>"""
+                self.put(text.replace("Main", "Mai|n"))
+                self.client.change(part, own) if part in self.client.versions else self.client.open(part, own)
+                self.assertEqual({"common.xml": ["All"], self.path.name: [prefix + "All"]},
+                                 self.all_renamed(part, own, "ID=\"Com|mon", "All"))
+                self.assertEqual({"common.xml": ["it"], self.path.name: ["it"]},
+                                 self.all_renamed(part, own, "lo|ad :=", "it"))
+                self.assertEqual({"common.xml": ["take", "take"], self.path.name: ["take"]},
+                                 self.all_renamed(part, own, "name=\"gr|ab", "take"))
+                self.assertEqual({self.path.name: ["meet", "meet"]},
+                                 self.all_renamed(self.path, text, "name=\"bo|th", "meet"))
+
+    def test_definition_in_files_that_are_included_as(self):
+        part = Path(self.directory.name) / "truck.xml"
+        part.write_text("""<root lockstep="1" main_tree_to_execute="Trip"><resources name="road"/>
+<BehaviorTree ID="Trip"><SubTree ID="Load"/></BehaviorTree>
+<BehaviorTree ID="Load"><UseResources pool="road"><AlwaysSuccess/></UseResources></BehaviorTree></root>""")
+        text = """<root lockstep="1" main_tree_to_execute="Main"><include path="truck.xml" as="one"/><include path="truck.xml" as="two"/>
+<resources name="road"/>
+<BehaviorTree ID="Main"><Sequence><SubTree ID="one.Load" road="road"/><SubTree ID="two"/></Sequence></BehaviorTree></root>"""
+
+        def places(request, cursor):
+            at = self.put(text.replace(cursor.replace("|", ""), cursor))
+            found = self.client.at(request, self.path, *at, context={"includeDeclaration": True})
+            return [(Path(it["uri"]).name, it["range"]["start"]["line"]) for it in found]
+        own = self.path.name
+        self.assertEqual([("truck.xml", 2)], places("textDocument/definition", "one.Lo|ad"))
+        self.assertEqual([("truck.xml", 1)], places("textDocument/definition", "ID=\"tw|o\"/>"))
+        self.assertEqual([("truck.xml", 0)], places("textDocument/definition", " ro|ad="))
+        self.assertEqual([(own, 1)], places("textDocument/definition", "=\"roa|d\"/><SubTree"))
+        self.assertEqual([(own, 1), (own, 2)], places("textDocument/references", "<resources name=\"ro|ad"))
+        self.assertEqual({("truck.xml", 2), ("truck.xml", 1), (own, 2)},
+                         set(places("textDocument/references", "one.Lo|ad")))
+        self.client.open(part)
+        found = self.client.at("textDocument/references", part, 2, 18, context={"includeDeclaration": True})
+        self.assertEqual({("truck.xml", 2), ("truck.xml", 1), (own, 2)},
+                         {(Path(it["uri"]).name, it["range"]["start"]["line"]) for it in found})
+
     def test_names_that_a_rename_refuses(self):
         text = HEAD + "<Wait seconds=\"{lim|it}\" skip_if=\"limit == 3\"/>" + TAIL
         for name in ("true", "and", "or"):

@@ -81,14 +81,22 @@ std::string_view ProjectTexts::value(ElementAt at, std::string_view name) const 
   return it == nullptr ? std::string_view() : it->value;
 }
 
-std::string_view ProjectTexts::main_tree() const {
-  if (const auto named = value({0, 0}, "main_tree_to_execute"); !named.empty()) return named;
+std::string ProjectTexts::tree_of(ElementAt sub_tree) const {
+  std::string id = full_id(sub_tree, "ID");
+  const auto named = std::ranges::find(project_.named, id, &Project::NamedFile::name);
+  if (named == project_.named.end()) return id;
+  return prefix(named->document) + std::string(main_tree(named->document));
+}
+
+std::string_view ProjectTexts::main_tree(std::uint32_t document) const {
+  const auto named = value({document, 0}, "main_tree_to_execute");
+  if (!named.empty()) return named;
   std::string_view only;
   int trees = 0;
-  const auto elements = document(0).elements();
+  const auto elements = this->document(document).elements();
   for (const std::uint32_t child : children_in(elements, 0)) {
     if (elements[child].tag != "BehaviorTree") continue;
-    only = value({0, child}, "ID");
+    only = value({document, child}, "ID");
     ++trees;
   }
   return trees == 1 ? only : std::string_view();

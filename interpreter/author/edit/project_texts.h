@@ -46,6 +46,8 @@ class ProjectTexts {
   std::vector<std::uint32_t> copies(std::uint32_t document) const;
   // An ID, as the main file calls it.
   std::string full_id(ElementAt at, std::string_view attribute) const;
+  // The ID of the tree of a SubTree, as the main file calls it: of an included file, its main tree.
+  std::string tree_of(ElementAt sub_tree) const;
   // The name of an included file, which stands for its main tree.
   bool is_named_file(std::string_view name) const;
   // The BehaviorTree with that ID, as the main file calls it.
@@ -55,7 +57,7 @@ class ProjectTexts {
   // "" if it has no such attribute. References are replaced, arguments are not.
   std::string_view value(ElementAt at, std::string_view name) const;
   // That the main file says is run, or the only one.
-  std::string_view main_tree() const;
+  std::string_view main_tree() const { return main_tree(0); }
   bool is_sub_tree(ElementAt at) const;
   // The ports of the tree with this ID in a TreeNodesModel, which may have defaults for SubTrees.
   std::vector<ElementAt> modeled_ports(std::string_view tree) const;
@@ -65,6 +67,8 @@ class ProjectTexts {
   bool is_in(ElementAt at, std::string_view tag) const;
 
  private:
+  std::string_view main_tree(std::uint32_t document) const;
+
   const Project& project_;
   const Catalog& catalog_;
   const LanguageRules* rules_;

@@ -231,7 +231,7 @@ Result<ProjectEdit> rename_entry(const ProjectTexts& texts, std::string_view tre
   for (const ElementAt port : texts.modeled_ports(tree))
     replace_value(edit, texts, port, "name", key, new_key);
   texts.for_each_element([&](ElementAt at) {
-    if (texts.is_sub_tree(at) && texts.full_id(at, "ID") == tree && texts.tree_around(at))
+    if (texts.is_sub_tree(at) && texts.tree_of(at) == tree && texts.tree_around(at))
       rename_remapping(edit, texts, at, std::string(key), new_key);
     if (is_main) rename_beside(edit, texts, at, key, new_key);
     if (has_marks && tag_of(texts, at) == "BehaviorTree") {

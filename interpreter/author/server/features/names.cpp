@@ -131,32 +131,111 @@ class NameVisitor {
 
 Names::Names(const Question& question) {
   const Analysis& analysis = *question.file.analysis;
-  texts_.push_back({question.file.uri, &question.file.tree(), question.file.positions()});
-  for (std::size_t i = 0; i < analysis.included.size(); ++i) {
-    const TolerantTree& tree = analysis.included[i];
-    texts_.push_back(
-        {question.workspace.uri_of(analysis.texts[i + 1]->path()), &tree, Positions(tree.text)});
-  }
+  add_texts(question);
   for (const ProjectText& it : texts_)
     NameVisitor(it, analysis.catalog, rules_of(question), places_).run();
+  find_declared(analysis.project.get());
   for (const ProjectText& it : texts_) add_remappings(it, rules_of(question));
 }
 
-// <SubTree ID="Inner" key="…">: `key` is an entry of Inner.
+// A file that is included twice is one text.
+void Names::add_texts(const Question& question) {
+  const Analysis& analysis = *question.file.analysis;
+  texts_.push_back({question.file.uri, question.file.identity, &question.file.tree(),
+                    question.file.positions()});
+  for (std::size_t i = 0; i < analysis.included.size(); ++i) {
+    const std::string& path = analysis.texts[i + 1]->path();
+    std::string identity = file_identity(path);
+    if (std::ranges::find(texts_, identity, &ProjectText::identity) != texts_.end()) continue;
+    const TolerantTree& tree = analysis.included[i];
+    texts_.push_back(
+        {question.workspace.uri_of(path), std::move(identity), &tree, Positions(tree.text)});
+  }
+  const auto& project = analysis.project;
+  for (std::size_t i = 0; project && i < project->documents.size(); ++i) {
+    const std::string identity = file_identity(project->documents[i]->source()->path());
+    const auto text = std::ranges::find(texts_, identity, &ProjectText::identity);
+    if (text != texts_.end()) text->prefixes.push_back(project->prefixes[i]);
+  }
+  for (ProjectText& it : texts_)
+    if (it.prefixes.empty()) it.prefixes.emplace_back();
+}
+
+void Names::find_declared(const Project* project) {
+  for (const NamePlace& it : places_) {
+    if (!it.is_declaration || (it.kind != NameKind::Tree && it.kind != NameKind::Group)) continue;
+    Declared& all = it.kind == NameKind::Tree ? trees_ : groups_;
+    for (const std::string& prefix : it.text->prefixes)
+      all.emplace(prefix + std::string(it.name), it.element);
+  }
+  // The name of a file stands for its main tree.
+  for (std::size_t i = 0; project != nullptr && i < project->named.size(); ++i) {
+    const Project::NamedFile& file = project->named[i];
+    const std::string identity = file_identity(project->documents[file.document]->source()->path());
+    const auto text = std::ranges::find(texts_, identity, &ProjectText::identity);
+    if (text == texts_.end() || text->tree->elements.empty()) continue;
+    std::string_view id =
+        text->tree->value_of(text->tree->elements.front(), "main_tree_to_execute");
+    const auto is_only = [&](const NamePlace& it) {
+      return it.text == &*text && it.kind == NameKind::Tree && it.is_declaration;
+    };
+    if (id.empty() && std::ranges::count_if(places_, is_only) == 1)
+      id = std::ranges::find_if(places_, is_only)->name;
+    const auto tree = trees_.find(file.name + '.' + std::string(id));
+    if (tree != trees_.end()) trees_.emplace(file.name, tree->second);
+  }
+  for (NamePlace& it : places_) {
+    if (it.kind == NameKind::Tree) it.declared = find(trees_, *it.text, it.name);
+    if (it.kind == NameKind::Group) it.declared = find(groups_, *it.text, it.name);
+  }
+}
+
+const TolerantElement* Names::find(const Declared& all, const ProjectText& text,
+                                   std::string_view name) {
+  const auto it = all.find(text.prefixes.front() + std::string(name));
+  return it == all.end() ? nullptr : it->second;
+}
+
+// <SubTree ID="Inner" key="…">: `key` is an entry of Inner, or a barrier or a pool that Inner has
+// by that name, for which another one stands here.
 void Names::add_remappings(const ProjectText& text, const LanguageRules& rules) {
   for (const TolerantElement& element : text.tree->elements) {
     if (!is_sub_tree(element.tag)) continue;
-    const TolerantElement* const tree = tree_named(text.tree->value_of(element, "ID"));
+    const TolerantElement* const tree = find(trees_, text, text.tree->value_of(element, "ID"));
     for (const TolerantAttribute& it : text.tree->attributes_of(element)) {
       const bool is_own = it.name == "ID" || it.name == "name" || it.name.starts_with('_');
       if (tree == nullptr || is_own || hook_named(it.name, rules)) continue;
       const std::size_t begin = text.tree->offset_of(it.name);
       NamePlace place{NameKind::Entry, it.name, &text, {begin, begin + it.name.size()}, &element};
-      place.scope = tree;
-      place.is_declaration = true;
+      place.declared = find(groups_, *text_of(*tree), it.name);
+      if (place.declared == nullptr) {
+        place.scope = tree;
+        place.is_declaration = true;
+        places_.push_back(place);
+        continue;
+      }
+      place.kind = NameKind::Group;
+      places_.push_back(place);
+      if (it.value.empty() || key_in(it.value)) continue;
+      place.name = it.value;
+      place.range = range_of(*text.tree, it.value);
+      place.declared = find(groups_, text, it.value);
       places_.push_back(place);
     }
   }
+}
+
+const ProjectText* Names::text_of(const TolerantElement& element) const {
+  const auto has = [&](const ProjectText& text) {
+    const auto& all = text.tree->elements;
+    return !all.empty() && &element >= &all.front() && &element <= &all.back();
+  };
+  const auto it = std::ranges::find_if(texts_, has);
+  return it == texts_.end() ? nullptr : &*it;
+}
+
+bool Names::has_group(const TolerantElement& beside, std::string_view name) const {
+  return find(groups_, *text_of(beside), name) != nullptr;
 }
 
 const NamePlace* Names::at(std::size_t byte) const {
@@ -169,9 +248,9 @@ const NamePlace* Names::at(std::size_t byte) const {
 std::vector<const NamePlace*> Names::same_as(const NamePlace& name) const {
   std::vector<const NamePlace*> same;
   for (const NamePlace& it : places_) {
-    const bool is_same = it.kind == name.kind && it.name == name.name &&
-                         (name.kind != NameKind::Entry || it.scope == name.scope);
-    if (is_same) same.push_back(&it);
+    const bool is_same = it.declared == name.declared && it.scope == name.scope &&
+                         (it.declared != nullptr || it.name == name.name);
+    if (it.kind == name.kind && is_same) same.push_back(&it);
   }
   std::stable_partition(same.begin(), same.end(),
                         [](const NamePlace* it) { return it->is_declaration; });
@@ -186,9 +265,23 @@ std::vector<const NamePlace*> Names::declarations(NameKind kind) const {
 }
 
 const TolerantElement* Names::tree_named(std::string_view id) const {
-  for (const NamePlace& it : places_)
-    if (it.kind == NameKind::Tree && it.is_declaration && it.name == id) return it.element;
-  return nullptr;
+  return find(trees_, texts_.front(), id);
+}
+
+std::vector<Question> projects_with(const Question& question, const std::string& identity) {
+  std::vector<Question> all{question};
+  for (const auto& [uri, file] : question.workspace.files()) {
+    if (&file == &question.file || file.analysis == nullptr) continue;
+    if (kind_of_file(file.path) != FileKind::Tree) continue;
+    const bool has = std::ranges::any_of(file.analysis->texts, [&](const auto& it) {
+      return file_identity(it->path()) == identity;
+    });
+    if (has) {
+      all.push_back(
+          {question.workspace, file, question.client, question.params, question.settings});
+    }
+  }
+  return all;
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,11 @@
 namespace lockstep::host {
 
 struct ProjectText {
-  std::string uri;
+  std::string uri, identity;  // file_identity()
   const TolerantTree* tree;
   Positions positions;
+  // What <include as="truck"> puts before its names, for each time that it is included.
+  std::vector<std::string> prefixes = {};
 };
 
 enum class NameKind : unsigned char { Tree, Argument, Group, Entry };
@@ -30,6 +33,8 @@ struct NamePlace {
   bool is_declaration = false;             // of an entry: something writes it here
   const Parameter* parameter = nullptr;    // whose value it is
   std::string_view group = {};             // the type of a group
+  // Of a tree and a group: the element that declares it, in whatever file; null: it is not known.
+  const TolerantElement* declared = nullptr;
 };
 
 class Names {
@@ -43,14 +48,29 @@ class Names {
   // All places of the same name, declarations first.
   std::vector<const NamePlace*> same_as(const NamePlace& name) const;
   std::vector<const NamePlace*> declarations(NameKind kind) const;
+  // As the file calls it.
   const TolerantElement* tree_named(std::string_view id) const;
+  // In which text it is.
+  const ProjectText* text_of(const TolerantElement& element) const;
+  // Whether a group beside that one has the name.
+  bool has_group(const TolerantElement& beside, std::string_view name) const;
 
  private:
+  using Declared = std::map<std::string, const TolerantElement*, std::less<>>;
+
+  void add_texts(const Question& question);
+  void find_declared(const Project* project);
   void add_remappings(const ProjectText& text, const LanguageRules& rules);
+  static const TolerantElement* find(const Declared& all, const ProjectText& text,
+                                     std::string_view name);
 
   std::vector<ProjectText> texts_;
   std::vector<NamePlace> places_;
+  Declared trees_, groups_;  // as the file calls them
 };
+
+// The same question about its file, then about each open one in whose project the text is.
+std::vector<Question> projects_with(const Question& question, const std::string& identity);
 
 // The type of a node, also of <Action ID="…"/>; null: it is none, or unknown.
 const NodeType* type_of(const TolerantTree& tree, const TolerantElement& element,

@@ -1,6 +1,9 @@
 #include "author/server/features/navigation.h"
 
 #include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "author/server/features/names.h"
 #include "author/server/features/site.h"
@@ -11,6 +14,11 @@ namespace {
 
 Json location(const NamePlace& place) {
   return {{"uri", place.text->uri}, {"range", place.text->positions.json(place.range)}};
+}
+
+// The element that declares it, or of an entry its tree; null: it is not known.
+const TolerantElement* home_of(const NamePlace& name) {
+  return name.declared != nullptr ? name.declared : name.scope;
 }
 
 // The file that an include names; null: there is none.
@@ -52,8 +60,27 @@ Json references(const Question& question) {
   const NamePlace* const name = names.at(question.byte());
   std::vector<Json> found;
   if (name == nullptr) return Json::array();
-  for (const NamePlace* it : names.same_as(*name)) {
-    if (question.params.with_declaration || !it->is_declaration) found.push_back(location(*it));
+  const auto add = [&](const NamePlace& it) {
+    if (question.params.with_declaration || !it.is_declaration) found.push_back(location(it));
+  };
+  for (const NamePlace* it : names.same_as(*name)) add(*it);
+  const TolerantElement* const home = home_of(*name);
+  if (home == nullptr) return Json::array(std::move(found));
+  // Those in files that include the one with the declaration.
+  std::set<std::string> known;
+  for (const ProjectText& it : names.texts()) known.insert(it.identity);
+  const std::string& identity = names.text_of(*home)->identity;
+  for (const Question& other : projects_with(question, identity)) {
+    const Names all(other);
+    for (const NamePlace& it : all.places()) {
+      const TolerantElement* const its_home = home_of(it);
+      const bool is_same = it.kind == name->kind && its_home != nullptr &&
+                           its_home->begin == home->begin &&
+                           all.text_of(*its_home)->identity == identity &&
+                           (it.kind != NameKind::Entry || it.name == name->name);
+      if (is_same && !known.contains(it.text->identity)) add(it);
+    }
+    for (const ProjectText& it : all.texts()) known.insert(it.identity);
   }
   return Json::array(std::move(found));
 }

@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <vector>
 
+#include "author/edit/file_text.h"
 #include "author/edit/renames.h"
 #include "author/server/features/names.h"
 #include "author/server/features/trial.h"
@@ -17,31 +22,73 @@ namespace {
   throw JsonError(why);
 }
 
-// The ID of a BehaviorTree.
-std::string id_of(const Names& names, const TolerantElement& tree) {
-  for (const ProjectText& text : names.texts()) {
-    const auto& elements = text.tree->elements;
-    if (!elements.empty() && &tree >= &elements.front() && &tree <= &elements.back())
-      return decoded(text.tree->value_of(tree, "ID")).text;
+// The edits of files, by their URIs. Those of several projects are one where they are the same.
+class FileEdits {
+ public:
+  // Of a text without its byte order mark.
+  void add(const std::string& uri, const TextEdit& edit, std::string_view text) {
+    texts_.emplace(uri, text);
+    for (const Patch& it : edit.patches()) files_[uri].emplace(it.begin, it.end, it.text);
   }
-  return {};
-}
+  void add(const Question& question, const ProjectTexts& texts, const ProjectEdit& edit) {
+    for (std::uint32_t i = 0; i < texts.size(); ++i) {
+      if (edit[i].empty()) continue;
+      const Source& source = *texts.document(i).source();
+      const std::string uri = question.workspace.uri_of(source.path());
+      const auto file = question.workspace.files().find(uri);
+      const bool is_open = file != question.workspace.files().end();
+      if (is_open && without_mark(file->second.bytes()) != source.text())
+        refuse(fmt::format("'{}' is being checked: try again", printable(source.path())));
+      add(uri, edit[i], source.text());
+    }
+  }
+  Json json(const Question& question) const {
+    std::map<std::string, Json> changes;
+    for (const auto& [uri, patches] : files_) {
+      TextEdit edit;
+      for (const auto& [begin, end, text] : patches) edit.replace(begin, end, text);
+      const auto file = question.workspace.files().find(uri);
+      const bool is_open = file != question.workspace.files().end();
+      changes[uri] = json_of_document(edit, is_open ? file->second.bytes() : texts_.at(uri));
+    }
+    return workspace_edit(question, changes);
+  }
+
+ private:
+  static std::string_view without_mark(std::string_view text) {
+    return text.substr(byte_order_mark(text).size());
+  }
+
+  std::map<std::string, std::set<std::tuple<std::size_t, std::size_t, std::string>>> files_;
+  std::map<std::string, std::string> texts_;
+};
 
 // A group has no name that something outside of it could have too.
-std::map<std::string, Json> rename_group(const Names& names, const NamePlace& place,
-                                         const std::string& new_name) {
-  NamePlace other = place;
-  other.name = new_name;
+Json rename_group(const Question& question, const Names& names, const NamePlace& place) {
+  const std::string& new_name = question.params.new_name;
   if (new_name.empty() || new_name.find_first_of(" \t\r\n\"'<>&{}$/;,=") != new_name.npos)
     refuse(fmt::format("'{}' cannot be a name here", brief(new_name)));
-  if (new_name != place.name && !names.same_as(other).empty())
-    refuse(fmt::format("there is a group '{}' already", brief(new_name)));
-  std::map<const ProjectText*, TextEdit> edits;
-  for (const NamePlace* it : names.same_as(place))
-    edits[it->text].replace(it->range.begin, it->range.end, new_name);
-  std::map<std::string, Json> changes;
-  for (const auto& [text, edit] : edits) changes[text->uri] = json_of(edit, text->positions);
-  return changes;
+  if (place.declared == nullptr) refuse(fmt::format("nothing declares '{}'", brief(place.name)));
+  const ProjectText& home = *names.text_of(*place.declared);
+  const std::size_t begin = place.declared->begin;
+  FileEdits edits;
+  for (const Question& it : projects_with(question, home.identity)) {
+    const Names all(it);
+    const auto same_place = std::ranges::find_if(all.places(), [&](const NamePlace& other) {
+      return other.kind == NameKind::Group && other.is_declaration &&
+             other.text->identity == home.identity && other.element->begin == begin;
+    });
+    if (same_place == all.places().end()) continue;
+    if (new_name != same_place->name && all.has_group(*same_place->element, new_name))
+      refuse(fmt::format("there is a group '{}' already", brief(new_name)));
+    for (const NamePlace* use : all.same_as(*same_place)) {
+      const std::size_t mark = byte_order_mark(use->text->tree->text).size();
+      TextEdit edit;
+      edit.replace(use->range.begin - mark, use->range.end - mark, new_name);
+      edits.add(use->text->uri, edit, use->text->tree->text);
+    }
+  }
+  return edits.json(question);
 }
 
 // Whether it is "@key", an entry of the main tree.
@@ -60,14 +107,42 @@ Result<ProjectEdit> renamed_of_main_tree(const ProjectTexts& texts, std::string_
   return rename_entry(texts, texts.main_tree(), marked.substr(1), new_name);
 }
 
-Result<ProjectEdit> renamed(const Question& question, const ProjectTexts& texts, const Names& names,
-                            const NamePlace& place) {
-  const std::string& new_name = question.params.new_name;
+// What the place names, in the file that declares it: of an entry, the tree.
+struct NamedTree {
+  std::string identity, tree;  // its ID there
+};
+
+// The edits of one project: of each tree that the text is in it.
+void add_renamed(const Question& question, const Names& names, const NamePlace& place,
+                 const NamedTree& home, std::string_view new_id, FileEdits& edits) {
   const std::string name = decoded(place.name).text;
-  if (place.kind == NameKind::Tree) return rename_tree(texts, name, new_name);
-  if (place.kind == NameKind::Argument) return rename_argument(texts, name, new_name);
-  if (is_of_main_tree(question, place)) return renamed_of_main_tree(texts, name, new_name);
-  return rename_entry(texts, id_of(names, *place.scope), name, new_name);
+  const std::string& new_name = question.params.new_name;
+  const auto texts = project_texts(question);
+  if (!texts) {
+    refuse(fmt::format("'{}' cannot be read: a name can be changed when its errors are mended",
+                       printable(question.file.path)));
+  }
+  // Paths of nodes in properties keep the ID of a tree, and say themselves that they find nothing.
+  const bool is_tried = place.kind != NameKind::Tree;
+  const auto add = [&](const Result<ProjectEdit>& edit) {
+    if (!edit) {
+      const Problem& why = edit.error();
+      refuse(why.hint.empty() ? why.message : fmt::format("{}: {}", why.message, why.hint));
+    }
+    if (const auto error = is_tried ? Trial(question, *texts).error_after(*edit) : std::nullopt)
+      refuse(fmt::format("the text would have an error: {}", *error));
+    edits.add(question, *texts, *edit);
+  };
+  if (place.kind == NameKind::Argument) return add(rename_argument(*texts, name, new_name));
+  if (is_of_main_tree(question, place)) return add(renamed_of_main_tree(*texts, name, new_name));
+  const auto text = std::ranges::find(names.texts(), home.identity, &ProjectText::identity);
+  for (const std::string& prefix : text->prefixes) {
+    if (place.kind == NameKind::Tree) {
+      add(rename_tree(*texts, prefix + home.tree, prefix + std::string(new_id)));
+    } else {
+      add(rename_entry(*texts, prefix + home.tree, name, new_name));
+    }
+  }
 }
 
 }  // namespace
@@ -86,21 +161,39 @@ Json rename(const Question& question) {
   const Names names(question);
   const NamePlace* const place = names.at(question.byte());
   if (place == nullptr) refuse("nothing here has a name that can be changed");
-  const std::string& new_name = question.params.new_name;
-  if (place->kind == NameKind::Group)
-    return workspace_edit(question, rename_group(names, *place, new_name));
-  const auto texts = project_texts(question);
-  if (!texts) refuse("the file cannot be read: a name can be changed when its errors are mended");
-  const auto edits = renamed(question, *texts, names, *place);
-  if (!edits) {
-    const Problem& why = edits.error();
-    refuse(why.hint.empty() ? why.message : fmt::format("{}: {}", why.message, why.hint));
+  if (place->kind == NameKind::Group) return rename_group(question, names, *place);
+  const TolerantElement* const tree =
+      place->kind == NameKind::Tree ? place->declared : place->scope;
+  FileEdits edits;
+  if (tree == nullptr || is_of_main_tree(question, *place)) {
+    if (place->kind == NameKind::Tree)
+      refuse(fmt::format("there is no tree '{}'", brief(place->name)));
+    add_renamed(question, names, *place, {}, {}, edits);
+    return edits.json(question);
   }
-  // Paths of nodes in properties keep the ID of a tree, and say themselves that they find nothing.
-  const bool is_tried = place->kind != NameKind::Tree;
-  if (const auto error = is_tried ? Trial(question, *texts).error_after(*edits) : std::nullopt)
-    refuse(fmt::format("the text would have an error: {}", *error));
-  return workspace_edit(question, *texts, *edits);
+  const ProjectText& text = *names.text_of(*tree);
+  const NamedTree home{text.identity, decoded(text.tree->value_of(*tree, "ID")).text};
+  std::string_view new_id = question.params.new_name;
+  if (place->kind == NameKind::Tree) {
+    const std::string name = decoded(place->name).text;
+    if (!name.ends_with(home.tree)) {
+      refuse(
+          fmt::format("'{}' stands for the main tree of an included file: change 'as' of its "
+                      "include, and where that is used",
+                      brief(name)));
+    }
+    const std::string prefix = name.substr(0, name.size() - home.tree.size());
+    if (!new_id.starts_with(prefix)) {
+      refuse(
+          fmt::format("'{}' is in a file that is included as '{}': its new name must begin with "
+                      "'{}'",
+                      brief(name), brief(prefix.substr(0, prefix.size() - 1)), brief(prefix)));
+    }
+    new_id.remove_prefix(prefix.size());
+  }
+  for (const Question& it : projects_with(question, home.identity))
+    add_renamed(it, Names(it), *place, home, new_id, edits);
+  return edits.json(question);
 }
 
 }  // namespace lockstep::host

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "run/loading/project_file.h"
+
 namespace lockstep::host {
 
 Trial::Trial(const Question& question, const ProjectTexts& texts)
@@ -21,7 +23,10 @@ std::optional<std::string> Trial::error_after(const ProjectEdit& edit) const {
 }
 
 std::vector<std::string> Trial::errors_after(const ProjectEdit& edit) const {
-  LoadOptions options = load_options(question_.settings, question_.workspace.texts());
+  Diagnostics of_project_file;  // which the edit does not change
+  LoadOptions options = with_project_file(
+      question_.file.path, load_options(question_.settings, question_.workspace.texts()),
+      of_project_file);
   const auto changed = [&](std::uint32_t document) {
     return edit[document].apply(texts_.document(document).source()->text());
   };
