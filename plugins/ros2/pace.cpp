@@ -108,6 +108,8 @@ void PaceSignal::close(const UserPtr& user) {
   if (--leaves_ != 0) return;
   if (told_ && !is_told(wanted())) teller_->tell(wanted());
   forget();
+  is_open_ = is_heard_ = false;
+  listeners_.clear();
   teller_->close();
   Middleware::get().remove(this);
 }

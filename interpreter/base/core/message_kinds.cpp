@@ -143,7 +143,7 @@ std::span<const MessageKind> message_kinds() {
        "Rewrite this part by hand, as the hint describes it."},
       {"not-slowed",
        "A child of a node that paces has no leaf that can be slowed. It is held instead.",
-       "None, if that is acceptable. Otherwise give its leaf `set_pace`."},
+       "None, if that is acceptable. Otherwise give its leaf `set_pace`, or a `RosAction` `pace`."},
       {"not-the-same", "The converted node behaves differently in a special case.",
        "Read the hint, and check whether your tree meets the case."},
       {"old-model",
