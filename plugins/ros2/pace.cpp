@@ -73,11 +73,11 @@ std::optional<Problem> why_no_hold(const Pace& pace) {
   }
   const Target& target = pace.target;
   const char* const hint = "write hold=\"cancel\" or another hold";
-  if (target.way == Target::Way::Topic && target.message->name == kLimit) {
+  if (target.type() == kLimit) {
     return Problem{"0 in a '" + std::string(kLimit) + "' means no limit: the robot continues",
                    hint};
   }
-  if (target.way == Target::Way::Service && target.service->name == kSlider) {
+  if (target.type() == kSlider) {
     return Problem{"the driver rejects a speed slider below 0.01, so it cannot hold the robot",
                    hint};
   }
@@ -89,7 +89,7 @@ std::shared_ptr<PaceSignal> PaceSignal::of(const Pace& pace) {
   static std::mutex mutex;
   static auto& all = *new std::map<std::string, std::weak_ptr<PaceSignal>>;
   const std::lock_guard lock(mutex);
-  std::weak_ptr<PaceSignal>& known = all[pace.target.words()];
+  std::weak_ptr<PaceSignal>& known = all[pace.target.words() + ' ' + pace.target.type()];
   std::shared_ptr<PaceSignal> signal = known.lock();
   if (signal == nullptr) known = signal = std::make_shared<PaceSignal>(pace);
   return signal;
@@ -147,7 +147,7 @@ void PaceSignal::end(const UserPtr& user, std::uint64_t activation) {
   update();
 }
 
-// Whoever is faster than another one waits for nobody, so the largest factor does no harm.
+// The largest factor does no harm: a leaf that is too fast is held, as without a pace.
 void PaceSignal::update() {
   const bool was_slow = is_slow();
   factor_ = users_.empty() ? 1 : 0;
@@ -158,7 +158,7 @@ void PaceSignal::update() {
 }
 
 bool PaceSignal::poll(Clock::time_point now) {
-  look_who_listens(now);
+  find_listeners(now);
   take_answer();
   const bool is_urgent = is_held() != is_told_held_;
   if (is_open_ && !is_urgent) return true;
@@ -178,7 +178,7 @@ bool PaceSignal::poll(Clock::time_point now) {
   return true;
 }
 
-void PaceSignal::look_who_listens(Clock::time_point now) {
+void PaceSignal::find_listeners(Clock::time_point now) {
   if (listeners_.empty() || now >= next_look_) {
     const Ids before = std::exchange(listeners_, teller_->listeners());
     const bool has_new =

@@ -38,7 +38,7 @@ std::optional<Problem> why_no_hold(const Pace& pace);
 class PaceSignal final : public Waitable, public std::enable_shared_from_this<PaceSignal> {
  public:
   explicit PaceSignal(const Pace& pace) : pace_(&pace) {}
-  // The one for this target.
+  // The one for this target and type.
   static std::shared_ptr<PaceSignal> of(const Pace& pace);
 
   // A leaf, and its activation.
@@ -81,7 +81,7 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
   bool is_held() const { return factor_ == 0; }
   bool is_slow() const { return factor_ < 1; }
   void update();
-  void look_who_listens(Clock::time_point now);
+  void find_listeners(Clock::time_point now);
   void take_answer();
   void take(const std::string& wrong);
   bool look(Clock::time_point now);

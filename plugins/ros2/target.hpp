@@ -24,6 +24,11 @@ struct Target {
 
   // "the topic '/speed'"
   std::string words() const;
+  // "": of a Parameter.
+  const std::string& type() const {
+    static const std::string none;
+    return way == Way::Topic ? message->name : way == Way::Service ? service->name : none;
+  }
   // Of the message or the request. A Parameter has neither.
   const Members& members() const {
     return way == Way::Topic ? *message->members : *service->request_message;

@@ -170,6 +170,23 @@ class Pace(World):
             self.fast.stop()
             self.slow.stop()
 
+    def test_two_leaves_slow_one_robot_and_the_larger_factor_applies(self):
+        self.robots("--pace", "real:/slow", step=10)
+        other = count("other", "/other", 40, REAL + ' least_pace="0.7"')
+        self.server("--action", "/other", "--step", 10)
+        run = self.run_tree(f"""<ParallelRelative delta="0.1" pace="true" reaction="0.2">
+          {count("fast", "/fast", 40, REAL)}{other}{count("slow", "/slow", 40, 'hold="nothing"')}
+          </ParallelRelative>""")
+        self.assertEqual(run.returncode, 0, run.err)
+        self.assertGreaterEqual(min(self.restored()), 0.7)
+
+    def test_one_topic_with_two_types(self):
+        self.robots("--pace", "real:/slow")
+        other = 'pace="topic:/slow" pace_type="std_msgs/msg/Int16" pace_value="100 * factor"'
+        run = self.run_tree(f"""<Sequence memory="true">{self.pair(REAL, order=20)}
+          {self.pair(other, order=20)}{self.pair(REAL, order=20)}</Sequence>""")
+        self.assertEqual(run.returncode, 0, run.err)
+
     # Robots that are not there, and that do not obey
 
     def test_told_again_when_the_robot_has_come_back(self):
