@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
@@ -113,7 +114,7 @@ class ReferenceChecker {
     const std::string_view id = id_in(space, subtree.id);
     report_.at_value("unknown-tree"_code, subtree.place,
                      fmt::format("unknown tree '{}'", brief(id)),
-                     suggest(id, ids_in(space, trees_.ids), "trees in this project"));
+                     suggest(id, ids_of(space), "trees in this project"));
   }
 
   void contains_itself(const CheckedSubTree& subtree) {
@@ -127,8 +128,18 @@ class ReferenceChecker {
         "use a decorator such as Repeat for a loop");
   }
 
+  // There may be thousands, and as many mistakes.
+  std::span<const std::string_view> ids_of(std::string_view space) const {
+    if (space.empty()) return trees_.ids;
+    if (space != space_) own_ids_ = ids_in(space, trees_.ids);
+    space_ = space;
+    return own_ids_;
+  }
+
   const CheckedTrees& trees_;
   const Reporter& report_;
+  mutable std::string_view space_;
+  mutable std::vector<std::string_view> own_ids_;  // those of that space
   std::map<std::string_view, Visit> visits_;
   std::vector<std::string_view> chain_;
   bool expandable_ = true;
