@@ -78,8 +78,9 @@ TEST_CASE("a leaf model is of full speed: verify and `log check` let a slowed le
         tree_text("<ParallelRelative delta=\"1\" pace=\"" + std::string(paces ? "true" : "false") +
                   "\" reaction=\"0\"><Advance name=\"arm\" step=\"0.1\"/>"
                   "<Advance name=\"base\" step=\"0.2\"/></ParallelRelative>"));
-    const Outcome proof = run_lockstep({"verify", tree, "--leaves", model, "--property",
-                                        "base.running leads to base.done within 5 ticks"});
+    const Outcome proof =
+        run_lockstep({"verify", tree, "--leaves", model, "--out", directory.path("out"),
+                      "--property", "base.running leads to base.done within 5 ticks"});
     INFO(proof.out << proof.err);
     CHECK((proof.code == 0) == !paces);
     CHECK(contains(proof.out, "may take longer than in its leaf model") == paces);
