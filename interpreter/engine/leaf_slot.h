@@ -24,6 +24,7 @@ struct LeafSlot {
   bool out_of_range = false;               // it has reported a progress outside [0, 1] in this run
   bool went_on = false;                    // its progress has risen in this run while it was held
   ChildAccess access = ChildAccess::None;  // of a control node or decorator
+  std::uint32_t reason_place = 0;  // in NodeContext::reasons(), and 1; 0: it has given none yet
 
   // kError: it has an error. kFailed: a tolerated fault in this activation, which ends in a
   // Failure. kUnreset: the activation begins from a result that its parent has not ended. kStarts:

@@ -125,6 +125,18 @@ Status NodeContext::tick_unreset(NodeIndex node) {
 // A subtree that was not reached costs nothing, however large it is: below an idle node all are
 // idle. Where all are active, eight nodes at a time. What a skipped node keeps is over when its
 // parent has completed, not when that was skipped too.
+void NodeContext::say(NodeIndex node, LeafSlot& leaf, std::string_view text) {
+  if (leaf.reason_place == 0) {
+    if (text.empty()) return;
+    reasons_.push_back({.node = node});
+    reasons_.back().text.reserve(kMostOfReason);
+    leaf.reason_place = static_cast<std::uint32_t>(reasons_.size());
+  }
+  Reason& reason = reasons_[leaf.reason_place - 1];
+  reason.number = text.empty() ? 0 : state_.tick_number;
+  reason.text = text;
+}
+
 void NodeContext::forget_descendants(NodeIndex node) {
   if (tree_.keeps_over_skips && state_.activity[node] != Activity::Skipped) {
     forget_range(node + 1, nodes_[node].end);

@@ -9,8 +9,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "base/system/fork_guard.h"
 #include "engine/bound_parameters.h"
@@ -19,6 +21,7 @@
 #include "engine/moments.h"
 #include "engine/pace.h"
 #include "engine/run_view.h"
+#include "trace/reason.h"
 
 namespace lockstep::host {
 
@@ -181,6 +184,10 @@ class NodeContext : public RunView {
   const NodeWatches* watches() const { return watches_.get(); }  // null: nobody watches nodes
   // A leaf has set an error.
   void note_error() { is_usual_.clear(); }
+  // A leaf gives the reason of its result in this tick. Allocates with its first one.
+  void say(NodeIndex node, LeafSlot& leaf, std::string_view text);
+  // Of the leaves that have ever given one, in the order of their first ones.
+  std::span<const Reason> reasons() const { return reasons_; }
   // Tells who watches the node what it returns. Gives that, or what is to be in its place.
   Status tell_result(NodeIndex node, Status status);
 
@@ -233,9 +240,10 @@ class NodeContext : public RunView {
   ForkGuard::Byte is_usual_;
   std::unique_ptr<NodeWatches> watches_;  // null: nobody has ever watched nodes
   std::unique_ptr<Moments> moments_;      // null: nobody asks for them
-  bool notes_halts_;                      // somebody is told of halts: scripts, or who watches
-  bool shares_progress_ = false;          // until the next tick
-  double pace_ = kNoPace;                 // of what is ticked now
+  std::vector<Reason> reasons_;
+  bool notes_halts_;              // somebody is told of halts: scripts, or who watches
+  bool shares_progress_ = false;  // until the next tick
+  double pace_ = kNoPace;         // of what is ticked now
 };
 
 }  // namespace lockstep::host

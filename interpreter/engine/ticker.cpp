@@ -126,6 +126,7 @@ void Ticker::reset() {
   held_leaves_.reset();
   if (watch_ != nullptr) watch_->begin_run(tree_, leaves_, &is_usual_);
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;
+  for (Reason& it : reasons_) it.number = 0;
 }
 
 }  // namespace lockstep::host

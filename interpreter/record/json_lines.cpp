@@ -36,6 +36,8 @@ Json json_of(const ShapeNode& node, std::size_t index) {
   if (!node.members.empty()) json[lines::kHeaderNode["members"]] = node.members;
   if (node.ignores_idle) json[lines::kHeaderNode["idle"]] = "ignore";
   if (node.paces) json[lines::kHeaderNode["pace"]] = true;
+  if (!node.condition.empty()) json[lines::kHeaderNode["condition"]] = node.condition;
+  if (!node.reads.empty()) json[lines::kHeaderNode["reads"]] = node.reads;
   if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
   return json;
 }
@@ -167,6 +169,12 @@ void add_limit(std::string& text, const LimitChange& it) {
 void add_factor(std::string& text, const FactorChange& it) {
   add_number(text += '[', it.node);
   add_number(text += ',', it.factor);
+  text += ']';
+}
+
+void add_reason(std::string& text, const ReasonChange& it) {
+  add_number(text += '[', it.node);
+  append_json(text += ',', it.text);
   text += ']';
 }
 
@@ -309,6 +317,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   add_list(text, lines::kTick["limits"], end.limits, add_limit);
   add_list(text, lines::kTick["rounds"], end.rounds, add_round);
   add_list(text, lines::kTick["factors"], end.factors, add_factor);
+  add_list(text, lines::kTick["reasons"], end.reasons, add_reason);
   add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
   add_moments(text, end.moments);
   add_list(text, lines::kTick["leaf_progress"], end.moments.progress, add_leaf_progress);

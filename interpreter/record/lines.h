@@ -63,6 +63,7 @@ constexpr Tuple kTuples[] = {
     {"LimitChange", {{{"index", "Index"}, {"limit", "Real | null"}}}},
     {"RoundChange", {{{"index", "Index"}, {"number", "Whole"}, {"of", "Whole"}}}},
     {"FactorChange", {{{"index", "Index"}, {"factor", "Real"}}}},
+    {"ReasonChange", {{{"index", "Index"}, {"reason", "Text"}}}},
     {"Fault", {{{"index", "Index"}, {"message", "Text"}}}},
     {"EntryValue", {{{"index", "Index"}, {"value", "Text | null"}}}},
     {"LogLine", {{{"who", "Text"}, {"level", "Level"}, {"text", "Text"}}}},
@@ -173,6 +174,8 @@ constexpr Field kHeaderNodeFields[] = {
      "of what is outside the trees: the nodes that the SyncProgress nodes of a barrier hold, or "
      "the children of the UseResources nodes of a pool"},
     {"pace", "Yes", kMaybe, "for a node that [paces](pacing.md) what it holds"},
+    {"condition", "Text", kMaybe, "of a node that a script decides: the script"},
+    {"reads", "Text[]", kMaybe, "with `condition`: the keys of the entries that it reads"},
     {"guard", "Yes", kMaybe,
      "for a child of a parallel, and for the child of a SyncProgress, that contains no action: it "
      "is a [guard](language.md#guards), and part of no measure"},
@@ -209,6 +212,9 @@ constexpr Field kTickFields[] = {
     {"factors", "FactorChange[]", kMaybe,
      "only if there are any: {} for each node that is [paced](pacing.md) and whose factor differs "
      "from the line before. Until then it is 1"},
+    {"reasons", "ReasonChange[]", kMaybe,
+     "only if there are any: {} for each leaf whose [reason](why.md) differs from the line before. "
+     "`\"\"`: it gives none any more"},
     {"succeeded", "Index[]", kMaybe,
      "only if there are any: the synchronized nodes, the children of parallels and the children of "
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "

@@ -37,6 +37,13 @@ struct FactorChange {
   double factor = 1;
 };
 
+// What a leaf gives as the reason of its result, or "": none any more (trace/reason.h).
+struct ReasonChange {
+  std::size_t place = 0;  // in Moment::reasons
+  NodeIndex node = 0;
+  std::string_view text = {};
+};
+
 // The round of a node that repeats its child; number 0: it is not running.
 struct RoundChange {
   NodeIndex node = 0;

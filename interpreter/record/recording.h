@@ -42,6 +42,14 @@ struct RecordedFault {
   friend bool operator==(const RecordedFault&, const RecordedFault&) = default;
 };
 
+// A leaf whose reason differs from the line before; "": it gives none any more.
+struct RecordedReason {
+  NodeIndex node = 0;
+  std::string text;
+
+  friend bool operator==(const RecordedReason&, const RecordedReason&) = default;
+};
+
 // A blackboard entry whose value differs from the line before.
 struct RecordedEntry {
   std::uint32_t entry = 0;           // in RecordingHeader::entries
@@ -62,6 +70,7 @@ struct RecordedTick {
   // Synchronized nodes, and children of parallels, that an ancestor has ended since.
   std::span<const NodeIndex> succeeded = {};
   MomentsView moments = {};
+  std::span<const RecordedReason> reasons = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
   std::span<const LeafLine> logs = {};

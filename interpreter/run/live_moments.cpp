@@ -115,6 +115,7 @@ const Moment& LiveMoments::now(Ticker& ticker) {
   moment_.live = this;
   moment_.number = state.tick_number;
   moment_.ended = state.ended;
+  moment_.reasons = ticker.reasons();
   moment_.entries = ticker.blackboard().entries;
   return moment_;
 }

@@ -1,9 +1,12 @@
 #include "run/shape_of.h"
 
+#include <algorithm>
+
 #include "base/core/parameter_value.h"
 #include "engine/moments.h"
 #include "engine/resources.h"
 #include "engine/writers.h"
+#include "language/expression/expression.h"
 
 namespace lockstep::host {
 namespace {
@@ -21,6 +24,23 @@ void add_members(const Tree& tree, Shape& shape) {
     user.gates.assign(gates.begin(), gates.end());
     user.keeps_resources = resources::on_change(tree, member.node) != resources::OnChange::Release;
     shape.nodes[member.group].first_wins = resources::first_wins(tree, member.group);
+  }
+}
+
+// A condition by a script: Check, ScriptCondition, WaitUntil.
+void add_condition(const Tree& tree, NodeIndex index, ShapeNode& node) {
+  const NodeType& type = *tree.labels[index].type;
+  const bool is_built_in = type.plugin.empty() && type.mock == nullptr && !type.reads_ports;
+  const auto code = std::ranges::find(type.parameters, "code", &Parameter::name);
+  if (!is_built_in || code == type.parameters.end() || !code->is_script) return;
+  if (type.category != NodeCategory::Condition && !type.can_run) return;  // a Script
+  const auto place = static_cast<std::size_t>(code - type.parameters.begin());
+  const auto script =
+      static_cast<std::size_t>(tree.cells[tree.nodes[index].params + place].integer);
+  if (script >= tree.scripts.size() || !tree.scripts[script].code) return;
+  node.condition = tree.scripts[script].code->text();
+  for (const std::uint32_t slot : tree.scripts[script].slots) {
+    node.reads.push_back(tree.slots[slot].name);
   }
 }
 
@@ -45,6 +65,7 @@ Shape shape_of(const Tree& tree) {
     node.paces = tree.nodes[index].kind->paced_child != nullptr;
     node.latches = label.type->latches;
     node.type = label.type;
+    add_condition(tree, index, node);
     node.repeats = tree.nodes[index].kind->round != nullptr;
     if (!tree.is_group(index)) continue;
     node.resources = tree.group(index).resources;

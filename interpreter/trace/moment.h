@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/blackboard/entry.h"
@@ -19,6 +20,7 @@
 #include "base/core/synchronization.h"
 #include "trace/faults.h"
 #include "trace/moments_view.h"
+#include "trace/reason.h"
 
 namespace lockstep::host {
 
@@ -68,6 +70,8 @@ struct Moment {
   // That have succeeded in the tick, and were ended later in it.
   std::span<const NodeIndex> ended = {};
   MomentsView within = {};  // what happened within the tick
+  // Of the leaves that have ever given one, in the order of their first ones.
+  std::span<const Reason> reasons = {};
 
   // By entry of the Shape; the one of a run, the other of a recording.
   std::span<const Entry> entries = {};
@@ -90,6 +94,17 @@ struct Moment {
   double factor(NodeIndex node) const {
     const bool has_one = !factors.empty() && factors[node] != nullptr && *factors[node] != 0;
     return has_one && (ticked(node) || status(node) == Status::Running) ? *factors[node] : 1;
+  }
+  // Whether it is of the last tick of its leaf, which nothing has ended since. In a recording there
+  // are no others.
+  bool holds(const Reason& it) const {
+    if (live == nullptr) return !it.text.empty();
+    const bool is_of_last_tick = it.number != 0 && it.number == reached[it.node];
+    return is_of_last_tick && (it.number == number || status(it.node) != Status::Idle);
+  }
+  std::string_view reason(NodeIndex node) const {
+    const auto it = std::ranges::find(reasons, node, &Reason::node);
+    return it != reasons.end() && holds(*it) ? std::string_view(it->text) : std::string_view();
   }
   // The progress of each child of a parallel, or of what a group holds, as the node used it in the
   // last tick in which it asked them; kLeftOut for one that was left out.

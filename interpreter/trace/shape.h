@@ -29,6 +29,8 @@ struct ShapeNode {
   bool is_guard = false;                // a child of a parallel, or in a member, without an action
   bool paces = false;                   // it slows what it holds: engine/pace.h
   bool latches = false;                 // a parallel, also one that compares no progress
+  std::string condition = {};           // of a node that a script decides: its text
+  std::vector<std::string> reads = {};  // the keys of the entries in it, as it names them
 
   // Only of a tree that runs (run/shape_of.h). The header of a recording has none of these.
   const NodeType* type = nullptr;
@@ -55,7 +57,7 @@ struct ShapeNode {
 
 struct ShapeEntry {
   std::string key, type;                // of the blackboard
-  std::vector<NodeIndex> writers = {};  // the nodes that may write it; readers leave it out
+  std::vector<NodeIndex> writers = {};  // the nodes that may write it
   // Of a tree that runs: what it may hold. Not known of a recording.
   ValueType value_type = ValueType::String;
   std::optional<Typing> typing = {};

@@ -4,12 +4,24 @@
 #include <optional>
 
 namespace lockstep::host {
-namespace {
+
+DecidingNode deciding_node(const Shape& shape, const Moment& moment, NodeIndex node) {
+  const std::vector<NodeIndex>& children = shape.nodes[node].children;
+  const Status status = moment.status(node);
+  const auto agreeing = std::ranges::count_if(
+      children, [&](NodeIndex child) { return moment.status(child) == status; });
+  return {.node = node,
+          .status = status,
+          .children = children.size(),
+          .agreeing = static_cast<std::size_t>(agreeing)};
+}
 
 // The last of several children that agree with their parent: for a Fallback, the one after which
 // there was no other to try.
-std::optional<NodeIndex> deciding_child(const std::vector<NodeIndex>& children, Status status,
-                                        const Moment& moment) {
+std::optional<NodeIndex> deciding_child(const Shape& shape, const Moment& moment, NodeIndex node) {
+  const std::vector<NodeIndex>& children = shape.nodes[node].children;
+  const Status status = moment.status(node);
+  if (!is_complete(status)) return std::nullopt;
   const auto decides = [&](NodeIndex child) {
     const Status its = moment.status(child);
     return moment.ticked(child) && is_complete(its) && (children.size() == 1 || its == status);
@@ -18,20 +30,10 @@ std::optional<NodeIndex> deciding_child(const std::vector<NodeIndex>& children, 
   return found == children.rend() ? std::nullopt : std::optional(*found);
 }
 
-}  // namespace
-
 std::vector<DecidingNode> deciding_path(const Shape& shape, const Moment& moment) {
   std::vector<DecidingNode> path;
-  for (std::optional<NodeIndex> node = 0; node;) {
-    const Status status = moment.status(*node);
-    const std::vector<NodeIndex>& children = shape.nodes[*node].children;
-    const auto agreeing = std::ranges::count_if(
-        children, [&](NodeIndex child) { return moment.status(child) == status; });
-    path.push_back({.node = *node,
-                    .status = status,
-                    .children = children.size(),
-                    .agreeing = static_cast<std::size_t>(agreeing)});
-    node = deciding_child(children, status, moment);
+  for (std::optional<NodeIndex> node = 0; node; node = deciding_child(shape, moment, *node)) {
+    path.push_back(deciding_node(shape, moment, *node));
   }
   return path;
 }

@@ -3,6 +3,7 @@
 // child, or inverts it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/core/status.h"
@@ -18,6 +19,9 @@ struct DecidingNode {
   std::size_t agreeing = 0;  // how many of the children have the same result
 };
 
+DecidingNode deciding_node(const Shape& shape, const Moment& moment, NodeIndex node);
+// The child whose result a completed node has taken; none: it decided itself, or is not complete.
+std::optional<NodeIndex> deciding_child(const Shape& shape, const Moment& moment, NodeIndex node);
 // From the root down, after the last tick of a run.
 std::vector<DecidingNode> deciding_path(const Shape& shape, const Moment& moment);
 

@@ -21,7 +21,8 @@ void Statistics::after_tick(const Moment& moment, const TickReport& report) {
   lateness_.record(report.late);
   for (MeasuredNode& node : nodes_) node.after_tick(moment);
   for (const Fault& fault : report.faults) note(fault, report.tick);
-  if (report.status == Status::Failure) why_failed_ = deciding_path(shape_, moment);
+  why_.after_tick(moment);
+  if (report.status == Status::Failure) why_failed_ = why_.why(moment);
 }
 
 void Statistics::note(const Fault& fault, std::uint64_t tick) {
@@ -68,10 +69,7 @@ Summary Statistics::summary() const {
                                        .max = to_seconds(lateness_.max()),
                                        .ticks = lateness_.by_digits()};
   }
-  for (const DecidingNode& node : why_failed_) {
-    summary.why_failed.push_back(
-        summarize(node, shape_.nodes[node.node].path, shape_.nodes[node.node].kind));
-  }
+  summary.why_failed = summarize(why_failed_, shape_);
   for (const MeasuredNode& node : nodes_) {
     if (node.measure.distance().samples() > 0) {
       summary.synchronized_nodes.push_back(summary_of(node));

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "base/core/histogram.h"
-#include "judge/measure/decision.h"
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/capped_notes.h"
 #include "judge/summary/summary.h"
@@ -36,7 +35,8 @@ class Statistics final : public Observer {
   Histogram lateness_{Histogram::kCoarse};
   bool real_time_ = false;
   Nanoseconds last_start_{0};
-  std::vector<DecidingNode> why_failed_;
+  WhyWatch why_{shape_};
+  std::vector<WhyLink> why_failed_;
   CappedNotes faults_{"fault"};  // after which the run went on
   std::vector<std::string> progress_notes_;
   std::uint64_t went_on_ = 0;

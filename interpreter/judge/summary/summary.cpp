@@ -121,15 +121,30 @@ void write_node(const SynchronizedSummary& node, std::string& out, bool color) {
   out += text_table(rows, 2);
 }
 
-void write_deciding(const DecidingSummary& node, std::size_t indent, std::string& out, bool color) {
+// The node, and below it what it has tried.
+void write_link(const WhySummary& node, std::size_t indent, std::string& out, bool color) {
   const std::string name = last_segment(node.path);
-  const Style style = node.status == Status::Success ? Style::Good : Style::Bad;
+  const Style style = node.status == Status::Failure ? Style::Bad : Style::Good;
   out += fmt::format("{:{}}{}", "", indent, printable(name));
   if (name != node.kind) out += fmt::format(" ({})", printable(node.kind));
   out += fmt::format(": {}", styled(to_string(node.status), style, color));
+  if (node.is_held) out += ", held";
   if (node.agreeing > 1) out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
   if (node.stood_still) out += ", it stood still (--stall-fail)";
+  if (node.failed_attempts > 0) {
+    out += fmt::format(", {} failed", counted(node.failed_attempts, "attempt"));
+  }
+  if (!node.reason.empty()) out += fmt::format(": {}", printable(node.reason));
   out += '\n';
+  if (node.failed_attempts < 2) return;
+  if (node.failed_attempts > node.attempts.size()) {
+    out += fmt::format("{:{}}- the last {}:\n", "", indent + 2, node.attempts.size());
+  }
+  for (const WhySummary::Attempt& it : node.attempts) {
+    out += fmt::format("{:{}}- tick {}: {}", "", indent + 2, it.tick,
+                       printable(last_segment(it.path)));
+    out += it.reason.empty() ? "\n" : fmt::format(": {}\n", printable(it.reason));
+  }
 }
 
 void write_property(const PropertySummary& property, std::string& out, bool color) {
@@ -174,13 +189,24 @@ std::string_view to_string(StopReason reason) {
   return kNames[static_cast<unsigned>(reason)];
 }
 
-DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind) {
-  return {.path = std::move(path),
-          .kind = std::move(kind),
-          .status = node.status,
-          .children = node.children,
-          .agreeing = node.agreeing,
-          .stood_still = false};
+std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& shape) {
+  std::vector<WhySummary> summaries;
+  for (const WhyLink& it : links) {
+    const ShapeNode& node = shape.nodes[it.decided.node];
+    WhySummary& summary = summaries.emplace_back(WhySummary{.path = node.path,
+                                                            .kind = node.kind,
+                                                            .status = it.decided.status,
+                                                            .depth = it.depth,
+                                                            .is_held = it.is_held,
+                                                            .children = it.decided.children,
+                                                            .agreeing = it.decided.agreeing,
+                                                            .reason = it.reason,
+                                                            .failed_attempts = it.failed_attempts});
+    for (const Attempt& attempt : it.attempts) {
+      summary.attempts.push_back({attempt.tick, shape.nodes[attempt.node].path, attempt.reason});
+    }
+  }
+  return summaries;
 }
 
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
@@ -227,20 +253,28 @@ void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_re
 }
 
 // A deep tree shows its first and its last nodes: in between a result is mostly passed on.
-void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color) {
+void write_links(std::span<const WhySummary> links, std::string& out, bool color) {
   constexpr std::size_t kFirst = 5, kLast = 15;
-  if (why_failed.empty()) return;
-  out += fmt::format("  decided by {}:\n", printable(why_failed.back().path));
-  const std::size_t left_out = why_failed.size() - std::min(why_failed.size(), kFirst + kLast);
-  std::size_t indent = 4;
-  for (std::size_t i = 0; i < why_failed.size(); ++i, indent += 2) {
+  const std::size_t left_out = links.size() - std::min(links.size(), kFirst + kLast);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    // What is left out takes one line, and one step to the right.
+    std::size_t indent = 4 + 2 * links[i].depth;
     if (left_out > 0 && i == kFirst) {
       out += fmt::format("{:{}}... {} more\n", "", indent, counted(left_out, "node"));
       i += left_out;
-      indent += 2;
     }
-    write_deciding(why_failed[i], indent, out, color);
+    if (left_out > 0 && i >= kFirst) {
+      const std::size_t passed = std::min(links[i].depth, left_out - 1);
+      indent = 4 + 2 * (links[i].depth - passed);
+    }
+    write_link(links[i], indent, out, color);
   }
+}
+
+void write_text(std::span<const WhySummary> why_failed, std::string& out, bool color) {
+  if (why_failed.empty()) return;
+  out += fmt::format("  decided by {}:\n", printable(why_failed.back().path));
+  write_links(why_failed, out, color);
 }
 
 void write_text(const Summary& summary, std::string& out, bool color) {

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "judge/measure/decision.h"
+#include "base/json/json.h"
 #include "judge/measure/hindrance.h"
 #include "judge/measure/synchronized_measure.h"
+#include "judge/measure/why.h"
 #include "language/property/property.h"
 #include "trace/observer.h"
 
@@ -44,15 +45,24 @@ struct SynchronizedSummary {
   bool is_pool = false;  // of resources: only its members' waits are known
 };
 
-// One of the nodes that decided the result; judge/measure/decision.h.
-struct DecidingSummary {
+// A node, and why it has its status; judge/measure/why.h.
+struct WhySummary {
+  struct Attempt {
+    std::uint64_t tick = 0;
+    std::string path, reason;
+  };
   std::string path, kind;
   Status status = Status::Idle;
+  std::size_t depth = 0;  // below the first
+  bool is_held = false;
   std::size_t children = 0, agreeing = 0;
-  bool stood_still = false;  // it failed because of --stall-fail
+  std::string reason = {};
+  std::uint64_t failed_attempts = 0;
+  std::vector<Attempt> attempts = {};  // the last of these
+  bool stood_still = false;            // it failed because of --stall-fail
 };
 
-DecidingSummary summarize(const DecidingNode& node, std::string path, std::string kind);
+std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& shape);
 SynchronizedSummary summarize(const SynchronizedMeasure& measure, std::string path,
                               std::string kind, const std::vector<std::string>& children);
 // Says for what the bound and the end of a synchronized node do not hold; `paths` are its
@@ -112,10 +122,10 @@ struct PropertySummary {
 struct Summary {
   RunResult result = RunResult::Stopped;
   StopReason reason = StopReason::Completed;
-  int signal = 0;                                // when reason is Signal
-  std::string fault = {};                        // when reason is Fault: "Door/pull/arm: threw …"
-  std::vector<DecidingSummary> why_failed = {};  // from the root down, when it failed
-  std::string tick_limit = "--max-ticks";        // its giver, when reason is MaxTicks
+  int signal = 0;                           // when reason is Signal
+  std::string fault = {};                   // when reason is Fault: "Door/pull/arm: threw …"
+  std::vector<WhySummary> why_failed = {};  // from the root down, when it failed
+  std::string tick_limit = "--max-ticks";   // its giver, when reason is MaxTicks
   std::uint64_t ticks = 0;
   double seconds = 0;
   std::optional<PeriodSummary> period = {};      // real time only, and from two ticks on
@@ -136,7 +146,9 @@ struct Summary {
 
 void write_text(const Summary& summary, std::string& out, bool color);
 // Parts of it, which `lockstep log info` prints too.
-void write_text(std::span<const DecidingSummary> why_failed, std::string& out, bool color);
+void write_text(std::span<const WhySummary> why_failed, std::string& out, bool color);
+// Without the line above.
+void write_links(std::span<const WhySummary> links, std::string& out, bool color);
 void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_reached,
                 std::string& out, bool color);
 
@@ -145,5 +157,7 @@ std::vector<std::vector<std::string>> standstill_notes(const Summary& summary);
 
 // One line, no newline. docs/recording.md describes the keys.
 std::string to_json(const Summary& summary);
+// A part of it.
+Json json_of_links(std::span<const WhySummary> links);
 
 }  // namespace lockstep::host

@@ -69,17 +69,24 @@ Json json_of(const std::vector<LeafTimingSummary>& leaves) {
   return list;
 }
 
-Json json_of(const std::vector<DecidingSummary>& path) {
-  Json list = Json::array();
-  for (const DecidingSummary& node : path) {
-    list.push_back({{"path", node.path},
-                    {"kind", node.kind},
-                    {"status", to_string(node.status)},
-                    {"children", node.children},
-                    {"agreeing", node.agreeing}});
-    if (node.stood_still) list.back()["stood_still"] = true;
+Json json_of(const WhySummary& node) {
+  Json json = {{"path", node.path},
+               {"kind", node.kind},
+               {"status", to_string(node.status)},
+               {"children", node.children},
+               {"agreeing", node.agreeing}};
+  if (!node.reason.empty()) json["reason"] = node.reason;
+  if (node.is_held) json["held"] = true;
+  if (node.stood_still) json["stood_still"] = true;
+  if (node.failed_attempts == 0) return json;
+  json["failed_attempts"] = node.failed_attempts;
+  Json attempts = Json::array();
+  for (const WhySummary::Attempt& it : node.attempts) {
+    attempts.push_back({{"tick", it.tick}, {"path", it.path}});
+    if (!it.reason.empty()) attempts.back()["reason"] = it.reason;
   }
-  return list;
+  json["attempts"] = std::move(attempts);
+  return json;
 }
 
 Json json_of(const StandstillLinkSummary& link) {
@@ -130,11 +137,17 @@ std::vector<std::string> all_notes(const Summary& summary) {
 
 }  // namespace
 
+Json json_of_links(std::span<const WhySummary> links) {
+  Json list = Json::array();
+  for (const WhySummary& it : links) list.push_back(json_of(it));
+  return list;
+}
+
 std::string to_json(const Summary& summary) {
   Json json = {{"result", to_string(summary.result)}, {"reason", to_string(summary.reason)}};
   if (summary.reason == StopReason::Fault) json["fault"] = summary.fault;
   if (summary.reason == StopReason::Signal) json["signal"] = summary.signal;
-  json["why_failed"] = json_of(summary.why_failed);
+  json["why_failed"] = json_of_links(summary.why_failed);
   json["ticks"] = summary.ticks;
   json["time_s"] = summary.seconds;
   json["period"] = summary.period ? json_of(*summary.period) : Json();

@@ -453,7 +453,9 @@ class ExpressionParser {
 
 tl::expected<Expression, Expression::Error> Expression::parse(
     std::string_view text, std::shared_ptr<const ScriptEnums> enums, Words words) {
-  return ExpressionParser(text, std::move(enums), words).parse();
+  auto parsed = ExpressionParser(text, std::move(enums), words).parse();
+  if (parsed) parsed->text_ = text;
+  return parsed;
 }
 
 }  // namespace lockstep::host

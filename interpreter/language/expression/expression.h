@@ -48,6 +48,8 @@ class Expression {
   // The places that fail when they are reached: assignments to something that is not a name.
   std::span<const Error> remarks() const { return remarks_; }
 
+  // As it was parsed.
+  const std::string& text() const { return text_; }
   const ScriptProgram& program() const { return program_; }
   // The instruction of an expression that only compares a name, its first, with a number. Most
   // conditions do no more.
@@ -63,6 +65,7 @@ class Expression {
  private:
   friend class ExpressionParser;
 
+  std::string text_;
   ScriptProgram program_;
   std::vector<std::uint32_t> offsets_;
   std::vector<std::string> names_;

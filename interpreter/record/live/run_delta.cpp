@@ -155,7 +155,22 @@ std::span<const FactorChange> RunDelta::factors(const Moment& moment) {
   return factors_;
 }
 
+std::span<const ReasonChange> RunDelta::reasons(const Moment& moment) {
+  reasons_.clear();
+  while (kept_reasons_.size() < moment.reasons.size()) {
+    kept_reasons_.emplace_back().reserve(kMostOfReason);
+  }
+  for (std::size_t i = 0; i < moment.reasons.size(); ++i) {
+    const Reason& it = moment.reasons[i];
+    const std::string_view text = moment.holds(it) ? std::string_view(it.text) : "";
+    if (text == kept_reasons_[i] && !(is_whole_ && !text.empty())) continue;
+    reasons_.push_back({.place = i, .node = it.node, .text = text});
+  }
+  return reasons_;
+}
+
 void RunDelta::start_over() {
+  for (std::string& kept : kept_reasons_) kept.clear();
   for (FactorChange& kept : kept_factors_) kept.factor = 1;
   std::ranges::fill(kept_, 0);
   std::ranges::fill(kept_progress_, 0);
@@ -176,6 +191,7 @@ void RunDelta::keep() {
     while (kept_factor->node != change.node) ++kept_factor;
     kept_factor->factor = change.factor;
   }
+  for (const ReasonChange& change : reasons_) kept_reasons_[change.place] = change.text;
   auto kept = kept_limits_.begin();
   for (const LimitChange& change : limits_) {  // in the same order
     while (kept->node != change.node) ++kept;

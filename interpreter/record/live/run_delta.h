@@ -3,6 +3,7 @@
 // compared eight at a time. Used by recorder.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "record/packet.h"
@@ -30,6 +31,9 @@ class RunDelta {
   // Of what nodes that pace hold: the factors that are not what was kept. Valid until the next
   // call.
   std::span<const FactorChange> factors(const Moment& moment);
+  // The reasons of leaves that are not what was kept. Valid until the next call. Allocates for the
+  // first one of a leaf.
+  std::span<const ReasonChange> reasons(const Moment& moment);
   // About the last result of changes(): a node has another status than what was kept, or is held or
   // was ticked where it was not, or the other way round; and a node has begun.
   bool has_turns() const { return has_turns_; }
@@ -71,6 +75,8 @@ class RunDelta {
   std::vector<RoundChange> rounds_;
   std::vector<FactorChange> kept_factors_;
   std::vector<FactorChange> factors_;
+  std::vector<std::string> kept_reasons_;  // in the order of Moment::reasons
+  std::vector<ReasonChange> reasons_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that
 

@@ -81,6 +81,7 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   TickEnd end{.limits = delta_.limits(moment),
               .rounds = delta_.rounds(moment),
               .factors = delta_.factors(moment),
+              .reasons = delta_.reasons(moment),
               .succeeded = delta_.succeeded(moment),
               .moments = moment.within,
               .faults = report.faults,
@@ -92,7 +93,7 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   json_lines::set_tick_end(line_end_, end);
   Packet packet{.nodes = nodes, .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
-                !end.factors.empty() || !end.succeeded.empty() || !end.moments.empty() ||
+                !end.factors.empty() || !end.reasons.empty() || !end.succeeded.empty() || !end.moments.empty() ||
                 !end.faults.empty() || !end.entries.empty() || !end.logs.empty();
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;

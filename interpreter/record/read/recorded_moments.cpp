@@ -93,6 +93,12 @@ const Moment& RecordedMoments::read(const RecordedTick& tick) {
     texts_[entry.entry].text = entry.value;
     ++texts_[entry.entry].writes;
   }
+  for (const RecordedReason& reason : tick.reasons) {
+    auto it = std::ranges::find(reasons_, reason.node, &Reason::node);
+    if (it == reasons_.end()) it = reasons_.insert(it, {.node = reason.node});
+    it->text = reason.text;
+  }
+  moment_.reasons = reasons_;
   read_ended(tick);
   moment_.tick = tick.tick;
   moment_.time = from_seconds(tick.time);

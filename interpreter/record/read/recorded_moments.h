@@ -44,6 +44,7 @@ class RecordedMoments {
   std::vector<Keeper> keepers_;
   std::vector<NodeIndex> ended_;
   std::vector<EntryText> texts_;
+  std::vector<Reason> reasons_;
   bool names_children_;  // that have succeeded
   Moment moment_;
 };

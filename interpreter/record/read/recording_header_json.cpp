@@ -74,6 +74,17 @@ std::vector<std::string> resources_from(JsonValue value, std::size_t index) {
   return resources;
 }
 
+std::vector<std::string> texts_from(JsonValue value, std::size_t index) {
+  std::vector<std::string> texts;
+  value.each_item([&](JsonValue item) {
+    std::string_view text;
+    if (!item.get(text))
+      throw JsonError(fmt::format("'reads' of node {} is no list of texts", index));
+    texts.emplace_back(text);
+  });
+  return texts;
+}
+
 bool is_ignore(JsonValue value, std::size_t index) {
   std::string_view text;
   if (value.get(text) && (text == "ignore" || text == "wait")) return text == "ignore";
@@ -127,6 +138,9 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
         [&](JsonValue value) { node.members = members_from(value, index); }, kMayLack},
        {lines::kHeaderNode["pace"],
         [&](JsonValue value) { node.paces = is_yes(value, "pace", index); }, kMayLack},
+       {lines::kHeaderNode["condition"], into(node.condition), kMayLack},
+       {lines::kHeaderNode["reads"],
+        [&](JsonValue value) { node.reads = texts_from(value, index); }, kMayLack},
        {lines::kHeaderNode["guard"],
         [&](JsonValue value) { node.is_guard = is_yes(value, "guard", index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
@@ -151,8 +165,15 @@ std::vector<ShapeEntry> keys_from(JsonValue value) {
   keys.reserve(value.count_items());
   value.each_item([&](JsonValue item) {
     ShapeEntry& it = keys.emplace_back();
-    item.object().read(
-        {{lines::kHeaderEntry["key"], into(it.key)}, {lines::kHeaderEntry["type"], into(it.type)}});
+    item.object().read({{lines::kHeaderEntry["key"], into(it.key)},
+                        {lines::kHeaderEntry["type"], into(it.type)},
+                        {lines::kHeaderEntry["writers"],
+                         [&](JsonValue writers) {
+                           writers.each_item([&](JsonValue writer) {
+                             it.writers.push_back(static_cast<NodeIndex>(writer.whole()));
+                           });
+                         },
+                         kMayLack}});
   });
   return keys;
 }
@@ -216,6 +237,16 @@ void check_paths(std::span<const ShapeNode> nodes) {
   }
 }
 
+void check_writers(const Shape& shape) {
+  for (const ShapeEntry& entry : shape.entries) {
+    const bool are_nodes = std::ranges::all_of(
+        entry.writers, [&](NodeIndex writer) { return writer < shape.nodes.size(); });
+    if (!are_nodes) {
+      throw JsonError(fmt::format("a writer of entry '{}' is not a node", brief(entry.key)));
+    }
+  }
+}
+
 // Before all else: of another version, anything else may be different.
 void check_version(JsonReader& json, std::string& line) {
   std::optional<std::uint64_t> version;
@@ -247,6 +278,7 @@ RecordingHeader RecordingJson::header(std::string& line) {
   if (header.nodes.empty()) throw JsonError("'nodes' is empty");
   check_order(header.nodes);
   check_paths(header.nodes);
+  check_writers(header);
   complete(header);
   return header;
 }

@@ -223,21 +223,22 @@ NodeTotals totals_from(JsonValue value, std::size_t nodes) {
   return totals;
 }
 
-RecordedFault fault_from(JsonValue value, std::size_t nodes) {
-  constexpr char kNone[] = "a fault is not [index, message]";
-  RecordedFault fault;
-  read_tuple(value, 2, kNone, [&](std::size_t place, JsonValue item) {
-    std::string_view message;
+// A node and a text. `none` is the message where the value is no such thing.
+template <class Item, auto Text>
+Item text_of_node_from(JsonValue value, std::size_t nodes, const char* none) {
+  Item found;
+  read_tuple(value, 2, none, [&](std::size_t place, JsonValue item) {
+    std::string_view text;
     if (place == 0) {
-      fault.node = node_from(item, nodes, kNone);
-    } else if (item.get(message)) {
-      fault.message = message;
+      found.node = node_from(item, nodes, none);
+    } else if (item.get(text)) {
+      found.*Text = text;
     } else {
       return false;
     }
     return true;
   });
-  return fault;
+  return found;
 }
 
 RecordedEntry entry_from(JsonValue value, std::size_t keys) {
@@ -358,6 +359,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   std::optional<double> time;
   bool has_nodes = false, is_whole = false;
   changed_.clear();
+  reasons_.clear();
   faults_.clear();
   whole_.clear();
   succeeded_.clear();
@@ -383,7 +385,16 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   };
   const auto read_faults = [&](JsonValue value) {
     faults_.reserve(value.count_items());
-    value.each_item([&](JsonValue it) { faults_.push_back(fault_from(it, states.size())); });
+    value.each_item([&](JsonValue it) {
+      faults_.push_back(text_of_node_from<RecordedFault, &RecordedFault::message>(
+          it, states.size(), "a fault is not [index, message]"));
+    });
+  };
+  const auto read_reasons = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) {
+      reasons_.push_back(text_of_node_from<RecordedReason, &RecordedReason::text>(
+          it, states.size(), "a reason is not [index, text]"));
+    });
   };
   const auto read_succeeded = [&](JsonValue value) {
     constexpr char kNone[] = "'succeeded' is not a list of indices";
@@ -436,6 +447,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["moments"], read_moments, kMayLack},
          {lines::kTick["leaf_progress"], read_leaf_progress, kMayLack},
          {lines::kTick["more"], read_more, kMayLack},
+         {lines::kTick["reasons"], read_reasons, kMayLack},
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},
          {lines::kTick["whole"], read_whole, kMayLack},
@@ -466,6 +478,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .changed = changed_,
                       .succeeded = succeeded_,
                       .moments = moments(states),
+                      .reasons = reasons_,
                       .faults = faults_,
                       .entries = entries_,
                       .logs = logs_};

@@ -40,6 +40,7 @@ class RecordingJson {
   std::vector<MomentChange> moment_changes_;
   std::vector<NodeTotals> totals_;
   std::vector<LeafProgress> leaf_progress_;
+  std::vector<RecordedReason> reasons_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<RecordedEntry> whole_;

@@ -7,7 +7,7 @@
 #include "base/core/diagnostics.h"
 #include "base/core/wording.h"
 #include "base/terminal/style.h"
-#include "judge/measure/decision.h"
+#include "judge/measure/why.h"
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/summary.h"
 #include "record/read/recorded_moments.h"
@@ -70,17 +70,12 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
 }
 
 // Nothing when the last tick is lost: what comes before it does not say.
-std::vector<DecidingSummary> why_failed(const RecordingReader& reader, const Moment& last) {
-  const RecordingHeader& header = reader.header();
+std::vector<WhySummary> why_failed(const RecordingReader& reader, const WhyWatch& why,
+                                   const Moment& last) {
   const auto& end = reader.end();
   const bool failed = end && end->result == to_string(RunResult::Failure);
   if (!failed || last.tick + 1 != end->ticks) return {};
-  std::vector<DecidingSummary> path;
-  for (const DecidingNode& node : deciding_path(header, last)) {
-    const ShapeNode& it = header.nodes[node.node];
-    path.push_back(summarize(node, it.path, it.kind));
-  }
-  return path;
+  return summarize(why.why(last), reader.header());
 }
 
 void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::string& out,
@@ -100,6 +95,7 @@ void write_warnings(const RecordingReader& reader, std::uint64_t faults, std::st
 std::string info_text(RecordingReader& reader, bool color) {
   const RecordingHeader& header = reader.header();
   RecordedMoments moments(header);
+  WhyWatch why(header);
   std::vector<MeasuredNode> nodes = measured_nodes(header);
   std::uint64_t ticks = 0, faults = 0;
   const Moment* last = nullptr;
@@ -109,6 +105,7 @@ std::string info_text(RecordingReader& reader, bool color) {
     }
     faults += tick->faults.size();
     last = &moments.read(*tick);
+    why.after_tick(*last);
     for (MeasuredNode& node : nodes) node.after_tick(*last);
   }
   if (!reader.error().empty()) return {};
@@ -118,7 +115,7 @@ std::string info_text(RecordingReader& reader, bool color) {
   write_header(header, out, color);
   write_tree(header, last, out);
   write_end(reader, ticks, time, out, color);
-  if (last != nullptr) write_text(why_failed(reader, *last), out, color);
+  if (last != nullptr) write_text(why_failed(reader, why, *last), out, color);
   write_warnings(reader, faults, out, color);
   std::vector<SynchronizedSummary> reached;
   std::vector<std::string> notes;

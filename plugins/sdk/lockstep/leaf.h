@@ -248,7 +248,8 @@ struct lockstep_host {
   uint64_t (*random_bits)(const lockstep_caller* caller);
   double (*random)(const lockstep_caller* caller);
 
-  /* [any] A line for the person that runs the tree. Not a way to report a failure. */
+  /* [any] A line for the person that runs the tree. Not a way to report a failure: why an action
+   * fails is told with lockstep/ext/reason.h. */
   void (*log)(const lockstep_caller* caller, lockstep_log_level level, const char* message);
 
   /* [any] A table of functions beyond this one, or NULL when the host does not know the id. */
@@ -343,6 +344,7 @@ enum {
 #include "ext/more_ports.h"    /* IWYU pragma: export */
 #include "ext/object.h"        /* IWYU pragma: export */
 #include "ext/place.h"         /* IWYU pragma: export */
+#include "ext/reason.h"        /* IWYU pragma: export */
 #include "ext/words.h"         /* IWYU pragma: export */
 #include "ext/workers.h"       /* IWYU pragma: export */
 

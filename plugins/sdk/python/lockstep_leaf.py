@@ -30,7 +30,8 @@ import sys
 import threading
 import traceback
 
-__all__ = ["Action", "Condition", "Fixed", "InOut", "Output", "Port", "Refused", "Skipped", "say", "serve"]
+__all__ = ["Action", "Condition", "Failed", "Fixed", "InOut", "Output", "Port", "Refused", "Skipped", "Waiting", "say",
+           "serve"]
 
 PROTOCOL = 1
 _TYPES = {bool: "bool", int: "int", float: "double", str: "string", list[bool]: "list of bool",
@@ -39,6 +40,15 @@ _TYPES = {bool: "bool", int: "int", float: "double", str: "string", list[bool]: 
 
 class Skipped:
     "What a tick may return in a tree for BehaviorTree.CPP: as if the leaf were not there."
+
+
+class Failed(Exception):
+    """A failure and its reason, which `lockstep log why` shows: `raise Failed("no object at the door")`, also from a
+    function that tick calls. It may also be returned."""
+
+
+class Waiting(str):
+    'What a tick that runs may return: what it waits for. `return Waiting("force 3 of 10 N")`'
 
 
 class Port:
@@ -274,8 +284,16 @@ class _Server:
 
     def tick(self, leaf, request):
         self.update(leaf, request)
-        result = leaf.tick()
+        try:
+            result = leaf.tick()
+        except Failed as failed:
+            result = failed
+        reason = str(result) if isinstance(result, (Failed, Waiting)) else ""
+        if isinstance(result, (Failed, Waiting)):
+            result = False if isinstance(result, Failed) else None
         answer = {"leaf": leaf._number, "status": _status(leaf, result)}
+        if reason:
+            answer["reason"] = reason
         if hasattr(leaf, "progress"):
             answer["progress"] = _progress(leaf)
         if leaf._set:

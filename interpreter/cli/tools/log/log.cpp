@@ -83,6 +83,7 @@ std::function<int()> define_log(CLI::App& app) {
   const auto page = define_log_page(app);
   const auto check = define_log_check(app);
   const auto scenario = define_log_scenario(app);
+  const auto why = define_log_why(app);
   return [=] {
     if (cat.app->parsed()) return cat.run();
     if (events.app->parsed()) return events.run();
@@ -93,6 +94,7 @@ std::function<int()> define_log(CLI::App& app) {
     if (page.app->parsed()) return page.run();
     if (check.app->parsed()) return check.run();
     if (scenario.app->parsed()) return scenario.run();
+    if (why.app->parsed()) return why.run();
     return table->parsed() ? csv(*options) : info(*options);
   };
 }
@@ -111,6 +113,7 @@ extern const Command kLogCommand{
     "Examples:\n"
     "  lockstep run --example door_pulling --record run.jsonl\n"
     "  lockstep log info run.jsonl\n"
+    "  lockstep log why run.jsonl grasp\n"
     "  lockstep log csv run.jsonl > run.csv\n"
     "  lockstep log cat --follow run.jsonl.zst | grep fault\n"
     "  lockstep log events run.jsonl --path 'pull/*' --event hold --event release\n"

@@ -450,6 +450,7 @@ const void* get_extension(const char* id) {
   if (wanted == LOCKSTEP_LASTING) return &lasting_table();
   if (wanted == LOCKSTEP_CHANGES) return &changes_table();
   if (wanted == LOCKSTEP_TICKS) return &ticks_table();
+  if (wanted == LOCKSTEP_REASON) return &reason_table();
   return nullptr;
 }
 

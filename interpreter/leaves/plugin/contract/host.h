@@ -66,6 +66,7 @@ class TextsOnDemand {
 // The members that few callers need.
 struct CallerRest {
   Shortened error = {};                // the last
+  Shortened reason = {};               // the last, of a leaf in another process than the engine
   PortTable ports = {};                // all, when some were opened: those are the last
   std::list<std::string> opened = {};  // their keys
 };
@@ -134,5 +135,8 @@ const lockstep_place& place_table();
 const lockstep_lasting& lasting_table();
 const lockstep_changes& changes_table();
 const lockstep_ticks& ticks_table();
+const lockstep_reason& reason_table();
+// Gives the engine the reason of a leaf's result.
+void take_reason(const lockstep_caller& caller, const Shortened& text);
 
 }  // namespace lockstep::host

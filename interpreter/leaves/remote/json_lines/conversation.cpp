@@ -460,6 +460,7 @@ std::string Conversation::take_answer(Leaf& leaf) {
   if (!is_halted) leaf.asked = Asked::Nothing;
   if (!is_status) return {};
   leaf.news.status = reply_.status;
+  leaf.news.reason = reply_.reason;
   leaf.news.answered = monotonic_now();
   if (is_halted) return {};
   if (reply_.progress) leaf.progress = *reply_.progress;

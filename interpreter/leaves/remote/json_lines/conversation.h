@@ -52,6 +52,7 @@ class Conversation {
     lockstep_status status = 0;  // 0: no answer to tick
     std::string set = {};        // the line that has "set", or ""
     std::string error = {};
+    std::string reason = {};  // of the status
     bool is_asked = false;    // it owes an answer
     Nanoseconds since{0};     // when it was asked
     Nanoseconds answered{0};  // when the answer to tick came

@@ -97,11 +97,19 @@ bool ProgramLeaf::create() {
 // It is sent with the first tick, which may be later than this: when the last halt is answered.
 void ProgramLeaf::start() {
   factor_.reset();
+  reason_.clear();
   has_begun_ = false;
   if (!is_condition_) conversation_.forget(number_);
 }
 
+// Until the next answer, the reason is that of the last one.
 lockstep_status ProgramLeaf::tick() {
+  const lockstep_status status = result();
+  if (!reason_.empty()) take_reason(caller_, Shortened(reason_));
+  return status;
+}
+
+lockstep_status ProgramLeaf::result() {
   if (fail_if_gone()) return LOCKSTEP_RUNNING;
   if (is_waiting()) return tick_and_wait();
   return is_condition_ ? tick_condition() : tick_without_waiting();
@@ -183,6 +191,7 @@ bool ProgramLeaf::ask_and_await_answer() {
 }
 
 lockstep_status ProgramLeaf::take(Conversation::News news) {
+  if (news.status != 0) reason_ = std::move(news.reason);
   if (news.error.empty() && is_condition_ && news.status == LOCKSTEP_RUNNING) {
     fail(kRunningCondition);
   } else if (!news.error.empty()) {

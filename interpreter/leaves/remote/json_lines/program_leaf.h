@@ -40,6 +40,7 @@ class ProgramLeaf : public RemoteLeaf {
 
  private:
   bool is_waiting() const { return listener_ == nullptr; }
+  lockstep_status result();
   lockstep_status tick_and_wait();
   lockstep_status tick_without_waiting();
   lockstep_status tick_condition();
@@ -62,7 +63,8 @@ class ProgramLeaf : public RemoteLeaf {
   Listener* const listener_;
   const std::uint32_t number_;
   const bool is_condition_;
-  LastResult last_;  // of a condition
+  LastResult last_;     // of a condition
+  std::string reason_;  // of the last status that it has answered
   Request request_;
   std::vector<Value> sent_;
   bool has_begun_ = true;  // false: `start` is to be sent before the next tick

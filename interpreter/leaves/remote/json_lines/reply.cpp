@@ -37,6 +37,7 @@ void read_fields(JsonObject object, Reply& reply) {
                 },
                 kMayLack},
                {"progress", [&](JsonValue it) { reply.progress = it.number(); }, kMayLack},
+               {"reason", into(reply.reason), kMayLack},
                {"pace",
                 [&](JsonValue it) {
                   reply.pace = it.number();
@@ -84,6 +85,7 @@ void read_fields(JsonObject object, Reply& reply) {
 std::string read_reply(JsonReader& reader, std::string& line, Reply& reply) {
   reply.leaf = 0;
   reply.progress.reset();
+  reply.reason.clear();
   reply.sets_ports = false;
   reply.level = LOCKSTEP_LOG_INFO;
   try {

@@ -26,6 +26,7 @@ struct Reply {
   double pace = 0;          // of Pace
   bool sets_ports = false;  // the line also has "set"
   std::string text;         // of Log and Error
+  std::string reason;       // of Status
   lockstep_log_level level = LOCKSTEP_LOG_INFO;
 };
 

@@ -18,6 +18,7 @@ struct Answer {
   Nanoseconds took{0};           // by the plugin, where there was much to carry; 0: not measured
   std::string_view error = {};   // "" = none
   std::string_view thrown = {};  // as describe_exception() has it
+  std::string_view reason = {};  // of a leaf; "" = none
 };
 
 inline void write_answer(const Answer& answer, MessageWriter& message) {
@@ -26,6 +27,7 @@ inline void write_answer(const Answer& answer, MessageWriter& message) {
   message.put(answer.took);
   message.put_text(answer.error);
   message.put_text(answer.thrown);
+  message.put_text(answer.reason);
 }
 
 // Returns false if the message is invalid.
@@ -35,6 +37,7 @@ inline bool read_answer(MessageReader& message, Answer& answer) {
   answer.took = message.get<Nanoseconds>();
   answer.error = message.text();
   answer.thrown = message.text();
+  answer.reason = message.text();
   return message.good() && answer.outcome <= Outcome::TooLarge;
 }
 

@@ -224,6 +224,7 @@ std::uint64_t IsolatedRun::take_answer(const lockstep_caller& caller, Nanosecond
   }
   if (!refused.empty()) fail(caller, refused);
   if (!answer.error.empty()) take_error(caller, Shortened::as_it_is(answer.error));
+  if (!answer.reason.empty()) take_reason(caller, Shortened::as_it_is(answer.reason));
   if (answer.outcome == Outcome::Threw) throw PluginException(answer.thrown);
   return answer.result;
 }

@@ -221,6 +221,7 @@ void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& 
   if (!thrown.empty()) answer.outcome = Outcome::Threw;
   answer.thrown = thrown;
   if (object.slot.error != nullptr) answer.error = object.slot.error;
+  if (object.caller->rest != nullptr) answer.reason = object.caller->rest->reason.text();
   write_answer(answer, message);
   write_entries(message);
   is_measured_ |= message.bytes().size() >= kMuchToCarry;
@@ -230,6 +231,7 @@ void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& 
     message.put(RemoteEntries::kNone);
   }
   object.slot.set_error(nullptr);
+  if (!answer.reason.empty()) object.caller->rest->reason = Shortened();
   const bool creates = function == PluginFunction::Create;
   if (is_destroy(function) || (creates && answer.result == 0)) objects_.erase(object.number);
 }

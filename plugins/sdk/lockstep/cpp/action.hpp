@@ -2,6 +2,9 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
 
 #include "port.hpp"
 #include "run_context.hpp"
@@ -41,6 +44,18 @@ class Leaf : protected Services {
     return detail::ContextHolder<Context>::from(caller_.run_context).value;
   }
 
+  // A result with its reason: a text of any kind. Of fmt a format and its arguments, too, where the
+  // plugin includes fmt before this header.
+  template <class Result, class Reason>
+  Result because(Result result, const Reason& reason) const {
+    if constexpr (std::is_convertible_v<const Reason&, const char*>) {
+      say(reason);
+    } else {
+      say(std::string(reason).c_str());
+    }
+    return result;
+  }
+
  private:
   friend struct detail::LeafAccess;
   friend struct detail::ElementAccess;
@@ -52,8 +67,9 @@ class Leaf : protected Services {
 };
 
 // The functions of an action. Only those that are overridden exist for the host. Each runs in the
-// thread that ticks the tree and must return quickly. To fail as an action, return Failure; to
-// report that the leaf is broken, throw: the run ends in order, with the message as its reason.
+// thread that ticks the tree and must return quickly. To fail as an action, return Failure, or
+// fail("no object at the door"); to report that the leaf is broken, throw: the run ends in order,
+// with the message as its reason.
 class ActionFunctions : public Leaf {
  public:
   // Once per tick, from start until it returns Success, Failure or Skipped.
@@ -81,12 +97,36 @@ class ActionFunctions : public Leaf {
  protected:
   static constexpr bool kKeepsProgress = false;  // see kept_progress
 
+  // In tick: `return fail("no object at the door");` is Failure with its reason, and
+  // `return wait("force 3 of 10 N");` is Running with what the action waits for. `log why`, the
+  // summary of the run and the page show it.
+  template <class Reason>
+  Status fail(const Reason& reason) const {
+    return because(Status::Failure, reason);
+  }
+  template <class Reason>
+  Status wait(const Reason& reason) const {
+    return because(Status::Running, reason);
+  }
+#ifdef FMT_VERSION
+  template <class First, class... Rest>
+  Status fail(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest) const {
+    return fail(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+  template <class First, class... Rest>
+  Status wait(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest) const {
+    return wait(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+#endif
+
  private:
   friend struct detail::LeafAccess;
   virtual void before_start() {}
   virtual void before_pace(double /*factor*/) {}
   // Where the host reads the progress without a call.
-  virtual const double* kept_progress() const { return nullptr; }
+  virtual const double* kept_progress() const {
+    return nullptr;
+  }
   // Ends everything that must end before any part of a derived leaf is destroyed.
   virtual void before_destroy() {}
 };
@@ -127,6 +167,19 @@ class ConditionFunctions : public Leaf {
  public:
   // true is Success, false is Failure.
   virtual bool check() = 0;
+
+ protected:
+  // In check: `return fail("the door is closed");` is false with its reason.
+  template <class Reason>
+  bool fail(const Reason& reason) const {
+    return because(false, reason);
+  }
+#ifdef FMT_VERSION
+  template <class First, class... Rest>
+  bool fail(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest) const {
+    return fail(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
+#endif
 };
 
 template <class PortsOfLeaf = NoPorts>

@@ -157,6 +157,13 @@ class Services {
   }
   void log(const std::string& message) const { log(LogLevel::Info, message); }
 
+  // Why the result of this tick is what it is: what Action::fail and wait give. Nothing with an
+  // older host.
+  void say(const char* reason) const {
+    const auto* const reasons = host_extension<lockstep_reason>(LOCKSTEP_REASON);
+    if (reasons != nullptr) reasons->say(caller_.id, reason);
+  }
+
   // A table of functions beyond leaf.h, or null when the host does not know the id.
   template <class Table>
   const Table* host_extension(const char* id) const {

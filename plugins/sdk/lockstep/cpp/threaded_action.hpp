@@ -9,7 +9,9 @@
 #include <condition_variable>
 #include <limits>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "../duration.h"
@@ -71,6 +73,18 @@ class Token {
 
   void set_progress(double progress) { progress_.store(progress, std::memory_order_relaxed); }
 
+  // What the work waits for, until it says something else; "" is nothing.
+  void wait(std::string reason) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    reason_ = std::move(reason);
+    has_reason_.store(!reason_.empty(), std::memory_order_release);
+  }
+  // At the end of run: `return token.fail("no object at the door");`
+  Status fail(std::string reason) {
+    wait(std::move(reason));
+    return Status::Failure;
+  }
+
   Token() = default;
   Token(const Token&) = delete;
   Token& operator=(const Token&) = delete;
@@ -79,7 +93,7 @@ class Token {
   friend class detail::Worker;
 
   template <class Question>
-  bool locked(Question question) const {
+  std::invoke_result_t<Question> locked(Question question) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return question();
   }
@@ -93,6 +107,7 @@ class Token {
   }
   void reset() {
     stop_ = pause_ = false;
+    wait({});
     set_progress(0);
     pace_.store(1, std::memory_order_relaxed);
   }
@@ -103,6 +118,8 @@ class Token {
   bool pause_ = false;
   std::atomic<double> progress_{0};
   std::atomic<double> pace_{1};
+  std::string reason_;
+  std::atomic<bool> has_reason_{false};
   // The activation's, on the virtual clock; otherwise null.
   const lockstep_workers* workers_ = nullptr;
   lockstep_worker* worker_ = nullptr;
@@ -153,6 +170,11 @@ class Worker {
   void pause(bool value) { token_.request(&Token::pause_, value); }
   void set_pace(double factor) { token_.pace_.store(factor, std::memory_order_relaxed); }
   double progress() const { return token_.progress_.load(std::memory_order_relaxed); }
+  // What it has said last; nothing without a lock.
+  std::string reason() const {
+    if (!token_.has_reason_.load(std::memory_order_acquire)) return {};
+    return token_.locked([this] { return token_.reason_; });
+  }
   // An atomic double that needs no lock is one.
   const double* kept_progress() const { return reinterpret_cast<const double*>(&token_.progress_); }
 
@@ -222,7 +244,9 @@ class ThreadedAction : public Action<PortsOfLeaf> {
     worker_.launch(this->caller_, [this](Token& token) { return run(token); });
   }
   Status tick() final {
-    if (!worker_.done()) return Status::Running;
+    const bool is_done = worker_.done();
+    if (const std::string reason = worker_.reason(); !reason.empty()) this->say(reason.c_str());
+    if (!is_done) return Status::Running;
     const Status result = worker_.take();
     if (result != Status::Success && result != Status::Failure) {
       throw std::logic_error("run() returned neither success nor failure");

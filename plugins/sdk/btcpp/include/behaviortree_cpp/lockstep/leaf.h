@@ -53,6 +53,20 @@ struct Leaf {
     leaf.node->lockstep_status_.store(NodeStatus::IDLE, std::memory_order_release);
     return status;
   }
+  // Of a class with `std::string reason() const`: why it has failed, or what it waits for.
+  template <lockstep_status (*Tick)(void*)>
+  static lockstep_status tick_and_say(void* self) {
+    const lockstep_status status = Tick(self);
+    Leaf& leaf = *static_cast<Leaf*>(self);
+    const auto* const table =
+        static_cast<const lockstep_reason*>(leaf.place.host->get_extension(LOCKSTEP_REASON));
+    if (table == nullptr || (status != LOCKSTEP_FAILURE && status != LOCKSTEP_RUNNING))
+      return status;
+    leaf.call([&leaf, table](const TreeNode& node, const ClassHooks& it) {
+      table->say(leaf.place.caller, it.reason(node).c_str());
+    });
+    return status;
+  }
   static void start_unreset_at_once(void* self) {
     Leaf& leaf = *static_cast<Leaf*>(self);
     leaf.is_unreset = true;

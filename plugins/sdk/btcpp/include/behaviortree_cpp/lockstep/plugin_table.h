@@ -153,6 +153,10 @@ class PluginTable {
     if (!is_short) type.start = Leaf::start;
     type.start_unreset = is_short ? Leaf::start_unreset_at_once : Leaf::start_unreset;
     type.tick = is_short ? Leaf::tick_at_once : Leaf::tick;
+    if (manifest.lockstep_hooks.reason != nullptr) {
+      type.tick =
+          is_short ? Leaf::tick_and_say<Leaf::tick_at_once> : Leaf::tick_and_say<Leaf::tick>;
+    }
     type.halt = Leaf::halt;
     if (manifest.lockstep_hooks.pause != nullptr) type.pause = Leaf::pause;
     if (manifest.lockstep_hooks.resume != nullptr) type.resume = Leaf::resume;

@@ -36,6 +36,7 @@ struct ClassHooks {
   void (*pause)(TreeNode&) = nullptr;
   void (*resume)(TreeNode&) = nullptr;
   double (*pace)(TreeNode&, double factor) = nullptr;
+  std::string (*reason)(const TreeNode&) = nullptr;
 };
 
 template <class T, class = void>
@@ -60,6 +61,13 @@ template <class T>
 inline constexpr bool has_on_pace<
     T, std::enable_if_t<std::is_convertible_v<decltype(std::declval<T&>().onPace(1.0)), double>>> =
     true;
+
+template <class T, class = void>
+inline constexpr bool has_reason = false;
+template <class T>
+inline constexpr bool has_reason<
+    T, std::enable_if_t<
+           std::is_convertible_v<decltype(std::declval<const T&>().reason()), std::string>>> = true;
 
 // A class of the library whose code is in these headers.
 template <class T, class = void>
@@ -103,6 +111,11 @@ ClassHooks hooks_of() {
   if constexpr (has_on_pace<T>) {
     hooks.pace = [](TreeNode& node, double factor) -> double {
       return as_class<T>(node).onPace(factor);
+    };
+  }
+  if constexpr (has_reason<T>) {
+    hooks.reason = [](const TreeNode& node) -> std::string {
+      return as_class<const T>(node).reason();
     };
   }
   return hooks;

@@ -1,0 +1,84 @@
+// Why a node has the status that it has: the chain of nodes that decided, or wait, and the reason
+// of each. A leaf gives its own (trace/reason.h). Those of the engine's nodes follow from what they
+// look at: a condition has its script and the values of its entries, a Timeout its time, a Retry
+// its attempts.
+//
+// Example: Main failed, because grasp failed after 3 attempts, because see failed: "no object at
+// (0.3, 1.2)".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "judge/measure/decision.h"
+#include "trace/moment.h"
+#include "trace/shape.h"
+
+namespace lockstep::host {
+
+// A failure of what a node tries again.
+struct Attempt {
+  std::uint64_t tick = 0;
+  NodeIndex node = 0;  // that decided
+  std::string reason = {};
+};
+
+struct WhyLink {
+  DecidingNode decided;
+  std::size_t depth = 0;  // below the first link
+  bool is_held = false;
+  std::string reason = {};
+  std::uint64_t failed_attempts = 0;   // of a node that tries again, in this activation
+  std::vector<Attempt> attempts = {};  // the last of these
+};
+
+// Follows a run, whatever its Moments come from, and keeps what reasons need of the past.
+class WhyWatch {
+ public:
+  static constexpr std::size_t kAttempts = 8;  // kept of each node that tries again
+
+  // `shape` must outlive this.
+  explicit WhyWatch(const Shape& shape);
+
+  // After each tick, in their order.
+  void after_tick(const Moment& moment);
+
+  // About the last of these Moments: the node, and below it, in pre-order, of a node that has
+  // completed the child that decided, of one that runs those that run.
+  std::vector<WhyLink> why(const Moment& moment, NodeIndex node = 0) const;
+
+ private:
+  // An entry that conditions read.
+  struct Watched {
+    std::uint32_t entry = 0;  // in Shape::entries
+    std::uint32_t writes = 0;
+    std::optional<std::uint64_t> tick = {};  // of the last change; none: the value of the start
+    std::optional<NodeIndex> writer = {};    // that was ticked then
+  };
+  struct Tries {
+    NodeIndex node = 0, child = 0;
+    bool runs = false;
+    std::uint64_t failed = 0;  // of this activation
+    std::vector<Attempt> last = {};
+  };
+  struct Timed {
+    NodeIndex node = 0;
+    bool runs = false;
+    Nanoseconds began{0};
+  };
+
+  std::string reason(const Moment& moment, NodeIndex node) const;
+  std::string condition_text(const Moment& moment, NodeIndex node) const;
+  std::string value_text(const Moment& moment, const std::string& key) const;
+  std::string time_text(const Moment& moment, NodeIndex node) const;
+  void note_attempt(const Moment& moment, Tries& tries) const;
+
+  const Shape& shape_;
+  std::vector<Watched> watched_;
+  std::vector<Tries> tries_;
+  std::vector<Timed> timed_;
+};
+
+}  // namespace lockstep::host
