@@ -46,6 +46,12 @@ void add_condition(const Tree& tree, NodeIndex index, ShapeNode& node) {
 
 }  // namespace
 
+void add_facts(const NodeType& type, ShapeNode& node) {
+  node.latches |= type.latches;
+  node.limits_time |= type.limits_time;
+  node.tries_again |= type.repeats_after == Status::Failure;
+}
+
 Shape shape_of(const Tree& tree) {
   Shape shape{.id = tree.id};
   shape.nodes.resize(tree.nodes.size());
@@ -63,7 +69,7 @@ Shape shape_of(const Tree& tree) {
     node.delta = delta(tree, index);
     node.ignores_idle = ignores_idle(tree, index);
     node.paces = tree.nodes[index].kind->paced_child != nullptr;
-    node.latches = label.type->latches;
+    add_facts(*label.type, node);
     node.type = label.type;
     add_condition(tree, index, node);
     node.repeats = tree.nodes[index].kind->round != nullptr;

@@ -14,6 +14,9 @@ struct Tree;
 
 Shape shape_of(const Tree& tree);
 
+// What the Shape has of a kind.
+void add_facts(const NodeType& type, ShapeNode& node);
+
 // The built-in kinds of a language.
 std::vector<const NodeType*> built_in_types(const LanguageRules& rules);
 

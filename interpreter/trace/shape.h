@@ -29,6 +29,8 @@ struct ShapeNode {
   bool is_guard = false;                // a child of a parallel, or in a member, without an action
   bool paces = false;                   // it slows what it holds: engine/pace.h
   bool latches = false;                 // a parallel, also one that compares no progress
+  bool limits_time = false;             // it fails, and halts its child, after a time
+  bool tries_again = false;             // it begins its child again when that fails
   std::string condition = {};           // of a node that a script decides: its text
   std::vector<std::string> reads = {};  // the keys of the entries in it, as it names them
 

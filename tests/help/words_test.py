@@ -47,6 +47,7 @@ DONE = [
     "docs/new.md",
     "docs/nodes-and-attributes.md",
     "docs/pacing.md",
+    "docs/why.md",
     "docs/packages.md",
     "docs/paper.md",
     "docs/performance.md",

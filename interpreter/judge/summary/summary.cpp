@@ -136,6 +136,11 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
   }
   if (!node.reason.empty()) out += fmt::format(": {}", printable(node.reason));
   out += '\n';
+  for (const WhySummary::Attempt& it : node.others) {
+    if (it.reason.empty()) continue;
+    out += fmt::format("{:{}}- {}: {}\n", "", indent + 2, printable(last_segment(it.path)),
+                       printable(it.reason));
+  }
   if (node.failed_attempts < 2) return;
   if (node.failed_attempts > node.attempts.size()) {
     out += fmt::format("{:{}}- the last {}:\n", "", indent + 2, node.attempts.size());
@@ -202,9 +207,13 @@ std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& s
                                                             .agreeing = it.decided.agreeing,
                                                             .reason = it.reason,
                                                             .failed_attempts = it.failed_attempts});
-    for (const Attempt& attempt : it.attempts) {
-      summary.attempts.push_back({attempt.tick, shape.nodes[attempt.node].path, attempt.reason});
-    }
+    const auto add = [&](std::span<const Attempt> from, std::vector<WhySummary::Attempt>& to) {
+      for (const Attempt& attempt : from) {
+        to.push_back({attempt.tick, shape.nodes[attempt.node].path, attempt.reason});
+      }
+    };
+    add(it.attempts, summary.attempts);
+    add(it.others, summary.others);
   }
   return summaries;
 }

@@ -11,7 +11,7 @@
 #include "base/json/json.h"
 #include "judge/measure/hindrance.h"
 #include "judge/measure/synchronized_measure.h"
-#include "judge/measure/why.h"
+#include "judge/summary/why.h"
 #include "language/property/property.h"
 #include "trace/observer.h"
 
@@ -45,7 +45,7 @@ struct SynchronizedSummary {
   bool is_pool = false;  // of resources: only its members' waits are known
 };
 
-// A node, and why it has its status; judge/measure/why.h.
+// A node, and why it has its status; judge/summary/why.h.
 struct WhySummary {
   struct Attempt {
     std::uint64_t tick = 0;
@@ -59,6 +59,7 @@ struct WhySummary {
   std::string reason = {};
   std::uint64_t failed_attempts = 0;
   std::vector<Attempt> attempts = {};  // the last of these
+  std::vector<Attempt> others = {};    // of the other children with the same result
   bool stood_still = false;            // it failed because of --stall-fail
 };
 

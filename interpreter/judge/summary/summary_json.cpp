@@ -69,6 +69,15 @@ Json json_of(const std::vector<LeafTimingSummary>& leaves) {
   return list;
 }
 
+Json json_of(const std::vector<WhySummary::Attempt>& attempts) {
+  Json list = Json::array();
+  for (const WhySummary::Attempt& it : attempts) {
+    list.push_back({{"tick", it.tick}, {"path", it.path}});
+    if (!it.reason.empty()) list.back()["reason"] = it.reason;
+  }
+  return list;
+}
+
 Json json_of(const WhySummary& node) {
   Json json = {{"path", node.path},
                {"kind", node.kind},
@@ -78,14 +87,10 @@ Json json_of(const WhySummary& node) {
   if (!node.reason.empty()) json["reason"] = node.reason;
   if (node.is_held) json["held"] = true;
   if (node.stood_still) json["stood_still"] = true;
+  if (!node.others.empty()) json["others"] = json_of(node.others);
   if (node.failed_attempts == 0) return json;
   json["failed_attempts"] = node.failed_attempts;
-  Json attempts = Json::array();
-  for (const WhySummary::Attempt& it : node.attempts) {
-    attempts.push_back({{"tick", it.tick}, {"path", it.path}});
-    if (!it.reason.empty()) attempts.back()["reason"] = it.reason;
-  }
-  json["attempts"] = std::move(attempts);
+  json["attempts"] = json_of(node.attempts);
   return json;
 }
 

@@ -97,12 +97,13 @@ bool is_yes(JsonValue value, std::string_view key, std::size_t index) {
   throw JsonError(fmt::format("'{}' of node {} is not true", key, index));
 }
 
-// A recording names kinds, and does not say in which language.
-bool latches(std::string_view kind) {
-  return std::ranges::any_of(languages(), [&](const LanguageRules* rules) {
-    return std::ranges::any_of(built_in_types(*rules),
-                               [&](const NodeType* it) { return it->latches && it->id == kind; });
-  });
+// A recording names kinds, and does not say in which language: where one has a fact, it counts.
+void add_facts_of_kind(ShapeNode& node) {
+  for (const LanguageRules* rules : languages()) {
+    for (const NodeType* it : built_in_types(*rules)) {
+      if (it->id == node.kind) add_facts(*it, node);
+    }
+  }
 }
 
 ShapeNode node_from(JsonObject object, std::size_t index) {
@@ -149,7 +150,7 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
   if (is_absolute) node.synchronization = Synchronization::Absolute;
   if (is_relative) node.synchronization = Synchronization::Relative;
   if (!node.resources.empty()) node.synchronization = Synchronization::Resources;
-  node.latches = latches(node.kind);
+  add_facts_of_kind(node);
   return node;
 }
 

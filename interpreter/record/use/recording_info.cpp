@@ -7,7 +7,7 @@
 #include "base/core/diagnostics.h"
 #include "base/core/wording.h"
 #include "base/terminal/style.h"
-#include "judge/measure/why.h"
+#include "judge/summary/why.h"
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/summary.h"
 #include "record/read/recorded_moments.h"

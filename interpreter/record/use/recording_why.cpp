@@ -7,7 +7,7 @@
 #include "base/core/wording.h"
 #include "base/json/json.h"
 #include "judge/measure/wait_chain.h"
-#include "judge/measure/why.h"
+#include "judge/summary/why.h"
 #include "judge/summary/standstill_text.h"
 #include "language/property/node_names.h"
 #include "record/read/recorded_moments.h"

@@ -229,7 +229,10 @@ std::string sample_header(std::uint64_t first_tick) {
   ShapeNode& inner = add("q", 0);
   inner.synchronization = Synchronization::Relative;
   inner.delta = 0.25;
-  add("a", 1).is_guard = true;
+  ShapeNode& leaf = add("a", 1);
+  leaf.is_guard = true;
+  leaf.condition = "k > 1";
+  leaf.reads = {"k"};
   ShapeNode& group = add("g", std::nullopt);
   group.synchronization = Synchronization::Absolute;
   group.barriers = {0.5};
@@ -248,6 +251,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const LimitChange limit{.node = 0, .limit = 0.5};
   const RoundChange round{.node = 1, .round = {1, 2}};
   const FactorChange factor{.node = 1, .factor = 0.5};
+  const ReasonChange reason{.node = 2, .text = "no object"};
   const NodeIndex succeeded = 1;
   const Fault fault{.node = 2, .message = "threw"};
   const EntryChange entry{.entry = 0, .text = &value};
@@ -264,6 +268,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   json_lines::set_tick_end(end, {.limits = {&limit, 1},
                                  .rounds = {&round, 1},
                                  .factors = {&factor, 1},
+                                 .reasons = {&reason, 1},
                                  .succeeded = {&succeeded, 1},
                                  .moments = {.first = {},
                                              .moments = {&moment, 1},

@@ -14,6 +14,7 @@ export type Moment = [times: number, nodes: MomentNode[]];
 export type LimitChange = [index: number, limit: number | null];
 export type RoundChange = [index: number, number: number, of: number];
 export type FactorChange = [index: number, factor: number];
+export type ReasonChange = [index: number, reason: string];
 export type Fault = [index: number, message: string];
 export type EntryValue = [index: number, value: string | null];
 export type LogLine = [who: string, level: string, text: string];
@@ -46,6 +47,7 @@ export interface TickLine {
   limits?: LimitChange[];
   rounds?: RoundChange[];
   factors?: FactorChange[];
+  reasons?: ReasonChange[];
   succeeded?: number[];
   moments?: Moment[];
   leaf_progress?: LeafProgress[];
@@ -83,6 +85,8 @@ export interface HeaderNode {
   resources?: string[];
   members?: number[];
   pace?: boolean;
+  condition?: string;
+  reads?: string[];
   guard?: boolean;
 }
 

@@ -1,4 +1,4 @@
-#include "judge/measure/why.h"
+#include "judge/summary/why.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,6 @@
 
 namespace lockstep::host {
 namespace {
-
-bool tries_again(const ShapeNode& node) {
-  return node.kind == "Retry" || node.kind == "RetryUntilSuccessful";
-}
 
 // Only the value that it has now. None: it has none, or one that is too long to be shown.
 std::optional<std::string> text_of(const Moment& moment, std::uint32_t entry) {
@@ -39,11 +35,11 @@ WhyWatch::WhyWatch(const Shape& shape) : shape_(shape) {
       if (!is_known) watched_.push_back({.entry = place});
     }
     if (it.children.size() != 1) continue;
-    if (tries_again(it)) {
+    if (it.tries_again) {
       tries_.push_back({.node = node, .child = it.children.front()});
       tries_.back().last.reserve(kAttempts);
     }
-    if (it.kind == "Timeout") timed_.push_back({.node = node});
+    if (it.limits_time) timed_.push_back({.node = node});
   }
 }
 
@@ -131,7 +127,30 @@ std::string WhyWatch::reason(const Moment& moment, NodeIndex node) const {
   if (!it.condition.empty() && moment.status(node) != Status::Idle) {
     return condition_text(moment, node);
   }
-  return it.kind == "Timeout" && !it.children.empty() ? time_text(moment, node) : std::string();
+  return it.limits_time ? time_text(moment, node) : std::string();
+}
+
+// Such as the alternatives of a Fallback, which may have failed in earlier ticks.
+std::vector<Attempt> WhyWatch::others(const Moment& moment, const DecidingNode& node) const {
+  std::vector<Attempt> others;
+  const auto decided = deciding_child(shape_, moment, node.node);
+  if (node.agreeing < 2 || !decided) return others;
+  for (const NodeIndex child : shape_.nodes[node.node].children) {
+    if (child == *decided || moment.status(child) != node.status) continue;
+    std::string its = reason(moment, child);
+    NodeIndex who = child;
+    while (its.empty() && !shape_.nodes[who].children.empty()) {
+      const auto& children = shape_.nodes[who].children;
+      const auto below = std::find_if(children.rbegin(), children.rend(), [&](NodeIndex it) {
+        return moment.status(it) == node.status;
+      });
+      if (below == children.rend()) break;
+      who = *below;
+      its = reason(moment, who);
+    }
+    others.push_back({.tick = moment.tick, .node = who, .reason = std::move(its)});
+  }
+  return others;
 }
 
 std::vector<WhyLink> WhyWatch::why(const Moment& moment, NodeIndex node) const {
@@ -148,6 +167,7 @@ std::vector<WhyLink> WhyWatch::why(const Moment& moment, NodeIndex node) const {
                                                .depth = depth,
                                                .is_held = moment.held(self),
                                                .reason = reason(moment, self)});
+    link.others = others(moment, link.decided);
     if (const auto it = std::ranges::find(tries_, self, &Tries::node); it != tries_.end()) {
       link.failed_attempts = it->failed;
       link.attempts = it->last;

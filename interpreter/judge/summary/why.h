@@ -18,7 +18,7 @@
 
 namespace lockstep::host {
 
-// A failure of what a node tries again.
+// What a node has tried: again, or before the child that decided.
 struct Attempt {
   std::uint64_t tick = 0;
   NodeIndex node = 0;  // that decided
@@ -32,6 +32,7 @@ struct WhyLink {
   std::string reason = {};
   std::uint64_t failed_attempts = 0;   // of a node that tries again, in this activation
   std::vector<Attempt> attempts = {};  // the last of these
+  std::vector<Attempt> others = {};    // of the other children that have the same result
 };
 
 // Follows a run, whatever its Moments come from, and keeps what reasons need of the past.
@@ -73,6 +74,7 @@ class WhyWatch {
   std::string condition_text(const Moment& moment, NodeIndex node) const;
   std::string value_text(const Moment& moment, const std::string& key) const;
   std::string time_text(const Moment& moment, NodeIndex node) const;
+  std::vector<Attempt> others(const Moment& moment, const DecidingNode& node) const;
   void note_attempt(const Moment& moment, Tries& tries) const;
 
   const Shape& shape_;

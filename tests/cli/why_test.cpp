@@ -1,0 +1,147 @@
+// Why a node failed, waits or does not run: the summary of a run and `lockstep log why`, for leaves
+// of each kind.
+#include <catch2/catch.hpp>
+
+#include "support/json.h"
+#include "support/paths.h"
+#include "support/program.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+constexpr const char* kSeeing = R"(#!/usr/bin/python3
+from lockstep_leaf import Action, Condition, Failed, Waiting, serve
+
+class See(Action):
+    def start(self):
+        self.frames = 0
+    def tick(self):
+        self.frames += 1
+        if self.frames < 3:
+            return Waiting(f"frame {self.frames} of 3")
+        raise Failed("the camera is dark")
+
+class IsOpen(Condition):
+    def tick(self):
+        return Failed("the door is closed")
+
+serve()
+)";
+
+struct SeeingRun {
+  Outcome run;
+  std::string file;
+};
+
+SeeingRun record_seeing(const TemporaryDirectory& directory, const std::string& nodes) {
+  const std::string program = directory.file("seeing.py", kSeeing);
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string tree =
+      directory.file("tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + nodes +
+                                     "</BehaviorTree></root>");
+  SeeingRun recorded{.run = {}, .file = directory.path("r.jsonl")};
+  std::filesystem::remove(recorded.file);
+  recorded.run = run_lockstep({"run", tree, "--plugin", program, "--clock", "virtual", "--view",
+                               "none", "--max-ticks", "100", "--record", recorded.file});
+  return recorded;
+}
+
+std::string why(const std::string& recording, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{"log", "why", recording};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = run_lockstep(words);
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  return outcome.out;
+}
+
+constexpr const char* kRetried =
+    "<Sequence memory=\"true\"><AlwaysSuccess/><Retry name=\"look\" attempts=\"2\"><See "
+    "name=\"see\"/></Retry></Sequence>";
+
+}  // namespace
+
+TEST_CASE("a failed run tells the reason of each attempt, and log why the same") {
+  const TemporaryDirectory directory;
+  const auto [run, file] = record_seeing(directory, kRetried);
+  const std::string chain =
+      "    Sequence: failure\n"
+      "      look (Retry): failure, 2 attempts failed\n"
+      "        - tick 2: see: the camera is dark\n"
+      "        - tick 5: see: the camera is dark\n"
+      "        see (See): failure: the camera is dark\n";
+  CHECK(run.code == 1);
+  CHECK(contains(run.out, "  decided by Main/Sequence/look/see:\n" + chain));
+  CHECK(why(file) == "'Main/Sequence' failed in tick 5\n" + chain);
+  CHECK(contains(run_lockstep({"log", "info", file}).out, chain));
+  const auto told = parse_json(why(file, {"look", "--json"}));
+  CHECK(told["tick"] == 5);
+  CHECK(told["links"][0]["failed_attempts"] == 2);
+  CHECK(told["links"][0]["attempts"][0] ==
+        parse_json(
+            R"({"tick": 2, "path": "Main/Sequence/look/see", "reason": "the camera is dark"})"));
+  CHECK(told["links"][1]["reason"] == "the camera is dark");
+}
+
+TEST_CASE("a reason belongs to its tick: what a leaf waits for, and nothing before it begins") {
+  const TemporaryDirectory directory;
+  const std::string file = record_seeing(directory, kRetried).file;
+  CHECK(contains(why(file, {"see", "--at", "1"}), "see (See): running: frame 2 of 3\n"));
+  CHECK(contains(why(file, {"--at", "3"}), "look (Retry): running, 1 attempt failed\n"));
+  CHECK(contains(why(file, {"--at", "3"}), "see (See): running: frame 1 of 3\n"));
+  CHECK(contains(read_file(file), ",\"reasons\":[[3,\"frame 2 of 3\"]]"));
+}
+
+TEST_CASE("conditions, timeouts, halted nodes and nodes that were not reached have reasons") {
+  const TemporaryDirectory directory;
+  const auto [run, file] =
+      record_seeing(directory,
+                    "<Fallback memory=\"true\"><IsOpen/>"
+                    "<Timeout seconds=\"0.1\"><Wait name=\"long\" seconds=\"5\"/></Timeout>"
+                    "<Sequence><Script name=\"set\" code=\"force := 2\"/><Check code=\"force &gt;= "
+                    "5\"/></Sequence>"
+                    "<See/></Fallback>");
+  CHECK(contains(run.out, "      - IsOpen: the door is closed\n"));
+  const std::string check =
+      "Check: force >= 5 is false: force is 2, since tick 10 by 'Main/Fallback/Sequence/set'";
+  CHECK(contains(run.out, "      - " + check + "\n"));
+  CHECK(contains(run.out, "      See: failure: the camera is dark\n"));
+  CHECK(contains(why(file, {"IsOpen"}), "IsOpen: failure: the door is closed\n"));
+  CHECK(contains(why(file, {"Timeout"}),
+                 "Timeout: failure: its time was over, 0.1 s after its start\n"));
+  CHECK(why(file, {"long"})
+            .starts_with("'Main/Fallback/Timeout/long' was halted in tick 10, when "
+                         "'Main/Fallback/Timeout' failed\n"));
+  CHECK(
+      why(file, {"See", "--at", "4"})
+          .starts_with("'Main/Fallback/See' was not reached until tick 4: 'Main/Fallback' has not "
+                       "come to it\n"));
+}
+
+TEST_CASE("of a node that is held, log why tells who holds it, and for whom") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      tree_text("<ParallelAbsolute name=\"carry\" barriers=\"0.5\"><Advance name=\"arm\" "
+                "step=\"0.01\"/><Advance name=\"base\" step=\"0.1\"/></ParallelAbsolute>"));
+  const std::string file = directory.path("r.jsonl");
+  REQUIRE(
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file}).code ==
+      0);
+  const std::string held = why(file, {"base", "--at", "20"});
+  CHECK(held.starts_with("'Main/carry/base' was held in tick 20\n"));
+  CHECK(contains(held, "'carry' holds 'base' at 0.5 until 'arm' comes, which is at 0.2\n"));
+  CHECK(why(file) ==
+        "'Main/carry' succeeded in tick 99\n"
+        "    carry (ParallelAbsolute): success (2 of 2 children)\n"
+        "      arm (Advance): success\n");
+}
+
+TEST_CASE("log why refuses a node that is not there") {
+  const TemporaryDirectory directory;
+  const std::string file = record_seeing(directory, kRetried).file;
+  const Outcome outcome = run_lockstep({"log", "why", file, "se"});
+  CHECK(outcome.code == 2);
+  CHECK(contains(outcome.err, "no node 'se'"));
+}
