@@ -23,6 +23,7 @@ export class Run {
   limits = new Map<number, NumberColumn>();
   rounds = new Map<number, { number: NumberColumn; of: NumberColumn }>();
   factors = new Map<number, NumberColumn>(); // of nodes that are paced; 1 before the first
+  reasons = new Map<number, EntryChange[]>(); // of leaves that give one; "" is none
   entries: EntryChange[][] = [];
   events = new Events(this);
   private counts = new Counts(0, 0);
@@ -91,6 +92,7 @@ export class Run {
       round.of.push(this.last, of);
     }
     this.takeFactors(line);
+    this.takeReasons(line);
     for (const [node, message] of line.faults ?? []) {
       this.events.fault(node, message);
       this.counts.fault(node);
@@ -116,6 +118,13 @@ export class Run {
     const told = new Map(line.factors ?? []);
     if (line.full) this.factors.forEach((_, node) => told.set(node, told.get(node) ?? 1));
     for (const [node, factor] of told) column(this.factors, node, () => new NumberColumn()).push(this.last, factor);
+  }
+
+  // A line with the whole state leaves out those that are none.
+  private takeReasons(line: TickLine) {
+    const told = new Map(line.reasons ?? []);
+    if (line.full) this.reasons.forEach((_, node) => told.set(node, told.get(node) ?? ""));
+    for (const [node, value] of told) column(this.reasons, node, () => [] as EntryChange[]).push({ line: this.last, value });
   }
 
   // In such a tick nodes had several results. Each moment says how nodes were that differ from the one after it.
@@ -191,6 +200,17 @@ function flagsOf(status: string, ticked: number, held: number): number {
 }
 function lastFlags(node: NodeColumn): number {
   return node.length === 0 ? 0 : node.flags[node.length - 1];
+}
+
+// The value at a line; null: there is none yet, or it is too long to be shown.
+export function valueAt(history: EntryChange[] | undefined, line: number): string | null {
+  let low = 0, high = history?.length ?? 0;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (history![middle].line <= line) low = middle + 1;
+    else high = middle;
+  }
+  return low === 0 ? null : history![low - 1].value;
 }
 
 function column<T>(columns: Map<number, T>, node: number, make: () => T): T {

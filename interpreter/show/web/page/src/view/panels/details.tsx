@@ -1,6 +1,7 @@
 // All that is known of the node that is selected.
 import { activations, laneText } from "../../model/lanes";
 import type { Moment } from "../../model/moment";
+import { reasonOf } from "../../model/reasons";
 import { STATUSES } from "../../model/recording";
 import { marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
@@ -21,6 +22,8 @@ function facts(moment: Moment, node: number): [string, string][] {
   rows.push(["In this run", laneText(moment.run, node)]);
   const wait = waitOf(moment, node);
   if (wait) rows.push(["Waiting", wait.text]);
+  const reason = reasonOf(moment, node);
+  if (reason) rows.push(["Reason", reason]);
   const pace = paceText(moment, node);
   if (pace) rows.push(["Pace", pace]);
   if (it.synchronization === "resources") {

@@ -2,6 +2,7 @@
 import { decidingPath } from "../../model/decision";
 import type { EventKind, RunEvent } from "../../model/events";
 import type { Moment } from "../../model/moment";
+import { reasonOf } from "../../model/reasons";
 import { RUNNING, STATUSES, SUCCESS } from "../../model/recording";
 import { paceText, waiting, waitOf } from "../../model/waiting";
 import { seconds, symbolOf } from "../../model/words";
@@ -72,6 +73,11 @@ function Name({ store, node }: { store: Store; node: number }) {
   return <button type="button" class="node" title={path} onClick={() => store.select(node, true)}>{apart}</button>;
 }
 
+function Reason({ moment, node }: { moment: Moment; node: number }) {
+  const reason = reasonOf(moment, node);
+  return reason ? <span class="reason">{`: ${reason}`}</span> : null;
+}
+
 function Waiting({ store, moment, node }: { store: Store; moment: Moment; node: number }) {
   const wait = waitOf(moment, node);
   return (
@@ -105,6 +111,7 @@ function Decision({ store, moment }: { store: Store; moment: Moment }) {
               <button type="button" class="node" title={nodes[node].path} onClick={() => store.select(node, true)}>{nodes[node].segment}</button>
               {`${nodes[node].kind === nodes[node].segment ? "" : ` (${nodes[node].kind})`}: ${STATUSES[moment.status[node]]}`}
               {agreeing > 1 && <span class="dim">{` (${agreeing} of ${children} children)`}</span>}
+              <Reason moment={moment} node={node} />
             </span>
           </li>
         ))}
@@ -127,7 +134,7 @@ export function Now({ store }: { store: Store }) {
         {running.slice(0, MOST).map((node) => (
           <li key={node} class="running">
             <span aria-hidden="true" class="symbol">▶</span>
-            <span><Name store={store} node={node} /> runs {paceText(moment, node)}</span>
+            <span><Name store={store} node={node} /> runs {paceText(moment, node)}<Reason moment={moment} node={node} /></span>
             <Progress moment={moment} node={node} />
           </li>
         ))}
