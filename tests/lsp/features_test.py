@@ -287,6 +287,7 @@ class Features(Session):
         self.assertIn("has an entry 'word' already", self.renamed(limit, "word"))
         self.assertIn("cannot be a key", self.renamed(limit, "a b"))
         self.assertIn("cannot be a name", self.renamed(text.replace("\"table\">", "\"ta|ble\">"), "a b"))
+        self.assertIn("cannot be a name", self.renamed(text.replace("\"table\">", "\"ta|ble\">"), "a.b"))
         self.assertIn("cannot be read", self.renamed(limit + "<", "most"))
         self.assertEqual("\ufeff" + self.renamed(limit, "most"), self.renamed("\ufeff" + limit, "most"))
         # A SubTree that passes on all entries binds this one with an attribute from now on.

@@ -63,12 +63,13 @@ bool GivenLeaves::give(const Tree& tree) {
     Diagnostics diagnostics;
     std::vector<NodeProblem> problems;
     given.models = make_models(tree, file_.get(), diagnostics, problems);
-    print_diagnostics(diagnostics, Severity::Warning);
     for (const NodeProblem& it : problems) {
-      print_error(tree.path(it.node) + ": " + it.message, it.hint);
+      diagnostics.error("bad-leaf-model"_code, {path_}, tree.path(it.node) + ": " + it.message,
+                        it.hint);
     }
+    print_diagnostics(diagnostics, Severity::Warning);
     given.played.set_models(tree, given.models);
-    return !diagnostics.has_errors() && problems.empty();
+    return !diagnostics.has_errors();
   }
   if (const auto wrong = PlayedLeaves::check(scripts_, tree)) {
     tell(line_of_leaf(text_, wrong->leaf), 1, wrong->message, wrong->hint);

@@ -66,7 +66,7 @@ class FileEdits {
 // A group has no name that something outside of it could have too.
 Json rename_group(const Question& question, const Names& names, const NamePlace& place) {
   const std::string& new_name = question.params.new_name;
-  if (new_name.empty() || new_name.find_first_of(" \t\r\n\"'<>&{}$/;,=") != new_name.npos)
+  if (new_name.empty() || new_name.find_first_of(" \t\r\n\"'<>&{}$/;,=.") != new_name.npos)
     refuse(fmt::format("'{}' cannot be a name here", brief(new_name)));
   if (place.declared == nullptr) refuse(fmt::format("nothing declares '{}'", brief(place.name)));
   const ProjectText& home = *names.text_of(*place.declared);
