@@ -12,17 +12,17 @@ bool At::check() {
 }
 
 bool DoorOpen::check() {
-  return context<World>().door(door.view()).is_open;
+  return context<World>().door(door.view()).is_open || fail("it is closed");
 }
 
 OpenDoor::Status OpenDoor::tick() {
   World& world = context<World>();
   Door& it = world.door(door.view());
   if (it.is_open) return Status::Success;
-  if (world.at != &World::place(it.place)) return Status::Failure;
+  if (world.at != &World::place(it.place)) return fail("the robot is not at the door");
   if (!timer_.step(tick_period())) return Status::Running;
   it.is_open = random() >= failure.get();
-  return it.is_open ? Status::Success : Status::Failure;
+  return it.is_open ? Status::Success : fail("the door does not open");
 }
 
 void DriveTo::start() {
@@ -65,14 +65,15 @@ DriveTo::Status DriveTo::tick() {
   World& world = context<World>();
   const Place& goal = World::place(place.view());
   if (world.at == &goal) return Status::Success;
-  if (world.battery <= 0) return Status::Failure;
+  if (world.battery <= 0) return fail("the battery is empty");
   world.at = nullptr;
   const double before = length_left(world);
   const bool is_free = advance(world, speed.get() * tick_period());
   world.battery -= kBatteryPerMeter * (before - length_left(world));
   if (!is_free) {
-    log(std::string("the door on the way to ") + place.get() + " is closed");
-    return Status::Failure;
+    const std::string reason = "the door on the way to " + place.get() + " is closed";
+    log(reason);
+    return fail(reason);
   }
   if (next_ < route_.size()) return Status::Running;
   world.at = &goal;

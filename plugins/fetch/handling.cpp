@@ -32,7 +32,9 @@ LookFor::Status LookFor::tick() {
   World& world = context<World>();
   Object& it = world.object(object.view());
   if (!timer_.step(tick_period())) return Status::Running;
-  if (!it.place || it.place->room != world.room) return Status::Failure;
+  if (!it.place || it.place->room != world.room) {
+    return fail("there is no " + object.get() + " in this room");
+  }
   it.is_known = true;
   place.set(std::string(it.place->name));
   log("sees the " + object.get() + " at the " + std::string(it.place->name));
@@ -43,11 +45,14 @@ Grasp::Status Grasp::tick() {
   World& world = context<World>();
   Object& it = world.object(object.view());
   if (world.held == &it) return Status::Success;
-  if (world.held || !world.at || it.place != world.at) return Status::Failure;
+  if (world.held) return fail("the gripper is not empty");
+  if (!world.at || it.place != world.at)
+    return fail("the " + object.get() + " is not within reach");
   if (!timer_.step(tick_period())) return Status::Running;
   if (random() < failure.get()) {
-    log("the gripper misses the " + object.get());
-    return Status::Failure;
+    const std::string reason = "the gripper misses the " + object.get();
+    log(reason);
+    return fail(reason);
   }
   world.held = &it;
   it.place = nullptr;
@@ -56,7 +61,8 @@ Grasp::Status Grasp::tick() {
 
 PutDown::Status PutDown::tick() {
   World& world = context<World>();
-  if (!world.held || !world.at) return Status::Failure;
+  if (!world.held) return fail("the gripper holds nothing");
+  if (!world.at) return fail("the robot is between two places");
   if (!timer_.step(tick_period())) return Status::Running;
   world.held->place = world.at;
   world.held->is_known = true;

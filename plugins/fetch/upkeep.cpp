@@ -7,7 +7,7 @@ namespace fetch {
 
 Charge::Status Charge::tick() {
   World& world = context<World>();
-  if (world.at != &World::place("dock")) return Status::Failure;
+  if (world.at != &World::place("dock")) return fail("the robot is not at the dock");
   if (world.battery >= level.get()) return Status::Success;
   world.battery = std::min(1.0, world.battery + rate.get() * tick_period());
   return world.battery >= std::min(1.0, level.get()) ? Status::Success : Status::Running;

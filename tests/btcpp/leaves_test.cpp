@@ -135,6 +135,14 @@ TEST_CASE("leaves for BehaviorTree.CPP: progress, onPaused and onResumed keep a 
         std::vector<std::string>{"fast holds at 0.5", "fast goes on", "success"});
 }
 
+TEST_CASE("leaves for BehaviorTree.CPP: reason() is why a node fails") {
+  const TemporaryDirectory directory;
+  const auto tree = directory.file("tree.xml", tree_of("<Blind/>"));
+  const Outcome outcome = run_tree(tree, "faulty");
+  CHECK(contains(outcome.out, "    Blind: failure: the lens is covered\n"));
+  CHECK(run_tree(tree, "faulty", {"--isolate"}).out == outcome.out);
+}
+
 TEST_CASE("leaves for BehaviorTree.CPP: IDs of lockstep's own nodes, '-' and UTF-8") {
   const TemporaryDirectory directory;
   const auto theirs = directory.file(

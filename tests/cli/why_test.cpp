@@ -145,3 +145,19 @@ TEST_CASE("log why refuses a node that is not there") {
   CHECK(outcome.code == 2);
   CHECK(contains(outcome.err, "no node 'se'"));
 }
+
+TEST_CASE("leaves in C++ give reasons, and the same in a separate process") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root lockstep=\"1\"><plugin name=\"fetch\"/><BehaviorTree ID=\"Main\"><Fallback>"
+      "<DoorOpen door=\"kitchen\"/><Retry attempts=\"2\"><Grasp object=\"mug\"/></Retry></Fallback>"
+      "</BehaviorTree></root>");
+  const Outcome outcome = run_lockstep({"run", tree, "--clock", "virtual", "--view", "none"});
+  INFO(outcome.err);
+  CHECK(contains(outcome.out, "      - DoorOpen: it is closed\n"));
+  CHECK(contains(outcome.out, "        - tick 0: Grasp: the mug is not within reach\n"));
+  CHECK(contains(outcome.out, "        Grasp: failure: the mug is not within reach\n"));
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--isolate"}).out ==
+        outcome.out);
+}

@@ -30,6 +30,15 @@ class Wrong : public SyncActionNode {
   }
 };
 
+// A class that knows why it fails.
+class Blind : public SyncActionNode {
+ public:
+  Blind(const std::string& name, const NodeConfig& config) : SyncActionNode(name, config) {}
+  static PortsList providedPorts() { return {}; }
+  NodeStatus tick() override { return NodeStatus::FAILURE; }
+  std::string reason() const { return "the lens is covered"; }
+};
+
 // The class that serves both: with progress, and held at barriers.
 class Reach : public StatefulActionNode {
  public:
@@ -68,6 +77,7 @@ class Wait : public SyncActionNode {
 
 BT_REGISTER_NODES(factory) {
   factory.registerNodeType<Wrong>("Wrong");
+  factory.registerNodeType<Blind>("Blind");
   factory.registerNodeType<Reach>("Reach");
   factory.registerNodeType<Wait>("Wait");
   factory.registerNodeType<Wait>("Wärmen-bis");
