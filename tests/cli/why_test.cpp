@@ -138,6 +138,25 @@ TEST_CASE("of a node that is held, log why tells who holds it, and for whom") {
         "      arm (Advance): success\n");
 }
 
+TEST_CASE("after a fault, log why has its message") {
+  const TemporaryDirectory directory;
+  const std::string program = directory.file(
+      "broken.py",
+      "#!/usr/bin/python3\nfrom lockstep_leaf import Action, serve\nclass Broken(Action):\n"
+      "    def tick(self):\n        raise OSError(\"no device\")\nserve()\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::string tree = directory.file(
+      "tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\"><Broken/></BehaviorTree></root>");
+  const std::string file = directory.path("r.jsonl");
+  CHECK(run_lockstep({"run", tree, "--plugin", program, "--clock", "virtual", "--view", "none",
+                      "--record", file})
+            .code == 5);
+  const std::string told = why(file);
+  INFO(told);
+  CHECK(contains(told, "; the run ended with a fault: Main/Broken: "));
+  CHECK(contains(told, "no device"));
+}
+
 TEST_CASE("log why refuses a node that is not there") {
   const TemporaryDirectory directory;
   const std::string file = record_seeing(directory, kRetried).file;

@@ -7,8 +7,8 @@
 #include "base/core/wording.h"
 #include "base/json/json.h"
 #include "judge/measure/wait_chain.h"
-#include "judge/summary/why.h"
 #include "judge/summary/standstill_text.h"
+#include "judge/summary/why.h"
 #include "language/property/node_names.h"
 #include "record/read/recorded_moments.h"
 
@@ -168,7 +168,12 @@ Result<RecordedWhy> why_of(RecordingReader& reader, std::string_view node,
     asked.after_tick(*last);
   }
   if (last == nullptr) return problem("the recording has no such tick");
-  return asked.answer(*last);
+  RecordedWhy why = asked.answer(*last);
+  const auto& end = reader.end();
+  if (end && !end->fault.empty()) {
+    why.headline += fmt::format("; the run ended with a fault: {}", end->fault);
+  }
+  return why;
 }
 
 std::string to_text(const RecordedWhy& why, bool color) {
