@@ -7,7 +7,9 @@
 
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
+#include "cli/console.h"
 #include "cli/installed.h"
+#include "run/loading/project_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -22,19 +24,25 @@ std::string check_example(std::string& name) {
 
 }  // namespace
 
-CLI::Option* add_tree_argument(CLI::App& app, std::string& tree, const char* description) {
-  CLI::Option* const file =
-      app.add_option("tree", tree, description)->type_name("TREE.xml")->required();
+CLI::Option* add_tree_argument(CLI::App& app, std::string& tree, const char* description,
+                               TreeFile otherwise) {
+  CLI::Option* const file = app.add_option("tree", tree, description)->type_name("TREE.xml");
   app.add_option_function<std::string>(
-         "--example",
-         [&tree, file](const std::string& name) {
-           file->required(false);
-           tree = example_file(name).string();
-         },
+         "--example", [&tree](const std::string& name) { tree = example_file(name).string(); },
          "Use this example tree instead of a file; `lockstep examples` lists them")
       ->type_name("NAME")
       ->check(CLI::Validator(check_example, ""))
       ->excludes(file);
+  if (otherwise == TreeFile::MayLack) return file;
+  app.parse_complete_callback([&tree] {
+    if (!tree.empty()) return;
+    Diagnostics diagnostics;
+    tree = main_file_here(diagnostics);
+    if (diagnostics.has_errors()) print_diagnostics(diagnostics, Severity::Error);
+    if (tree.empty()) {
+      throw CLI::RequiredError("a tree file, or a lockstep.project.xml with <main file=\"…\"/>,");
+    }
+  });
   return file;
 }
 

@@ -81,17 +81,19 @@ class ProjectFileReader {
     }
     for (const std::uint32_t child : children_in(elements, 0)) read(*document, child);
   }
+  const std::string& main_file() const { return main_; }
 
  private:
   void read(const Document& document, std::uint32_t element) {
-    constexpr std::string_view kTags[] = {"trees", "plugins", "models"};
+    constexpr std::string_view kTags[] = {"main", "trees", "plugins", "models"};
     const Element& it = document.elements()[element];
     if (std::ranges::find(kTags, it.tag) == std::end(kTags)) {
       return report_.at("unknown-element"_code, it.place,
                         fmt::format("unknown element '{}' in 'project'", brief(it.tag)),
                         suggest(it.tag, kTags, "elements of 'project'"));
     }
-    const bool is_file = it.tag == "models";
+    const bool is_main = it.tag == "main";
+    const bool is_file = is_main || it.tag == "models";
     if (!check_vocabulary(document, element, is_file ? kFile : kFolder, 1, report_)) return;
     const Attribute& named = *document.find_attribute(element, is_file ? "file" : "folder");
     const auto below = fs::path(named.value).lexically_normal();
@@ -108,7 +110,9 @@ class ProjectFileReader {
           "bad-value"_code, named.place,
           fmt::format("there is no {} '{}'", is_file ? "file" : "folder", brief(path)));
     }
-    if (it.tag == "trees") {
+    if (is_main) {
+      main_ = path;
+    } else if (it.tag == "trees") {
       Diagnostics of_folder;
       library_.add_folder(path, of_folder);
       for (const Diagnostic& problem : of_folder.all())  // `check FOLDER` reports the rest
@@ -126,6 +130,7 @@ class ProjectFileReader {
   }
 
   const std::string path_;
+  std::string main_;
   Library& library_;
   PluginOptions& plugins_;
   Diagnostics& diagnostics_;
@@ -134,6 +139,16 @@ class ProjectFileReader {
 };
 
 }  // namespace
+
+std::string main_file_here(Diagnostics& diagnostics) {
+  const std::string file = is_privileged() ? std::string() : project_file_of("main");
+  if (file.empty()) return {};
+  Library library;
+  PluginOptions plugins;
+  ProjectFileReader reader(file, library, plugins, diagnostics);
+  reader.read();
+  return reader.main_file();
+}
 
 LoadOptions with_project_file(const std::string& tree, LoadOptions options,
                               Diagnostics& diagnostics) {

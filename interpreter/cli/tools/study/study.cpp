@@ -239,7 +239,7 @@ void define_runs(CLI::App& app, StudyOptions& options) {
 
 std::function<int()> define_study(CLI::App& app) {
   const auto options = std::make_shared<StudyCommandOptions>();
-  add_tree_argument(app, options->study.tree, "Tree file")->required(false);
+  add_tree_argument(app, options->study.tree, "Tree file", TreeFile::MayLack);
   add_leaves_option(app, options->study.leaves);
   define_runs(app, options->study);
   options->jobs = std::max(1u, std::thread::hardware_concurrency());
