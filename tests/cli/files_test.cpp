@@ -404,3 +404,24 @@ TEST_CASE(
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.err, "this tree 'Go' replaces another one"));
 }
+
+TEST_CASE("without a tree file, commands take the main file of the project") {
+  const TemporaryDirectory directory;
+  directory.file("main.xml", tree_text("<Advance step=\"0.5\"/>"));
+  directory.file("lockstep.project.xml",
+                 "<project lockstep=\"1\"><main file=\"main.xml\"/></project>");
+  const Outcome run =
+      shell("mkdir below; cd below; lockstep run --clock virtual --view none", directory);
+  INFO(run.err);
+  CHECK(run.code == 0);
+  CHECK(contains(run.out, "success after 2 ticks"));
+  CHECK(contains(shell("lockstep show", directory).out, "Advance"));
+  CHECK(shell("lockstep verify", directory).code == 0);
+  directory.file("lockstep.project.xml",
+                 "<project lockstep=\"1\"><main file=\"gone.xml\"/></project>");
+  const Outcome gone = shell("lockstep run", directory);
+  CHECK(gone.code == 2);
+  CHECK(contains(gone.err, "there is no file 'gone.xml'"));
+  directory.file("lockstep.project.xml", "<project lockstep=\"1\"/>");
+  CHECK(contains(shell("lockstep run", directory).err, "tree is required"));
+}

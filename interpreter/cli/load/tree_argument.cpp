@@ -39,9 +39,7 @@ CLI::Option* add_tree_argument(CLI::App& app, std::string& tree, const char* des
     Diagnostics diagnostics;
     tree = main_file_here(diagnostics);
     if (diagnostics.has_errors()) print_diagnostics(diagnostics, Severity::Error);
-    if (tree.empty()) {
-      throw CLI::RequiredError("a tree file, or a lockstep.project.xml with <main file=\"…\"/>,");
-    }
+    if (tree.empty()) throw CLI::RequiredError("tree");
   });
   return file;
 }
