@@ -50,8 +50,16 @@ bool Breakpoints::is_reached(NodeState state, Watched& watched) {
   const bool is_as_before = has_ended(now) && now == before;
   if (!state.ticked() || is_as_before) return false;
   // When it completes, an ancestor that ends too makes it idle again.
-  return watched.breakpoint.when == Breakpoint::When::Begins ? before != Status::Running
-                                                             : now != Status::Running;
+  switch (watched.breakpoint.when) {
+    case Breakpoint::When::Begins:
+      return before != Status::Running;
+    case Breakpoint::When::Succeeds:
+      return now == Status::Success;
+    case Breakpoint::When::Fails:
+      return now == Status::Failure;
+    default:
+      return now != Status::Running;
+  }
 }
 
 bool Breakpoints::is_barrier_reached(Ticker& ticker, Watched& watched) {

@@ -14,6 +14,8 @@ struct Breakpoint {
     Begins,     // the node; not if it completes at once as it did before
     Completes,  // it; likewise
     Barrier,    // a child comes to the limit of this synchronized node, or the limit moves on
+    Succeeds,   // the node; not if it did so before
+    Fails,      // likewise
   };
   NodeIndex node = 0;
   When when = When::Begins;

@@ -55,6 +55,8 @@ class RunControl {
   bool pauses_at_once() const { return is_paused_ && !is_stepping_; }
   bool pauses_after_tick() const { return ticks_left_ == 1; }  // the next one
   bool is_halted() const { return is_halted_; }
+  // The breakpoint that the last tick has come to.
+  const std::optional<Breakpoint>& reached() const { return reached_; }
   double speed() const { return speed_; }
   // After each tick.
   void count_tick(Ticker& ticker);

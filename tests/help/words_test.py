@@ -48,6 +48,7 @@ DONE = [
     "docs/nodes-and-attributes.md",
     "docs/pacing.md",
     "docs/why.md",
+    "docs/debugging.md",
     "docs/packages.md",
     "docs/paper.md",
     "docs/performance.md",

@@ -94,16 +94,40 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
   return true;
 }
 
+// Nothing: one is wrong, which is reported.
+std::optional<std::vector<Breakpoint>> breakpoints_of(const RunCommandOptions& options,
+                                                      const Tree& tree) {
+  std::vector<Breakpoint> breakpoints;
+  if (options.breaks.empty()) return breakpoints;
+  if (options.tree == "-") {
+    print_error("--break reads commands from stdin, which has the tree");
+    return std::nullopt;
+  }
+  const Shape shape = shape_of(tree);
+  for (const std::string& text : options.breaks) {
+    const auto breakpoint = parse_breakpoint(text, shape);
+    if (!breakpoint) {
+      print_error("--break: " + printable(breakpoint.error().message), breakpoint.error().hint);
+      return std::nullopt;
+    }
+    breakpoints.push_back(*breakpoint);
+  }
+  return breakpoints;
+}
+
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Runnable& runnable,
-             std::vector<Property> properties, WatcherSockets sockets)
+             std::vector<Property> properties, WatcherSockets sockets,
+             std::span<const Breakpoint> breakpoints)
       : options_(options),
         tree_(runnable.tree),
         shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
-        view_(options.view, shape_, options.log_level),
+        // A person who types reads lines.
+        view_(options.view == "auto" && !breakpoints.empty() ? "plain" : options.view, shape_,
+              options.log_level),
         watch_(shape_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(shape_),
@@ -114,7 +138,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                           view_.print("warning: " + text);
                         }),
         description_(describe_run(runnable)),
-        watchers_(shape_, options, description_, std::move(sockets),
+        watchers_(shape_, options, description_, std::move(sockets), breakpoints,
                   [this](const std::string& line) { view_.print(line); }) {
     if (!options.record.empty()) {
       recorder_.emplace(shape_, recorder_options());
@@ -477,6 +501,8 @@ int run(RunCommandOptions options) {
   auto properties = all_properties(std::move(runnable.properties), options.properties,
                                    [&] { return property_names(shape_of(runnable.tree)); });
   if (!properties) return kExitUsage;
+  const auto breakpoints = breakpoints_of(options, runnable.tree);
+  if (!breakpoints) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);
   if (!options.is_real()) {
@@ -484,7 +510,7 @@ int run(RunCommandOptions options) {
                              notes);
   }
   print_diagnostics(notes, Severity::Note);
-  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets))
+  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *breakpoints)
       .run(runnable.plugins);
 }
 

@@ -251,6 +251,11 @@ void define_record_options(CLI::App& app, RunCommandOptions& options) {
 
 void define_view_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Watching");
+  app.add_option("--break", options.breaks,
+                 "Pause at this node and read commands from stdin; WHEN is before (the "
+                 "default), after, success, failure or barrier; may be repeated")
+      ->type_name("NODE[:WHEN]")
+      ->allow_extra_args(false);
   app.add_option("--view", options.view,
                  "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
                  "terminal, otherwise plain")

@@ -73,9 +73,13 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
 }
 
 Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
-                   WatcherSockets sockets, std::function<void(const std::string& line)> print)
+                   WatcherSockets sockets, std::span<const Breakpoint> breakpoints,
+                   std::function<void(const std::string& line)> print)
     : options_(options) {
-  if (options.monitor_control || options.groot2_control) control_.emplace();
+  if (options.monitor_control || options.groot2_control || !breakpoints.empty()) {
+    control_.emplace();
+  }
+  if (!breakpoints.empty()) prompt_.emplace(shape, *control_, breakpoints, options.is_real());
   if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
   if (sockets.monitor || sockets.attach) {
     monitor_.emplace(
@@ -109,6 +113,7 @@ void Watchers::linger() {
 }
 
 void Watchers::add_to(std::vector<Observer*>& observers) {
+  if (prompt_) observers.push_back(&*prompt_);
   if (groot_) observers.push_back(groot_.get());
   if (monitor_) observers.push_back(&*monitor_);
 }

@@ -1,4 +1,5 @@
-// Those who watch a run from outside, and may control it: browsers, and Groot2.
+// Those who watch a run from outside, and may control it: browsers, Groot2, and who types at
+// breakpoints.
 #pragma once
 
 #include <functional>
@@ -11,6 +12,7 @@
 #include "base/core/problem.h"
 #include "cli/monitor_link.h"
 #include "cli/run/groot.h"
+#include "cli/run/prompt.h"
 #include "cli/run/run_options.h"
 #include "show/web/monitor.h"
 #include "tree/definition.h"
@@ -30,7 +32,8 @@ class Watchers {
  public:
   // `print` shows a line to the person; from any thread.
   Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
-           WatcherSockets sockets, std::function<void(const std::string& line)> print);
+           WatcherSockets sockets, std::span<const Breakpoint> breakpoints,
+           std::function<void(const std::string& line)> print);
 
   // Says where the monitor is, before the run starts.
   void tell();
@@ -49,6 +52,7 @@ class Watchers {
   std::optional<MonitorLink> link_;  // used by the thread of the monitor
   std::optional<Monitor> monitor_;
   std::unique_ptr<Observer> groot_;
+  std::optional<Prompt> prompt_;
 };
 
 }  // namespace lockstep::host

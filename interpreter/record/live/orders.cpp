@@ -18,7 +18,8 @@ using Order = RunControl::Order;
 using What = Order::What;
 using When = Breakpoint::When;
 
-constexpr std::array<std::string_view, 3> kWhen{"begins", "completes", "barrier"};  // by When
+constexpr std::array<std::string_view, 5> kWhen{"begins", "completes", "barrier", "succeeds",
+                                                "fails"};  // by When
 
 struct Fields {
   std::string what, entry, value, when;
@@ -125,7 +126,8 @@ Result<Order> breakpoint(const Shape& shape, const Fields& fields) {
     return problem(
         fmt::format("no node {}, expected 0 to {}", fields.node, shape.nodes.size() - 1));
   }
-  if (!when) return problem("'when' is neither 'begins' nor 'completes' nor 'barrier'");
+  if (!when)
+    return problem("'when' is none of 'begins', 'completes', 'barrier', 'succeeds' and 'fails'");
   const auto node = static_cast<NodeIndex>(fields.node);
   if (*when == When::Barrier && !compares_progress(shape.nodes[node].synchronization)) {
     return problem(

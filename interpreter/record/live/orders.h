@@ -13,7 +13,8 @@ namespace lockstep::host {
 // The order that the text has, checked: it can be carried out in a run of this tree.
 Result<RunControl::Order> read_order(const Shape& shape, bool is_real_time, std::string text);
 
-// When the run is to pause, as clients say it: "begins", "completes" or "barrier".
+// When the run is to pause, as clients say it: "begins", "completes", "barrier", "succeeds" or
+// "fails".
 std::string_view word_of(Breakpoint::When when);
 
 }  // namespace lockstep::host

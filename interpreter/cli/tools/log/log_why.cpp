@@ -5,6 +5,7 @@
 
 #include "base/terminal/fitted.h"
 #include "cli/console.h"
+#include "cli/exit_code.h"
 #include "cli/tools/log/log.h"
 #include "record/use/recording_why.h"
 
@@ -20,7 +21,10 @@ struct LogWhyOptions {
 int print_why(const LogWhyOptions& options, RecordingReader& reader) {
   const auto why = why_of(reader, options.node, options.at);
   if (!reader.error().empty()) return report_end(reader);
-  if (!why) return usage_error(printable(why.error().message));
+  if (!why) {
+    print_error(printable(why.error().message), printable(why.error().hint));
+    return kExitUsage;
+  }
   if (options.json) return write_results(to_json(*why));
   return write_results(fitted(to_text(*why, wants_color(results_file())), results_width()));
 }

@@ -1,0 +1,272 @@
+#include "cli/run/prompt.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <utility>
+
+#include "base/core/diagnostics.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
+#include "base/json/json.h"
+#include "base/system/own_thread.h"
+#include "base/terminal/outlet.h"
+#include "cli/console.h"
+#include "judge/summary/summary.h"
+#include "language/property/node_names.h"
+#include "record/live/orders.h"
+
+namespace lockstep::host {
+namespace {
+
+using When = Breakpoint::When;
+using What = RunControl::Order::What;
+
+struct WhenWord {
+  std::string_view word, past;
+  When when;
+};
+constexpr std::array<WhenWord, 5> kWhen{{{"before", "began", When::Begins},
+                                         {"after", "completed", When::Completes},
+                                         {"success", "succeeded", When::Succeeds},
+                                         {"failure", "failed", When::Fails},
+                                         {"barrier", "came to its limit", When::Barrier}}};
+
+constexpr std::string_view kHelp =
+    "  c              continue\n"
+    "  s [TICKS]      tick once, or so many times (Enter repeats the last s)\n"
+    "  w              why: what runs, what waits, and the reasons\n"
+    "  p              print the entries\n"
+    "  set KEY VALUE  write an entry\n"
+    "  b NODE[:WHEN]  another breakpoint; WHEN is before, after, success, failure or barrier\n"
+    "  d NODE[:WHEN]  delete it\n"
+    "  q              halt the run\n";
+
+std::string_view first_word(std::string_view& rest) {
+  const auto begin = std::min(rest.find_first_not_of(' '), rest.size());
+  const auto end = std::min(rest.find(' ', begin), rest.size());
+  const std::string_view word = rest.substr(begin, end - begin);
+  rest.remove_prefix(std::min(rest.find_first_not_of(' ', end), rest.size()));
+  return word;
+}
+
+void say(const std::string& text) {
+  messages().say(text);
+}
+
+}  // namespace
+
+Result<Breakpoint> parse_breakpoint(std::string_view text, const Shape& shape) {
+  const auto colon = text.rfind(':');
+  const bool has_when = colon != std::string_view::npos;
+  Breakpoint breakpoint;
+  if (has_when) {
+    const std::string_view word = text.substr(colon + 1);
+    const auto found = std::ranges::find(kWhen, word, &WhenWord::word);
+    if (found == kWhen.end()) {
+      std::vector<std::string_view> words;
+      for (const WhenWord& it : kWhen) words.push_back(it.word);
+      return problem(fmt::format("'{}' is not when a node can pause the run", brief(word)),
+                     suggest(word, words, "it can be"));
+    }
+    breakpoint.when = found->when;
+  }
+  const auto node = find_node(has_when ? text.substr(0, colon) : text, paths_of(shape));
+  if (!node) return tl::unexpected(node.error());
+  breakpoint.node = *node;
+  const ShapeNode& it = shape.nodes[*node];
+  if (breakpoint.when == When::Barrier && !compares_progress(it.synchronization)) {
+    return problem(fmt::format("'{}' has no barriers and no delta", brief(it.path)));
+  }
+  return breakpoint;
+}
+
+Prompt::Prompt(const Shape& shape, RunControl& control, std::span<const Breakpoint> breakpoints,
+               bool is_real_time)
+    : shape_(shape),
+      control_(control),
+      is_real_time_(is_real_time),
+      why_(shape),
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  for (const Breakpoint& it : breakpoints) control_.give({.what = What::Break, .breakpoint = it});
+  thread_ = own_thread([this] { live(); });
+}
+
+Prompt::~Prompt() {
+  end();
+}
+
+void Prompt::end() {
+  if (!thread_.joinable()) return;
+  {
+    const Lock lock(mutex_);
+    is_over_ = true;
+  }
+  eventfd_write(wake_.number(), 1);
+  thread_.join();
+}
+
+void Prompt::run_ended(const Moment&, const RunEnd&) {
+  end();
+}
+
+// --- in the thread of the loop -------------------------------------------------------------------
+
+void Prompt::after_tick(const Moment& moment, const TickReport&) {
+  why_.after_tick(moment);
+}
+
+void Prompt::standing(const Moment& moment) {
+  Picture picture{.where = where(moment), .why = {}, .entries = entries(moment)};
+  write_links(summarize(why_.why(moment), shape_), picture.why, false);
+  if (is_complete(moment.status(0))) {  // there is nothing to wait for
+    if (control_.reached()) say(fmt::format("the run ends {}\n{}", picture.where, picture.why));
+    return;
+  }
+  if (!control_.is_paused()) return;
+  {
+    const Lock lock(mutex_);
+    picture_ = std::move(picture);
+  }
+  eventfd_write(wake_.number(), 1);
+}
+
+std::string Prompt::where(const Moment& moment) const {
+  if (moment.number == 0) return "before the first tick";
+  std::string text = fmt::format("after tick {} ({:.3f} s)", moment.tick, to_seconds(moment.time));
+  if (const auto& reached = control_.reached()) {
+    const auto when = std::ranges::find(kWhen, reached->when, &WhenWord::when);
+    text += fmt::format(": '{}' {}", printable(shape_.nodes[reached->node].path), when->past);
+  }
+  return text;
+}
+
+std::string Prompt::entries(const Moment& moment) const {
+  std::string text;
+  for (std::size_t i = 0; i < shape_.entries.size(); ++i) {
+    const Entry& entry = moment.entries[i];
+    if (!entry.has_value()) continue;
+    text +=
+        fmt::format("  {} = {}\n", printable(shape_.entries[i].key), brief(to_text(entry.value())));
+  }
+  return text.empty() ? "  no entry has a value\n" : text;
+}
+
+// --- in the thread of the person -----------------------------------------------------------------
+
+void Prompt::live() {
+  while (true) {
+    pollfd wait{wake_.number(), POLLIN, 0};
+    poll(&wait, 1, -1);
+    eventfd_t unused = 0;
+    eventfd_read(wake_.number(), &unused);
+    std::optional<Picture> picture;
+    {
+      const Lock lock(mutex_);
+      if (is_over_) return;
+      picture = std::exchange(picture_, std::nullopt);
+    }
+    if (picture) ask(*picture);
+  }
+}
+
+void Prompt::ask(const Picture& picture) {
+  say(fmt::format("paused {}\n{}", picture.where, picture.why));
+  while (true) {
+    if (!is_closed_) say("(c, s, w, p, set, b, d, q, or ? for help) ");
+    const auto line = is_closed_ ? std::nullopt : read_line();
+    if (!line) {
+      const Lock lock(mutex_);
+      if (is_over_) return;
+      // Nobody can say anything any more.
+      if (!std::exchange(is_closed_, true)) say("stdin has ended: the run continues\n");
+      return control_.give({.what = What::Resume});
+    }
+    if (!obey(*line, picture)) return;
+  }
+}
+
+// Nothing: stdin is closed, or the run has ended.
+std::optional<std::string> Prompt::read_line() {
+  constexpr std::size_t kLongest = 64 << 10;
+  while (true) {
+    if (const auto end = rest_.find('\n'); end != std::string::npos || rest_.size() > kLongest) {
+      std::string line = rest_.substr(0, end);
+      rest_.erase(0, end == std::string::npos ? end : end + 1);
+      return line;
+    }
+    pollfd waits[] = {{STDIN_FILENO, POLLIN, 0}, {wake_.number(), POLLIN, 0}};
+    poll(waits, 2, -1);
+    if (waits[1].revents != 0) {
+      const Lock lock(mutex_);
+      if (is_over_) return std::nullopt;
+      eventfd_t unused = 0;
+      eventfd_read(wake_.number(), &unused);
+    }
+    if (waits[0].revents == 0) continue;
+    char bytes[4096];
+    const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+    if (count > 0) {
+      rest_.append(bytes, static_cast<std::size_t>(count));
+    } else if (rest_.empty()) {
+      return std::nullopt;
+    } else {
+      rest_ += '\n';  // the last line may have no end
+    }
+  }
+}
+
+bool Prompt::obey(std::string_view line, const Picture& picture) {
+  const std::string_view command = first_word(line);
+  if (command == "c") return give(What::Resume), false;
+  if (command == "q") return give(What::Halt), false;
+  if (command == "s" || command.empty()) {
+    if (!command.empty()) step_ = 1;
+    if (const std::string_view count = first_word(line); !count.empty()) {
+      const auto number = parse_int(count);
+      if (!number || *number < 1) return say("a number of ticks: s 10\n"), true;
+      step_ = static_cast<std::uint64_t>(*number);
+    }
+    return give(What::Step, step_), false;
+  }
+  if (command == "w") {
+    say(picture.why);
+  } else if (command == "p") {
+    say(picture.entries);
+  } else if (command == "set") {
+    obey_set(line);
+  } else if (command == "b" || command == "d") {
+    obey_break(line, command == "b");
+  } else {
+    if (command != "?") say(fmt::format("'{}' is not a command\n", printable(command)));
+    say(std::string(kHelp));
+  }
+  return true;
+}
+
+void Prompt::obey_set(std::string_view words) {
+  const std::string_view key = first_word(words);
+  const Json json = {{"do", "set"}, {"entry", key}, {"value", words}};
+  auto order = read_order(shape_, is_real_time_, json.text());
+  if (!order) return say(printable(order.error().message) + "\n");
+  control_.give(*std::move(order));
+  say(fmt::format("{} is {} from the next tick on\n", printable(key), printable(words)));
+}
+
+void Prompt::obey_break(std::string_view words, bool is_on) {
+  const auto breakpoint = parse_breakpoint(first_word(words), shape_);
+  if (!breakpoint) {
+    const Problem& it = breakpoint.error();
+    return say(printable(it.hint.empty() ? it.message : it.message + "; " + it.hint) + "\n");
+  }
+  control_.give({.what = What::Break, .breakpoint = *breakpoint, .is_on = is_on});
+}
+
+void Prompt::give(What what, std::uint64_t ticks) {
+  control_.give({.what = what, .ticks = ticks});
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,89 @@
+// A run that pauses at breakpoints, and commands on stdin: `run --break`.
+#include <catch2/catch.hpp>
+
+#include "support/program.h"
+
+using namespace lockstep::host::test;
+
+namespace {
+
+constexpr const char* kRun = "lockstep run tree.xml --clock virtual --view none ";
+
+TemporaryDirectory with_carrying_tree() {
+  TemporaryDirectory directory;
+  directory.file("tree.xml",
+                 "<root lockstep=\"1\"><plugin name=\"motion\"/><BehaviorTree ID=\"Main\">"
+                 "<Sequence memory=\"true\"><Script code=\"force := 2\"/>"
+                 "<ParallelAbsolute name=\"carry\" barriers=\"0.5\">"
+                 "<Advance name=\"arm\" step=\"0.1\"/><Advance name=\"base\" step=\"0.25\"/>"
+                 "</ParallelAbsolute><Check name=\"strong\" code=\"force &gt;= 5\"/></Sequence>"
+                 "</BehaviorTree></root>");
+  return directory;
+}
+
+Outcome typed(const TemporaryDirectory& directory, const std::string& lines,
+              const std::string& options) {
+  return shell("printf '" + lines + "' | " + kRun + options, directory);
+}
+
+}  // namespace
+
+TEST_CASE("--break pauses a run, which then does what is typed") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  const Outcome run =
+      typed(directory, "p\\ns\\n\\nset force 7\\nc\\nc\\n", "--break carry --break strong:success");
+  INFO(run.err);
+  CHECK(run.code == 0);
+  CHECK(contains(run.err, "paused after tick 0 (0.000 s): 'Main/Sequence/carry' began\n"));
+  CHECK(contains(run.err, "        arm (Advance): running\n"));
+  CHECK(contains(run.err, "  force = 2\n"));
+  CHECK(contains(run.err, "paused after tick 1 (0.010 s)\n"));
+  CHECK(contains(run.err, "paused after tick 2 (0.020 s)\n"));
+  CHECK(contains(run.err, "base (Advance): running, held\n"));
+  CHECK(
+      contains(run.err, "the run ends after tick 9 (0.090 s): 'Main/Sequence/strong' succeeded\n"));
+  CHECK(contains(run.out, "success after 10 ticks"));
+}
+
+TEST_CASE("--break: results, barriers, and breakpoints that are typed") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  CHECK(contains(typed(directory, "c\\n", "--break strong:failure").err,
+                 "'Main/Sequence/strong' failed\n"));
+  CHECK(contains(typed(directory, "c\\nc\\n", "--break carry:barrier").err,
+                 "paused after tick 2 (0.020 s): 'Main/Sequence/carry' came to its limit\n"));
+  const Outcome more =
+      typed(directory, "b base:after\\nd carry\\nb nobody\\nhelp\\nc\\nc\\n", "--break carry");
+  INFO(more.err);
+  CHECK(
+      contains(more.err, "paused after tick 6 (0.060 s): 'Main/Sequence/carry/base' completed\n"));
+  CHECK(contains(more.err, "no node 'nobody'"));
+  CHECK(contains(more.err, "'help' is not a command\n"));
+  const Outcome quit = typed(directory, "q\\n", "--break arm");
+  CHECK(contains(quit.out, "stopped"));
+  CHECK(contains(quit.out, " after 1 tick"));
+}
+
+TEST_CASE("--break: when stdin ends, the run continues; what cannot be is refused") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  const Outcome ended = typed(directory, "", "--break arm --break arm:after");
+  INFO(ended.err);
+  CHECK(ended.code == 1);
+  CHECK(contains(ended.err, "stdin has ended: the run continues\n"));
+  CHECK(contains(typed(directory, "", "--break ar").err, "no node 'ar'"));
+  CHECK(contains(typed(directory, "", "--break arm:afte").err, "did you mean 'after'?"));
+  CHECK(contains(typed(directory, "", "--break arm:barrier").err, "has no barriers and no delta"));
+  const Outcome piped = shell("lockstep run - --break arm < tree.xml", directory);
+  CHECK(piped.code == 2);
+  CHECK(contains(piped.err, "--break reads commands from stdin, which has the tree"));
+}
+
+TEST_CASE("--break on the wall clock: a signal ends the run that waits for a command") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  const Outcome run = shell(
+      "mkfifo typed; sleep 30 > typed & timeout --preserve-status -s INT 1 lockstep run tree.xml "
+      "--view none --break arm < typed; code=$?; kill %1; exit $code",
+      directory);
+  INFO(run.err);
+  CHECK(run.code == 130);
+  CHECK(contains(run.err, "paused after tick 0"));
+}
