@@ -189,8 +189,21 @@ void ModelLeaves::write(std::uint32_t leaf, const LeafModel::Output& output, std
   mark(leaf).written.push_back(value);
   const Parameter& parameter = tree_.leaves[leaf].type->parameters[output.port];
   if (Entry* const entry = entry_of_(leaf, output)) {
-    write_entry(*entry, parameter.type, parameter.object, output.values[value]);
+    if (write_entry(*entry, parameter.type, parameter.object, output.values[value])) return;
+    slots_[leaf].error = "sets an output that its entry does not take";
   }
+}
+
+// No loop of leaves goes on after a result that is none, so an error is seen.
+Status ModelLeaves::tick(std::uint32_t leaf) {
+  const Status result = tick_as_chosen(leaf);
+  if (slots_[leaf].error == nullptr) [[likely]]
+    return result;
+  LeafMark& mark = this->mark(leaf);
+  mark.faulted = mark.ended = true;
+  mark.result = Status::Failure;
+  states_[leaf] = {};
+  return Status::Idle;
 }
 
 ModelLeaves::Rule::Rule(const LeafModel& model)
@@ -239,7 +252,7 @@ std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std
   return reaches;
 }
 
-Status ModelLeaves::tick(std::uint32_t leaf) {
+Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   LeafState& state = states_[leaf];
   const Rule& rule = rules_[leaf];
   const LeafModel& model = models_.leaves[leaf];
@@ -288,10 +301,8 @@ Status ModelLeaves::tick(std::uint32_t leaf) {
   }
   choice -= count;
   if (may_fault && choice-- == 0) {
-    mark.faulted = mark.ended = true;
-    mark.result = Status::Failure;
     slots_[leaf].error = "fails as a program, which the leaf model allows";
-    return Status::Idle;  // no loop of leaves goes on after it, so the error is seen
+    return Status::Idle;
   }
   set_level(leaf, reach.first + static_cast<std::int32_t>(choice));
   mark.result = Status::Running;

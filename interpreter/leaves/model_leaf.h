@@ -134,6 +134,7 @@ class ModelLeaves {
   }
   void tell_broken(std::uint32_t leaf, const char* what);
   bool ask(std::uint32_t fact);
+  Status tick_as_chosen(std::uint32_t leaf);
   void write(std::uint32_t leaf);
   // Each output, or not.
   void may_write(std::uint32_t leaf, bool has_succeeded = false);

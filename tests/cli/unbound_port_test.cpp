@@ -103,6 +103,22 @@ TEST_CASE("an output that its entry does not take is a fault, in the same proces
                    "cannot set 'both': the entry '{z}' has the type string, the port the type "
                    "double"));
   }
+  // And so it is for leaves that are played, and in a proof.
+  const std::string model =
+      directory.file("m.leaves.xml",
+                     "<leaves lockstep=\"1\"><leaf of=\"Unbound\" ticks=\"1\" "
+                     "result=\"success\" writes=\"success\" out.both=\"0.5\"/></leaves>");
+  const Outcome proof = shell(
+      "lockstep verify t.xml --leaves m.leaves.xml --plugin " + kLanguages[0].plugin, directory);
+  INFO(proof.out << proof.err);
+  CHECK(contains(proof.out, "fault/T/Sequence/Unbound"));
+  CHECK(contains(proof.out, "sets an output that its entry does not take"));
+  const std::string played = directory.file("t.leaves", "T/Sequence/Unbound = S[both=0.5]\n");
+  const Outcome run = run_lockstep({"run", tree, "--plugin", kLanguages[0].plugin, "--clock",
+                                    "virtual", "--view", "none", "--leaves", played});
+  INFO(run.err);
+  CHECK(run.code == 5);
+  CHECK(contains(run.err, "port 'both': the entry '{z}' has the type string"));
 }
 
 TEST_CASE("what a leaf sets where the tree binds no entry is discarded, in each language") {

@@ -10,6 +10,7 @@
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "leaves/model_leaf.h"
+#include "leaves/plugin/contract/entry_value.h"
 #include "leaves/plugin/contract/host.h"
 
 namespace lockstep::host {
@@ -113,7 +114,9 @@ class PlayedLeaf final : public RemoteLeaf {
       for (const BoundPort* const port : caller_.ports) {
         if (port->name() != name || port->write == nullptr) continue;
         auto value = parse_value(port->type, text);
-        if (value) write_entry(*port->write, port->type, port->object(), std::move(*value));
+        if (!value) continue;
+        if (write_entry(*port->write, port->type, port->object(), std::move(*value))) continue;
+        fail(fmt::format("port '{}': {}", name, refusal_of(*port->write, port->entry, port->type)));
       }
     }
   }
