@@ -106,6 +106,14 @@ struct Moment {
     const auto it = std::ranges::find(reasons, node, &Reason::node);
     return it != reasons.end() && holds(*it) ? std::string_view(it->text) : std::string_view();
   }
+  // Of a run that goes on, as it is now; of a recording, as it was when the tick began.
+  double progress_of(NodeIndex node) const {
+    return live != nullptr ? live->progress(node) : progress[node];
+  }
+  // Whether a member of a barrier beside the tree is held there. Its child comes right behind it.
+  bool is_held_at_barrier(NodeIndex member) const {
+    return live != nullptr ? live->is_held_at_barrier(member) : held(member + 1);
+  }
   // The progress of each child of a parallel, or of what a group holds, as the node used it in the
   // last tick in which it asked them; kLeftOut for one that was left out.
   std::span<const double> used(NodeIndex node) const { return uses[node]; }

@@ -138,6 +138,40 @@ TEST_CASE("of a node that is held, log why tells who holds it, and for whom") {
         "      arm (Advance): success\n");
 }
 
+TEST_CASE("log why of what a parallel halts, and of a wait for a parallel") {
+  const TemporaryDirectory directory;
+  const std::string file =
+      record_seeing(directory,
+                    "<Parallel name=\"p\" success_count=\"2\"><See name=\"a\"/><Wait name=\"w\" "
+                    "seconds=\"5\"/></Parallel>")
+          .file;
+  CHECK(
+      why(file, {"w"})
+          .starts_with("'Main/p/w' was halted in tick 2, when 'Main/p' failed\n"
+                       "    p (Parallel): failure\n      a (See): failure: the camera is dark\n"));
+  const std::string held = directory.path("held.jsonl");
+  REQUIRE(run_lockstep({"run", "--example", "nested", "--clock", "virtual", "--view", "none",
+                        "--max-ticks", "60", "--record", held})
+              .code == 124);
+  CHECK(contains(why(held, {"--at", "50"}), "'carry' holds 'base' at "));
+}
+
+TEST_CASE("of several nodes that may have written an entry, a reason names each") {
+  const TemporaryDirectory directory;
+  const auto [run, file] = record_seeing(
+      directory,
+      "<Sequence memory=\"true\"><Script code=\"x := 1\"/><Parallel name=\"both\">"
+      "<Script name=\"one\" code=\"x = 7\"/><Script name=\"two\" code=\"x = 7\"/></Parallel>"
+      "<AlwaysSuccess/><Wait seconds=\"0.02\"/><Script code=\"x = 7\"/><Check code=\"x == 1\"/>"
+      "</Sequence>");
+  const std::string reason =
+      "x == 1 is false: x is 7, since tick 0 by 'Main/Sequence/Script' or 'Main/Sequence/both/one' "
+      "or "
+      "'Main/Sequence/both/two'\n";
+  CHECK(contains(run.out, reason));
+  CHECK(contains(why(file), reason));
+}
+
 TEST_CASE("after a fault, log why has its message") {
   const TemporaryDirectory directory;
   const std::string program = directory.file(

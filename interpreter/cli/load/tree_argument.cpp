@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
@@ -34,8 +35,8 @@ CLI::Option* add_tree_argument(CLI::App& app, std::string& tree, const char* des
       ->check(CLI::Validator(check_example, ""))
       ->excludes(file);
   if (otherwise == TreeFile::MayLack) return file;
-  app.parse_complete_callback([&tree] {
-    if (!tree.empty()) return;
+  app.parse_complete_callback([&tree, is_read = false]() mutable {
+    if (!tree.empty() || std::exchange(is_read, true)) return;
     Diagnostics diagnostics;
     tree = main_file_here(diagnostics);
     if (diagnostics.has_errors()) print_diagnostics(diagnostics, Severity::Error);

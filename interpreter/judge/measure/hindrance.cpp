@@ -52,9 +52,9 @@ void Hindrance::look_inside(NodeIndex node) {
   if (running.empty()) runs_ = true;
   std::vector<NodeIndex> decisive;
   if (running.size() > 1) {
-    const double reached = moment_.live->progress(node);
+    const double reached = moment_.progress_of(node);
     std::ranges::copy_if(running, std::back_inserter(decisive), [&](NodeIndex child) {
-      return std::fabs(moment_.live->progress(child) - reached) <= kProgressEpsilon;
+      return std::fabs(moment_.progress_of(child) - reached) <= kProgressEpsilon;
     });
   }
   for (const NodeIndex child : decisive.empty() ? running : decisive) look_at(child);
@@ -112,7 +112,7 @@ void Hindrance::add_gates(NodeIndex user) {
   bool is_open = true;
   for (const NodeIndex gate : shape_.nodes[user].gates) {
     const bool is_of_pool = shape_.nodes[*shape_.nodes[gate].group].is_pool();
-    if (is_of_pool ? owns(moment_.limit(gate)) : !moment_.live->is_held_at_barrier(gate)) continue;
+    if (is_of_pool ? owns(moment_.limit(gate)) : !moment_.is_held_at_barrier(gate)) continue;
     is_open = false;
     add(gate);
   }

@@ -36,7 +36,7 @@ std::optional<NodeIndex> first_held(const Shape& shape, const Moment& moment, No
     const bool is_held = !it.is_group() ? moment.held(named)
                          : it.is_pool() ? is_denied(shape, moment, named)
                                         : moment.status(named) == Status::Running &&
-                                              moment.live->is_held_at_barrier(named);
+                                              moment.is_held_at_barrier(named);
     if (is_held) return named;
   }
   return std::nullopt;
@@ -155,7 +155,7 @@ class WaitSearch {
   }
 
   double progress_of(NodeIndex wanted, NodeIndex node) {
-    if (shape_.nodes[node].is_pool()) return moment_.live->progress(wanted);
+    if (shape_.nodes[node].is_pool()) return moment_.progress_of(wanted);
     const auto progress = moment_.used(node);
     std::size_t number = 0, found = 0;
     for_each_named(shape_, node, [&](NodeIndex it) {

@@ -129,7 +129,8 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
   if (name != node.kind) out += fmt::format(" ({})", printable(node.kind));
   out += fmt::format(": {}", styled(to_string(node.status), style, color));
   if (node.is_held) out += ", held";
-  if (node.agreeing > 1) out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
+  if (node.agreeing > 1 && node.status != Status::Idle)
+    out += fmt::format(" ({} of {} children)", node.agreeing, node.children);
   if (node.stood_still) out += ", it stood still (--stall-fail)";
   if (node.failed_attempts > 0) {
     out += fmt::format(", {} failed", counted(node.failed_attempts, "attempt"));
@@ -141,7 +142,7 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
     out += fmt::format("{:{}}- {}: {}\n", "", indent + 2, printable(last_segment(it.path)),
                        printable(it.reason));
   }
-  if (node.failed_attempts < 2) return;
+  if (node.failed_attempts < 2 && node.status != Status::Running) return;
   if (node.failed_attempts > node.attempts.size()) {
     out += fmt::format("{:{}}- the last {}:\n", "", indent + 2, node.attempts.size());
   }
@@ -261,21 +262,24 @@ void write_text(std::span<const SynchronizedSummary> nodes, std::size_t never_re
                      never_reached == 1 ? "was" : "were");
 }
 
-// A deep tree shows its first and its last nodes: in between a result is mostly passed on.
+// A deep tree shows its first and its last nodes: in between a result is mostly passed on. Where
+// several nodes run, the first ones.
 void write_links(std::span<const WhySummary> links, std::string& out, bool color) {
-  constexpr std::size_t kFirst = 5, kLast = 15;
-  const std::size_t left_out = links.size() - std::min(links.size(), kFirst + kLast);
+  constexpr std::size_t kFirst = 5, kLast = 15, kMost = 60;
+  const bool is_chain = links.empty() || links.back().depth + 1 == links.size();
+  const std::size_t left_out = is_chain ? links.size() - std::min(links.size(), kFirst + kLast) : 0;
   for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!is_chain && i == kMost) {
+      out += fmt::format("    ... {} more\n", counted(links.size() - i, "node"));
+      return;
+    }
     // What is left out takes one line, and one step to the right.
     std::size_t indent = 4 + 2 * links[i].depth;
     if (left_out > 0 && i == kFirst) {
       out += fmt::format("{:{}}... {} more\n", "", indent, counted(left_out, "node"));
       i += left_out;
     }
-    if (left_out > 0 && i >= kFirst) {
-      const std::size_t passed = std::min(links[i].depth, left_out - 1);
-      indent = 4 + 2 * (links[i].depth - passed);
-    }
+    if (left_out > 0 && i >= kFirst) indent = 4 + 2 * (links[i].depth - left_out + 1);
     write_link(links[i], indent, out, color);
   }
 }

@@ -32,7 +32,9 @@ WhyWatch::WhyWatch(const Shape& shape) : shape_(shape) {
       if (entry == shape.entries.end()) continue;  // it is not in the recording
       const auto place = static_cast<std::uint32_t>(entry - shape.entries.begin());
       const bool is_known = std::ranges::find(watched_, place, &Watched::entry) != watched_.end();
-      if (!is_known) watched_.push_back({.entry = place});
+      if (is_known) continue;
+      watched_.push_back({.entry = place});
+      watched_.back().writers.reserve(entry->writers.size());
     }
     if (it.children.size() != 1) continue;
     if (it.tries_again) {
@@ -48,12 +50,19 @@ void WhyWatch::after_tick(const Moment& moment) {
     const std::uint32_t writes = writes_of(moment, it.entry);
     if (writes == it.writes) continue;
     it.writes = writes;
-    it.tick = moment.tick;
-    it.writer.reset();
-    for (const NodeIndex writer : shape_.entries[it.entry].writers) {
-      if (moment.ticked(writer)) it.writer = writer;
+    if (moment.live != nullptr) {
+      const Value& now = moment.entries[it.entry].value();
+      if (now == it.value) continue;
+      it.value = now;
     }
+    it.tick = moment.tick;
+    it.writers.clear();
+    for (const NodeIndex writer : shape_.entries[it.entry].writers) {
+      if (moment.ticked(writer)) it.writers.push_back(writer);
+    }
+    if (!has_begun_ && it.writers.empty()) it.tick.reset();  // the value of the start
   }
+  has_begun_ = true;
   for (Timed& it : timed_) {
     const bool ran = it.runs;
     it.runs = moment.status(it.node) == Status::Running;
@@ -86,12 +95,21 @@ std::string WhyWatch::value_text(const Moment& moment, const std::string& key) c
   if (entry == shape_.entries.end()) return {};
   const auto place = static_cast<std::uint32_t>(entry - shape_.entries.begin());
   const auto text = text_of(moment, place);
-  std::string all =
-      text ? fmt::format("{} is {}", key, brief(*text)) : fmt::format("{} has no value", key);
+  if (!text && writes_of(moment, place) > 0 && moment.live == nullptr) {
+    return fmt::format("{} has a value that is too long to be recorded", key);
+  }
+  if (!text) return fmt::format("{} has no value", key);
+  std::string all = fmt::format("{} is {}", key, brief(*text));
   const auto it = std::ranges::find(watched_, place, &Watched::entry);
-  if (it == watched_.end() || !it->tick || !text) return all;
+  if (it == watched_.end() || !it->tick) return all;
   all += fmt::format(", since tick {}", *it->tick);
-  if (it->writer) all += fmt::format(" by '{}'", shape_.nodes[*it->writer].path);
+  constexpr std::size_t kMostNamed = 3;
+  if (it->writers.size() > kMostNamed) return all;
+  std::string_view before = " by ";
+  for (const NodeIndex writer : it->writers) {
+    all += fmt::format("{}'{}'", before, shape_.nodes[writer].path);
+    before = " or ";
+  }
   return all;
 }
 
@@ -108,6 +126,12 @@ std::string WhyWatch::condition_text(const Moment& moment, NodeIndex node) const
     text += value;
     before = "; ";
   }
+  const bool is_new = std::ranges::any_of(watched_, [&](const Watched& watched) {
+    const bool is_read =
+        std::ranges::find(it.reads, shape_.entries[watched.entry].key) != it.reads.end();
+    return is_read && watched.tick == moment.tick;
+  });
+  if (is_new) text += " (at the end of the tick)";
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/core/value.h"
 #include "judge/measure/decision.h"
 #include "trace/moment.h"
 #include "trace/shape.h"
@@ -56,7 +57,8 @@ class WhyWatch {
     std::uint32_t entry = 0;  // in Shape::entries
     std::uint32_t writes = 0;
     std::optional<std::uint64_t> tick = {};  // of the last change; none: the value of the start
-    std::optional<NodeIndex> writer = {};    // that was ticked then
+    std::vector<NodeIndex> writers = {};     // that may write it, and were ticked then
+    Value value = {};                        // of a run that goes on
   };
   struct Tries {
     NodeIndex node = 0, child = 0;
@@ -81,6 +83,7 @@ class WhyWatch {
   std::vector<Watched> watched_;
   std::vector<Tries> tries_;
   std::vector<Timed> timed_;
+  bool has_begun_ = false;
 };
 
 }  // namespace lockstep::host

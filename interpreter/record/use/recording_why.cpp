@@ -27,12 +27,16 @@ class Asked {
     watch_.after_tick(moment);
     for (Seen& it : line_) {
       const Status status = moment.status(it.node);
-      if (!moment.ticked(it.node)) {
-        if (it.status == Status::Running && status == Status::Idle) it.halted = moment.tick;
-      } else {
+      if (moment.ticked(it.node)) {
         it.reached = moment.tick;
         it.halted.reset();
-        if (is_complete(status)) it.completed = {moment.tick, watch_.why(moment, it.node)};
+      }
+      const Status last = status == Status::Idle ? last_in_tick(moment, it) : status;
+      if (last == Status::Running && status == Status::Idle) it.halted = moment.tick;
+      if (is_complete(last) && moment.ticked(it.node)) {
+        auto links = watch_.why(moment, it.node);
+        links.front().decided.status = last;  // it may have been ended since
+        it.completed = {moment.tick, std::move(links)};
       }
       it.status = status;
     }
@@ -57,6 +61,20 @@ class Asked {
       std::vector<WhyLink> links = {};
     } completed = {};
   };
+
+  // Of a node that is idle after the tick: what it was in it before.
+  Status last_in_tick(const Moment& moment, const Seen& it) {
+    if (std::ranges::find(moment.ended, it.node) != moment.ended.end()) return Status::Success;
+    if (!moment.ticked(it.node)) return it.status;
+    Status last = it.status == Status::Running ? Status::Running : Status::Idle;
+    const auto look = [&](std::span<const NodeState> states, bool, bool) {
+      const NodeState state = states[it.node];
+      if (state.ticked() && state.status() != Status::Idle) last = state.status();
+    };
+    if (!moment.within.empty()) moment.within.each_part(states_, look);
+    // It began, and was ended: what it was in between is not recorded.
+    return last == Status::Idle ? Status::Running : last;
+  }
 
   std::string name(NodeIndex node) const { return header_.nodes[node].path; }
   std::vector<WhySummary> summaries(const std::vector<WhyLink>& links) const {
@@ -84,13 +102,18 @@ class Asked {
   // Who withholds ticks from the node, and what that waits for.
   std::vector<std::string> waits(const Moment& last, NodeIndex node) const {
     if (!last.held(node)) return {};
-    const Hindrance hindrance(header_, last, node);
-    if (hindrance.withheld().empty()) return {};
-    return wait_lines(header_, wait_chain(header_, last, hindrance.withheld().front()));
+    // The user of a pool is the node around what is held.
+    for (const NodeIndex it : {node, header_.nodes[node].parent.value_or(node)}) {
+      const Hindrance hindrance(header_, last, it);
+      if (hindrance.withheld().empty()) continue;
+      return wait_lines(header_, wait_chain(header_, last, hindrance.withheld().front()));
+    }
+    return {};
   }
 
   RecordedWhy of_completed(const Seen& seen) const {
     const auto& [tick, links] = seen.completed;
+    if (links.empty()) return {.headline = fmt::format("'{}' does not run", name(seen.node))};
     const Status status = links.empty() ? Status::Idle : links.front().decided.status;
     const std::string_view what = status == Status::Failure   ? "failed"
                                   : status == Status::Success ? "succeeded"
@@ -146,6 +169,7 @@ class Asked {
   const RecordingHeader& header_;
   WhyWatch watch_;
   std::vector<Seen> line_;  // from the asked node up to the root
+  std::vector<NodeState> states_;
 };
 
 }  // namespace
@@ -169,6 +193,10 @@ Result<RecordedWhy> why_of(RecordingReader& reader, std::string_view node,
   }
   if (last == nullptr) return problem("the recording has no such tick");
   RecordedWhy why = asked.answer(*last);
+  if (header.first_tick > 0) {
+    why.headline +=
+        fmt::format("; this part of the recording begins with tick {}", header.first_tick);
+  }
   const auto& end = reader.end();
   if (end && !end->fault.empty()) {
     why.headline += fmt::format("; the run ended with a fault: {}", end->fault);

@@ -293,7 +293,7 @@ class _Server:
             result = False if isinstance(result, Failed) else None
         answer = {"leaf": leaf._number, "status": _status(leaf, result)}
         if reason:
-            answer["reason"] = reason
+            answer["reason"] = reason.encode("utf-8", "replace").decode()  # a name of a file may be no UTF-8
         if hasattr(leaf, "progress"):
             answer["progress"] = _progress(leaf)
         if leaf._set:

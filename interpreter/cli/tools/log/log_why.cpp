@@ -39,7 +39,9 @@ LogSubcommand define_log_why(CLI::App& log) {
   app->add_option("node", options->node,
                   "The node: its path or the end of it (default: the root of the tree)")
       ->type_name("NODE");
-  app->add_option("--at", options->at, "As of this tick (default: the last)")->type_name("TICK");
+  app->add_option("--at", options->at, "As of this tick (default: the last)")
+      ->type_name("TICK")
+      ->check(CLI::NonNegativeNumber);
   app->add_flag("--json", options->json, "Print one line of JSON");
   app->footer("Example:\n  lockstep log why run.jsonl grasp --at 120");
   return {app, [options] {

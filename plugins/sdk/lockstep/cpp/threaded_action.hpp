@@ -82,6 +82,7 @@ class Token {
   // At the end of run: `return token.fail("no object at the door");`
   Status fail(std::string reason) {
     wait(std::move(reason));
+    is_of_failure_.store(true, std::memory_order_release);
     return Status::Failure;
   }
 
@@ -108,6 +109,7 @@ class Token {
   void reset() {
     stop_ = pause_ = false;
     wait({});
+    is_of_failure_.store(false, std::memory_order_relaxed);
     set_progress(0);
     pace_.store(1, std::memory_order_relaxed);
   }
@@ -119,7 +121,7 @@ class Token {
   std::atomic<double> progress_{0};
   std::atomic<double> pace_{1};
   std::string reason_;
-  std::atomic<bool> has_reason_{false};
+  std::atomic<bool> has_reason_{false}, is_of_failure_{false};
   // The activation's, on the virtual clock; otherwise null.
   const lockstep_workers* workers_ = nullptr;
   lockstep_worker* worker_ = nullptr;
@@ -170,8 +172,10 @@ class Worker {
   void pause(bool value) { token_.request(&Token::pause_, value); }
   void set_pace(double factor) { token_.pace_.store(factor, std::memory_order_relaxed); }
   double progress() const { return token_.progress_.load(std::memory_order_relaxed); }
-  // What it has said last; nothing without a lock.
-  std::string reason() const {
+  // What it has said last; of a result only what it has failed with. Mostly nothing, without a
+  // lock.
+  std::string reason(bool is_done) const {
+    if (is_done && !token_.is_of_failure_.load(std::memory_order_acquire)) return {};
     if (!token_.has_reason_.load(std::memory_order_acquire)) return {};
     return token_.locked([this] { return token_.reason_; });
   }
@@ -245,7 +249,8 @@ class ThreadedAction : public Action<PortsOfLeaf> {
   }
   Status tick() final {
     const bool is_done = worker_.done();
-    if (const std::string reason = worker_.reason(); !reason.empty()) this->say(reason.c_str());
+    if (const std::string reason = worker_.reason(is_done); !reason.empty())
+      this->say(reason.c_str());
     if (!is_done) return Status::Running;
     const Status result = worker_.take();
     if (result != Status::Success && result != Status::Failure) {
