@@ -12,7 +12,7 @@ namespace r1sim {
 namespace {
 
 void move(DoorMotion& part, double seconds) {
-  if (part.moves) part.moved = std::min(part.way, part.moved + part.speed * seconds);
+  if (part.moves) part.moved = std::min(part.way, part.moved + part.pace * part.speed * seconds);
 }
 
 }  // namespace
@@ -46,6 +46,7 @@ void DoorAction<Ports, kPart>::start() {
   if (!(part.way > 0)) throw std::runtime_error("port 'way' must be greater than 0");
   part.speed = this->speed.get() * (1 + this->spread.get() * this->uniform(-1, 1));
   part.moved = 0;
+  part.pace = 1;
   part.moves = true;
 }
 
@@ -56,12 +57,10 @@ typename DoorAction<Ports, kPart>::Status DoorAction<Ports, kPart>::tick() {
   if (!now.has_jammed() && part.moved < part.way) return Status::Running;
   part.moves = false;
   if (!now.has_jammed()) return Status::Success;
-  if (!std::exchange(now.is_told, true)) {
-    this->log(lockstep::LogLevel::Warning, "the door jams: the hand has moved " +
-                                               std::to_string(now.hand.moved) + " m, the base " +
-                                               std::to_string(now.base.moved) + " m");
-  }
-  return Status::Failure;
+  const std::string reason = "the door jams: the hand has moved " + std::to_string(now.hand.moved) +
+                             " m, the base " + std::to_string(now.base.moved) + " m";
+  if (!std::exchange(now.is_told, true)) this->log(lockstep::LogLevel::Warning, reason);
+  return this->fail(reason);
 }
 
 void PullDoor::start() {

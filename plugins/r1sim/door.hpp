@@ -15,6 +15,7 @@ struct DoorMotion {
   double way = 1;    // m
   double speed = 0;  // m/s
   double moved = 0;  // m
+  double pace = 1;   // of the speed
   bool moves = false;
 };
 
@@ -70,6 +71,7 @@ class DoorAction : public PartAction<Ports> {
   void start() override;
   Status tick() override;
   double progress() const override { return motion().moved / motion().way; }
+  double set_pace(double factor) override { return motion().pace = factor; }
 
  protected:
   DoorScene& scene() const;
