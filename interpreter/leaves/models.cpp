@@ -299,11 +299,19 @@ class ModelMaker {
   // --- what nothing is said of -------------------------------------------------------------------
 
   // A model is of full speed. Slowed, a leaf may make less progress in a tick, and take more ticks.
+  // It leaves the grid then: a third of a step is none of a grid.
   void slow_down() {
     for (std::size_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
       LeafModel& model = models_.leaves[leaf];
-      const bool is_bounded = model.least_step > 0 || model.most_ticks > 0;
+      const bool is_on_grid = ways_[leaf].way && ways_[leaf].way->kind == ProgressWay::Kind::Grid;
+      const bool is_bounded = model.least_step > 0 || model.most_ticks > 0 || is_on_grid;
       if (!tree_.leaves[leaf].is_slowed || !is_bounded) continue;
+      if (is_on_grid) {
+        ways_[leaf] = {};
+        for (std::int64_t* it : {&model.least_step, &model.least_drift})
+          *it = *it < 0 ? -kNoEnd : 0;
+        for (std::int64_t* it : {&model.most_step, &model.most_drift}) *it = *it > 0 ? kNoEnd : 0;
+      }
       model.least_step = std::min<std::int64_t>(model.least_step, 0);
       model.most_ticks = 0;
       ++models_.slowed;

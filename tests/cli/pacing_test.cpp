@@ -107,3 +107,23 @@ TEST_CASE("check notes a time of a goal that counts in full where its robot is s
   CHECK(contains(said("goal.time_allowance=\"10\""), "note: 'goal.time_allowance" + note));
   CHECK_FALSE(contains(said("goal.time=\"10\""), note));
 }
+
+TEST_CASE("a slowed leaf is on no grid: verify finds what a run does") {
+  const TemporaryDirectory directory;
+  const std::string model =
+      directory.file("model.leaves.xml",
+                     "<leaves lockstep=\"1\"><leaf of=\"Advance\" result=\"success\" "
+                     "progress=\"grid:4\" step=\"1..2\" finish=\"full\"/></leaves>");
+  const std::string property = "never base.progress > 0.25 and base.progress < 0.5";
+  for (const bool paces : {false, true}) {
+    const std::string tree = directory.file(
+        "tree.xml", tree_text("<ParallelAbsolute barriers=\"0.75\" pace=\"" +
+                              std::string(paces ? "true" : "false") +
+                              "\" reaction=\"0\"><Advance name=\"arm\" step=\"0.25\"/>"
+                              "<Advance name=\"base\" step=\"0.5\"/></ParallelAbsolute>"));
+    const Outcome proof = run_lockstep(
+        {"verify", tree, "--leaves", model, "--property", property, "--out", directory.path("")});
+    INFO(proof.out << proof.err);
+    CHECK(contains(proof.out, "NO") == paces);
+  }
+}
