@@ -28,7 +28,7 @@ Outcome typed(const TemporaryDirectory& directory, const std::string& lines,
 
 }  // namespace
 
-TEST_CASE("--break pauses a run, which then does what is typed") {
+TEST_CASE("a breakpoint pauses a run, which then does what is typed") {
   const TemporaryDirectory directory = with_carrying_tree();
   const Outcome run =
       typed(directory, "p\\ns\\n\\nset force 7\\nc\\nc\\n", "--break carry --break strong:success");
@@ -45,7 +45,7 @@ TEST_CASE("--break pauses a run, which then does what is typed") {
   CHECK(contains(run.out, "success after 10 ticks"));
 }
 
-TEST_CASE("--break: results, barriers, and breakpoints that are typed") {
+TEST_CASE("breakpoints of results and barriers, and those that are typed") {
   const TemporaryDirectory directory = with_carrying_tree();
   CHECK(contains(typed(directory, "c\\n", "--break strong:failure").err,
                  "'Main/Sequence/strong' failed\n"));
@@ -63,7 +63,7 @@ TEST_CASE("--break: results, barriers, and breakpoints that are typed") {
   CHECK(contains(quit.out, " after 1 tick"));
 }
 
-TEST_CASE("--break: when stdin ends, the run continues; what cannot be is refused") {
+TEST_CASE("breakpoints: when stdin ends, the run continues, and what cannot be is refused") {
   const TemporaryDirectory directory = with_carrying_tree();
   const Outcome ended = typed(directory, "", "--break arm --break arm:after");
   INFO(ended.err);
@@ -77,7 +77,7 @@ TEST_CASE("--break: when stdin ends, the run continues; what cannot be is refuse
   CHECK(contains(piped.err, "--break reads commands from stdin, which has the tree"));
 }
 
-TEST_CASE("--break on the wall clock: a signal ends the run that waits for a command") {
+TEST_CASE("breakpoints on the wall clock: a signal ends the run that waits for a command") {
   const TemporaryDirectory directory = with_carrying_tree();
   const Outcome run = shell(
       "mkfifo typed; sleep 30 > typed & timeout --preserve-status -s INT 1 lockstep run tree.xml "

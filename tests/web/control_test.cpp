@@ -180,7 +180,7 @@ TEST_CASE("what is no order is refused with a sentence") {
   CHECK(error(R"({"do":"break","node":0,"when":"barrier"})") ==
         "'Main/all' has no barriers and no delta");
   CHECK(error(R"({"do":"break","node":0,"when":"ever"})") ==
-        "'when' is neither 'begins' nor 'completes' nor 'barrier'");
+        "'when' is none of 'begins', 'completes', 'barrier', 'succeeds' and 'fails'");
   CHECK(get(it.run().port(), "/control", it.token()).status == 405);
 }
 
