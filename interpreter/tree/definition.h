@@ -37,7 +37,7 @@ struct DefinitionNode {
   Place place = {};
   std::uint32_t written = 0xffffffff;  // its first in Definition::written; or none
   std::uint32_t hooks = 0xffffffff;    // in Definition::hooks; or none
-  bool is_slowed = false;              // below a node that paces, with a leaf that obeys: tree/pace.h
+  bool is_slowed = false;  // below a node that paces, with a leaf that obeys: tree/pace.h
 };
 
 // An attribute as written, with arguments substituted. Attributes that only name the node are left

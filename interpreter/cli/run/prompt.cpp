@@ -181,7 +181,7 @@ void Prompt::ask(const Picture& picture) {
     if (!line) {
       const Lock lock(mutex_);
       if (is_over_) return;
-      // Nobody can say anything any more.
+      // No command can come any more.
       if (!std::exchange(is_closed_, true)) say("stdin has ended: the run continues\n");
       return control_.give({.what = What::Resume});
     }

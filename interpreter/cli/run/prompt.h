@@ -62,7 +62,7 @@ class Prompt final : public Observer {
   bool is_over_ LOCKSTEP_GUARDED_BY(mutex_) = false;
   std::uint64_t step_ = 1;  // ticks of the last s
   std::string rest_;        // read, and not used yet
-  bool is_closed_ = false;  // stdin: nobody types any more
+  bool is_closed_ = false;  // stdin: no command comes any more
   std::thread thread_;
 };
 

@@ -7,9 +7,9 @@
 #include "base/core/diagnostics.h"
 #include "base/core/wording.h"
 #include "base/terminal/style.h"
-#include "judge/summary/why.h"
 #include "judge/measure/synchronized_measure.h"
 #include "judge/summary/summary.h"
+#include "judge/summary/why.h"
 #include "record/read/recorded_moments.h"
 
 namespace lockstep::host {

@@ -14,10 +14,12 @@
 namespace lockstep::host {
 
 struct RecordedWhy {
-  std::string headline;            // "'Main/grasp' failed in tick 31"
-  std::uint64_t tick = 0;          // that the answer is about; the links are of that
-  std::vector<WhySummary> links = {};  // from the node down, or from what decided that it does not run
-  std::vector<std::string> waits = {};  // for each link of a wait, who is held and what that waits for
+  std::string headline;    // "'Main/grasp' failed in tick 31"
+  std::uint64_t tick = 0;  // that the answer is about; the links are of that
+  std::vector<WhySummary> links =
+      {};  // from the node down, or from what decided that it does not run
+  std::vector<std::string> waits =
+      {};  // for each link of a wait, who is held and what that waits for
 };
 
 // Reads to the tick `at`, or to the end. `node` is a path or an end of one; "" is the root. Then

@@ -34,10 +34,8 @@ class FileEdits {
     for (std::uint32_t i = 0; i < texts.size(); ++i) {
       if (edit[i].empty()) continue;
       const Source& source = *texts.document(i).source();
-      const std::string uri = question.workspace.uri_of(source.path());
-      const auto file = question.workspace.files().find(uri);
-      const bool is_open = file != question.workspace.files().end();
-      if (is_open && without_mark(file->second.bytes()) != source.text())
+      const auto [uri, open] = changed_file(question, source);
+      if (open && without_mark(*open) != source.text())
         refuse(fmt::format("'{}' is being checked: try again", printable(source.path())));
       add(uri, edit[i], source.text());
     }

@@ -55,15 +55,20 @@ Json workspace_edit(const Question& question, const std::map<std::string, Json>&
   return {{"documentChanges", Json::array(std::move(changes))}};
 }
 
+ChangedFile changed_file(const Question& question, const Source& source) {
+  ChangedFile changed{.uri = question.workspace.uri_of(source.path()), .open = {}};
+  const auto file = question.workspace.files().find(changed.uri);
+  if (file != question.workspace.files().end()) changed.open = file->second.bytes();
+  return changed;
+}
+
 Json workspace_edit(const Question& question, const ProjectTexts& texts, const ProjectEdit& edit) {
   std::map<std::string, Json> changes;
   for (std::uint32_t i = 0; i < texts.size(); ++i) {
     if (edit[i].empty()) continue;
     const Source& source = *texts.document(i).source();
-    const std::string uri = question.workspace.uri_of(source.path());
-    const auto file = question.workspace.files().find(uri);
-    const bool is_open = file != question.workspace.files().end();
-    changes[uri] = json_of_document(edit[i], is_open ? file->second.bytes() : source.text());
+    const auto [uri, open] = changed_file(question, source);
+    changes[uri] = json_of_document(edit[i], open ? *open : std::string_view(source.text()));
   }
   return workspace_edit(question, changes);
 }
