@@ -214,6 +214,17 @@ void add_log(std::string& text, const LeafLine& log) {
   text += ']';
 }
 
+void add_set(std::string& text, std::span<const EntryChange> entries) {
+  const char* separator = nullptr;
+  for (const EntryChange& it : entries) {
+    if (!it.is_set) continue;
+    if (separator == nullptr) ((text += ",\"") += lines::kTick["set"]) += "\":[";
+    add_number(text += separator == nullptr ? "" : separator, it.entry);
+    separator = ",";
+  }
+  if (separator != nullptr) text += ']';
+}
+
 // Longer than [4294967295,"success",1,0] and a comma; than [,[]] and a count; than most counts.
 constexpr std::size_t kMostOfMomentNode = 32, kMostOfMoment = 28, kUsualTotals = 32;
 constexpr std::size_t kMostOfLeafProgress = 48;  // [255,4294967295,0.00012345678901234567] likewise
@@ -324,6 +335,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   add_list(text, lines::kTick["more"], end.moments.rest, add_totals);
   add_list(text, lines::kTick["faults"], end.faults, add_fault);
   add_list(text, lines::kTick["entries"], end.entries, add_entry);
+  add_set(text, end.entries);
   add_list(text, lines::kTick["logs"], end.logs, add_log);
   if (end.whole) add_whole(text, *end.whole);
   text += end.is_full ? kFullEnd : "}\n";
@@ -334,7 +346,7 @@ std::size_t json_lines::most_of_tick_end(std::size_t nodes, std::size_t limits,
   const MostWithin most = most_within(nodes);
   const std::size_t moments = kMostOfMoment * most.moments + kMostOfMomentNode * most.changes +
                               kMostOfLeafProgress * most.progress + kUsualTotals * nodes;
-  return 64 + 64 * (limits + entries) + moments;
+  return 80 + 64 * (limits + entries) + moments;
 }
 
 // {"lost":{"ticks":2,"from":7}} and the end of the line.

@@ -73,6 +73,7 @@ struct RecordedTick {
   std::span<const RecordedReason> reasons = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
+  std::span<const std::uint32_t> set = {};  // of these: written since the tick before, too
   std::span<const LeafLine> logs = {};
   // The line has the whole state: each entry that has a value.
   std::optional<std::span<const RecordedEntry>> whole = {};

@@ -20,9 +20,10 @@ struct AuditedLeaf {
   NodeIndex node;  // in the recording
   const LeafNode* leaf;
   const LeafModel* model;
-  std::int64_t ticks = 0;  // of this activation
-  bool was_held = false;   // after the tick before
-  double progress = 0;     // before it
+  std::int64_t ticks = 0;   // of this activation
+  bool knows_begin = true;  // of it
+  bool was_held = false;    // after the tick before
+  double progress = 0;      // when that hold began, or at the start of that tick
   std::size_t breaches = 0;
 };
 
@@ -41,7 +42,11 @@ class Auditor {
  public:
   Auditor(const RecordingHeader& header, const Tree& tree, const LeafModels& models,
           std::size_t most)
-      : header_(header), tree_(tree), most_(most), calls_(header, tree) {
+      : header_(header),
+        tree_(tree),
+        most_(most),
+        calls_(header, tree),
+        before_(header.nodes.size()) {
     for (const auto& [node, leaf] : calls_.leaves()) {
       leaves_.push_back(
           {node, leaf, &models.leaves[static_cast<std::size_t>(leaf - tree.leaves.data())]});
@@ -65,12 +70,15 @@ class Auditor {
 
   void look(const RecordedTick& tick) {
     calls_.take(tick);
+    knows_before_ = tick.tick == next_;
+    next_ = tick.tick + 1;
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
-      look(tick.tick, tick.nodes[leaves_[i].node], calls_.of(i), leaves_[i]);
+      look(tick, calls_.of(i), leaves_[i]);
       for (const RecordedEntry& entry : tick.entries) {
         look_at_output(tick, entry, calls_.of(i), leaves_[i]);
       }
     }
+    before_.assign(tick.nodes.begin(), tick.nodes.end());
   }
   std::vector<LeafBreach> take() { return std::move(found_); }
 
@@ -80,19 +88,37 @@ class Auditor {
     std::vector<NodeIndex> writers = {};     // in the recording
   };
 
-  // An entry that has changed. Where another node may have written it, nothing is known.
+  // Whether the node has been called in the tick: ticked, halted or paused.
+  bool is_called(const RecordedTick& tick, NodeIndex node) const {
+    const RecordedState &was = before_[node], &is = tick.nodes[node];
+    return is.ticked || !tick.moments.empty() || was.status != is.status || was.held != is.held;
+  }
+
+  // An entry that has changed. Where another node or the outside may have written it, nothing is
+  // known.
   void look_at_output(const RecordedTick& tick, const RecordedEntry& entry,
                       std::span<const RecordedCalls::Call> calls, AuditedLeaf& leaf) {
     const WrittenEntry& written = entries_[entry.entry];
-    const bool is_from_before = tick.tick == 0;  // perhaps: a start value
-    if (!written.slot || !entry.value || calls.empty() || is_from_before) return;
-    const bool is_alone = std::ranges::all_of(written.writers, [&](NodeIndex it) {
-      return it == leaf.node || (tick.moments.empty() && !tick.nodes[it].ticked);
-    });
+    // Perhaps a start value, or of a tick that is lost.
+    const bool is_from_before = tick.tick == 0 || !knows_before_;
+    const bool is_set = std::ranges::find(tick.set, entry.entry) != tick.set.end();
+    if (!written.slot || !entry.value || is_from_before || is_set) return;
+    const bool is_alone =
+        is_called(tick, leaf.node) && std::ranges::all_of(written.writers, [&](NodeIndex it) {
+          return it == leaf.node || !is_called(tick, it);
+        });
     const LeafModel& model = *leaf.model;
     const auto output = std::ranges::find(model.outputs, *written.slot, &LeafModel::Output::slot);
     if (!is_alone || output == model.outputs.end()) return;
     const std::string& key = header_.entries[entry.entry].key;
+    if (calls.empty()) {
+      if (!tick.moments.empty() || before_[leaf.node].status != Status::Running) return;
+      const bool is_paused = tick.nodes[leaf.node].status == Status::Running;
+      add(tick.tick, leaf,
+          fmt::format("wrote '{}' when it was {}, a leaf model allows writes in ticks only", key,
+                      is_paused ? "held" : "halted"));
+      return;
+    }
     const auto any = [&](auto is_wanted) { return std::ranges::any_of(calls, is_wanted); };
     const bool has_succeeded =
         any([](const RecordedCalls::Call& it) { return it.status == Status::Success; });
@@ -117,24 +143,33 @@ class Auditor {
     found_.push_back({header_.nodes[leaf.node].path, tick, std::move(message)});
   }
 
-  void look(std::uint64_t tick, const RecordedState& state,
-            std::span<const RecordedCalls::Call> calls, AuditedLeaf& leaf) {
+  void look(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls,
+            AuditedLeaf& leaf) {
     const LeafModel& model = *leaf.model;
+    const RecordedState& state = tick.nodes[leaf.node];
     // Progress is that at the start of this tick: after the one before, and a tick without one.
-    const double moved = state.progress - leaf.progress;
-    if (leaf.was_held && !model.drifts() && std::abs(moved) > kProgressEpsilon && leaf.ticks > 0) {
-      add(tick, leaf,
+    const double progress = calls_.progress_at(tick, leaf.node, 0),
+                 moved = progress - leaf.progress;
+    if (leaf.was_held && knows_before_ && !model.drifts() && std::abs(moved) > kProgressEpsilon &&
+        leaf.ticks > 0) {
+      add(tick.tick, leaf,
           fmt::format(
               "moved from {:g} to {:g} while it was held, the leaf model has held=\"still\"",
-              leaf.progress, state.progress));
+              leaf.progress, progress));
     }
-    leaf.progress = state.progress;
-    leaf.was_held = state.held;
+    // In a tick of several moments, the hold has begun in the last one.
+    const std::size_t moments = tick.moments.moments.size();
+    leaf.progress = moments == 0 ? progress : calls_.progress_at(tick, leaf.node, moments - 1);
+    leaf.was_held = state.held && tick.moments.rest.empty();
+    if (!knows_before_) leaf.knows_begin = false;
     for (const RecordedCalls::Call& call : calls) {
-      if (call.begins) leaf.ticks = 0;
+      if (call.begins) {
+        leaf.ticks = 0;
+        leaf.knows_begin = knows_before_;
+      }
       if (may_be_of_script(tree_, model.node, call.status, call.begins)) continue;
       ++leaf.ticks;
-      count(tick, call.status, leaf);
+      count(tick.tick, call.status, leaf);
     }
     if (state.status != Status::Running) leaf.ticks = 0;
   }
@@ -146,7 +181,7 @@ class Auditor {
       add(tick, leaf,
           fmt::format("had the result {}, which the leaf model does not allow", to_string(status)));
     }
-    const bool is_early = has_result && leaf.ticks < model.least_ticks;
+    const bool is_early = has_result && leaf.knows_begin && leaf.ticks < model.least_ticks;
     const bool is_late = model.most_ticks != 0 && leaf.ticks == model.most_ticks + 1;
     if (is_early) {
       add(tick, leaf,
@@ -165,6 +200,9 @@ class Auditor {
   const Tree& tree_;
   const std::size_t most_;
   RecordedCalls calls_;
+  std::uint64_t next_ = 0;             // tick
+  bool knows_before_ = false;          // the line before is that of the tick before
+  std::vector<RecordedState> before_;  // after it
   std::vector<WrittenEntry> entries_;  // of the recording
   std::vector<AuditedLeaf> leaves_;
   std::vector<LeafBreach> found_;

@@ -17,7 +17,7 @@ bool keeps_result(const Tree& tree, NodeIndex node) {
 
 }  // namespace
 
-RecordedCalls::RecordedCalls(const RecordingHeader& header, const Tree& tree) {
+RecordedCalls::RecordedCalls(const RecordingHeader& header, const Tree& tree) : header_(header) {
   std::map<std::string, const LeafNode*> by_path;
   for (const LeafNode& leaf : tree.leaves) by_path[tree.path(leaf.node)] = &leaf;
   for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
@@ -27,6 +27,17 @@ RecordedCalls::RecordedCalls(const RecordingHeader& header, const Tree& tree) {
     const bool keeps = keeps_result(tree, leaf->second->node);
     followed_.push_back({.keeper = keeps ? header.nodes[node].parent : std::nullopt});
   }
+}
+
+double RecordedCalls::progress_at(const RecordedTick& tick, NodeIndex leaf,
+                                  std::size_t moment) const {
+  const bool is_own =
+      header_.nodes[leaf].keeper ? tick.moments.empty() : tick.moments.progress.empty();
+  double progress = is_own ? tick.nodes[leaf].progress : 0;
+  for (const LeafProgress& it : tick.moments.progress) {
+    if (it.node == leaf && it.moment <= moment) progress = it.progress;
+  }
+  return progress;
 }
 
 template <class StateOf>

@@ -30,6 +30,9 @@ class RecordedCalls {
   };
   const std::vector<Leaf>& leaves() const { return leaves_; }
 
+  // That of a leaf at the start of a moment, or of the tick. A node that compares progress may have
+  // compared another number, and in a later moment.
+  double progress_at(const RecordedTick& tick, NodeIndex leaf, std::size_t moment) const;
   // The next tick of the recording.
   void take(const RecordedTick& tick);
   // What the leaf of this number got in it.
@@ -44,6 +47,7 @@ class RecordedCalls {
   template <class StateOf>
   void reach(const StateOf& state_of, std::optional<std::size_t> next = {});
 
+  const RecordingHeader& header_;
   std::vector<Leaf> leaves_;
   std::vector<Followed> followed_;  // of each leaf
   std::vector<NodeState> moment_;

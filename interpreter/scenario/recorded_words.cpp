@@ -94,9 +94,12 @@ class WordMaker {
   // Nodes and scripts of the tree write it. The first values may be from elsewhere.
   bool is_of_tree(const RecordedTick& tick, const RecordedEntry& entry) const {
     const auto& writers = writers_[entry.entry];
-    if (tick.tick > 0) return !writers.empty();
-    if (entry.value == initial_[entry.entry]) return true;
-    return std::ranges::any_of(writers, [&](NodeIndex it) { return tick.nodes[it].ticked; });
+    const auto is_ticked = [&] {
+      return std::ranges::any_of(writers, [&](NodeIndex it) { return tick.nodes[it].ticked; });
+    };
+    const bool is_set = std::ranges::find(tick.set, entry.entry) != tick.set.end();
+    if (tick.tick > 0) return !writers.empty() && (!is_set || is_ticked());
+    return entry.value == initial_[entry.entry] || is_ticked();
   }
 
   enum class Lacks { Moments, Faults, Value };
@@ -121,18 +124,6 @@ class WordMaker {
     std::size_t still = 0;      // ticks that were withheld, since the last word, without a drift
   };
 
-  // That of a leaf at the start of a moment, or of the tick. A node that compares progress may have
-  // compared another number, and in a later moment.
-  double progress_at(const RecordedTick& tick, NodeIndex node, std::size_t moment) const {
-    const bool is_own =
-        header_.nodes[node].keeper ? tick.moments.empty() : tick.moments.progress.empty();
-    double progress = is_own ? tick.nodes[node].progress : 0;
-    for (const LeafProgress& it : tick.moments.progress) {
-      if (it.node == node && it.moment <= moment) progress = it.progress;
-    }
-    return progress;
-  }
-
   // Progress is that at the start of a tick: what the tick before has led to. Each tick that was
   // withheld is a word, but those behind which the leaf does not drift any more.
   static void take_progress(double progress, Leaf& it) {
@@ -156,7 +147,7 @@ class WordMaker {
 
   // A word for each tick that it got.
   void add(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls, Leaf& it) {
-    const double progress = progress_at(tick, it.node, 0);
+    const double progress = calls_.progress_at(tick, it.node, 0);
     take_progress(progress, it);
     it.before = tick.nodes[it.node];
     it.before.progress = progress;
@@ -164,7 +155,7 @@ class WordMaker {
     for (const RecordedCalls::Call& call : calls) {
       Status status = tick.moments.empty() ? results_.of(tick, it.node) : call.status;
       if (status == Status::Idle) status = Status::Running;
-      const double after = call.next ? progress_at(tick, it.node, *call.next) : progress;
+      const double after = call.next ? calls_.progress_at(tick, it.node, *call.next) : progress;
       add_word(tick, it, status, call.begins, after);
     }
   }

@@ -202,6 +202,106 @@ TEST_CASE("log check says where a leaf wrote what or when its leaf model does no
                  "in tick 1: wrote 0.5 to 'x', which the leaf model does not allow"));
 }
 
+TEST_CASE("log check blames no leaf for what was written into an entry between ticks") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><Sequence memory="true"><Script code="x := 0.0"/>
+<Advance name="a" step="0.1" actual="{x}"/></Sequence></BehaviorTree></root>)");
+  const std::string test =
+      directory.file("t.test.xml", R"(<scenarios lockstep="1" tree="t.xml"><scenario name="s">
+<leaf path="*/a" does="R*5 S[actual=1]"/><set key="x" value="7" tick="3"/><expect result="failure"/>
+</scenario></scenarios>)");
+  REQUIRE(run_lockstep({"test", test, "--out", directory.path("out")}).code == 1);
+  const std::string run = directory.path("out/t.s.jsonl");
+  CHECK(contains(read_file(run), R"("entries":[[0,"7"]],"set":[0])"));
+  const std::string leaves = directory.file("t.leaves.xml", R"(<leaves lockstep="1">
+<leaf path="*/a" out.actual="1" writes="success"/></leaves>)");
+  const Outcome it = run_lockstep({"log", "check", run, "--leaves", leaves, "--tree-file", tree});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+}
+
+TEST_CASE("log check sees what a leaf writes when it is halted or held") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><Sequence memory="true"><Script code="x := 0.0"/><Timeout seconds="0.5">
+<ParallelAbsolute barriers="0.3"><Advance name="a" step="0.1" actual="{x}"/>
+<Advance name="b" step="0.01"/></ParallelAbsolute></Timeout></Sequence></BehaviorTree></root>)");
+  const std::string made = directory.path("made.jsonl"), run = directory.path("run.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                        "--record", made, "--record-entries", "none"})
+              .code == 1);
+  const std::string leaves = directory.file("t.leaves.xml", R"(<leaves lockstep="1">
+<leaf path="*/a" out.actual="1"/></leaves>)");
+  // The same run, with a write of `a` in that tick.
+  const auto check = [&](int tick) {
+    std::string text = read_file(made);
+    const std::string header = R"("nodes":[)";
+    text.insert(text.find(header), R"("entries":[{"key":"x","type":"double"}],)");
+    const std::size_t line = text.find(fmt::format("{{\"tick\":{},", tick));
+    REQUIRE(line != std::string::npos);
+    text.insert(text.find("}\n", line), R"(,"entries":[[0,"7"]])");
+    return run_lockstep({"log", "check", directory.file("run.jsonl", text), "--leaves", leaves,
+                         "--tree-file", tree});
+  };
+  CHECK(contains(check(1).out, "in tick 1: wrote 7 to 'x'"));
+  const Outcome held = check(3);
+  INFO(held.out << held.err);
+  CHECK(contains(held.out, "in tick 3: wrote 'x' when it was held"));
+  CHECK(check(4).code == 0);  // the leaf was not called in it
+  CHECK(contains(check(5).out, "in tick 5: wrote 'x' when it was halted"));
+}
+
+TEST_CASE("log check knows the tick in which a held leaf was ended and began again") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root BTCPP_format="4"><plugin name="motion"/>
+<BehaviorTree ID="T"><RetryUntilSuccessful num_attempts="3">
+<ParallelAbsolute barriers="0.5" failure_count="1"><Advance name="a" step="0.5"/>
+<Advance name="b" step="0.2"/><Sequence><Sleep msec="300"/><AlwaysFailure/></Sequence>
+</ParallelAbsolute></RetryUntilSuccessful></BehaviorTree></root>)");
+  const std::string run = directory.path("run.jsonl");
+  REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--rate", "10", "--view", "none",
+                        "--record", run})
+              .code == 1);
+  const std::string leaves = directory.file("t.leaves.xml", R"(<leaves lockstep="1">
+<leaf path="*/a" held="still"/></leaves>)");
+  const Outcome good = run_lockstep({"log", "check", run, "--leaves", leaves});
+  INFO(good.out << good.err);
+  CHECK(good.code == 0);
+  // The hold before the tick of the moments is looked at all the same.
+  std::string text = read_file(run);
+  const std::string held = R"([2,"running",0.5,0,1])";
+  const auto at = text.find("{\"tick\":2");
+  REQUIRE(contains(text.substr(0, at), held));
+  text.insert(text.find("\"nodes\":[", at) + 9, R"([2,"running",0.7,0,1],)");
+  const Outcome moved =
+      run_lockstep({"log", "check", directory.file("moved.jsonl", text), "--leaves", leaves});
+  INFO(moved.out << moved.err);
+  CHECK(contains(moved.out, "in tick 2: moved from 0.5 to 0.7 while it was held"));
+}
+
+TEST_CASE("log check knows nothing of ticks that have no line") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><ParallelAbsolute barriers="0.2;0.4;0.6;0.8"><Advance name="a" step="0.2"/>
+<Advance name="b" step="0.1"/></ParallelAbsolute></BehaviorTree></root>)");
+  const std::string made = directory.path("made.jsonl");
+  REQUIRE(
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", made}).code ==
+      0);
+  std::string text = read_file(made);
+  const std::size_t from = text.find("{\"tick\":2,"), to = text.find("{\"tick\":9,");
+  REQUIRE((from != std::string::npos && to != std::string::npos));
+  text.replace(from, to - from, "{\"lost\":{\"ticks\":7,\"from\":2}}\n");
+  text.insert(text.find("\"overruns\""), "\"lost\":7,");
+  const Outcome it = run_lockstep({"log", "check", directory.file("run.jsonl", text), "--leaves",
+                                   directory.file("t.leaves.xml", R"(<leaves lockstep="1">
+<leaf path="*/a" ticks="5"/><leaf path="*/b" ticks="10"/></leaves>)"),
+                                   "--tree-file", tree});
+  INFO(it.out << it.err);
+  CHECK(it.code == 0);
+}
+
 TEST_CASE("log check does not take the result of a script for that of its leaf") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>

@@ -55,19 +55,26 @@ EntryChanges::EntryChanges(const std::vector<std::uint32_t>& slots) {
   values_.reserve(slots.size());
 }
 
+void EntryChanges::before_tick(std::span<const Entry> entries) {
+  for (Watched& it : watched_) it.is_set |= entries[it.slot].writes() != it.writes_of_tick;
+}
+
 std::span<const EntryChange> EntryChanges::changes(std::span<const Entry> entries) {
   changes_.clear();
   for (std::uint32_t number = 0; number < watched_.size(); ++number) {
     Watched& watched = watched_[number];
     const Entry& entry = entries[watched.slot];
+    watched.writes_of_tick = entry.writes();
     if (watched.writes == entry.writes()) continue;
     if (!entry.has_value()) continue;
     // A text that is too long may be another value, so it is shown each time it is written.
     const bool is_short = put_short(entry.value(), watched.next);
     if (is_short && watched.has_text && watched.next == watched.text) {
       watched.writes = entry.writes();
+      watched.is_set = false;
     } else {
-      changes_.push_back({.entry = number, .text = is_short ? &watched.next : nullptr});
+      changes_.push_back(
+          {.entry = number, .text = is_short ? &watched.next : nullptr, .is_set = watched.is_set});
     }
   }
   entries_ = entries;
@@ -93,6 +100,7 @@ void EntryChanges::keep() {
     Watched& watched = watched_[change.entry];
     watched.writes = entries_[watched.slot].writes();
     watched.has_text = change.text != nullptr;
+    watched.is_set = false;
     std::swap(watched.text, watched.next);
   }
   changes_.clear();

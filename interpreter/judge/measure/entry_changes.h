@@ -15,6 +15,7 @@ namespace lockstep::host {
 struct EntryChange {
   std::uint32_t entry = 0;            // its number among those that are watched
   const std::string* text = nullptr;  // its value; null: it is too long
+  bool is_set = false;                // it was written between ticks, perhaps also in the tick
 };
 
 // The state of an entry after a tick.
@@ -35,6 +36,8 @@ class EntryChanges {
   // For these slots of the blackboard, numbered in this order.
   explicit EntryChanges(const std::vector<std::uint32_t>& slots);
 
+  // May be called before a tick whose changes() come: finds what was written since the last ones.
+  void before_tick(std::span<const Entry> entries);
   // Call after a tick. The result is valid until the next call. Allocates only if a text is longer
   // than before.
   std::span<const EntryChange> changes(std::span<const Entry> entries);
@@ -49,6 +52,8 @@ class EntryChanges {
   struct Watched {
     std::uint32_t slot = 0;
     std::optional<std::uint32_t> writes = {};  // of the entry, when its value was kept
+    std::uint32_t writes_of_tick = 0;          // after the last tick that was looked at
+    bool is_set = false;                       // between ticks, since a change was kept
     bool has_text = false;                     // else nothing was kept, or that it is too long
     std::string text = {};                     // that was kept
     std::string next = {};                     // to be kept

@@ -76,7 +76,14 @@ void RunPackets::log(std::string_view who, std::string_view level, std::string_v
   lines_.add(who, level, text);
 }
 
+// What came between two ticks shows only to who has looked at the first.
+void RunPackets::before_tick(const Moment& moment) {
+  delta_.before_tick(moment);
+  if (looked_ != 0 && looked_ == moment.number) entries_.before_tick(moment.entries);
+}
+
 Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
+  looked_ = moment.number;
   const std::span<const NodeChange> nodes = delta_.changes(moment);
   TickEnd end{.limits = delta_.limits(moment),
               .rounds = delta_.rounds(moment),

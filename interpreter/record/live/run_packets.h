@@ -35,7 +35,7 @@ class RunPackets {
   std::string header(const RunStart& start) const;
 
   // Before a tick that is to become a packet: asks every running node for its progress.
-  void before_tick(const Moment& moment) { delta_.before_tick(moment); }
+  void before_tick(const Moment& moment);
   // The changes since the last packet that was kept. Valid until the next call.
   Packet tick(const Moment& moment, const TickReport& report);
   // The last packet has more than other progress: a node begins, completes, is held, goes on or is
@@ -65,7 +65,8 @@ class RunPackets {
   std::vector<std::uint32_t> slots_;  // of the entries that are shown
   EntryChanges entries_;
   LeafLines lines_;
-  std::string line_end_;  // of the tick, for its room
+  std::string line_end_;      // of the tick, for its room
+  std::uint32_t looked_ = 0;  // the number of the last tick that tick() was called for
   bool is_full_ = false, is_whole_ = false;
   bool has_events_ = false;
 };

@@ -241,21 +241,24 @@ Item text_of_node_from(JsonValue value, std::size_t nodes, const char* none) {
   return found;
 }
 
+std::uint32_t key_from(JsonValue value, std::size_t keys, const char* otherwise) {
+  std::uint64_t number = 0;
+  if (!value.get(number)) throw JsonError(otherwise);
+  if (number < keys) return static_cast<std::uint32_t>(number);
+  throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
+}
+
 RecordedEntry entry_from(JsonValue value, std::size_t keys) {
   constexpr char kNone[] = "an entry is not [index, text or null]";
   RecordedEntry entry;
   read_tuple(value, 2, kNone, [&](std::size_t place, JsonValue item) {
-    std::uint64_t number = 0;
     std::string_view text;
-    if (place == 1) {
-      if (item.get(text)) entry.value = text;
-      return entry.value || item.is_null();
+    if (place == 0) {
+      entry.entry = key_from(item, keys, kNone);
+      return true;
     }
-    if (!item.get(number)) return false;
-    if (number >= keys)
-      throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
-    entry.entry = static_cast<std::uint32_t>(number);
-    return true;
+    if (item.get(text)) entry.value = text;
+    return entry.value || item.is_null();
   });
   return entry;
 }
@@ -368,6 +371,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   totals_.clear();
   leaf_progress_.clear();
   entries_.clear();
+  set_.clear();
   logs_.clear();
   const auto read_nodes = [&](JsonValue value) {
     has_nodes = true;
@@ -430,6 +434,12 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
       });
     };
   };
+  const auto read_set = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) {
+      if (set_.size() == keys_) throw JsonError("an entry is given twice");
+      set_.push_back(key_from(it, keys_, "'set' is not a list of indices"));
+    });
+  };
   const auto read_whole = [&](JsonValue value) {
     is_whole = true;
     read_entries(whole_)(value);
@@ -450,6 +460,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["reasons"], read_reasons, kMayLack},
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},
+         {lines::kTick["set"], read_set, kMayLack},
          {lines::kTick["whole"], read_whole, kMayLack},
          {lines::kTick["logs"], into_logs(logs_), kMayLack},
          {lines::kLostLine["lost"], [&](JsonValue value) { gap = gap_from(value.object()); },
@@ -481,6 +492,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .reasons = reasons_,
                       .faults = faults_,
                       .entries = entries_,
+                      .set = set_,
                       .logs = logs_};
   if (is_whole) result.whole = whole_;
   return result;

@@ -47,6 +47,32 @@ TEST_CASE("entries: one is shown when it has another value than in the last line
   CHECK(text_of(changes.changes(it.board.entries)) == "0=0.75");
 }
 
+TEST_CASE("entries: one that was written between ticks is marked until a line has it") {
+  Board it;
+  EntryChanges changes({0, 1});
+  it.set(0, 0.5);
+  it.set(1, std::vector<double>{1});
+  REQUIRE(changes.changes(it.board.entries).size() == 2);
+  changes.keep();
+  const auto is_set = [&] {
+    std::vector<bool> all;
+    for (const EntryChange& change : changes.changes(it.board.entries)) {
+      all.push_back(change.is_set);
+    }
+    return all;
+  };
+  it.set(0, 0.75);
+  changes.before_tick(it.board.entries);
+  it.set(1, std::vector<double>{0.5, 1});  // by the tick
+  CHECK(is_set() == std::vector{true, false});
+  changes.before_tick(it.board.entries);
+  CHECK(is_set() == std::vector{true, false});  // the file did not take it
+  changes.keep();
+  changes.before_tick(it.board.entries);
+  it.set(0, 0.5);
+  CHECK(is_set() == std::vector{false});
+}
+
 TEST_CASE("entries: only those that were asked for, numbered in their order") {
   Board it;
   EntryChanges changes({1});

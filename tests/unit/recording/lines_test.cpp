@@ -254,7 +254,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const ReasonChange reason{.node = 2, .text = "no object"};
   const NodeIndex succeeded = 1;
   const Fault fault{.node = 2, .message = "threw"};
-  const EntryChange entry{.entry = 0, .text = &value};
+  const EntryChange entry{.entry = 0, .text = &value, .is_set = true};
   const LeafLine log{"T/a", "info", "text"};
   const TickMoment moment{.times = 3, .changes = 1};
   const MomentChange of_moment{

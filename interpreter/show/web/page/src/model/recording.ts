@@ -54,6 +54,7 @@ export interface TickLine {
   more?: NodeCounts[];
   faults?: Fault[];
   entries?: EntryValue[];
+  set?: number[];
   logs?: LogLine[];
   whole?: EntryValue[];
   counts?: NodeCounts[];
