@@ -21,6 +21,12 @@ namespace {
 // --- header and closing line
 // -----------------------------------------------------------------------
 
+Json json_of(const std::map<std::string, std::string, std::less<>>& texts) {
+  Json json = Json::object();
+  for (const auto& [name, text] : texts) json[name] = text;
+  return json;
+}
+
 Json json_of(const ShapeNode& node, std::size_t index) {
   Json json = {{lines::kHeaderNode["index"], index},
                {lines::kHeaderNode["path"], node.path},
@@ -38,6 +44,7 @@ Json json_of(const ShapeNode& node, std::size_t index) {
   if (node.paces) json[lines::kHeaderNode["pace"]] = true;
   if (!node.condition.empty()) json[lines::kHeaderNode["condition"]] = node.condition;
   if (!node.reads.empty()) json[lines::kHeaderNode["reads"]] = node.reads;
+  if (!node.ports.empty()) json[lines::kHeaderNode["ports"]] = json_of(node.ports);
   if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
   return json;
 }
@@ -70,12 +77,6 @@ Json json_of(const std::vector<ShapeNode>& nodes) {
     list.push_back(json_of(nodes[index], index));
   }
   return list;
-}
-
-Json json_of(const std::map<std::string, std::string, std::less<>>& texts) {
-  Json json = Json::object();
-  for (const auto& [name, text] : texts) json[name] = text;
-  return json;
 }
 
 // It may be left out.

@@ -176,6 +176,9 @@ constexpr Field kHeaderNodeFields[] = {
     {"pace", "Yes", kMaybe, "for a node that [paces](pacing.md) what it holds"},
     {"condition", "Text", kMaybe, "of a node that a script decides: the script"},
     {"reads", "Text[]", kMaybe, "with `condition`: the keys of the entries that it reads"},
+    {"ports", "Texts", kMaybe,
+     "only if there are any: its ports or parameters with their values, as strings; `{key}` for a "
+     "blackboard entry. Values of more than 256 bytes and objects are left out"},
     {"guard", "Yes", kMaybe,
      "for a child of a parallel, and for the child of a SyncProgress, that contains no action: it "
      "is a [guard](language.md#guards), and part of no measure"},

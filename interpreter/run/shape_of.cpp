@@ -44,6 +44,90 @@ void add_condition(const Tree& tree, NodeIndex index, ShapeNode& node) {
   }
 }
 
+// The ports and parameters of the nodes, as they are after loading: "0.5", "{goal}". A built-in
+// node has those that differ from the default.
+class Ports {
+ public:
+  Ports(const Tree& tree, Shape& shape) : tree_(tree), shape_(shape) {}
+
+  void add() {
+    for (const LeafNode& leaf : tree_.leaves) add_bindings(leaf.node, *leaf.type, leaf.first_port);
+    for (const BoundNode& bound : tree_.bound)
+      add_bindings(bound.node, bound.kind->type, bound.first_port);
+    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) add_built_in(node);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 256;  // bytes
+
+  void add(NodeIndex node, const Parameter& port, std::string text) {
+    if (text.size() <= kMost) shape_.nodes[node].ports.emplace(port.name, std::move(text));
+  }
+
+  void add_bindings(NodeIndex node, const NodeType& type, std::uint32_t first) {
+    for (std::size_t i = 0; i < type.parameters.size(); ++i) {
+      const PortBinding& it = tree_.ports[first + i];
+      if (it.slot != PortBinding::kUnbound) {
+        add(node, type.parameters[i], "{" + tree_.slots[it.slot].name + "}");
+      } else if (it.constant != PortBinding::kUnbound) {
+        const Value& value = tree_.constants[it.constant];
+        const bool has_text =
+            !std::holds_alternative<NoValue>(value) && !std::holds_alternative<Object>(value);
+        if (has_text) add(node, type.parameters[i], to_text(value));
+      }
+    }
+  }
+
+  void add_built_in(NodeIndex node) {
+    const NodeType& type = *tree_.labels[node].type;
+    const std::uint32_t first = tree_.nodes[node].params;
+    const bool has_bindings = type.mock != nullptr ? !type.mock->outputs.empty() : type.reads_ports;
+    if (type.plugin.empty() && has_bindings) return add_bindings(node, type, first);
+    if (!type.plugin.empty() || type.mock != nullptr) return;  // no cells
+    if (!shape_.nodes[node].ports.empty()) return;             // it is bound
+    for (std::size_t i = 0; i < type.parameters.size(); ++i) {
+      const Parameter& parameter = type.parameters[i];
+      const std::string text = text_of(parameter, tree_.cells[first + i]);
+      const bool is_default = parameter.default_text && text == *parameter.default_text;
+      if (!text.empty() && !is_default) add(node, parameter, text);
+    }
+  }
+
+  // "" where it is absent.
+  std::string text_of(const Parameter& parameter, const Cell& cell) const {
+    if (parameter.is_script) return script_text(static_cast<std::size_t>(cell.integer));
+    switch (parameter.type) {
+      case ValueType::Bool:
+        return to_text(Value(cell.boolean));
+      case ValueType::Int:
+        return is_absent(parameter, cell) ? "" : to_text(Value(cell.integer));
+      case ValueType::Double:
+        return is_absent(parameter, cell) ? "" : to_text(Value(cell.number));
+      case ValueType::String: {
+        const auto place = static_cast<std::size_t>(cell.integer);
+        return place < parameter.choices.size() ? std::string(parameter.choices[place]) : "";
+      }
+      case ValueType::DoubleList:
+        return to_text(
+            Value(std::vector<double>(tree_.numbers.begin() + cell.list.first,
+                                      tree_.numbers.begin() + cell.list.first + cell.list.count)));
+      default:
+        return "";
+    }
+  }
+  // The cell of an absent number is 0.
+  static bool is_absent(const Parameter& parameter, const Cell& cell) {
+    return !parameter.required && cell.integer == 0;
+  }
+  std::string script_text(std::size_t script) const {
+    const bool has_code = script < tree_.scripts.size() && tree_.scripts[script].code;
+    return has_code ? std::string(tree_.scripts[script].code->text()) : "";
+  }
+
+  const Tree& tree_;
+  Shape& shape_;
+};
+
 }  // namespace
 
 void add_facts(const NodeType& type, ShapeNode& node) {
@@ -85,6 +169,7 @@ Shape shape_of(const Tree& tree) {
                              .value_type = slot.type,
                              .typing = slot.typing});
   }
+  Ports(tree, shape).add();
   add_members(tree, shape);
   complete(shape);
   for (const ShapeNode& node : shape.nodes) {

@@ -106,6 +106,19 @@ void add_facts_of_kind(ShapeNode& node) {
   }
 }
 
+using Texts = decltype(RecordingHeader::arguments);
+
+Texts named_texts(JsonValue value, std::string_view what) {
+  Texts texts;
+  value.object().each_field([&](std::string_view name, JsonValue item) {
+    std::string_view text;
+    if (!item.get(text)) throw JsonError(fmt::format("{} '{}' is not a string", what, brief(name)));
+    if (!texts.emplace(name, text).second)
+      throw JsonError(fmt::format("{} '{}' is given twice", what, brief(name)));
+  });
+  return texts;
+}
+
 ShapeNode node_from(JsonObject object, std::size_t index) {
   ShapeNode node;
   std::uint64_t place = 0;
@@ -142,6 +155,8 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
        {lines::kHeaderNode["condition"], into(node.condition), kMayLack},
        {lines::kHeaderNode["reads"],
         [&](JsonValue value) { node.reads = texts_from(value, index); }, kMayLack},
+       {lines::kHeaderNode["ports"],
+        [&](JsonValue value) { node.ports = named_texts(value, "port"); }, kMayLack},
        {lines::kHeaderNode["guard"],
         [&](JsonValue value) { node.is_guard = is_yes(value, "guard", index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
@@ -179,20 +194,6 @@ std::vector<ShapeEntry> keys_from(JsonValue value) {
   return keys;
 }
 
-using Arguments = decltype(RecordingHeader::arguments);
-
-Arguments arguments_from(JsonValue value) {
-  Arguments arguments;
-  value.object().each_field([&](std::string_view name, JsonValue argument) {
-    std::string_view text;
-    if (!argument.get(text))
-      throw JsonError(fmt::format("argument '{}' is not a string", brief(name)));
-    if (!arguments.emplace(name, text).second)
-      throw JsonError(fmt::format("argument '{}' is given twice", brief(name)));
-  });
-  return arguments;
-}
-
 template <class Value>
 auto into_header(Value& value) {
   return into(value);
@@ -200,8 +201,8 @@ auto into_header(Value& value) {
 auto into_header(double& rate) {
   return [&rate](JsonValue value) { rate = rate_from(value); };
 }
-auto into_header(Arguments& arguments) {
-  return [&arguments](JsonValue value) { arguments = arguments_from(value); };
+auto into_header(Texts& texts) {
+  return [&texts](JsonValue value) { texts = named_texts(value, "argument"); };
 }
 auto into_header(std::vector<ShapeNode>& nodes) {
   return [&nodes](JsonValue value) { nodes = nodes_from(value); };

@@ -88,6 +88,7 @@ export interface HeaderNode {
   pace?: boolean;
   condition?: string;
   reads?: string[];
+  ports?: Record<string, string>;
   guard?: boolean;
 }
 
