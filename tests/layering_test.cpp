@@ -72,7 +72,7 @@ const std::vector<Layer> kPageRooms{
     {"source", {"store"}},
     {"view/parts", {"model", "preact"}},
     {"view/chart", {"model", "store", "view/parts", "preact", "uplot"}},
-    {"view/panels", {"model", "store", "view/parts", "preact"}},
+    {"view/panels", {"model", "store", "view/parts", "view/chart", "preact"}},
     {"view/timeline", {"model", "store", "view/parts", "preact"}},
     {"view/tree", {"model", "store", "view/parts", "preact", "d3-flextree"}},
     {"view",

@@ -36,8 +36,7 @@ test("the door opens: the base is seen held at 0.25, tick by tick, back and on",
   await soon.match(page, () => node(page, "reach").getAttribute("aria-label"), /running, progress 0\.04/);
   await page.getByRole("combobox", { name: "Speed of the run" }).selectOption("1×");
   await node(page, "pull").click();
-  await page.getByRole("combobox", { name: "When to pause" }).selectOption("comes to a barrier");
-  await page.getByRole("button", { name: "pause when pull" }).click();
+  await page.getByRole("group", { name: "Pause the run when this node" }).getByRole("button", { name: "comes to a barrier" }).click();
   await page.getByRole("button", { name: "remove the breakpoint: pull comes to a barrier" }).waitFor();
   await page.getByRole("button", { name: "resume" }).click();
   await page.getByText("paused, since pull comes to a barrier").waitFor();
@@ -56,6 +55,26 @@ test("the door opens: the base is seen held at 0.25, tick by tick, back and on",
   await state(page, "ended: success (completed)").waitFor();
   assert.equal(await run.ended, 0);
   await page.getByRole("region", { name: "At the end" }).waitFor();
+  await page.context().close();
+});
+
+test("a click pauses the run when a node succeeds, or fails", async () => {
+  const { run, page } = await watch(tree(`<Fallback memory="true"><Sequence name="first" memory="true"><Advance name="go" step="0.1"/>
+    <Wait seconds="0.05"/><AlwaysFailure name="no"/></Sequence><Advance name="other" step="0.1"/></Fallback>`));
+  const when = (name) => page.getByRole("group", { name: "Pause the run when this node" }).getByRole("button", { name });
+  for (const [name, what] of [["go", "succeeds"], ["first", "fails"]]) {
+    await node(page, name).click();
+    await when(what).click();
+    await page.getByRole("button", { name: `remove the breakpoint: ${name} ${what}` }).waitFor();
+    await when(what).and(page.locator("[aria-pressed=true]")).waitFor();
+    assert.equal(await node(page, name).locator(".stop").count(), 1);
+    await page.getByRole("button", { name: "resume" }).click();
+    await page.getByText(`paused, since ${name} ${what}`).waitFor();
+  }
+  await when("fails").click();
+  await page.getByRole("button", { name: "remove the breakpoint: first" }).waitFor({ state: "detached" });
+  assert.equal(await when("comes to a barrier").count(), 0);
+  run.process.kill("SIGTERM");
   await page.context().close();
 });
 

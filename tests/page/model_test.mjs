@@ -75,7 +75,7 @@ test("who joins a run does not take what there was for what happened", () => {
   const run = runOf(
     { tick: 70, time_s: 7, full: true, nodes: [running(0, 0.5), [1, "success", 1, 1, 0]], entries: [[0, "open"]] },
     { tick: 71, time_s: 7.1, nodes: [[0, "success", 1, 1, 0]], entries: [[0, "shut"]] });
-  assert.deepEqual(run.events.all.map((event) => event.text), ["succeeded", "door = shut"]);
+  assert.deepEqual(run.events.all.map((event) => event.text), ["door = shut", "succeeded"]);
   assert.equal(run.entries[0][0].value, "open");
 });
 
@@ -154,15 +154,71 @@ test("a page that misses lines has the counts of the program, and says what it h
   assert.deepEqual(late.events.all, []);
 });
 
-test("the next event is not the next tick where a leaf writes, fails or is held again and again", () => {
+const ALL = { hidden: new Set(), only: null };
+const stops = ({ events }, filter = ALL) => {
+  const found = [];
+  for (let line = events.nextLine(-1, filter); line !== null; line = events.nextLine(line, filter)) found.push(line);
+  return found;
+};
+
+test("the keys stop at the events that are chosen, and never at an entry that changes in every tick", () => {
   const lines = [];
-  for (let tick = 0; tick < 20; ++tick) {
-    lines.push({ tick, time_s: tick / 10, entries: tick < 12 ? [[0, `${tick}`]] : [],
-      nodes: [running(1, 0, tick % 2), ...(tick === 15 ? [[2, "failure", 0, 1, 0]] : [])] });
+  for (let tick = 0; tick < 90; ++tick) {
+    lines.push({ tick, time_s: tick / 10, entries: tick < 80 ? [[0, `${tick}`]] : tick === 85 ? [[0, "end"]] : [],
+      nodes: [running(1, 0), ...(tick === 15 ? [[2, "failure", 0, 1, 0]] : [])], ...(tick === 40 ? { logs: [["Test", "info", "x"]] } : {}) });
   }
-  const { events } = runOf(...lines);
-  assert.deepEqual([events.nextLine(0), events.nextLine(1), events.nextLine(2)], [1, 2, 15]);
-  assert.deepEqual([events.previousLine(19), events.previousLine(15), events.previousLine(1)], [15, 2, 0]);
+  const run = runOf(...lines);
+  assert.deepEqual(stops(run), [0, 15, 40, 85]); // arm starts, base fails, a log, the last value alone
+  assert.equal(run.events.previousLine(84, ALL), 40);
+  assert.equal(run.events.previousLine(1, { hidden: new Set(["completions"]), only: null }), null);
+  assert.deepEqual(stops(run, { hidden: new Set(["logs", "entries"]), only: null }), [0, 15]);
+  assert.deepEqual(stops(run, { hidden: new Set(), only: 2 }), [15]);
+});
+
+test("many short holds are one event, few are each one", () => {
+  const held = (many) => runOf(...Array.from({ length: 2 * many }, (_, tick) =>
+    ({ tick, time_s: tick / 10, nodes: [running(0, 0), running(1, 0), running(2, 0, 1 - (tick % 2))] })));
+  const few = held(3), many = held(200);
+  assert.deepEqual(stops(few, { hidden: new Set(["completions"]), only: null }), [0, 1, 2, 3, 4, 5]);
+  assert.deepEqual(stops(many, { hidden: new Set(["completions"]), only: null }), [0]);
+  const folded = many.events.all.filter(model.isFolded);
+  assert.equal(new Set(folded.map(({ series }) => series)).size, 1);
+  assert.equal(folded.at(-1).number, 400);
+  assert.equal(model.laneText(many, 2), "held 50 % of 39.90 s (200 times)");
+  folded[0].series.open = true;
+  assert.equal(many.events.all.filter(model.isFolded).length, 0);
+});
+
+test("the events of a tick are in the order of their causes", () => {
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, entries: [{ key: "door", type: "string", writers: [1] }] }));
+  run.feed(JSON.stringify({ tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0), running(2, 0)] }));
+  run.feed(JSON.stringify({ tick: 1, time_s: 0.1, nodes: [[0, "failure", 0, 1, 0], [1, "failure", 0, 1, 0], [2, "idle", 0, 0, 0]],
+    faults: [[1, "broken"]], entries: [[0, "open"]], logs: [["Test/pull/arm", "info", "pulls"]] }));
+  run.feed(JSON.stringify({ end: { result: "failure", reason: "completed", ticks: 2, time_s: 0.2 } }));
+  assert.deepEqual(run.events.all.filter(({ line }) => line === 1).map(({ kind, node, text }) => [kind, node, text]), [
+    ["log", null, "Test/pull/arm: pulls"], ["entry", null, "door = open"], ["fault", 1, "broken"], ["failure", 1, "failed"],
+    ["failure", 0, "failed"], ["halt", 2, "halted"], ["end", null, "run ended: failure (completed) after 2 ticks"],
+  ]);
+});
+
+test("the spread has the bound of the measures: what delta or barriers allow, and the longest step", () => {
+  const lines = [[0, 0], [0.1, 0.3], [0.3, 0.5], [0.5, 0.5]].map(([arm, base], tick) =>
+    ({ tick, time_s: tick / 10, nodes: [running(0, 0), running(1, arm), running(2, base)], limits: [[0, 0.5]] }));
+  const run = runOf(...lines);
+  const { largest, allowed, step, falls } = model.spreadBound(run, 0, 0, 3);
+  assert.deepEqual([largest.toFixed(6), allowed, step, falls], ["0.200000", 0.5, 0.3, false]);
+  assert.equal(model.spreadIn(run, 0, 3), 0);
+  run.feed(JSON.stringify({ tick: 4, time_s: 0.4, nodes: [running(1, 0.2)] }));
+  assert.equal(model.spreadBound(run, 0, 0, 4).falls, true); // goes on where it was
+  assert.equal(model.spreadIn(run, 1, 3), null); // holds none
+});
+
+test("numbers have six digits at most, and stay as they are in names", () => {
+  for (const [value, wanted] of [["33.66666663299995", "33.6667"], ["0.1;0.30000000000000004", "0.1;0.3"], ["-0.000012345678", "-0.0000123457"],
+    ["v1.234567.8", "v1.234567.8"], ["2.5", "2.5"], ["123456789.123456", "123456789"]]) {
+    assert.equal(model.shortNumbers(value), wanted);
+  }
 });
 
 // What a store has of it.

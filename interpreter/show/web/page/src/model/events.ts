@@ -1,11 +1,19 @@
 // The events of a run, in order: for the log, and for going from one event to the next.
 import { HELD, STATUS, TICKED } from "./columns";
+import { shortNumbers } from "./numbers";
 import { IDLE, RUNNING, SUCCESS, type End, type Header, type LogLine } from "./recording";
 import type { Shape } from "./shape";
 
 export type EventKind =
   | "start" | "success" | "failure" | "skipped" | "halt" | "hold" | "release"
   | "fault" | "entry" | "log" | "overrun" | "lost" | "end";
+
+// The same thing again and again: a leaf that writes an entry in each tick, or many short holds by one node.
+export interface Series {
+  from: number; // line
+  count: number;
+  open: boolean; // its events are shown one by one
+}
 
 export interface RunEvent {
   line: number;
@@ -14,16 +22,46 @@ export interface RunEvent {
   text: string; // without the node
   level?: string; // of a log
   explained?: boolean; // of a hold: the text says why
-  again?: boolean; // the same happened at most two lines before, as where a leaf writes an entry in each tick
+  series: Series | null;
+  number: number; // of the event in its series, from 1
+  cause: number; // orders the events of a tick
 }
 
-// Those that the keys for the next and the previous event stop at, at the first line of a row of them.
-const LANDMARKS: ReadonlySet<EventKind> = new Set<EventKind>([
-  "success", "failure", "hold", "release", "fault", "entry", "overrun", "lost", "end",
-]);
+// The chips, which choose what the log shows and where the keys for the next and the previous event stop.
+export const CHIPS: Record<string, EventKind[]> = {
+  completions: ["start", "success", "failure", "skipped", "halt"],
+  waiting: ["hold", "release"],
+  troubles: ["fault", "overrun", "lost", "end"],
+  entries: ["entry"],
+  logs: ["log"],
+};
 
-function isLandmark({ kind, again }: RunEvent): boolean {
-  return LANDMARKS.has(kind) && !again;
+export interface Filter {
+  hidden: ReadonlySet<string>; // chips
+  only: number | null; // node
+}
+
+export function isShown({ hidden, only }: Filter, { kind, node }: RunEvent): boolean {
+  return (only === null || node === only) && !Object.entries(CHIPS).some(([chip, kinds]) => hidden.has(chip) && kinds.includes(kind));
+}
+
+// A series is folded when it has so many events, each at most so many lines after the one before it. A hold is two events.
+const FOLDED = 4, GAP = 2, FOLDED_HOLDS = 16, GAP_OF_HOLDS = 25;
+
+function isHold(kind: EventKind): boolean {
+  return kind === "hold" || kind === "release";
+}
+
+export function isFolded({ kind, series }: RunEvent): boolean {
+  return series !== null && !series.open && series.count >= (isHold(kind) ? FOLDED_HOLDS : FOLDED);
+}
+
+// Of a series that is folded, its first event; none of an entry that changes in every tick.
+function isStop(filter: Filter, event: RunEvent): boolean {
+  const { kind, series, number } = event;
+  if (!isShown(filter, event)) return false;
+  if (kind === "entry" && series!.count >= FOLDED) return false;
+  return !isFolded(event) || number === 1;
 }
 
 // Of each status from Success on.
@@ -37,18 +75,51 @@ interface Happening {
   readonly times: number[];
   readonly last: number; // line
   readonly period: number;
+  status(node: number, line: number): number;
 }
+
+const FIRST = -Infinity, LAST = Infinity;
 
 export class Events {
   all: RunEvent[] = [];
-  private readonly latest = new Map<string, number>(); // the last line of each kind of event of a node or an entry
+  private fresh: RunEvent[] = []; // of the current tick
+  private readonly latest = new Map<string, { line: number; series: Series }>();
 
   constructor(private readonly run: Happening) {}
 
-  private add(kind: EventKind, node: number | null, text: string, level?: string, what: number | null = node) {
-    const line = Math.max(0, this.run.last), key = `${kind} ${what}`, before = this.latest.get(key);
-    this.latest.set(key, line);
-    this.all.push({ line, kind, node, text, level, again: before !== undefined && line - before <= 2 });
+  private add(kind: EventKind, node: number | null, text: string, cause = this.causeOf(node), what: string | number | null = node) {
+    const line = Math.max(0, this.run.last), series = what === null ? null : this.seriesOf(kind, what, line);
+    this.fresh.push({ line, kind, node, text, series, number: series ? ++series.count : 1, cause });
+  }
+  private seriesOf(kind: EventKind, what: string | number, line: number): Series {
+    const holds = isHold(kind), key = holds ? `hold ${this.run.shape.nodes[what as number].keeper}` : `${kind} ${what}`;
+    const before = this.latest.get(key);
+    const series = before && line - before.line <= (holds ? GAP_OF_HOLDS : GAP) ? before.series : { from: line, count: 0, open: false };
+    this.latest.set(key, { line, series });
+    return series;
+  }
+
+  // A node has its result after those below it.
+  private causeOf(node: number | null): number {
+    if (node === null) return FIRST;
+    const { nodes } = this.run.shape;
+    return nodes[node].end * (nodes.length + 1) - node;
+  }
+  // A node is halted by what has ended above it.
+  private causeOfHalt(node: number): number {
+    const { nodes } = this.run.shape;
+    for (let up = nodes[node].parent; up !== null; up = nodes[up].parent) {
+      if (this.run.status(up, this.run.last) > RUNNING) return this.causeOf(up) + 0.5;
+    }
+    return this.causeOf(node);
+  }
+  // After all of a tick, or of one of its moments.
+  settle() {
+    for (const event of this.fresh) {
+      if (event.kind === "halt") event.cause = this.causeOfHalt(event.node!);
+    }
+    this.all.push(...this.fresh.sort((a, b) => a.cause - b.cause || 0)); // of two infinite ones: as they came
+    this.fresh = [];
   }
 
   // `times`: of a moment of a tick that has several, in which each result is an event.
@@ -58,8 +129,8 @@ export class Events {
     else if (is !== was) this.statusChange(node, was, is);
     if ((before & HELD) === (after & HELD)) return;
     if (this.run.shape.nodes[node].keeper === null) return; // what is below a held node
-    if (after & HELD) this.add("hold", node, "is held");
-    else if (is === RUNNING) this.add("release", node, "goes on");
+    if (after & HELD) this.add("hold", node, "is held", FIRST);
+    else if (is === RUNNING) this.add("release", node, "resumes", FIRST);
   }
 
   private result(node: number, status: number, times: number) {
@@ -84,25 +155,33 @@ export class Events {
   }
 
   fault(node: number, message: string) {
-    this.add("fault", node, message);
+    this.add("fault", node, message, this.causeOf(node) - 0.2);
   }
-  entry(entry: number, value: string | null) {
-    const key = this.run.header?.entries?.[entry]?.key ?? "?";
-    this.add("entry", null, `${key} = ${value ?? "(too long to be recorded)"}`, undefined, entry);
+  // After the first of the nodes that may have written it and had a tick.
+  entry(entry: number, value: string | null, isTicked: (node: number) => boolean) {
+    const { key, writers } = this.run.header!.entries![entry];
+    const text = value === null ? "(too long to be recorded)" : shortNumbers(value);
+    const writer = writers?.find(isTicked);
+    this.add("entry", null, `${key} = ${text}`, writer === undefined ? FIRST : this.causeOf(writer) - 0.3, `entry ${entry}`);
   }
   log([who, level, text]: LogLine) {
-    this.add("log", null, `${who}: ${text}`, level);
+    const node = this.run.shape.byPath.get(who);
+    this.add("log", null, `${who}: ${text}`, node === undefined ? LAST : this.causeOf(node) - 0.4);
+    this.fresh[this.fresh.length - 1].level = level;
   }
   lost(ticks: number, from: number) {
     this.add("lost", null, `${ticks} ticks from tick ${from} on are not here: there was no room for them`);
+    this.settle();
   }
   missed(what: string) {
     this.add("lost", null, `this page was too slow to be told of each: ${what}`);
   }
   end(end: End) {
     const fault = end.fault ? `: ${end.fault}` : "";
-    this.add("end", null, `run ended: ${end.result} (${end.reason}) after ${end.ticks} ticks${fault}`);
-    for (const note of end.notes ?? []) this.add("end", null, note);
+    const ticks = end.ticks === 1 ? "1 tick" : `${end.ticks} ticks`;
+    this.add("end", null, `run ended: ${end.result} (${end.reason}) after ${ticks}${fault}`, LAST);
+    for (const note of end.notes ?? []) this.add("end", null, note, LAST);
+    this.settle();
   }
 
   // On the wall clock a tick begins later than the rate says if the one before it took too long.
@@ -111,7 +190,7 @@ export class Events {
     if (header?.clock !== "wall" || last < 1 || ticks[last] !== ticks[last - 1] + 1) return;
     const took = times[last] - times[last - 1];
     if (took < 1.5 * period) return;
-    this.add("overrun", null, `tick ${ticks[last - 1]} overran: the next began ${ms(took)} after it, not ${ms(period)}`);
+    this.add("overrun", null, `tick ${ticks[last - 1]} overran: the next began ${ms(took)} after it, not ${ms(period)}`, FIRST, "tick");
   }
 
   // The place of the first event after `line`.
@@ -124,15 +203,15 @@ export class Events {
     }
     return low;
   }
-  nextLine(line: number): number | null {
+  nextLine(line: number, filter: Filter): number | null {
     for (let place = this.placeAfter(line); place < this.all.length; ++place) {
-      if (isLandmark(this.all[place])) return this.all[place].line;
+      if (isStop(filter, this.all[place])) return this.all[place].line;
     }
     return null;
   }
-  previousLine(line: number): number | null {
+  previousLine(line: number, filter: Filter): number | null {
     for (let place = this.placeAfter(line - 1); place-- > 0; ) {
-      if (isLandmark(this.all[place])) return this.all[place].line;
+      if (isStop(filter, this.all[place])) return this.all[place].line;
     }
     return null;
   }

@@ -71,41 +71,74 @@ export function activations(run: Run, node: number, line: number, most: number):
   return found.slice(-most).reverse();
 }
 
-// Nodes that were ever active, in pre-order.
-export function laneNodes(run: Run, all: boolean): number[] {
+// In pre-order: leaves and children of synchronized nodes that were ever active, and a node that is selected; or all.
+export function laneNodes(run: Run, all: boolean, selected: number | null): number[] {
   return run.shape.nodes
-    .filter(({ index, children, keeper, isGroup }) => {
-      if (run.nodes[index].states.length === 0) return false;
-      return all || (!isGroup && (children.length === 0 || keeper !== null));
-    })
+    .filter(({ index, children, keeper, isGroup }) => all || index === selected ||
+      (run.nodes[index].states.length > 0 && !isGroup && (children.length === 0 || keeper !== null)))
     .map((node) => node.index);
 }
 
-const heldTimes = new WeakMap<object, { length: number; held: number }>();
-
-// Seconds, in spans that have ended or go on.
-function heldFor(run: Run, node: number): number {
+// When a node was held between two times, in seconds.
+export function heldSpans(run: Run, node: number, from: number, to: number): [number, number][] {
   const { states } = run.nodes[node];
-  const known = heldTimes.get(states);
-  const goesOn = states.length > 0 && stateNumber(states.values[states.length - 1]) === HELD_STATE;
-  if (known?.length === states.length && !goesOn) return known.held;
-  let held = 0;
-  for (const { state, from, to } of laneSpans(run, node, 0, run.last)) {
-    if (state === HELD_STATE) held += run.times[to] - run.times[from];
+  const spans: [number, number][] = [];
+  for (let place = Math.max(0, states.placeAt(run.lineAtTime(from))); place < states.length; ++place) {
+    const begin = run.times[states.lines[place]];
+    if (begin > to) break;
+    const next = place + 1 < states.length ? states.lines[place + 1] : run.last;
+    if (states.values[place] & HELD) spans.push([begin, run.times[next]]);
   }
-  heldTimes.set(states, { length: states.length, held });
-  return held;
+  return spans;
+}
+
+export function sumOf(spans: [number, number][], from = -Infinity, to = Infinity): number {
+  return spans.reduce((sum, [begin, end]) => sum + Math.max(0, Math.min(end, to) - Math.max(begin, from)), 0);
+}
+
+const known = new WeakMap<object, { length: number; times: [held: number, active: number] }>();
+
+// How long a node was held, and how long it ran or was held, in seconds.
+function activeTimes(run: Run, node: number): [held: number, active: number] {
+  const { states } = run.nodes[node];
+  const before = known.get(states);
+  const goesOn = states.length > 0 && (states.values[states.length - 1] & STATUS) === RUNNING;
+  if (before?.length === states.length && !goesOn) return before.times;
+  const times: [number, number] = [0, 0];
+  for (const { state, from, to } of laneSpans(run, node, 0, run.last)) {
+    const took = run.times[to] - run.times[from];
+    if (state === HELD_STATE) times[0] += took;
+    if (state === HELD_STATE || state === RUNNING) times[1] += took;
+  }
+  known.set(states, { length: states.length, times });
+  return times;
+}
+
+export const MANY_HOLDS = 8; // from which on their share of the time tells more than each of them
+
+export function percent(part: number, whole: number): string {
+  return `${Math.round(whole > 0 ? (100 * part) / whole : 0)} %`;
+}
+
+function heldText(run: Run, node: number, count: number): string {
+  if (count === 0) return "";
+  const [held, active] = activeTimes(run, node);
+  if (count < MANY_HOLDS) return `held ${timesText(count)} for ${held.toFixed(2)} s`;
+  return `held ${percent(held, active)} of ${active.toFixed(2)} s (${timesText(count)})`;
+}
+
+export function timesText(count: number): string {
+  return count === 1 ? "once" : `${count} times`;
 }
 
 // "held 3 times for 0.51 s, succeeded once": in the whole run.
 export function laneText(run: Run, node: number): string {
   const counts = run.countsOf(node);
-  const times = (count: number) => (count === 1 ? "once" : `${count} times`);
   const parts = [
-    counts.held > 0 ? `held ${times(counts.held)} for ${heldFor(run, node).toFixed(2)} s` : "",
-    counts.succeeded > 0 ? `succeeded ${times(counts.succeeded)}` : "",
-    counts.failed > 0 ? `failed ${times(counts.failed)}` : "",
-    counts.skipped > 0 ? `skipped ${times(counts.skipped)}` : "",
+    heldText(run, node, counts.held),
+    counts.succeeded > 0 ? `succeeded ${timesText(counts.succeeded)}` : "",
+    counts.failed > 0 ? `failed ${timesText(counts.failed)}` : "",
+    counts.skipped > 0 ? `skipped ${timesText(counts.skipped)}` : "",
   ];
-  return parts.filter(Boolean).join(", ") || "ran";
+  return parts.filter(Boolean).join(", ") || (run.nodes[node].states.length > 0 ? "ran" : "not reached");
 }

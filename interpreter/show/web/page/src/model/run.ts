@@ -16,7 +16,7 @@ const STATUS_NUMBERS = new Map<string, number>(STATUSES.map((name, number) => [n
 
 export class Run {
   header: Header | null = null;
-  shape: Shape = { nodes: [], roots: [] };
+  shape: Shape = { nodes: [], roots: [], byPath: new Map() };
   ticks: number[] = []; // of each line
   times: number[] = []; // of each line, in seconds
   nodes: NodeColumn[] = [];
@@ -101,6 +101,7 @@ export class Run {
     const missing = this.counts.correct(line);
     if (missing && !this.joins) this.events.missed(missing);
     this.takeLogs(line.logs);
+    this.events.settle();
     this.thinner.events(this.events);
   }
 
@@ -139,6 +140,7 @@ export class Run {
         this.counts.moment(node, before[node], now, times, line.tick);
         if (!this.joins) this.events.change(node, before[node], now, times);
       });
+      this.events.settle();
       before = flags;
     }
     for (const [node, ...counts] of line.more ?? []) {
@@ -165,7 +167,7 @@ export class Run {
     if (before && before.value === value) return;
     history.push({ line: this.last, value });
     this.counts.entry(entry);
-    if (!this.joins) this.events.entry(entry, value);
+    if (!this.joins) this.events.entry(entry, value, (node) => (lastFlags(this.nodes[node]) & TICKED) !== 0);
   }
 
   private takeLogs(logs: LogLine[] | undefined) {

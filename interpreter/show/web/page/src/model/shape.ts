@@ -21,11 +21,13 @@ export interface ShapeNode {
   ignoresIdle: boolean;
   keeper: number | null; // the synchronized node that holds this one
   isGroup: boolean; // a barrier or a pool beside the tree
+  isGuard: boolean;
 }
 
 export interface Shape {
   nodes: ShapeNode[];
   roots: number[]; // the tree, then what is beside it
+  byPath: ReadonlyMap<string, number>;
 }
 
 function synchronizationOf(node: HeaderNode): Synchronization {
@@ -91,6 +93,7 @@ export function shapeOf(header: Header): Shape {
     ignoresIdle: node.idle === "ignore",
     keeper: null,
     isGroup: node.parent === null && node.index > 0,
+    isGuard: node.guard === true,
   }));
   for (const node of nodes) {
     if (node.parent === null) continue;
@@ -111,5 +114,8 @@ export function shapeOf(header: Header): Shape {
       : calls.map((child) => child.segment);
     for (const child of calls) child.keeper = node.index;
   }
-  return { nodes, roots: nodes.filter((node) => node.parent === null).map((node) => node.index) };
+  return {
+    nodes, roots: nodes.filter((node) => node.parent === null).map((node) => node.index),
+    byPath: new Map(nodes.map(({ path, index }) => [path, index])),
+  };
 }

@@ -1,7 +1,7 @@
 // The page's view of a program that runs, and the orders that it can give, whoever brings them.
 
 export type Connection = "connecting" | "open" | "lost" | "ended" | "asleep";
-export type When = "begins" | "completes" | "barrier";
+export type When = "begins" | "completes" | "succeeds" | "fails" | "barrier";
 
 interface Breakpoint {
   node: number;

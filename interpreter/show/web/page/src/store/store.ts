@@ -1,5 +1,6 @@
 // The run, and the part of it that the user looks at. One object; everything that draws subscribes to it.
 import { firstLine } from "../model/decision";
+import type { Filter } from "../model/events";
 import { LARGE, SMALL, opened, type Folds } from "../model/folds";
 import { Moment } from "../model/moment";
 import { Run } from "../model/run";
@@ -22,7 +23,9 @@ export interface Looking {
   onlyActive: boolean; // what does not run is folded
   follow: boolean; // what runs is kept in sight
   arrangement: Arrangement;
-  zoom: number;
+  zoom: number | null; // of the tree; null: so that all of it is in sight
+  hidden: ReadonlySet<string>; // chips of events
+  onlySelected: boolean; // events of the selected node
   span: [number, number] | null; // of the timeline, in seconds; null: all
   lanesHeight: number; // pixels
   plotted: number | null; // the synchronized node of the chart; null: what was last active
@@ -32,23 +35,30 @@ export interface Looking {
   speed: number;
 }
 
+const LEAST_ZOOM = 0.2;
+
 export class Store {
   run = new Run();
   live: Live | null = null; // null: a recording
   range: TickRange = {};
   looking: Looking = {
     line: null, selected: null, folds: new Map(), onlyActive: false, follow: true,
-    arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, span: null, lanesHeight: 152,
+    arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, hidden: new Set(), onlySelected: false, span: null, lanesHeight: 152,
     plotted: null, theme: "auto", help: false, playing: false, speed: 1,
   };
   trouble = ""; // why there is not more of the run
   colorVersion = 0;
+  scale = 1; // with which the tree was last drawn
   private listeners = new Set<() => void>();
   private frame = 0;
   private known: { version: number; line: number; moment: Moment } | null = null;
 
   get line(): number {
     return Math.max(0, Math.min(this.looking.line ?? this.run.last, this.run.last));
+  }
+  get filter(): Filter {
+    const { hidden, onlySelected, selected } = this.looking;
+    return { hidden, only: onlySelected ? selected : null };
   }
   get moment(): Moment {
     const { line, run } = this;
@@ -116,7 +126,7 @@ export class Store {
   }
   goToEvent(direction: 1 | -1) {
     const { events } = this.run;
-    const line = direction > 0 ? events.nextLine(this.line) : events.previousLine(this.line);
+    const line = direction > 0 ? events.nextLine(this.line, this.filter) : events.previousLine(this.line, this.filter);
     if (line !== null) this.goTo(line);
   }
   play() {
@@ -124,8 +134,15 @@ export class Store {
     if (!playing && this.line === this.run.last) this.show(0);
     this.set({ playing: !playing });
   }
+  // What runs is not kept in sight any more: the user looks elsewhere.
+  letGo() {
+    if (this.looking.follow) this.set({ follow: false });
+  }
+  fit() {
+    this.set({ zoom: this.looking.zoom === null ? 1 : null });
+  }
   magnify(factor: number) {
-    this.set({ zoom: Math.max(0.3, Math.min(3, this.looking.zoom * factor)) });
+    this.set({ zoom: Math.max(Math.min(LEAST_ZOOM, this.scale), Math.min(3, this.scale * factor)) });
   }
   select(node: number, reveal = false) {
     const { folds, onlyActive } = this.looking;

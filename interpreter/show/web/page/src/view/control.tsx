@@ -1,13 +1,12 @@
-// Acts on a run that goes on; only there if the program was started with --monitor-control.
+// Acts on a run that is active; only there if the program was started with --monitor-control.
 import { useState } from "preact/hooks";
-import type { Live, When } from "../store/live";
+import type { Live } from "../store/live";
 import type { Store } from "../store/store";
+import { WHEN, controls } from "./panels/breakpoints";
 
 const SPEEDS: [string, number][] = [
   ["0.1×", 0.1], ["0.5×", 0.5], ["1×", 1], ["2×", 2], ["10×", 10], ["100×", 100], ["as fast as possible", 0],
 ];
-const WHEN: Record<When, string> = { begins: "begins", completes: "completes", barrier: "comes to a barrier" };
-
 export function pauseOrResume(live: Live) {
   void live.order({ do: live.state.state === "paused" ? "resume" : "pause" });
 }
@@ -42,31 +41,15 @@ function SetEntry({ store, live }: { store: Store; live: Live }) {
   );
 }
 
-// It is the synchronized node that has the barriers.
-function watched(store: Store, selected: number, when: When): number {
-  const { keeper, synchronization } = store.run.shape.nodes[selected];
-  return when === "barrier" && !synchronization && keeper !== null ? keeper : selected;
-}
-
-function Breakpoints({ store, live }: { store: Store; live: Live }) {
-  const { selected } = store.looking;
-  const [when, setWhen] = useState<When>("begins");
-  const set = live.state.breakpoints ?? [];
+function BreakpointsSet({ store, live }: { store: Store; live: Live }) {
   const name = (node: number) => store.run.shape.nodes[node]?.apart ?? "?";
-  const node = selected === null ? null : watched(store, selected, when);
   return (
     <div class="buttons" role="group" aria-label="Breakpoints">
-      <button type="button" disabled={node === null} title="select a node in the tree first"
-        onClick={() => live.order({ do: "break", node, when, on: true })}>
-        {`pause when ${node === null ? "the selected node" : name(node)}`}</button>
-      <select aria-label="When to pause" value={when} onChange={(event) => setWhen((event.target as HTMLSelectElement).value as When)}>
-        {Object.entries(WHEN).map(([key, text]) => <option key={key} value={key}>{text}</option>)}
-      </select>
-      {set.map((one) => (
-        <button type="button" key={`${one.node} ${one.when}`} class="breakpoint" title="remove this breakpoint"
-          aria-label={`remove the breakpoint: ${name(one.node)} ${WHEN[one.when]}`}
-          onClick={() => live.order({ do: "break", node: one.node, when: one.when, on: false })}>
-          {`● ${name(one.node)} ${WHEN[one.when]} ×`}</button>
+      {(live.state.breakpoints ?? []).map(({ node, when }) => (
+        <button type="button" key={`${node} ${when}`} class="breakpoint" title="remove this breakpoint"
+          aria-label={`remove the breakpoint: ${name(node)} ${WHEN[when]}`}
+          onClick={() => live.order({ do: "break", node, when, on: false })}>
+          {`● ${name(node)} ${WHEN[when]} ×`}</button>
       ))}
     </div>
   );
@@ -80,17 +63,17 @@ function reachedText(store: Store, live: Live): string {
 
 // A robot that stands is a fact to know before the button is pressed.
 function pauseTitle(store: Store, paused: boolean): string {
-  if (paused) return "go on (p)";
+  if (paused) return "resume (p)";
   return store.run.header?.clock === "wall"
     ? "no more ticks, and the running leaves are paused as by a barrier: the robot stands (p)"
     : "no more ticks until resumed (p)";
 }
 
 export function Control({ store }: { store: Store }) {
-  const { live, run } = store;
+  const { run } = store, live = controls(store);
   const [sure, setSure] = useState(false);
   const [more, setMore] = useState(false); // on a phone
-  if (!live?.control || run.end || live.connection === "ended") return null;
+  if (!live) return null;
   const paused = live.state.state === "paused";
   const halt = () => {
     if (sure) void live.order({ do: "halt" });
@@ -107,7 +90,7 @@ export function Control({ store }: { store: Store }) {
         <div class={more ? "extras open" : "extras"}>
           <Speed store={store} live={live} />
           <SetEntry store={store} live={live} />
-          <Breakpoints store={store} live={live} />
+          <BreakpointsSet store={store} live={live} />
         </div>
         <span class="grow" />
         <button type="button" class="halt" onClick={halt} onBlur={() => setSure(false)}

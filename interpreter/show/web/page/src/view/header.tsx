@@ -26,7 +26,7 @@ function State({ store }: { store: Store }) {
       {live && !end && <span class={`connection ${live.connection}`}>{CONNECTIONS[live.connection]}</span>}
       {live && !end && paused && <span class="warning">‖ paused</span>}
       {!live && <span class="dim">{recorded(store.range)}</span>}
-      {end && !store.moment.isLastOfEnded() && <span class="dim">{`it ended later: ${end.result}`}</span>}
+      {end && !store.moment.isLastOfEnded() && <span class="dim">{`ended later: ${end.result}`}</span>}
       {store.moment.isLastOfEnded() && <span class={`result ${end?.result}`}>{`ended: ${end?.result} (${end?.reason})`}</span>}
     </span>
   );
@@ -59,11 +59,10 @@ export function Header({ store }: { store: Store }) {
         <State store={store} />
         <span>tick <b>{moment.tick}</b>{end && ` of ${run.ticks[run.last] ?? 0}`}</span>
         <span><b>{seconds(moment.time)}</b>{end && ` of ${seconds(run.times[run.last])}`}</span>
-        <span>{header?.rate_hz} Hz, {header?.clock} clock</span>
+        <span class="rate">{header?.rate_hz} Hz, {header?.clock} clock</span>
         <Timing store={store} />
         {store.live && !store.run.end && line !== null && <span class="warning">looking back</span>}
       </p>
-      <span class="grow" />
       <Search store={store} />
       {store.live && <button type="button" onClick={() => void store.live?.save()}
         title="a page with the whole run in it, as a file">save this run</button>}

@@ -22,6 +22,7 @@ function acts(store: Store): Record<string, () => void> {
     f: () => store.set({ follow: !looking.follow }),
     a: () => store.set({ onlyActive: !looking.onlyActive, folds: new Map() }),
     t: () => store.set({ arrangement: looking.arrangement === "outline" ? "diagram" : "outline" }),
+    F: () => store.fit(),
     z: () => store.magnify(1.2),
     Z: () => store.magnify(1 / 1.2),
     "?": () => store.set({ help: !looking.help }),

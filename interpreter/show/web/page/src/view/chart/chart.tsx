@@ -1,20 +1,22 @@
-// Progress over time of those that a synchronized node holds, as `lockstep log plot` draws it.
-import { useEffect, useMemo, useRef } from "preact/hooks";
-import uPlot from "uplot";
+// Progress over time of those that a synchronized node holds, as `lockstep log plot` draws it, and how far apart they are.
+import { useMemo } from "preact/hooks";
+import { STATUS } from "../../model/columns";
+import { RUNNING } from "../../model/recording";
 import type { Run } from "../../model/run";
-import { waitOf } from "../../model/waiting";
+import { spreadBound, spreadIn } from "../../model/spread";
+import { short, waitOf } from "../../model/waiting";
 import { stateOf } from "../../model/words";
 import type { Store } from "../../store/store";
-import { SERIES, colors, type Colors } from "../parts/colors";
+import { SERIES } from "../parts/colors";
 import { Panel } from "../parts/panel";
-import { chartData, chartSpan, MOST_SERIES } from "./data";
-import { drawBehind, drawInFront } from "./drawings";
+import { chartData, chartSpan, linesIn, MOST_SERIES } from "./data";
+import { drawBehind, drawHeld, drawLine } from "./drawings";
+import { Plot } from "./plot";
 
-const HEIGHT = 200;
-
+// Those that some tick has reached.
 function synchronized(run: Run): number[] {
   return run.shape.nodes
-    .filter((node) => node.inStep.length > 0 && node.synchronization !== "resources")
+    .filter(({ index, inStep, synchronization }) => inStep.length > 0 && synchronization !== "resources" && run.nodes[index].states.length > 0)
     .map((node) => node.index);
 }
 
@@ -25,69 +27,17 @@ function lastActive(store: Store, keepers: number[]): number {
     const { states } = store.run.nodes[keeper];
     const place = states.placeAt(store.line);
     if (place < 0) continue;
-    const since = (states.values[place] & 7) === 1 ? Infinity : states.lines[place];
+    const since = (states.values[place] & STATUS) === RUNNING ? Infinity : states.lines[place];
     if (since > latest) [best, latest] = [keeper, since];
   }
   return best;
 }
 
-// Pixels between two marks: as much as the longer label needs.
-function labelSpace(_: uPlot, __: number, from: number, to: number): number {
-  if (!(to > from)) return 50; // nothing has come yet
-  const decimals = Math.max(0, Math.ceil(-Math.log10((to - from) / 5)));
-  return Math.max(50, 7 * (Math.max(from, to).toFixed(decimals).length + 4));
-}
-
-function options(store: Store, keeper: number, names: string[], width: number, paint: Colors): uPlot.Options {
-  const axis = { stroke: paint.dim, grid: { stroke: paint.faint, width: 1 }, ticks: { stroke: paint.line, width: 1 } };
-  return {
-    width, height: HEIGHT, legend: { show: false }, cursor: { show: false }, pxAlign: false,
-    scales: { x: { time: false, auto: false, range: () => chartSpan(store, keeper) }, y: { auto: false, range: () => [0, 1] } },
-    axes: [
-      { ...axis, size: 26, values: (_, marks) => marks.map((mark) => `${Number(mark.toPrecision(6))} s`), space: labelSpace },
-      { ...axis, size: 48, splits: () => [0, 0.25, 0.5, 0.75, 1] },
-    ],
-    padding: [8, 20, 4 + 6 * Math.min(names.length, MOST_SERIES), 0],
-    series: [{}, ...names.map((name, place) => ({
-      label: name, stroke: paint[`series${place % SERIES}`], width: 2,
-      dash: place < SERIES ? [[], [7, 4], [2, 3], [10, 3, 2, 3], [4, 4], [12, 4]][place] : [2, 2],
-      points: { show: false }, spanGaps: false,
-    }))],
-    hooks: {
-      drawClear: [(plot) => drawBehind(plot, store, keeper, colors())],
-      draw: [(plot) => drawInFront(plot, store, keeper, colors())],
-    },
-  };
-}
-
-function usePlot(store: Store, keeper: number, names: string[]) {
-  const place = useRef<HTMLDivElement>(null), plot = useRef<uPlot | null>(null);
-  const { theme } = store.looking;
-  useEffect(() => {
-    if (!place.current) return;
-    const width = place.current.clientWidth || 320;
-    const made = (plot.current = new uPlot(options(store, keeper, names, width, colors()), [[], ...names.map(() => [])] as never, place.current));
-    const observer = new ResizeObserver(([entry]) => made.setSize({ width: entry.contentRect.width, height: HEIGHT }));
-    observer.observe(place.current);
-    return () => {
-      observer.disconnect();
-      made.destroy();
-      plot.current = null;
-    };
-  }, [store, keeper, theme, store.colorVersion]);
-  const [from, to] = chartSpan(store, keeper);
-  useEffect(() => {
-    plot.current?.setData(chartData(store.run, keeper, from, to, 2 * HEIGHT) as uPlot.AlignedData);
-  }, [store.run.version, keeper, from, to, theme, store.colorVersion]);
-  useEffect(() => plot.current?.redraw(false), [store.line]);
-  return place;
-}
-
 export function Chart({ store }: { store: Store }) {
-  const { run, moment, looking } = store;
-  const keepers = useMemo(() => synchronized(run), [run.shape]);
+  const { run, looking } = store;
+  const keepers = useMemo(() => synchronized(run), [run.version]);
   if (keepers.length === 0) return null;
-  const keeper = looking.plotted ?? lastActive(store, keepers);
+  const keeper = looking.plotted !== null && keepers.includes(looking.plotted) ? looking.plotted : lastActive(store, keepers);
   return (
     <Panel title="Progress over time" note={keepers.length === 1 ? run.shape.nodes[keeper].segment : undefined}>
       {keepers.length > 1 && (
@@ -100,31 +50,55 @@ export function Chart({ store }: { store: Store }) {
           {keepers.map((node) => <option key={node} value={node}>{run.shape.nodes[node].path}</option>)}
         </select>
       )}
-      <Plot key={keeper} store={store} keeper={keeper} />
-      <ul class="legend" aria-label={`Progress of ${run.shape.nodes[keeper].segment} at this moment`}>
-        {run.shape.nodes[keeper].inStep.slice(0, MOST_SERIES).map((node, place) => (
-          <li key={node}>
-            <i class={`sample series${place % SERIES}`} aria-hidden="true" />
-            {run.shape.nodes[keeper].names[place]} <b>{moment.progress[node].toFixed(2)}</b>{" "}
-            <span class={stateOf(moment, node)}>{waitOf(moment, node)?.text ?? stateOf(moment, node)}</span>
-          </li>
-        ))}
-      </ul>
+      <Progress key={keeper} store={store} keeper={keeper} />
+      <Spread key={-1 - keeper} store={store} keeper={keeper} />
     </Panel>
   );
 }
 
-function Plot({ store, keeper }: { store: Store; keeper: number }) {
-  const { names, segment } = store.run.shape.nodes[keeper];
-  const place = usePlot(store, keeper, names.slice(0, MOST_SERIES));
-  const go = (event: MouseEvent) => {
-    const over = place.current?.querySelector(".u-over")?.getBoundingClientRect();
-    if (!over || over.width === 0) return;
-    const [from, to] = chartSpan(store, keeper);
-    store.goTo(store.run.lineAtTime(from + ((event.clientX - over.left) / over.width) * (to - from)));
-  };
+function Progress({ store, keeper }: { store: Store; keeper: number }) {
+  const { run, moment } = store, { inStep, names, segment } = run.shape.nodes[keeper];
+  const span = chartSpan(store, keeper), lines = Math.min(names.length, MOST_SERIES);
   return (
-    <div class="chart" ref={place} role="img" onClick={go}
-      aria-label={`Progress over time of ${names.join(", ")}, which ${segment} keeps in step`} />
+    <>
+      <Plot store={store} lines={lines} height={200} below={6 * lines} span={span} range={[0, 1]} marks={[0, 0.25, 0.5, 0.75, 1]}
+        label={`Progress over time of ${names.join(", ")}, which ${segment} keeps in step`}
+        data={(columns) => chartData(run, keeper, ...span, columns)}
+        drawBehind={(plot, paint) => drawBehind(plot, run, keeper, paint)}
+        drawInFront={(plot, paint) => drawHeld(plot, run, keeper, paint)} />
+      <ul class="legend" aria-label={`Progress of ${segment} at this moment`}>
+        {inStep.slice(0, MOST_SERIES).map((node, place) => (
+          <li key={node}>
+            <i class={`sample series${place % SERIES}`} aria-hidden="true" />
+            {names[place]} <b>{moment.progress[node].toFixed(2)}</b>{" "}
+            <span class={stateOf(moment, node)}>{waitOf(moment, node)?.text ?? stateOf(moment, node)}</span>
+          </li>
+        ))}
+      </ul>
+    </>
+  );
+}
+
+// The difference between the most and the least advanced child, and what bounds it.
+function Spread({ store, keeper }: { store: Store; keeper: number }) {
+  const { run } = store, span = chartSpan(store, keeper), [from, to] = span;
+  const first = run.lineAtTime(from), last = run.lineAtTime(to);
+  const { largest, allowed, step, falls } = useMemo(() => spreadBound(run, keeper, first, last), [run.version, keeper, first, last]);
+  const bound = falls ? null : Math.min(1, allowed + step), top = Math.max(largest, bound ?? 0) * 1.15 || 1;
+  const now = spreadIn(run, keeper, store.line);
+  return (
+    <>
+      <Plot store={store} lines={1} height={110} span={span} range={[0, top]} label={`Spread of ${run.shape.nodes[keeper].segment} over time, and its bound`}
+        data={(columns) => {
+          const lines = linesIn(run, from, to, columns);
+          return [lines.map((line) => run.times[line]), lines.map((line) => spreadIn(run, keeper, line))];
+        }}
+        drawBehind={(plot, paint) => bound !== null && drawLine(plot, bound, paint)} />
+      <ul class="legend" aria-label="Spread at this moment">
+        <li><i class="sample series0" aria-hidden="true" />spread <b>{now === null ? "–" : now.toFixed(3)}</b> <span class="dim">at most {largest.toFixed(3)}</span></li>
+        <li><i class="sample bound" aria-hidden="true" />bound <b>{bound === null ? "none" : bound.toFixed(3)}</b>{" "}
+          <span class="dim">{falls ? "the progress of a child fell" : `${run.shape.nodes[keeper].synchronization === "relative" ? "delta" : "barriers"} ${short(allowed)} + longest step ${step.toFixed(4)}`}</span></li>
+      </ul>
+    </>
   );
 }

@@ -1,15 +1,17 @@
 // The numbers of the chart, as many as its columns can show.
-import { HELD, STATUS } from "../../model/columns";
+import { STATUS } from "../../model/columns";
 import { RUNNING } from "../../model/recording";
 import type { Run } from "../../model/run";
+import { progressAt } from "../../model/spread";
 import { spanOf, wholeSpan } from "../../store/span";
 import type { Store } from "../../store/store";
+import type { Numbers } from "./plot";
 
 export const MOST_SERIES = 12;
 
 // The span that the timeline shows. If that is the whole run, the activation of the node that is going on, else the last or
 // the first.
-export function chartSpan(store: Store, keeper: number): [number, number] {
+export function chartSpan(store: Pick<Store, "run" | "looking" | "line">, keeper: number): [number, number] {
   const { run, looking } = store;
   if (looking.span) return looking.span;
   const { states } = run.nodes[keeper];
@@ -27,7 +29,7 @@ export function chartSpan(store: Store, keeper: number): [number, number] {
 }
 
 // The lines to draw: all, or the first and last of each column.
-function linesIn(run: Run, from: number, to: number, most: number): number[] {
+export function linesIn(run: Run, from: number, to: number, most: number): number[] {
   const first = run.lineAtTime(from), last = Math.min(run.last, run.lineAtTime(to) + 1);
   const count = last - first + 1;
   const step = Math.max(1, count / most);
@@ -37,16 +39,7 @@ function linesIn(run: Run, from: number, to: number, most: number): number[] {
   return lines;
 }
 
-function progressAt(run: Run, node: number, line: number): number | null {
-  const column = run.nodes[node];
-  const place = column.at(line);
-  if (place < 0) return null;
-  const status = column.flags[place] & STATUS;
-  if (status === 0) return null;
-  return status === 2 ? 1 : column.progress[place];
-}
-
-export function chartData(run: Run, keeper: number, from: number, to: number, most: number): (number | null)[][] {
+export function chartData(run: Run, keeper: number, from: number, to: number, most: number): Numbers {
   const lines = linesIn(run, from, to, most);
   const children = run.shape.nodes[keeper].inStep.slice(0, MOST_SERIES);
   // While the node is idle, what it holds has no progress.
@@ -55,17 +48,4 @@ export function chartData(run: Run, keeper: number, from: number, to: number, mo
     lines.map((line) => run.times[line]),
     ...children.map((child) => lines.map((line, place) => (active[place] ? progressAt(run, child, line) : null))),
   ];
-}
-
-// When a node was held, in seconds.
-export function heldSpans(run: Run, node: number, from: number, to: number): [number, number][] {
-  const { states } = run.nodes[node];
-  const spans: [number, number][] = [];
-  for (let place = Math.max(0, states.placeAt(run.lineAtTime(from))); place < states.length; ++place) {
-    const begin = run.times[states.lines[place]];
-    if (begin > to) break;
-    const next = place + 1 < states.length ? states.lines[place + 1] : run.last;
-    if (states.values[place] & HELD) spans.push([begin, run.times[next]]);
-  }
-  return spans;
 }

@@ -1,12 +1,15 @@
 // All that is known of the node that is selected.
 import { activations, laneText } from "../../model/lanes";
 import type { Moment } from "../../model/moment";
+import { shortNumbers } from "../../model/numbers";
 import { reasonOf } from "../../model/reasons";
 import { STATUSES } from "../../model/recording";
+import { valueAt } from "../../model/run";
 import { marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../../store/store";
 import { Panel } from "../parts/panel";
+import { Breakpoints } from "./breakpoints";
 
 const MOST = 6;
 
@@ -34,9 +37,40 @@ function facts(moment: Moment, node: number): [string, string][] {
   if (it.synchronization === "relative") rows.push(["Delta", short(moment.limit(node))]);
   if (it.synchronization === "absolute" || it.synchronization === "relative") {
     const { least, most } = spanOf(moment, it);
-    rows.push(["Now", `the slowest at ${least.toFixed(2)}; nobody beyond ${Number.isFinite(most) ? short(most) : "1"} goes on`]);
+    rows.push(["Now", `the slowest at ${least.toFixed(2)}; no child passes ${Number.isFinite(most) ? short(most) : "1"}`]);
   }
   return rows;
+}
+
+// The entry of "{goal}", or undefined.
+function entryOf(moment: Moment, text: string): number | undefined {
+  const { header } = moment.run;
+  const found = text.startsWith("{") && text.endsWith("}") ? (header?.entries ?? []).findIndex(({ key }) => key === text.slice(1, -1)) : -1;
+  return found < 0 ? undefined : found;
+}
+
+// Each with its value at this moment, where it is an entry.
+function Ports({ moment, node }: { moment: Moment; node: number }) {
+  const ports = Object.entries(moment.run.header?.nodes[node].ports ?? {});
+  if (ports.length === 0) return null;
+  return (
+    <table aria-label="Ports">
+      <thead><tr><th>port</th><th>value</th><th>entry</th></tr></thead>
+      <tbody>
+        {ports.map(([name, text]) => {
+          const entry = entryOf(moment, text);
+          const value = entry === undefined ? text : valueAt(moment.run.entries[entry], moment.line);
+          return (
+            <tr key={name}>
+              <th scope="row">{name}</th>
+              <td class="value" title={value ?? ""}>{value === null ? "–" : shortNumbers(value)}</td>
+              <td class="dim">{entry === undefined ? "" : text.slice(1, -1)}</td>
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
+  );
 }
 
 function Activations({ store, moment, node }: { store: Store; moment: Moment; node: number }) {
@@ -68,6 +102,8 @@ export function Details({ store }: { store: Store }) {
   return (
     <Panel title={`Node ${it.apart}`}>
       <dl>{facts(moment, node).map(([name, value]) => <div key={name}><dt>{name}</dt><dd>{value}</dd></div>)}</dl>
+      <Breakpoints store={store} node={node} />
+      <Ports moment={moment} node={node} />
       <Activations store={store} moment={moment} node={node} />
       {it.children.length > 0 && (
         <p class="buttons">

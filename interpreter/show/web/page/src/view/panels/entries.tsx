@@ -1,9 +1,13 @@
 // The blackboard: each entry with its value, and all that it has been.
 import { useState } from "preact/hooks";
 import { Moment } from "../../model/moment";
-import type { EntryChange } from "../../model/run";
+import { valueAt, type EntryChange } from "../../model/run";
+import { shortNumbers } from "../../model/numbers";
 import { seconds } from "../../model/words";
+import { spanShown } from "../../store/span";
 import type { Store } from "../../store/store";
+import { linesIn } from "../chart/data";
+import { Plot, type Numbers } from "../chart/plot";
 import { Panel } from "../parts/panel";
 
 const MOST = 50;
@@ -27,7 +31,62 @@ function writersOf(store: Store, entry: number, change: EntryChange): string {
 
 function shown(value: string | null | undefined): string {
   if (value === undefined) return "–";
-  return value === null ? "(longer than 256 bytes)" : value;
+  return value === null ? "(longer than 256 bytes)" : shortNumbers(value);
+}
+
+function numberOf(value: string | null): number | null {
+  const flag = value === "true" ? 1 : value === "false" ? 0 : null;
+  return flag ?? (value === null || value.trim() === "" || !Number.isFinite(Number(value)) ? null : Number(value));
+}
+
+interface Samples {
+  data: Numbers;
+  low: number;
+  high: number;
+}
+
+// As many as there are columns. Null: they are not all numbers, or truth values, or all the same.
+function samplesOf(store: Store, entry: number, columns: number): Samples | null {
+  const { run } = store, lines = linesIn(run, ...spanShown(store), columns);
+  let low = Infinity, high = -Infinity;
+  const values: (number | null)[] = [];
+  for (const line of lines) {
+    const value = valueAt(run.entries[entry], line), number = numberOf(value);
+    if (value !== null && number === null) return null;
+    values.push(number);
+    low = Math.min(low, number ?? Infinity);
+    high = Math.max(high, number ?? -Infinity);
+  }
+  return high > low ? { data: [lines.map((line) => run.times[line]), values], low, high } : null;
+}
+
+function Curve({ store, entry }: { store: Store; entry: number }) {
+  const samples = samplesOf(store, entry, 400);
+  if (!samples) return null;
+  const { data, low, high } = samples, margin = (high - low) * 0.06;
+  return (
+    <tr><td colSpan={4}>
+      <Plot store={store} lines={1} height={110} stepped span={spanShown(store)} range={[low - margin, high + margin]}
+        label={`${store.run.header!.entries![entry].key} over time`} data={() => data} />
+    </td></tr>
+  );
+}
+
+const WIDTH = 48, HEIGHT = 14;
+
+// The same, as small as a word.
+function SmallCurve({ store, entry }: { store: Store; entry: number }) {
+  const samples = samplesOf(store, entry, WIDTH);
+  if (!samples) return null;
+  const { data: [times, values], low, high } = samples, [from, to] = spanShown(store);
+  let path = "";
+  times.forEach((time, place) => {
+    const value = values[place];
+    if (value === null) return;
+    const x = ((time! - from) / (to - from)) * WIDTH, y = HEIGHT - 1 - ((value - low) / (high - low)) * (HEIGHT - 2);
+    path += path === "" ? `M${x.toFixed(1)} ${y.toFixed(1)}` : `H${x.toFixed(1)}V${y.toFixed(1)}`;
+  });
+  return <svg class="small-curve" width={WIDTH} height={HEIGHT} aria-hidden="true"><path d={path} /></svg>;
 }
 
 function Entry({ store, entry }: { store: Store; entry: number }) {
@@ -42,14 +101,16 @@ function Entry({ store, entry }: { store: Store; entry: number }) {
       <tr class={now?.line === line ? "fresh" : ""}>
         <th scope="row"><button type="button" class="node" aria-expanded={open} title={type}
           onClick={() => setOpen(!open)}>{key}</button></th>
-        <td class="value">{shown(now?.value)}</td>
+        <td class="value" title={now?.value ?? ""}>{shown(now?.value)}</td>
+        <td><SmallCurve store={store} entry={entry} /></td>
         <td class="dim">{now ? seconds(run.times[now.line]) : ""}</td>
       </tr>
+      {open && <Curve store={store} entry={entry} />}
       {open && changes.slice(Math.max(0, count - MOST), count).reverse().map((change) => (
         <tr key={change.line} class="history">
           <td>{writersOf(store, entry, change) || (change.line === 0 ? "at the start" : "")}</td>
-          <td class="value">{shown(change.value)}</td>
-          <td><button type="button" class="node" onClick={() => store.goTo(change.line)}>{seconds(run.times[change.line])}</button></td>
+          <td class="value" title={change.value ?? ""}>{shown(change.value)}</td>
+          <td /><td><button type="button" class="node" onClick={() => store.goTo(change.line)}>{seconds(run.times[change.line])}</button></td>
         </tr>
       ))}
     </>
@@ -62,7 +123,7 @@ export function Entries({ store }: { store: Store }) {
   return (
     <Panel title="Blackboard" note={`${entries.length} ${entries.length === 1 ? "entry" : "entries"}`}>
       <table aria-label="Blackboard">
-        <thead><tr><th>entry</th><th>value</th><th>since</th></tr></thead>
+        <thead><tr><th>entry</th><th>value</th><th /><th>since</th></tr></thead>
         <tbody>{entries.map((_, entry) => <Entry key={entry} store={store} entry={entry} />)}</tbody>
       </table>
     </Panel>

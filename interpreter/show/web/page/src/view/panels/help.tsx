@@ -5,7 +5,7 @@ import type { Store } from "../../store/store";
 const KEYS = [
   [", .", "a tick back, forward"],
   ["< >", "ten ticks back, forward"],
-  ["[ ]", "to the previous, the next event"],
+  ["[ ]", "to the previous, the next of the events that are chosen"],
   ["space", "play the recorded run, stop"],
   ["n", "the newest tick; of a live run: stay there"],
   ["+ - 0", "zoom the timeline; the whole run"],
@@ -14,7 +14,8 @@ const KEYS = [
   ["f", "keep what runs in sight, or not"],
   ["a", "fold what does not run, or nothing"],
   ["t", "the tree as a diagram or as an outline"],
-  ["z Z", "the tree larger, smaller"],
+  ["F", "all of the tree in sight"],
+  ["z Z", "the tree larger, smaller: also the wheel; a drag pans it"],
   ["p", "with control: pause and resume the run"],
   ["s", "with control: one tick, while paused"],
   ["?", "this help"],
@@ -23,7 +24,7 @@ const SIGNS = [
   ["▶", "runs"], ["‖", "is held: waits at a barrier, in a delta band, or for resources"], ["✓", "succeeded"],
   ["✗", "failed"], ["»", "was skipped"], ["·", "is idle"],
   ["┃", "in a bar: a barrier; the thick one is the limit now"],
-  ["➜", "from who waits to whom it waits for"],
+  ["➜", "from a node that waits to the one that it waits for"],
 ];
 
 function Rows({ rows }: { rows: string[][] }) {

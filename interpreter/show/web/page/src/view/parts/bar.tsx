@@ -1,5 +1,6 @@
 // The progress of a node, with the barriers or the delta band of the node that holds it.
 import type { Moment } from "../../model/moment";
+import { FAILURE } from "../../model/recording";
 import { isLimit, marksOf, short, spanOf } from "../../model/waiting";
 import { stateOf } from "../../model/words";
 
@@ -20,9 +21,26 @@ export function Bar({ moment, node, place }: { moment: Moment; node: number; pla
       <rect class="rest" x={x} y={y} width={width} height={height} rx={2} />
       {inStep && <Band moment={moment} keeper={keeper} place={place} />}
       {done > 0 && <rect class="done" x={x} y={y} width={done} height={height} rx={2} />}
+      {moment.status[node] === FAILURE && <Broken x={x + done} place={place} />}
       {inStep && <Marks moment={moment} keeper={keeper} place={place} />}
     </g>
   );
+}
+
+// Where a node failed, its bar ends in a cross; the rest of it is struck out.
+function Broken({ x, place: { x: left, y, width, height } }: { x: number; place: Place }) {
+  const arm = 4, middle = y + height / 2, at = Math.max(left + arm, Math.min(left + width - arm, x));
+  return (
+    <g class="broken">
+      <line x1={at} x2={left + width} y1={middle} y2={middle} />
+      <path class="around" d={cross(at, middle, arm)} />
+      <path d={cross(at, middle, arm)}><title>failed</title></path>
+    </g>
+  );
+}
+
+function cross(x: number, y: number, arm: number): string {
+  return `M${x - arm} ${y - arm}L${x + arm} ${y + arm}M${x - arm} ${y + arm}L${x + arm} ${y - arm}`;
 }
 
 function Band({ moment, keeper, place }: { moment: Moment; keeper: number; place: Place }) {

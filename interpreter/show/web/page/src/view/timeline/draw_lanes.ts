@@ -1,6 +1,7 @@
 // Draws lanes on a canvas: a full bar while the node runs, a hatched one while it is held, a thin line and a
-// sign from its completion on, a thicker one while it completes in each tick.
+// sign from its completion on, a thicker one while it completes in each tick. Many short holds are a share of the time.
 import { HELD_STATE, laneSpans, type LaneSpan } from "../../model/lanes";
+import { FAILURE, RUNNING, SUCCESS } from "../../model/recording";
 import type { Run } from "../../model/run";
 import type { Colors } from "../parts/colors";
 
@@ -39,7 +40,7 @@ function hatch(context: CanvasRenderingContext2D, color: string, background: str
   return context.createPattern(tile, "repeat") ?? color;
 }
 
-const SIGNS = ["", "", "✓", "✗", "»"];
+const SIGNS = ["", "", "✓", "✗", "»"], SIGN = 14; // pixels
 
 interface Pen {
   context: CanvasRenderingContext2D;
@@ -47,36 +48,70 @@ interface Pen {
   held: CanvasPattern | string;
 }
 
-function drawSpan({ context, colors, held }: Pen, { state, again }: LaneSpan, x: number, end: number, y: number, isLast: boolean) {
-  const width = Math.max(1, end - x);
-  if (state === 1 || state === HELD_STATE) {
-    context.fillStyle = state === 1 ? colors.running : held;
-    context.fillRect(x, y + 3, width, LANE - 6);
-    if (state !== HELD_STATE) return;
-    context.fillStyle = colors.held;
-    context.fillRect(x, y + 2, width, 1.5);
-    context.fillRect(x, y + LANE - 3.5, width, 1.5);
-    return;
-  }
-  const color = state === 2 ? colors.success : state === 3 ? colors.failure : colors.dim;
-  context.fillStyle = color;
-  const thick = again ? 5 : 1.5;
-  context.fillRect(x, y + (LANE - thick) / 2, width, thick);
+// Also of the share of the time that a node was held, from below.
+function fillHeld({ context, colors, held }: Pen, x: number, width: number, y: number, share = 1) {
+  const height = Math.max(2, share * (LANE - 6)), top = y + LANE - 3 - height;
+  context.fillStyle = held;
+  context.fillRect(x, top, width, height);
+  context.fillStyle = colors.held;
+  context.fillRect(x, top - 1, width, 1.5);
+  if (share === 1) context.fillRect(x, y + LANE - 3.5, width, 1.5);
+}
+
+function fillRunning({ context, colors }: Pen, x: number, width: number, y: number) {
+  context.fillStyle = colors.running;
+  context.fillRect(x, y + 3, width, LANE - 6);
+}
+
+function drawSpan(pen: Pen, { state, again }: LaneSpan, x: number, end: number, y: number, isLast: boolean) {
+  const width = Math.max(1, end - x), { context, colors } = pen;
+  if (state === RUNNING) return fillRunning(pen, x, width, y);
+  if (state === HELD_STATE) return fillHeld(pen, x, width, y);
+  context.fillStyle = state === SUCCESS ? colors.success : state === FAILURE ? colors.failure : colors.dim;
+  const thick = again ? 5 : 1.5, hasSign = width > SIGN + 4 || isLast, behind = hasSign && !again ? SIGN : 0;
   context.fillRect(x, y + 3, 2, LANE - 6);
-  if (width > 14 || isLast) context.fillText(SIGNS[state], x + 4, y + LANE / 2 - (again ? 9 : 4));
+  context.fillRect(x + behind, y + (LANE - thick) / 2, Math.max(0, width - behind), thick);
+  if (hasSign) context.fillText(SIGNS[state], x + 4, y + LANE / 2 + (again ? -5 : 1));
+}
+
+// Where holds are too short to be seen one by one, a lane shows their share of the time, of each cell of so many pixels.
+const CELL = 24, DENSE = 3; // holds of a cell
+
+function drawShares(pen: Pen, run: Run, spans: LaneSpan[], window: Window, y: number) {
+  const cells = new Map<number, { holds: number; held: number; active: number; from: number; to: number }>();
+  for (const { state, from, to } of spans) {
+    if (state !== RUNNING && state !== HELD_STATE) continue;
+    const x = Math.max(0, xOf(run.times[from], window)), end = Math.min(window.width, xOf(run.times[to], window));
+    for (let place = Math.floor(x / CELL); place * CELL < end; ++place) {
+      const begin = Math.max(x, place * CELL), stop = Math.min(end, (place + 1) * CELL);
+      const cell = cells.get(place) ?? { holds: 0, held: 0, active: 0, from: begin, to: stop };
+      cells.set(place, cell);
+      cell.active += stop - begin;
+      cell.to = stop;
+      if (state === HELD_STATE) cell.held += stop - begin, ++cell.holds;
+    }
+  }
+  for (const { holds, held, active, from, to } of cells.values()) {
+    if (holds < DENSE) continue;
+    pen.context.clearRect(from, y, to - from, LANE);
+    fillRunning(pen, from, to - from, y);
+    fillHeld(pen, from, to - from, y, held / active);
+  }
 }
 
 function drawLane(pen: Pen, run: Run, node: number, window: Window, y: number) {
   const from = run.lineAtTime(window.from), to = run.lineAtTime(window.to);
   let done = -1; // pixel that has its span already
-  for (const span of laneSpans(run, node, from, to)) {
+  const spans = laneSpans(run, node, from, to);
+  for (const span of spans) {
     const x = xOf(run.times[span.from], window), end = xOf(run.times[span.to], window);
     if (x > window.width) break;
     const isLast = span.to === run.last && end <= window.width;
-    if (end <= done && span.state !== 3 && !isLast) continue;
+    if (end <= done && span.state !== FAILURE && !isLast) continue;
     drawSpan(pen, span, Math.max(x, -2), Math.min(end, window.width + 2), y, isLast);
     done = Math.floor(end);
   }
+  drawShares(pen, run, spans, window, y);
 }
 
 // A step of 1, 2 or 5 times a power of ten with a label about every 90 pixels.
@@ -105,7 +140,8 @@ export function drawRuler(context: CanvasRenderingContext2D, window: Window, col
 export function drawLanes(context: CanvasRenderingContext2D, run: Run, nodes: number[], first: number,
   window: Window, colors: Colors, height: number) {
   const pen: Pen = { context, colors, held: hatch(context, colors.held, colors.panel) };
-  context.font = "10px system-ui, sans-serif";
+  context.font = "11px system-ui, sans-serif";
+  context.textBaseline = "middle";
   const rows = Math.ceil(height / LANE);
   const begin = Math.max(0, Math.floor(first / LANE));
   for (let row = begin; row < Math.min(nodes.length, begin + rows + 1); ++row) {

@@ -53,7 +53,7 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null), ruler = useRef<HTMLCanvasElement>(null);
   const [from, to] = spanShown(store);
   const window: Window = { from, to, width: size.width - END };
-  const nodes = useMemo(() => laneNodes(run, all), [run, all, run.version]);
+  const nodes = useMemo(() => laneNodes(run, all, looking.selected), [run, all, looking.selected, run.version]);
   const left = labelWidth();
 
   useEffect(() => {
@@ -71,6 +71,12 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
     const top = active * LANE;
     if (top < it.scrollTop || top + LANE * 2 > it.scrollTop + it.clientHeight) it.scrollTop = top - LANE * 2;
   }, [active]);
+
+  const chosen = looking.selected === null ? -1 : nodes.indexOf(looking.selected);
+  useEffect(() => {
+    const it = rows.current, top = chosen * LANE;
+    if (it && chosen >= 0 && (top < it.scrollTop || top + LANE > it.scrollTop + it.clientHeight)) it.scrollTop = top - it.clientHeight / 2;
+  }, [chosen]);
 
   const scrub = (event: PointerEvent) => {
     if (event.type === "pointermove" && !(event.buttons & 1)) return;

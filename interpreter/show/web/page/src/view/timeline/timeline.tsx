@@ -10,10 +10,11 @@ import { Transport } from "./transport";
 export function Timeline({ store }: { store: Store }) {
   const { run, line, moment } = store;
   const [all, setAll] = useState(false);
+  const [lanes, setLanes] = useState(false); // on a phone
   const go = (event: Event) => store.goTo(Number((event.target as HTMLInputElement).value));
   const zoom = (factor: number) => store.set({ span: zoomed(store, factor, moment.time) });
   return (
-    <section class="timeline" aria-labelledby="timeline-title">
+    <section class={lanes ? "timeline open" : "timeline"} aria-labelledby="timeline-title">
       <Grip store={store} />
       <h2 id="timeline-title" class="hidden">Timeline</h2>
       <div class="bar-of-buttons">
@@ -21,6 +22,7 @@ export function Timeline({ store }: { store: Store }) {
         <p class="key dim" aria-hidden="true">
           <i class="runs" /> runs <i class="is-held" /> held <i class="over success" />✓ succeeded <i class="over failure" />✗ failed
         </p>
+        <button type="button" class="on-phone" aria-expanded={lanes} onClick={() => setLanes(!lanes)}>lanes</button>
         <span class="grow" />
         <div role="group" aria-label="What the timeline shows" class="zoom buttons">
           <button type="button" aria-pressed={all} onClick={() => setAll(!all)}

@@ -44,10 +44,15 @@ export function Card({ store, moment, box, open, selected }: Props) {
         <Second moment={moment} box={box} open={open} />
         {comparing && <Race moment={moment} node={box.node} place={place} />}
         {node.synchronization === null && <Bar moment={moment} node={box.node} place={place} />}
+        {hasBreakpoint(store, box.node) && <circle class="stop" cx={2} cy={box.height / 2} r={5}><title>a breakpoint</title></circle>}
         {isInner && <Fold store={store} box={box} open={open} name={node.segment} />}
       </g>
     </g>
   );
+}
+
+function hasBreakpoint({ live }: Store, node: number): boolean {
+  return live?.state.breakpoints?.some((one) => one.node === node) ?? false;
 }
 
 function First({ moment, box }: { moment: Moment; box: Box }) {
@@ -56,9 +61,9 @@ function First({ moment, box }: { moment: Moment; box: Box }) {
   const room = box.width - 2 * PADDING - 17 - textWidth(number, 12) - 6;
   return (
     <>
-      <text class="symbol" x={PADDING} y={18}>{symbolOf(moment, box.node)}</text>
-      <text class="name" x={PADDING + 17} y={18}>{fittedName(segment, 13, room, 600)}</text>
-      <text class="number" x={box.width - PADDING} y={18} text-anchor="end">{number}</text>
+      <text class="symbol" x={PADDING} y={17}>{symbolOf(moment, box.node)}</text>
+      <text class="name" x={PADDING + 17} y={17}>{fittedName(segment, 13, room, 600)}</text>
+      <text class="number" x={box.width - PADDING} y={17} text-anchor="end">{number}</text>
     </>
   );
 }
@@ -81,10 +86,10 @@ function Second({ moment, box, open }: { moment: Moment; box: Box; open: boolean
   const room = box.width - 2 * PADDING - (right ? textWidth(right, 11, isLimit ? 600 : 400) + NOTE_GAP : 0);
   return (
     <>
-      <text class={sentence ? "sentence" : "kind"} x={PADDING} y={31}>
+      <text class={sentence ? "sentence" : "kind"} x={PADDING} y={30}>
         {fitted(sentence || kindText(node.kind, node.segment), 11, room, sentence ? 600 : 400)}
       </text>
-      {right && <text class={isLimit ? "limit" : "kind"} x={box.width - PADDING} y={31} text-anchor="end">{right}</text>}
+      {right && <text class={isLimit ? "limit" : "kind"} x={box.width - PADDING} y={30} text-anchor="end">{right}</text>}
     </>
   );
 }

@@ -25,7 +25,7 @@ export const GAP_X = 36;
 const MARGIN = 16, GAP_Y = 10, INDENT = 18;
 const WIDEST = 260, NARROWEST = 106, KEPT = 216, POOL = 420; // with its owners
 const LONGEST_NOTE = "no barrier left";
-const HEIGHT = 44, KEPT_HEIGHT = 50;
+const HEIGHT = 47, KEPT_HEIGHT = 54;
 
 function isInStep(node: ShapeNode): boolean {
   return node.keeper !== null || node.synchronization !== null;

@@ -7,6 +7,7 @@ import { RUNNING } from "../../model/recording";
 import type { Looking, Store } from "../../store/store";
 import { Card, cardId } from "./card";
 import { treeKey } from "./keys";
+import { useHand } from "./hand";
 import { layOut, type Layout } from "./layout";
 import { Arrows, BarrierLines, Edges } from "./lines";
 import { extentOf, scrollTo, withAbove } from "./scroll";
@@ -37,17 +38,19 @@ function followedNodes(moment: Moment, layout: Layout): number[] {
 
 export function Tree({ store, looking }: { store: Store; looking: Looking }) {
   const { moment } = store;
-  const { zoom, selected } = looking;
+  const { selected } = looking;
   const [sight, scroller, look] = useSight();
   const shown = useShown(moment, looking);
-  const room = looking.arrangement === "outline" ? Math.max(240, sight.width / zoom) : 0;
+  const room = looking.arrangement === "outline" ? Math.max(240, sight.width / (looking.zoom ?? 1)) : 0;
   const layout = useMemo(() => layOut(store.run.shape, shown, looking.arrangement, room),
     [store.run.shape, shown, looking.arrangement, room]);
+  const zoom = (store.scale = looking.zoom ?? Math.min(1, sight.width / layout.width, sight.height / layout.height) * 0.995);
   useEffect(() => {
     if (looking.arrangement !== "diagram" || !scroller.current) return;
     const fits = scroller.current.clientWidth / layout.width;
     if (fits < 1) store.set({ zoom: Math.max(fits, 0.85) });
   }, [store.run.shape]);
+  const hand = useHand(store, scroller);
   const boxes = inSight(layout, sight, zoom);
   const running = looking.follow ? followedNodes(moment, layout) : [];
   const followed = `${running.length} ${running.slice(0, 50).join()}`;
@@ -60,9 +63,8 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
     if (scroller.current && selected !== null) scrollTo(scroller.current, extentOf(layout, [selected]), zoom);
   }, [selected]);
 
-  const letGo = () => looking.follow && store.set({ follow: false });
   return (
-    <div class="tree" ref={scroller} onScroll={look} onWheel={letGo} onTouchMove={letGo}>
+    <div class="tree" ref={scroller} onScroll={look} {...hand}>
       <svg role="tree" aria-label="Behavior tree" tabindex={0} width={layout.width * zoom} height={layout.height * zoom}
         viewBox={`0 0 ${layout.width} ${layout.height}`}
         aria-activedescendant={selected === null ? undefined : cardId(selected)}
