@@ -193,7 +193,9 @@ tl::expected<Loaded, LoadFailure> load_given(const std::string& path,
        .elsewhere = options.elsewhere,
        .library = options.library},
       diagnostics);
-  auto loaded = load(path, load_options, diagnostics, std::move(plugins));
+  auto loaded = options.text
+                    ? load_text(path, *options.text, load_options, diagnostics, std::move(plugins))
+                    : load(path, load_options, diagnostics, std::move(plugins));
   if (loaded && std::ranges::any_of(loaded->plugins->list(), &PluginSet::Info::isolated)) {
     take_over_orphans();
   }

@@ -1,6 +1,7 @@
 // The command line options for loading a tree, and loading with them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct LoadCommandOptions {
   std::vector<std::string> values;     // --set key=value
   std::string main_tree;               // --tree
   MainFile main_file = MainFile::MayBePipe;
+  std::optional<std::string> text = {};   // in place of what the main file has
   std::vector<std::string> ros_packages;  // --ros-package name=directory
   MissingNodes unknown = MissingNodes::AreErrors;
   bool may_lack_main = false;

@@ -61,6 +61,7 @@ struct ValueKind {
 
 const ValueKind kValueKinds[] = {
     {"TREE.xml", ":files xml"},
+    {"TREE.xml|git:REV", ":files xml"},
     {"FILE.test.xml", ":files xml"},
     {"FILE.html", ":files html"},
     {"FILE.jsonl", ":files jsonl zst"},
