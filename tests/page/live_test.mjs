@@ -93,6 +93,8 @@ test("on a phone the control is one row, and the rest of it one button away", as
   await button("■ halt").click();
   await page.getByRole("button", { name: "really halt" }).waitFor();
   assert.deepEqual(await violations(page), []);
+  assert.ok((await page.getByRole("combobox", { name: "Find a node" }).boundingBox()).width > 90);
+  assert.ok((await page.locator("header").boundingBox()).height < 80);
   run.process.kill("SIGTERM");
   await page.context().close();
 });

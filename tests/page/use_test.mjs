@@ -99,6 +99,9 @@ test("a drag pans the tree, the wheel zooms around the pointer, fit shows all of
   await page.mouse.up();
   await soon.deepEqual(page, () => view(page), [0, 2100]);
   assert.equal(await page.locator('[role="treeitem"][aria-selected="true"]').count(), 0);
+  await page.getByRole("tree").focus();
+  await page.keyboard.press("Shift+ArrowUp");
+  await soon.deepEqual(page, () => view(page), [0, 2020]);
 
   const before = (await page.getByRole("treeitem").first().boundingBox()).height;
   const name = (await page.getByRole("treeitem").nth(8).getAttribute("aria-label")).split(",")[0];
@@ -174,6 +177,8 @@ test("hundreds of short holds are a share of the time, and one event until it is
   assert.ok(await rows() < 8, `${await rows()} rows`);
   await events(page).getByRole("button", { name: "each" }).click();
   await soon.ok(page, async () => await rows() > 60);
+  await events(page).getByRole("button", { name: "as one" }).click();
+  await soon.ok(page, async () => await rows() < 8);
   await page.context().close();
 });
 

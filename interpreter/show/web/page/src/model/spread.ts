@@ -70,6 +70,8 @@ function addSteps(run: Run, child: number, from: number, it: Known) {
   }
 }
 
+const MOST = 5_000_000; // values that are looked at for the largest spread; of more, some lines are left out
+
 const known = new WeakMap<Run, Map<number, Known>>();
 
 // Between two lines. Of a run that goes on, only what is new is looked at.
@@ -80,8 +82,9 @@ export function spreadBound(run: Run, keeper: number, first: number, last: numbe
   if (!it || it.first !== first || it.last > last) ofRun.set(keeper, (it = { first, last: first, largest: 0, allowed: 0, step: 0, falls: false }));
   const from = it.last;
   it.last = last;
-  for (let line = from; line <= last; ++line) it.largest = Math.max(it.largest, spreadIn(run, keeper, line) ?? 0);
-  for (const child of measured(run, node)) addSteps(run, child, from, it);
+  const children = measured(run, node), stride = Math.max(1, Math.ceil((children.length * (last - from)) / MOST));
+  for (let line = from; line <= last; line += stride) it.largest = Math.max(it.largest, spreadIn(run, keeper, line) ?? 0);
+  for (const child of children) addSteps(run, child, from, it);
   it.allowed = allowedIn(run, node, first, last);
   return { ...it };
 }

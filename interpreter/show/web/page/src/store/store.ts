@@ -43,7 +43,7 @@ export class Store {
   range: TickRange = {};
   looking: Looking = {
     line: null, selected: null, folds: new Map(), onlyActive: false, follow: true,
-    arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, hidden: new Set(), onlySelected: false, span: null, lanesHeight: 152,
+    arrangement: innerWidth < 720 ? "outline" : "diagram", zoom: 1, hidden: new Set(), onlySelected: false, span: null, lanesHeight: 162,
     plotted: null, theme: "auto", help: false, playing: false, speed: 1,
   };
   trouble = ""; // why there is not more of the run

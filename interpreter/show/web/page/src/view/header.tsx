@@ -42,7 +42,7 @@ function Timing({ store }: { store: Store }) {
       {tick_us !== undefined && <span title="how long the last ticks took">tick takes <b>{tick_us.toFixed(0)} µs</b></span>}
       {late_ms !== undefined && <span class={late_ms > 1000 * run.period ? "warning" : ""}
         title="how long after its time the last tick began">late <b>{late_ms.toFixed(2)} ms</b></span>}
-      {run.header?.clock === "virtual" && speed !== undefined && speed !== 1 && <span>speed <b>{speed === 0 ? "as fast as possible" : `${speed}×`}</b></span>}
+      {run.header?.clock === "virtual" && speed !== undefined && speed !== 1 && !live?.control && <span>speed <b>{speed === 0 ? "as fast as possible" : `${speed}×`}</b></span>}
       {overruns !== undefined && overruns > 0 && <span class="warning">{overruns} overruns</span>}
     </>
   );
@@ -64,10 +64,10 @@ export function Header({ store }: { store: Store }) {
         {store.live && !store.run.end && line !== null && <span class="warning">looking back</span>}
       </p>
       <Search store={store} />
-      {store.live && <button type="button" onClick={() => void store.live?.save()}
-        title="a page with the whole run in it, as a file">save this run</button>}
-      <button type="button" onClick={() => store.set({ theme: NEXT[theme] })}
-        title="Dark, light, or as the system has it">{`Theme: ${theme}`}</button>
+      {store.live && <button type="button" onClick={() => void store.live?.save()} aria-label="save this run"
+        title="a page with the whole run in it, as a file">save<span class="wide"> this run</span></button>}
+      <button type="button" onClick={() => store.set({ theme: NEXT[theme] })} aria-label={`Theme: ${theme}`}
+        title="Dark, light, or as the system has it"><span class="wide">Theme: </span>{theme}</button>
       <button type="button" aria-keyshortcuts="?" onClick={() => store.set({ help: true })}>Help</button>
     </header>
   );

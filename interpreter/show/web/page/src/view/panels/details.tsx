@@ -53,9 +53,10 @@ function entryOf(moment: Moment, text: string): number | undefined {
 function Ports({ moment, node }: { moment: Moment; node: number }) {
   const ports = Object.entries(moment.run.header?.nodes[node].ports ?? {});
   if (ports.length === 0) return null;
+  const hasEntries = ports.some(([, text]) => entryOf(moment, text) !== undefined);
   return (
     <table aria-label="Ports">
-      <thead><tr><th>port</th><th>value</th><th>entry</th></tr></thead>
+      <thead><tr><th>port</th><th>value</th><th>{hasEntries && "entry"}</th></tr></thead>
       <tbody>
         {ports.map(([name, text]) => {
           const entry = entryOf(moment, text);

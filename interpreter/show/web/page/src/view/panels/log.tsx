@@ -42,6 +42,15 @@ function holdsText(store: Store, event: RunEvent, keeper: number): string {
     (parts.length > 4 ? ` and ${parts.length - 4} more` : "");
 }
 
+// Of a series that is open, at its newest event.
+function Fold({ store, event }: { store: Store; event: RunEvent }) {
+  const fold = () => {
+    event.series!.open = false;
+    store.changed();
+  };
+  return <button type="button" class="more" aria-expanded={true} title="show these events as one" onClick={fold}>as one</button>;
+}
+
 function Series({ store, event }: { store: Store; event: RunEvent }) {
   const { nodes } = store.run.shape, { kind, node, series, number } = event;
   const keeper = kind === "hold" || kind === "release" ? nodes[node!].keeper! : null;
@@ -73,12 +82,13 @@ function What({ store, event }: { store: Store; event: RunEvent }) {
   );
 }
 
-function Row({ store, event }: { store: Store; event: RunEvent }) {
+function Row({ store, event, isNewest }: { store: Store; event: RunEvent; isNewest: boolean }) {
   return (
     <li class={`event ${event.kind}${isWarning(event) ? " warning" : ""}${event.line === store.line ? " fresh" : ""}`}>
       <button type="button" class="time" onClick={() => store.goTo(event.line)}>{seconds(store.run.times[event.line] ?? 0)}</button>
       <span class="symbol" aria-hidden="true">{SIGNS[event.kind === "release" && isFolded(event) ? "hold" : event.kind]}</span>
-      <span class="what">{isFolded(event) ? <Series store={store} event={event} /> : <What store={store} event={event} />}</span>
+      <span class="what">{isFolded(event) ? <Series store={store} event={event} /> : <What store={store} event={event} />}
+        {isNewest && event.series?.open && <>{" "}<Fold store={store} event={event} /></>}</span>
     </li>
   );
 }
@@ -90,6 +100,7 @@ export function Log({ store }: { store: Store }) {
     if (!next.delete(name)) next.add(name);
     store.set({ hidden: next });
   };
+  const events = newest(store);
   return (
     <Panel title="Events" note="up to this moment, newest first">
       <p class="buttons filters" role="group" aria-label="Which events; [ and ] stop at these">
@@ -99,7 +110,9 @@ export function Log({ store }: { store: Store }) {
         {selected !== null && <button type="button" aria-pressed={onlySelected}
           onClick={() => store.set({ onlySelected: !onlySelected })}>this node</button>}
       </p>
-      <ol class="events" aria-label="Events">{newest(store).map((event, place) => <Row key={place} store={store} event={event} />)}</ol>
+      <ol class="events" aria-label="Events">{events.map((event, place) => (
+        <Row key={place} store={store} event={event} isNewest={events.findIndex(({ series }) => series === event.series) === place} />
+      ))}</ol>
     </Panel>
   );
 }

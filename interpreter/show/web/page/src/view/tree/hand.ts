@@ -1,9 +1,11 @@
-// The tree under the hand: a drag pans it, the wheel makes it larger or smaller around the pointer. In an outline the wheel
+// The tree under the hand: a drag, or the arrow keys with Shift, pan it, the wheel makes it larger or smaller around the pointer. In an outline the wheel
 // scrolls, as in any list.
 import type { RefObject } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { Store } from "../../store/store";
 
+const ARROWS: Record<string, [number, number]> = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
+const STEP = 80; // pixels
 const LEAST = 4; // pixels of a drag; less is a click
 
 export function useHand(store: Store, scroller: RefObject<HTMLDivElement | null>) {
@@ -55,5 +57,15 @@ export function useHand(store: Store, scroller: RefObject<HTMLDivElement | null>
     addEventListener("pointermove", move);
     addEventListener("pointerup", up, { once: true });
   };
-  return { onWheel: wheel, onPointerDown: down, onTouchMove: () => store.letGo() };
+  // With Shift; without, the arrow keys go to another node. True: it was one of these.
+  const key = (event: KeyboardEvent): boolean => {
+    const [x, y] = ARROWS[event.key] ?? [];
+    if (!event.shiftKey || x === undefined) return false;
+    event.preventDefault();
+    event.stopPropagation();
+    store.letGo();
+    scroller.current?.scrollBy({ left: x * STEP, top: y * STEP, behavior: "instant" });
+    return true;
+  };
+  return { onPointer: { onWheel: wheel, onPointerDown: down, onTouchMove: () => store.letGo() }, onKeyDown: key };
 }

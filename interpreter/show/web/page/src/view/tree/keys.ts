@@ -24,7 +24,7 @@ export function treeKey(store: Store, shown: number[], event: KeyboardEvent) {
     },
     Enter: () => isInner && store.fold(node.index, !open),
   };
-  const move = moves[event.key];
+  const move = event.shiftKey ? undefined : moves[event.key];
   if (!move) return;
   move();
   event.preventDefault();

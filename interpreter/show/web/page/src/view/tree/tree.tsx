@@ -64,11 +64,11 @@ export function Tree({ store, looking }: { store: Store; looking: Looking }) {
   }, [selected]);
 
   return (
-    <div class="tree" ref={scroller} onScroll={look} {...hand}>
+    <div class="tree" ref={scroller} onScroll={look} {...hand.onPointer}>
       <svg role="tree" aria-label="Behavior tree" tabindex={0} width={layout.width * zoom} height={layout.height * zoom}
         viewBox={`0 0 ${layout.width} ${layout.height}`}
         aria-activedescendant={selected === null ? undefined : cardId(selected)}
-        onKeyDown={(event) => treeKey(store, shown, event)}>
+        onKeyDown={(event) => hand.onKeyDown(event) || treeKey(store, shown, event)}>
         <g aria-hidden="true">
           <Edges moment={moment} layout={layout} boxes={boxes} />
           <BarrierLines moment={moment} layout={layout} boxes={boxes} />
