@@ -55,8 +55,8 @@ namespace {
 std::function<int()> define_new(CLI::App& app) {
   app.require_subcommand(1);
   const std::vector<NewPart> parts{define_new_project(app), define_new_plugin(app),
-                                   define_new_leaf(app), define_new_node(app),
-                                   define_new_tree(app)};
+                                   define_new_leaf(app),    define_new_node(app),
+                                   define_new_tree(app),    define_new_leaves(app)};
   return [parts] {
     for (const NewPart& part : parts) {
       if (part.app->parsed()) return part.run();
@@ -68,17 +68,19 @@ std::function<int()> define_new(CLI::App& app) {
 }  // namespace
 
 extern const Command kNewCommand{
-    "new", "Make a project, a plugin, a leaf or a tree to start from",
+    "new", "Make a project, a plugin, a leaf, a tree or a leaf model to start from",
     "What is made builds, runs and passes its tests as it is. No file is overwritten.\n"
     "The files are listed on stdout; what to type next is on stderr.\n"
-    "Exit code: 0 made, 2 a name is taken or illegal, a file is there already, or usage.\n"
+    "Exit code: 0 made, 2 a name is taken or illegal, a file is there already, or usage;\n"
+    "leaves: 3 an invalid tree, 4 plugin refused.\n"
     "\n"
     "Examples:\n"
     "  lockstep new project robot\n"
     "  lockstep new plugin gripper --lang python\n"
     "  lockstep new leaf OpenDoor --port goal:string --port speed:double=0.5\n"
     "  lockstep new node TryAll --kind control\n"
-    "  lockstep new tree patrol",
+    "  lockstep new tree patrol\n"
+    "  lockstep new leaves patrol.xml",
     define_new};
 
 }  // namespace lockstep::host

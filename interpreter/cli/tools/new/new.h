@@ -25,6 +25,7 @@ NewPart define_new_plugin(CLI::App& app);
 NewPart define_new_leaf(CLI::App& app);
 NewPart define_new_node(CLI::App& app);
 NewPart define_new_tree(CLI::App& app);
+NewPart define_new_leaves(CLI::App& app);
 
 void add_dry_run(CLI::App& app, bool& is_dry_run);
 void add_language(CLI::App& app, std::string& language);
