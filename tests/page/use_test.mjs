@@ -80,6 +80,8 @@ test("the ports of a node have the values of the moment", async () => {
   await node(page, "arm").first().click();
   await soon.match(page, () => words(ports), /step 0\.008 entrance\/arm_step/);
   await soon.match(page, () => words(ports), /noise 0\.003/);
+  await node(page, "entrance").click();
+  await soon.match(page, () => words(ports), /arm_step 0\.008 entrance\/arm_step/);
   await node(page, "explain").first().click();
   await soon.match(page, () => words(ports), /seconds 1/);
   await page.context().close();

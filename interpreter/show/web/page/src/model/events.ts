@@ -36,13 +36,15 @@ export const CHIPS: Record<string, EventKind[]> = {
   logs: ["log"],
 };
 
+const CHIP_OF = Object.fromEntries(Object.entries(CHIPS).flatMap(([chip, kinds]) => kinds.map((kind) => [kind, chip])));
+
 export interface Filter {
   hidden: ReadonlySet<string>; // chips
   only: number | null; // node
 }
 
 export function isShown({ hidden, only }: Filter, { kind, node }: RunEvent): boolean {
-  return (only === null || node === only) && !Object.entries(CHIPS).some(([chip, kinds]) => hidden.has(chip) && kinds.includes(kind));
+  return (only === null || node === only) && !hidden.has(CHIP_OF[kind]);
 }
 
 // A series is folded when it has so many events, each at most so many lines after the one before it. A hold is two events.

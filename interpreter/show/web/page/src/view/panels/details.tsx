@@ -49,9 +49,21 @@ function entryOf(moment: Moment, text: string): number | undefined {
   return found < 0 ? undefined : found;
 }
 
+// Of a SubTree its own entries: its ports with a value of their own are among them.
+function portsOf({ run }: Moment, node: number): [string, string][] {
+  const { nodes } = run.shape, names: string[] = [];
+  if (nodes[node].kind !== "SubTree") return Object.entries(run.header?.nodes[node].ports ?? {});
+  for (let at: number | null = node; at !== null; at = nodes[at].parent) {
+    if (nodes[at].kind === "SubTree") names.unshift(nodes[at].segment);
+  }
+  const prefix = `${names.join("/")}/`;
+  return (run.header?.entries ?? []).filter(({ key }) => key.startsWith(prefix) && !key.slice(prefix.length).includes("/"))
+    .map(({ key }) => [key.slice(prefix.length), `{${key}}`]);
+}
+
 // Each with its value at this moment, where it is an entry.
 function Ports({ moment, node }: { moment: Moment; node: number }) {
-  const ports = Object.entries(moment.run.header?.nodes[node].ports ?? {});
+  const ports = portsOf(moment, node);
   if (ports.length === 0) return null;
   const hasEntries = ports.some(([, text]) => entryOf(moment, text) !== undefined);
   return (

@@ -23,7 +23,7 @@ function newest(store: Store): RunEvent[] {
   const last = store.run.events.placeAfter(store.line);
   for (let place = last; place-- > Math.max(0, last - FARTHEST) && found.length < MOST; ) {
     const event = all[place];
-    if (!isShown(filter, event) || folded.has(event.series)) continue;
+    if (folded.has(event.series) || !isShown(filter, event)) continue;
     if (isFolded(event)) folded.add(event.series);
     found.push(event);
   }
