@@ -130,6 +130,27 @@ class Refactorings(Actions):
         found = self.ask(main(TWO.replace('"then"', '"a/{b}"').replace("<Wait name", "|<Wait name")))
         self.assertIn("Extract into the SubTree 'MainWait'", found)
 
+    def test_files_with_a_name(self):
+        """Names of a file that is included with `as` mean others than here."""
+        truck = self.path.parent / "truck.xml"
+        truck.write_text(root('  <BehaviorTree ID="Main">\n    <SubTree ID="Drive"/>\n  </BehaviorTree>\n'
+                              '  <BehaviorTree ID="Drive">\n    <Wait seconds="1"/>\n  </BehaviorTree>\n'))
+        text = root('  <include path="truck.xml" as="then"/>\n  <BehaviorTree ID="Main">\n    <Sequence>\n      <SubTree ID="then"/>\n'
+                    '      <SubTree ID="then.Drive"/>\n      <SubTree ID="Drive"/>\n      <Wait name="then" seconds="2"/>\n    </Sequence>\n'
+                    '  </BehaviorTree>\n  <BehaviorTree ID="Drive">\n    <Wait seconds="3"/>\n  </BehaviorTree>\n')
+        for cursor in ('<SubTree ID="then"/>', '<SubTree ID="then.Drive"/>'):
+            found = self.ask(text.replace(cursor, "|" + cursor))
+            self.assertIn("Wrap in Retry", found)
+            self.assertIn("Move down", found)
+            self.assertFalse([it for it in found if it.startswith("Put the tree")])
+        found = self.ask(text.replace('<SubTree ID="Drive"/>', '|<SubTree ID="Drive"/>'))
+        self.assertIn('      <Wait seconds="3"/>\n', found["Put the tree 'Drive' in the place of this SubTree"])
+        found = self.ask(text.replace("<Wait name", "|<Wait name"))
+        self.assertIn('<BehaviorTree ID="then2">', found["Extract into the SubTree 'then2'"])
+        found = self.ask(text.replace("<Sequence>", "|<Sequence>"))
+        self.assertIn('      <SubTree ID="then.Drive"/>\n', found["Extract into the SubTree 'MainSequence'"])
+        truck.unlink()
+
     def test_where(self):
         wait, sequence = "Delete Wait", "Wrap in Sequence"
         text = main(TWO)

@@ -252,6 +252,10 @@ Result<ProjectEdit> inline_subtree(const ProjectTexts& texts, ElementAt sub_tree
   const std::string_view id = texts.value(sub_tree, "ID");
   const auto inner = texts.find_tree(id);
   if (!outer || !inner) return problem(fmt::format("there is no tree '{}'", brief(id)));
+  if (texts.prefix(inner->document) != texts.prefix(sub_tree.document)) {
+    return problem(fmt::format("the tree '{}' is in a file that is included with 'as'", brief(id)),
+                   "what it calls by name is called otherwise here");
+  }
   const Element& tree = texts.document(inner->document).elements()[inner->element];
   if (tree.end == inner->element + 1) {
     return problem(fmt::format("the tree '{}' has no node", brief(id)));

@@ -13,7 +13,8 @@ namespace lockstep::host {
 Result<ProjectEdit> extract_subtree(const ProjectTexts& texts, ElementAt node, std::string_view id);
 
 // The SubTree becomes the nodes of its tree, which stays. Entries that only it has get names that
-// are free here. Fails where nodes cannot say the same, as for a start value of an entry.
+// are free here. Fails where nodes cannot say the same, as for a start value of an entry, and where
+// the tree is in a file that is included with another name than this one.
 Result<ProjectEdit> inline_subtree(const ProjectTexts& texts, ElementAt sub_tree);
 
 }  // namespace lockstep::host

@@ -85,8 +85,10 @@ std::string free_id(const ProjectTexts& texts, ElementAt node) {
     name = fmt::format("{}{}", texts.value(tree, "ID"), kind_of(texts, node));
   }
   std::string id = name;
-  for (int number = 2; texts.find_tree(id) || texts.catalog().find(id) != nullptr; ++number)
-    id = fmt::format("{}{}", name, number);
+  const auto is_taken = [&] {
+    return texts.find_tree(id) || texts.is_named_file(id) || texts.catalog().find(id) != nullptr;
+  };
+  for (int number = 2; is_taken(); ++number) id = fmt::format("{}{}", name, number);
   return id;
 }
 
@@ -248,8 +250,7 @@ std::vector<Json> refactorings(const Question& question) {
       kKinds, [&](std::string_view kind) { return is_wanted(kind, params.kinds); });
   if (!is_any) return {};
   const auto texts = project_texts(question);
-  // A name in a file that is included with `as` is another one in each file.
-  if (!texts || !question.file.analysis->project->named.empty()) return {};
+  if (!texts) return {};
   const auto nodes = selected_nodes(question, *texts);
   if (!nodes) return {};
   return Refactorings(question, *texts, *nodes).all();
