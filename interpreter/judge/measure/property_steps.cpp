@@ -4,6 +4,7 @@ namespace lockstep::host {
 
 PropertyNames property_names(const Shape& shape) {
   PropertyNames names{.paths = paths_of(shape), .entries = {}};
+  names.ends = PathEnds(names.paths);
   for (const ShapeEntry& it : shape.entries)
     names.entries.push_back({it.key, it.type, it.typing == Typing::Strict});
   return names;

@@ -155,7 +155,9 @@ void FormulaParser::node_term() {
     field_offset = name.offset + point + 1;
     path = path.substr(0, point);
   }
-  const auto node = find_node(path, names_.paths);
+  const auto end = static_cast<std::uint32_t>(names_.paths.size());
+  const auto known = names_.ends.find(path, names_.paths, 0, end);
+  const auto node = known ? Result<std::uint32_t>(*known) : find_node(path, names_.paths);
   if (!node && name.kind == Kind::Word) check_quotes(name);
   if (!node) throw PropertyError{node.error().message, node.error().hint, name.offset};
   field_of(static_cast<std::uint32_t>(place_of(formula_.nodes, *node)), field, field_offset);
@@ -200,21 +202,24 @@ void FormulaParser::progress_of(std::uint32_t place) {
 
 void FormulaParser::entry_term() {
   const PropertyToken key = take();
-  std::vector<std::string_view> keys;
-  for (const auto& entry : names_.entries) keys.push_back(entry.key);
-  const auto found = std::ranges::find(keys, key.text);
-  if (found == keys.end()) {
+  const auto& entries = names_.entries;
+  const auto found = std::ranges::find(entries, key.text, &PropertyNames::Entry::key);
+  if (found == entries.end()) {
+    std::vector<std::string_view> keys;
+    for (const auto& entry : entries) keys.push_back(entry.key);
     throw PropertyError{fmt::format("no entry '{}'", brief(key.text)),
                         keys.empty() ? "there are no entries" : suggest(key.text, keys, "entries"),
                         key.offset};
   }
   // Two SubTrees of one name, in different nodes.
-  if (const auto count = std::ranges::count(keys, key.text); count > 1) {
+  const auto count =
+      std::count_if(found, entries.end(), [&](const auto& it) { return it.key == key.text; });
+  if (count > 1) {
     throw PropertyError{fmt::format("'{}' is the key of {} entries", brief(key.text), count),
                         "give the SubTrees different names", key.offset};
   }
   EntryComparison comparison;
-  comparison.entry = static_cast<std::uint32_t>(found - keys.begin());
+  comparison.entry = static_cast<std::uint32_t>(found - entries.begin());
   if (token().kind != Kind::Relation) expected("a relation: == != < <= >= >");
   comparison.relation = take().relation;
   entry_constant(comparison, key);

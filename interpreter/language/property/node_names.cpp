@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/core/suggest.h"
@@ -55,25 +57,28 @@ std::string_view quoted_name(std::string_view text, std::span<const std::string>
   return longest;
 }
 
-PathEnds::PathEnds(std::span<const std::string> paths) : paths_(paths) {
-  nodes_.reserve(paths.size());
-  for (std::uint32_t node = 0; node < paths.size(); ++node) {
-    nodes_.emplace_back(last_segments(paths[node], 1), node);
-  }
-  std::ranges::sort(nodes_);
+PathEnds::PathEnds(std::span<const std::string> paths) : nodes_(paths.size()) {
+  std::iota(nodes_.begin(), nodes_.end(), std::uint32_t{0});
+  std::ranges::sort(nodes_, {}, [&](std::uint32_t node) {
+    return std::pair(last_segments(paths[node], 1), node);
+  });
 }
 
-std::optional<std::uint32_t> PathEnds::find(std::string_view name, std::uint32_t first,
+std::optional<std::uint32_t> PathEnds::find(std::string_view name,
+                                            std::span<const std::string> paths, std::uint32_t first,
                                             std::uint32_t end) const {
+  const auto key = [&](std::uint32_t node) {
+    return std::pair(last_segments(paths[node], 1), node);
+  };
   const std::string_view last = last_segments(name, 1);
   std::optional<std::uint32_t> found;
   bool is_one = true;
-  for (auto it = std::ranges::lower_bound(nodes_, std::pair(last, first));
-       it != nodes_.end() && it->first == last && it->second < end; ++it) {
-    if (paths_[it->second] == name) return it->second;
-    if (!ends_with(paths_[it->second], name)) continue;
+  for (auto it = std::ranges::lower_bound(nodes_, std::pair(last, first), {}, key);
+       it != nodes_.end() && *it < end && last_segments(paths[*it], 1) == last; ++it) {
+    if (paths[*it] == name) return *it;
+    if (!ends_with(paths[*it], name)) continue;
     is_one = is_one && !found;
-    found = it->second;
+    found = *it;
   }
   return is_one ? found : std::nullopt;
 }

@@ -15,6 +15,7 @@
 
 #include "language/property/entry_comparison.h"
 #include "language/property/formula.h"
+#include "language/property/node_names.h"
 
 namespace lockstep::host {
 
@@ -27,6 +28,7 @@ struct PropertyNames {
   };
   std::vector<std::string> paths;  // of each node, by its index
   std::vector<Entry> entries;      // of the blackboard, by their number
+  PathEnds ends = {};              // of the paths, or of none: then all paths are looked at
 };
 
 struct PropertyError {

@@ -11,6 +11,7 @@ namespace {
 
 PropertyNames property_names(const Definition& definition) {
   PropertyNames names{.paths = paths_of(definition), .entries = {}};
+  names.ends = PathEnds(names.paths);
   for (const BlackboardEntry& it : definition.entries) {
     names.entries.push_back(
         {it.name, std::string(type_name(it.type, it.object)), it.typing == Typing::Strict});

@@ -66,7 +66,7 @@ class ReadingResolver {
       ends_.emplace(paths_);
     }
     while (inside != 0) {
-      if (const auto found = ends_->find(name, inside, definition_.nodes[inside].end)) {
+      if (const auto found = ends_->find(name, paths_, inside, definition_.nodes[inside].end)) {
         return *found;
       }
       for (const auto& [written, group] : groups_in(inside)) {
@@ -78,7 +78,7 @@ class ReadingResolver {
       if (written == name) return group->node;
     }
     const auto end = static_cast<std::uint32_t>(paths_.size());
-    if (const auto found = ends_->find(name, 0, end)) return *found;
+    if (const auto found = ends_->find(name, paths_, 0, end)) return *found;
     return find_node(name, paths_);  // says why not
   }
 

@@ -23,7 +23,7 @@ TEST_CASE("the index of ends finds the one node that a look at all paths finds")
       const std::uint32_t first = below(10), last = first + 1 + below(20);
       INFO(end << " in " << first << " to " << last);
       const auto expected = find_node(end, std::span(paths).subspan(first, last - first));
-      const auto found = ends.find(end, first, last);
+      const auto found = ends.find(end, paths, first, last);
       CHECK(found.has_value() == expected.has_value());
       if (found && expected) CHECK(*found == first + *expected);
     }
