@@ -134,7 +134,8 @@ bool put(lockstep_run* run, Where where, T value) {
       return fail(fmt::format("the entry '{}' is of type {}", key_of(*run, *entry),
                               type_name(entry->type, entry->object)));
     }
-    if (!is_finite(value)) return fail("a number must be finite");
+    const bool is_strict = entry->typing == Typing::Strict;
+    if (is_strict && !is_finite(value)) return fail("a number must be finite");
     return write(*entry, Value(std::move(value)));
   });
 }

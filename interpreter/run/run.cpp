@@ -84,14 +84,14 @@ void Run::set_now(Nanoseconds now) {
   adopt_thread();
   time_.now = now;
   ticker_.set_now(now);
-  workers_.give_turns(now);
+  give_turns();
 }
 
 Status Run::tick(bool exactly_once) {
   look_at_processes();
   Status status = ticker_.tick_root();
   if (ticker_.is_asked()) status = tick_again_if_asked(status, exactly_once);
-  workers_.give_turns(time_.now);
+  give_turns();
   return status;
 }
 

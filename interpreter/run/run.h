@@ -59,7 +59,7 @@ class Run {
   // The same at the time that set_now has set. Workers get their turns again: one may wait for a
   // time that has passed.
   Status tick() {
-    workers_.give_turns(time_.now);
+    give_turns();
     return tick(exactly_once_);
   }
   // The same without that other tick.
@@ -93,6 +93,10 @@ class Run {
 
  private:
   void adopt_thread();
+  void give_turns() {
+    ++time_.turns;
+    workers_.give_turns(time_.now);
+  }
   Status tick(bool exactly_once);
   Status tick_again_if_asked(Status status, bool exactly_once);
 

@@ -126,6 +126,25 @@ TEST_CASE("leaves for BehaviorTree.CPP: what a node does wrong is its fault") {
   CHECK(run_tree(tree, "faulty", {"--on-fault", "fail"}).code == 1);
 }
 
+TEST_CASE("leaves for BehaviorTree.CPP: NaN is a value, also from a separate process") {
+  const TemporaryDirectory directory;
+  const auto tree = directory.file(
+      "tree.xml",
+      tree_of(R"(<Sequence><Lost value="{v}"/><Lost seen="{v}" value="{v}"/></Sequence>)"));
+  const auto whole = directory.file(
+      "whole.xml", tree_of(R"(<Sequence><Script code="v := 1"/><Lost value="{v}"/></Sequence>)"));
+  const std::string recording = directory.path("run.jsonl");
+  std::vector<std::string> more{"--record", recording};
+  for (int i = 0; i < 2; ++i) {
+    CHECK(printed(run_tree(tree, "faulty", more)) == std::vector<std::string>{"nan", "success"});
+    CHECK(contains(read_file(recording), R"("entries":[[0,"nan"]])"));
+    const Outcome refused = run_tree(whole, "faulty", more);
+    INFO(refused.err);
+    CHECK(contains(refused.out, "cannot set 'value': the entry '{v}' has whole numbers only"));
+    more.emplace_back("--isolate");
+  }
+}
+
 TEST_CASE("leaves for BehaviorTree.CPP: progress, onPaused and onResumed keep a barrier") {
   const TemporaryDirectory directory;
   const auto tree = directory.file(

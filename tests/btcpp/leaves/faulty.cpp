@@ -1,5 +1,6 @@
 // What nodes do wrong, and what only lockstep asks of them.
 #include <iostream>
+#include <limits>
 #include <string>
 
 #include "behaviortree_cpp/bt_factory.h"
@@ -37,6 +38,20 @@ class Blind : public SyncActionNode {
   static PortsList providedPorts() { return {}; }
   NodeStatus tick() override { return NodeStatus::FAILURE; }
   std::string reason() const { return "the lens is covered"; }
+};
+
+// A sensor without a reading: it gives NaN, and shows what is there.
+class Lost : public SyncActionNode {
+ public:
+  using SyncActionNode::SyncActionNode;
+  static PortsList providedPorts() {
+    return {InputPort<double>("seen"), OutputPort<double>("value")};
+  }
+  NodeStatus tick() override {
+    if (const auto seen = getInput<double>("seen")) std::cout << *seen << std::endl;
+    setOutput("value", std::numeric_limits<double>::quiet_NaN()).value();
+    return NodeStatus::SUCCESS;
+  }
 };
 
 // The class that serves both: with progress, and held at barriers.
@@ -78,6 +93,7 @@ class Wait : public SyncActionNode {
 BT_REGISTER_NODES(factory) {
   factory.registerNodeType<Wrong>("Wrong");
   factory.registerNodeType<Blind>("Blind");
+  factory.registerNodeType<Lost>("Lost");
   factory.registerNodeType<Reach>("Reach");
   factory.registerNodeType<Wait>("Wait");
   factory.registerNodeType<Wait>("Wärmen-bis");

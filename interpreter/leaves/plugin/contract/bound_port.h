@@ -34,10 +34,11 @@ struct BoundPort {
   std::string_view entry = {};
   std::unique_ptr<PortMemory> memory = {};
   ValueType type = ValueType::String;
-  bool is_strict = true;    // the entry holds values of its type only
-  bool is_generic = false;  // takes values of any type; `type` is String
-  bool has_limits = false;  // `parameter` does not take every value of its type
-  bool is_checked = false;  // `read` is a constant within the limits
+  bool is_strict = true;        // the entry holds values of its type only
+  bool is_generic = false;      // takes values of any type; `type` is String
+  bool has_limits = false;      // `parameter` does not take every value of its type
+  bool is_checked = false;      // `read` is a constant within the limits
+  bool is_loose_there = false;  // in the process of the engine, the entry may hold other values
 
   std::string_view name() const { return parameter != nullptr ? parameter->name : entry; }
   const ObjectType* object() const { return parameter != nullptr ? parameter->object : nullptr; }

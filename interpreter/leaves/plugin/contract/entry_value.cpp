@@ -138,10 +138,10 @@ bool assign(Entry& entry, const lockstep_entry_value& given) {
 
 std::string refusal_of(const Entry& entry, std::string_view key, ValueType type) {
   const std::string name = fmt::format("the entry '{{{}}}'", brief(key));
-  if (entry.type == type ||
-      (entry.type != ValueType::String && std::holds_alternative<std::int64_t>(entry.value()))) {
+  if (entry.type != ValueType::String && std::holds_alternative<std::int64_t>(entry.value())) {
     return name + " has whole numbers only";
   }
+  if (entry.type == type) return name + " has real numbers, of which none is exactly this one";
   return fmt::format("{} has the type {}, the port the type {}", name, to_string(entry.type),
                      to_string(type));
 }

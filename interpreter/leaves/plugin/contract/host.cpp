@@ -245,21 +245,24 @@ bool try_to_store(const lockstep_caller* caller, std::uint32_t port, ValueType t
   }
 }
 
-template <class T>
-[[gnu::noinline]] bool set_otherwise(const lockstep_caller& caller, const BoundPort& port,
-                                     T value) {
-  if constexpr (std::is_same_v<T, double>) {
-    if (!std::isfinite(value) && !is_loose(port, ValueType::Double)) return false;
-  }
-  return store(
-      caller, port, value_type_of<T>(), [=] { return Value(value); },
-      [=](Value& target) { held<T>(target) = value; });
+// Only an entry of lockstep's own language takes no NaN, and nothing infinite.
+bool takes_any_number(const BoundPort& port, ValueType type) {
+  return is_loose(port, type) || port.is_loose_there;
 }
 
 template <class T>
 bool is_finite(T value) {
   if constexpr (std::is_floating_point_v<T>) return std::isfinite(value);
   return true;
+}
+
+template <class T>
+[[gnu::noinline]] bool set_otherwise(const lockstep_caller& caller, const BoundPort& port,
+                                     T value) {
+  if (!is_finite(value) && !takes_any_number(port, value_type_of<T>())) return false;
+  return store(
+      caller, port, value_type_of<T>(), [=] { return Value(value); },
+      [=](Value& target) { held<T>(target) = value; });
 }
 
 template <class T>
@@ -292,7 +295,9 @@ bool set_list(const lockstep_caller* caller, std::uint32_t port, const Item* ite
               std::size_t count) {
   using T = ItemOf<Item>;
   if (items == nullptr && count != 0) return false;
-  if (!std::all_of(items, items + count, is_finite<Item>)) return false;
+  const BoundPort* const it = port_of(*caller, port);
+  const bool is_any = it != nullptr && takes_any_number(*it, list_type_of<Item>());
+  if (!is_any && !std::all_of(items, items + count, is_finite<Item>)) return false;
   const auto* const values = reinterpret_cast<const T*>(items);
   const auto assign = [=](Value& target) {
     auto& list = held<std::vector<T>>(target);

@@ -32,6 +32,7 @@ struct LeafTime {
   Nanoseconds period{0};
   const void* thread = nullptr;  // as this_thread_id: the one that may call the host; null: any
   Workers* workers = nullptr;    // on the virtual clock: threads of leaves take turns
+  std::uint32_t turns = 1;       // so often they were given, for who gives them in another process
   ProcessLeaves* processes = nullptr;  // those that are looked at while they are held
   EndBudget* end_budget = nullptr;     // null: each process has its own patience
   WakeUp* wake_up = nullptr;           // null: nobody waits between two ticks

@@ -156,7 +156,10 @@ bool IsolatedRun::Leaf::create() {
   for (std::size_t index = 0; index < caller_.ports.size(); ++index) {
     const BoundPort& port = *caller_.ports[index];
     request.put(port.type);
-    request.put(static_cast<std::uint8_t>(port.write != nullptr));
+    request.put(static_cast<std::uint8_t>(port.write == nullptr ? RemoteEntries::Sets::No
+                                          : port.write->typing == Typing::Strict
+                                              ? RemoteEntries::Sets::Strictly
+                                              : RemoteEntries::Sets::Loosely));
     request.put(ports_[2 * index]);
     request.put(ports_[2 * index + 1]);
     request.put_text(port.entry);
@@ -175,7 +178,7 @@ MessageWriter& IsolatedRun::begin_call(PluginFunction function, std::uint32_t nu
   request.put(number);
   request.put(caller.time->now);
   request.put(caller.time->period);
-  request.put(static_cast<std::uint8_t>(caller.time->workers != nullptr));
+  request.put(caller.time->workers != nullptr ? caller.time->turns : std::uint32_t{0});
   return request;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/blackboard/conversion.h"
@@ -38,8 +39,7 @@ void put_generic(const Value& value, MessageWriter& message) {
 Value readable_value(const Value& value, ValueType type, const ObjectType* object) {
   auto converted = convert_value(value, type, object);
   if (!converted && !std::holds_alternative<Object>(value)) return value;
-  const auto* number = converted ? std::get_if<double>(&*converted) : nullptr;
-  if (!converted || (number != nullptr && !std::isfinite(*number))) return {};
+  if (!converted) return {};
   return std::move(*converted);
 }
 
@@ -49,6 +49,12 @@ bool is_same_object(const Value& there, const Value& sent) {
   const auto* const other = std::get_if<Object>(&sent);
   return one != nullptr && other != nullptr && one->type() == other->type() &&
          one->type()->is_packed() && PackedType::get(*one).bytes == PackedType::get(*other).bytes;
+}
+
+bool is_finite(const Value& value) {
+  if (const auto* real = std::get_if<double>(&value)) return std::isfinite(*real);
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  return list == nullptr || std::ranges::all_of(*list, [](double it) { return std::isfinite(it); });
 }
 
 // As a port of type LOCKSTEP_ANY sets it.
@@ -125,6 +131,7 @@ bool RemoteEntries::read(MessageReader& message, std::string& refused) {
     Entry& entry = entries_[number];
     if (!message.value_into(entry.last, entry.objects)) return false;
     if (entry.is_generic ? !entry.last.index() : !holds(entry.last, entry.type)) return false;
+    if (entry.write->typing == Typing::Strict && !is_finite(entry.last)) return false;
     // A node that looks whether the entry has changed sees that it has not.
     if (is_same_object(entry.write->value(), entry.last)) entry.last = entry.write->value();
     entry.known = true;

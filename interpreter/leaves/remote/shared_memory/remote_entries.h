@@ -20,6 +20,8 @@ namespace lockstep::host {
 class RemoteEntries {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
+  // How a port sets its entry; loosely: it may hold values of other types, and any number.
+  enum class Sets : std::uint8_t { No, Strictly, Loosely };
 
   // Ports of one entry have one number. The port must be bound.
   std::uint32_t number_of(const BoundPort& port);

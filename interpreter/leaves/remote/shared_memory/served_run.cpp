@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "base/core/plugin_exception.h"
 #include "leaves/remote/shared_memory/answer.h"
@@ -81,7 +83,9 @@ bool ServedRun::read_ports(MessageReader& request, Object& leaf,
                    .type = request.get<ValueType>(),
                    .is_generic = declared[index].is_generic,
                    .has_limits = has_limits(declared[index])};
-    const bool is_writable = request.get<std::uint8_t>() != 0;
+    const auto writes = static_cast<RemoteEntries::Sets>(request.get<std::uint8_t>());
+    const bool is_writable = writes != RemoteEntries::Sets::No;
+    port.is_loose_there = writes == RemoteEntries::Sets::Loosely;
     const auto number = request.get<std::uint32_t>();
     const auto fallback = request.get<std::uint32_t>();
     port.entry = leaf.entry_names.emplace_back(request.text());
@@ -236,21 +240,34 @@ void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& 
   if (is_destroy(function) || (creates && answer.result == 0)) objects_.erase(object.number);
 }
 
+// The turns that the engine has given to the workers of its own process since the last request, at
+// the same times: first those after the tick before, and two at the start of this tick.
+void ServedRun::give_turns(Nanoseconds now, std::uint32_t turns) {
+  constexpr std::uint32_t kAtStart = 2;
+  std::uint32_t missed = turns - std::exchange(time_.turns, turns);
+  if (missed > 0 && now != time_.now) {
+    workers_.give_turns(time_.now);
+    --missed;
+  }
+  time_.now = now;
+  for (missed = std::min(missed, kAtStart); missed > 0; --missed) workers_.give_turns(now);
+}
+
 bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageWriter& answer) {
   is_measured_ |= request.rest().size() >= kMuchToCarry;
   const auto number = request.get<std::uint32_t>();
   time_.thread = this_thread_id();
-  time_.now = request.get<Nanoseconds>();
+  const auto now = request.get<Nanoseconds>();
   time_.period = request.get<Nanoseconds>();
-  time_.workers = request.get<std::uint8_t>() != 0 ? &workers_ : nullptr;
+  const auto turns = request.get<std::uint32_t>();
+  time_.workers = turns != 0 ? &workers_ : nullptr;
+  give_turns(now, turns);
   Object* const object = function == PluginFunction::CreateRun ? create_run(request)
                          : function == PluginFunction::Create  ? create_leaf(number, request)
                                                                : find(number);
   factor_ = function == PluginFunction::SetPace ? request.get<double>() : 1.0;
   if (object == nullptr || !read_entries(request)) return false;
-  workers_.give_turns(time_.now);
   perform(*object, function, answer);
-  workers_.give_turns(time_.now);
   return true;
 }
 

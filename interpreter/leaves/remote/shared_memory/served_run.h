@@ -57,6 +57,7 @@ class ServedRun {
   std::uint64_t call_leaf(Object& object, PluginFunction function);
   void write_entries(MessageWriter& answer) const;
   void perform(Object& object, PluginFunction function, MessageWriter& answer);
+  void give_turns(Nanoseconds now, std::uint32_t turns);
   double factor_ = 1;         // of the call, if it tells a pace
   bool is_measured_ = false;  // there was much to carry, once
 
