@@ -28,10 +28,14 @@ bool MiniScript::holds(const std::string& text) const {
     const auto at = text.find(sign);
     if (at == std::string::npos) continue;
     const double left = value(text.substr(0, at)), right = value(text.substr(at + sign.size()));
-    if (sign == ">=") return left >= right;
-    if (sign == "==") return left == right;
-    if (sign == "!=") return left != right;
-    return sign == "<" ? left < right : left > right;
+    // "The same tolerance as of barriers": a child is at b with e >= b - eps, and behind it with
+    // e > b + eps.
+    const double eps = text.starts_with("progress(") ? 1e-9 : 0;
+    const bool is_at_least = left >= right - eps, is_more = left > right + eps;
+    if (sign == ">=") return is_at_least;
+    if (sign == "<") return !is_at_least;
+    if (sign == ">") return is_more;
+    return (sign == "==") == (is_at_least && !is_more);
   }
   throw std::logic_error("what is the condition " + text);
 }

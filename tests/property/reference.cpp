@@ -723,9 +723,7 @@ bool Reference::read_nodes() {
     for (ReferenceNode* node : nodes_) {
       if (node->plan.script.empty()) continue;
       const std::string of = "(" + node->plan.name + ")";
-      if (is_read("progress" + of)) {
-        readings["progress" + of] = std::round(node->progress() * 1e9) / 1e9;
-      }
+      if (is_read("progress" + of)) readings["progress" + of] = node->progress();
       readings["held" + of] = node->paused ? 1 : 0;
       readings["status" + of] = static_cast<double>(node->status);
     }

@@ -8,4 +8,10 @@ namespace lockstep::host {
 // wait at a barrier at 1.
 inline constexpr double kProgressEpsilon = 1e-9;
 
+// The least progress that has reached a barrier, and a number in a script. From 0.499999999 on,
+// which in doubles is more than 1e-9 from it, 0.5 is reached.
+inline double reached_from(double number) {
+  return number - kProgressEpsilon;
+}
+
 }  // namespace lockstep::host

@@ -101,7 +101,7 @@ inline bool begins_at_zero(std::span<const double> barriers) {
 
 // The least progress that is held at the current barrier.
 inline double held_from(double barrier, bool ticks_at_barrier) {
-  return ticks_at_barrier ? least_above(barrier) : barrier - kProgressEpsilon;
+  return ticks_at_barrier ? least_above(barrier) : reached_from(barrier);
 }
 
 }  // namespace lockstep::host::absolute

@@ -121,7 +121,7 @@ struct Reached {
       case Operation::Compare:
         if (!take(top[-2], left) || !take(top[-1], right)) break;
         --top;
-        top[-1] = Operand::of(are_related(left, at->relation, right, at->real) ? 1.0 : 0.0);
+        top[-1] = Operand::of(is_true(*at, left, right) ? 1.0 : 0.0);
         continue;
       case Operation::And:
       case Operation::Or: {
@@ -373,7 +373,7 @@ class Machine {
       if (!take_comparable(left, first) || !take_comparable(right, second)) {
         return wrong_operands();
       }
-      holds = are_related(first, it_->relation, second, it_->real);
+      holds = is_true(*it_, first, second);
     }
     if (it_->operation == Operation::Compare || !holds) {
       replace_two(Operand::of(holds ? 1.0 : 0.0));

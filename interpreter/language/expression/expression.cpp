@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "base/blackboard/conversion.h"
-#include "base/core/progress.h"
 #include "base/core/wording.h"
-#include "language/expression/equal.h"
 #include "language/expression/token.h"
 
 namespace lockstep::host {
@@ -257,7 +255,7 @@ class ExpressionParser {
       const std::size_t at = emit_at(sign, is_last ? Operation::Compare : Operation::CompareNext);
       const bool is_next_close = reads_progress(at);
       code()[at].relation = it.relation;
-      code()[at].real = is_close || is_next_close ? kProgressEpsilon : kEqualWithin;
+      if (is_close || is_next_close) code()[at].whole = kOfProgress;
       is_close = is_next_close;
       if (is_last) compare_early(at);
       --depth_;

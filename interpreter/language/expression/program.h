@@ -50,6 +50,9 @@ enum class Operation : std::uint8_t {
 
 enum class Relation : std::uint8_t { Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual };
 
+// Instruction::whole of a comparison: with the progress of a node.
+inline constexpr std::int64_t kOfProgress = 1;
+
 struct Instruction {
   Operation operation;
   Relation relation = {};

@@ -1,7 +1,6 @@
 #include "language/property/formula.h"
 
-#include "base/core/progress.h"
-#include "language/property/nearly.h"
+#include "language/expression/relation.h"
 
 namespace lockstep::host {
 
@@ -23,7 +22,7 @@ bool Formula::holds(std::span<const FormulaStep> code, std::span<const SeenNode>
         break;
       case What::Progress: {
         const ProgressComparison& it = progress[step.place];
-        push(are_nearly(seen[it.node].progress, it.relation, it.constant, kProgressEpsilon));
+        push(are_related_as_progress(seen[it.node].progress, it.relation, it.constant));
         break;
       }
       case What::Entry:
