@@ -24,6 +24,24 @@ bool decides(const RunView& run, NodeIndex holder, IsTicked is_ticked) {
   return child != run.end_of(holder);
 }
 
+// Who holds it, as the nodes around `under` are in their ticks, which keep their earlier states
+// until then. Nothing: a node that holds none goes on, and has not come to it.
+std::optional<OutermostHold> hold_in(const NodeContext& context, NodeIndex held,
+                                     std::optional<NodeIndex> under) {
+  const Tree& tree = context.tree();
+  const auto is_in_tick = [&](NodeIndex node) {
+    return under && node <= *under && *under < context.end_of(node);
+  };
+  NodeIndex holder = tree.labels[held].parent;
+  while (context.held(holder) && holder != held && !is_in_tick(holder)) {
+    held = holder;
+    holder = tree.labels[held].parent;
+  }
+  const bool holds = compares_progress(synchronization(tree.nodes[holder])) ||
+                     std::ranges::find(tree.members, holder, &Member::node) != tree.members.end();
+  return holds ? std::optional(OutermostHold{holder, held}) : std::nullopt;
+}
+
 }  // namespace
 
 Moments::Moments(NodeContext& context)
@@ -123,13 +141,16 @@ void Moments::look(const RunState& state, std::optional<NodeIndex> under) {
 }
 
 bool Moments::is_withheld(NodeIndex held) const {
-  const NodeIndex holder = hold_of(context_, held).holder;
-  return decides(context_, holder, [&](NodeIndex node) { return context_.ticked(node); });
+  const auto hold = hold_in(context_, held, halts_under);
+  return hold &&
+         decides(context_, hold->holder, [&](NodeIndex node) { return context_.ticked(node); });
 }
 
 // Whether the tick has come so far. A parallel decides about one child after the other.
 bool Moments::is_decided(NodeIndex held, std::optional<NodeIndex> under) const {
-  const auto [holder, child] = hold_of(context_, held);
+  const auto hold = hold_in(context_, held, under);
+  if (!hold) return false;
+  const auto [holder, child] = *hold;
   if (under && holder < *under && *under < context_.end_of(holder)) return child < *under;
   return decides(context_, holder, [&](NodeIndex node) { return context_.ticked_so_far(node); });
 }

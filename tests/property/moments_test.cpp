@@ -110,6 +110,18 @@ void compare(ScriptedRun& run, int ticks, Counts& counts) {
 
 }  // namespace
 
+TEST_CASE(
+    "a tick in which a node goes on that was held, and ends what is below it, is one moment") {
+  ScriptedRun run("ParallelRelative[delta=0](a Fallback(b Parallel(c? d) Wait[seconds=0.2]))",
+                  "a=RR.5R b=FS c=F d=S");
+  run.ticker().keep_moments();
+  for (int tick = 0; tick < 3; ++tick) {
+    run.tick_root(tick * std::chrono::milliseconds(100));
+    CHECK(run.ticker().moments().empty());
+  }
+  CHECK(run.ticker().status(2) == Status::Success);
+}
+
 TEST_CASE("moments tell each result and each halt of a tick: trees for BehaviorTree.CPP") {
   Counts counts;
   for (std::uint64_t seed = 1; seed <= 3'000; ++seed) {
