@@ -63,6 +63,54 @@ TEST_CASE("breakpoints of results and barriers, and those that are typed") {
   CHECK(contains(quit.out, " after 1 tick"));
 }
 
+TEST_CASE("run --break-if pauses a run after each tick in which a condition becomes true") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  const Outcome run = typed(directory, "s\\nset force 7\\nc\\nc\\nc\\n",
+                            "--break-if 'arm.progress >= 0.3' --break-if '{force} > 5'");
+  INFO(run.err);
+  CHECK(run.code == 0);
+  const auto at = run.err.find("paused after tick ");
+  REQUIRE(at != std::string::npos);
+  CHECK(contains(run.err, "s): arm.progress >= 0.3\n"));
+  CHECK(contains(run.err, "s): {force} > 5\n"));
+  // Once for each time that it becomes true, and once for the step.
+  std::size_t pauses = 0;
+  for (std::size_t i = at; i != std::string::npos; i = run.err.find("paused after tick ", i + 1))
+    ++pauses;
+  CHECK(pauses == 3);
+  // The property that it is never true says in which tick it becomes true.
+  const Outcome property = shell(
+      std::string(kRun) + "--property 'never base.held and arm.progress >= 0.2' --json < /dev/null",
+      directory);
+  const Outcome held = typed(directory, "c\\n", "--break-if 'base.held and arm.progress >= 0.2'");
+  INFO(property.out + property.err);
+  const auto tick = held.err.find("paused after tick ") + 18;
+  const std::string number = held.err.substr(tick, held.err.find(' ', tick) - tick);
+  CHECK(contains(property.err + property.out, "tick " + number));
+}
+
+TEST_CASE("run --break-if: the end of the run, both clocks, and what is no condition") {
+  const TemporaryDirectory directory = with_carrying_tree();
+  CHECK(contains(typed(directory, "c\\n", "--break-if strong.failure").err,
+                 "the run ends after tick 9 (0.090 s): strong.failure\n"));
+  const Outcome wall =
+      shell("printf 'c\\n' | lockstep run tree.xml --view none --break-if 'base.progress >= 0.5'",
+            directory);
+  const Outcome virtual_clock = typed(directory, "c\\n", "--break-if 'base.progress >= 0.5'");
+  const auto tick = [](const std::string& text) {
+    const auto at = text.find("paused after tick ");
+    return at == std::string::npos ? "none" : text.substr(at, text.find(' ', at + 18) - at);
+  };
+  INFO(wall.err);
+  CHECK(tick(wall.err) != "none");
+  CHECK(tick(wall.err) == tick(virtual_clock.err));
+  const Outcome wrong = typed(directory, "", "--break-if 'ar.held'");
+  CHECK(wrong.code == 2);
+  CHECK(contains(wrong.err, "--break-if:1:1: error: "));
+  CHECK(typed(directory, "", "--break-if 'arm.running leads to arm.success'").code == 2);
+  CHECK(typed(directory, "", "--break-if ''").code == 2);
+}
+
 TEST_CASE("breakpoints: when stdin ends, the run continues, and what cannot be is refused") {
   const TemporaryDirectory directory = with_carrying_tree();
   const Outcome ended = typed(directory, "", "--break arm --break arm:after");

@@ -84,14 +84,17 @@ Result<Breakpoint> parse_breakpoint(std::string_view text, const Shape& shape) {
   return breakpoint;
 }
 
-Prompt::Prompt(const Shape& shape, RunControl& control, std::span<const Breakpoint> breakpoints,
+Prompt::Prompt(const Shape& shape, RunControl& control, const PausePlaces& places,
                bool is_real_time)
     : shape_(shape),
       control_(control),
       is_real_time_(is_real_time),
       why_(shape),
+      conditions_(places.conditions),
       wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  for (const Breakpoint& it : breakpoints) control_.give({.what = What::Break, .breakpoint = it});
+  for (const Breakpoint& it : places.breakpoints) {
+    control_.give({.what = What::Break, .breakpoint = it});
+  }
   thread_ = own_thread([this] { live(); });
 }
 
@@ -117,13 +120,16 @@ void Prompt::run_ended(const Moment&, const RunEnd&) {
 
 void Prompt::after_tick(const Moment& moment, const TickReport&) {
   why_.after_tick(moment);
+  condition_ = conditions_.after_tick(moment);
+  if (!condition_.empty()) control_.give({.what = What::Pause});
 }
 
 void Prompt::standing(const Moment& moment) {
   Picture picture{.where = where(moment), .why = {}, .entries = entries(moment)};
   write_links(summarize(why_.why(moment), shape_), picture.why, false);
   if (is_complete(moment.status(0))) {  // there is nothing to wait for
-    if (control_.reached()) say(fmt::format("the run ends {}\n{}", picture.where, picture.why));
+    if (control_.reached() || !condition_.empty())
+      say(fmt::format("the run ends {}\n{}", picture.where, picture.why));
     return;
   }
   if (!control_.is_paused()) return;
@@ -140,6 +146,8 @@ std::string Prompt::where(const Moment& moment) const {
   if (const auto& reached = control_.reached()) {
     const auto when = std::ranges::find(kWhen, reached->when, &WhenWord::when);
     text += fmt::format(": '{}' {}", printable(shape_.nodes[reached->node].path), when->past);
+  } else if (!condition_.empty()) {
+    text += fmt::format(": {}", printable(condition_));
   }
   return text;
 }

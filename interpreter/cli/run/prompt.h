@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "base/core/problem.h"
 #include "base/system/file_descriptor.h"
 #include "base/system/mutex.h"
+#include "cli/run/break_conditions.h"
 #include "judge/summary/why.h"
 #include "run/run_control.h"
 #include "trace/observer.h"
@@ -22,13 +22,21 @@ namespace lockstep::host {
 // "NODE[:before|after|success|failure|barrier]"; without a word: before.
 Result<Breakpoint> parse_breakpoint(std::string_view text, const Shape& shape);
 
+// Where a run pauses, as the command line gives it.
+struct PausePlaces {
+  std::vector<Breakpoint> breakpoints = {};
+  std::vector<Property> conditions = {};
+
+  bool empty() const { return breakpoints.empty() && conditions.empty(); }
+};
+
 class Prompt final : public Observer {
  public:
   // `shape` and `control` must outlive this.
-  Prompt(const Shape& shape, RunControl& control, std::span<const Breakpoint> breakpoints,
-         bool is_real_time);
+  Prompt(const Shape& shape, RunControl& control, const PausePlaces& places, bool is_real_time);
   ~Prompt() override;
 
+  AskedOfRun asked() const override { return conditions_.asked(); }
   void after_tick(const Moment& moment, const TickReport& report) override;
   void standing(const Moment& moment) override;
   void run_ended(const Moment& moment, const RunEnd& end) override;
@@ -56,7 +64,9 @@ class Prompt final : public Observer {
   RunControl& control_;
   const bool is_real_time_;
   WhyWatch why_;
-  FileDescriptor wake_;  // the thread looks: there is a picture, or the run has ended
+  BreakConditions conditions_;
+  std::string_view condition_;  // that the last tick made true; "": none
+  FileDescriptor wake_;         // the thread looks: there is a picture, or the run has ended
   Mutex mutex_;
   std::optional<Picture> picture_ LOCKSTEP_GUARDED_BY(mutex_);
   bool is_over_ LOCKSTEP_GUARDED_BY(mutex_) = false;

@@ -95,10 +95,9 @@ bool knows_recorded_keys(const RunCommandOptions& options, const Tree& tree) {
 }
 
 // Nothing: one is wrong, which is reported.
-std::optional<std::vector<Breakpoint>> breakpoints_of(const RunCommandOptions& options,
-                                                      const Tree& tree) {
-  std::vector<Breakpoint> breakpoints;
-  if (options.breaks.empty()) return breakpoints;
+std::optional<PausePlaces> pause_places_of(const RunCommandOptions& options, const Tree& tree) {
+  PausePlaces places;
+  if (options.breaks.empty() && options.break_conditions.empty()) return places;
   if (options.tree == "-") {
     print_error("--break reads commands from stdin, which has the tree");
     return std::nullopt;
@@ -110,23 +109,37 @@ std::optional<std::vector<Breakpoint>> breakpoints_of(const RunCommandOptions& o
       print_error("--break: " + printable(breakpoint.error().message), breakpoint.error().hint);
       return std::nullopt;
     }
-    breakpoints.push_back(*breakpoint);
+    places.breakpoints.push_back(*breakpoint);
   }
-  return breakpoints;
+  const PropertyNames names =
+      options.break_conditions.empty() ? PropertyNames() : property_names(shape);
+  for (const std::string& text : options.break_conditions) {
+    auto condition = parse_break_condition(text, names);
+    if (!condition) {
+      const PropertyError& error = condition.error();
+      Diagnostics diagnostics;
+      diagnostics.error("bad-property"_code,
+                        {"--break-if", 1, static_cast<std::uint32_t>(error.offset) + 1},
+                        error.message, error.hint, {.text = text, .column = 1});
+      print_diagnostics(diagnostics, Severity::Error);
+      return std::nullopt;
+    }
+    places.conditions.push_back(std::move(*condition));
+  }
+  return places;
 }
 
 // There is one, and its members end in the order in which they may.
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Runnable& runnable,
-             std::vector<Property> properties, WatcherSockets sockets,
-             std::span<const Breakpoint> breakpoints)
+             std::vector<Property> properties, WatcherSockets sockets, const PausePlaces& places)
       : options_(options),
         tree_(runnable.tree),
         shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
         // A person who types reads lines.
-        view_(options.view == "auto" && !breakpoints.empty() ? "plain" : options.view, shape_,
+        view_(options.view == "auto" && !places.empty() ? "plain" : options.view, shape_,
               options.log_level),
         watch_(shape_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
@@ -138,7 +151,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                           view_.print("warning: " + text);
                         }),
         description_(describe_run(runnable)),
-        watchers_(shape_, options, description_, std::move(sockets), breakpoints,
+        watchers_(shape_, options, description_, std::move(sockets), places,
                   [this](const std::string& line) { view_.print(line); }) {
     if (!options.record.empty()) {
       recorder_.emplace(shape_, recorder_options());
@@ -501,8 +514,8 @@ int run(RunCommandOptions options) {
   auto properties = all_properties(std::move(runnable.properties), options.properties,
                                    [&] { return property_names(shape_of(runnable.tree)); });
   if (!properties) return kExitUsage;
-  const auto breakpoints = breakpoints_of(options, runnable.tree);
-  if (!breakpoints) return kExitUsage;
+  const auto places = pause_places_of(options, runnable.tree);
+  if (!places) return kExitUsage;
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);
   if (!options.is_real()) {
@@ -510,7 +523,7 @@ int run(RunCommandOptions options) {
                              notes);
   }
   print_diagnostics(notes, Severity::Note);
-  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *breakpoints)
+  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *places)
       .run(runnable.plugins);
 }
 

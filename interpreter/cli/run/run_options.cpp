@@ -256,6 +256,12 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
                  "default), after, success, failure or barrier; may be repeated")
       ->type_name("NODE[:WHEN]")
       ->allow_extra_args(false);
+  app.add_option("--break-if", options.break_conditions,
+                 "Pause after the tick in which this becomes true, such as 'left.progress > 0.4 "
+                 "and not right.held', and read commands from stdin; may be repeated. See "
+                 "`lockstep docs properties`")
+      ->type_name("CONDITION")
+      ->allow_extra_args(false);
   app.add_option("--view", options.view,
                  "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
                  "terminal, otherwise plain")
@@ -300,6 +306,7 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--record-keep",
                                       "--record-entries",
                                       "--on-record-error",
+                                      "--break-if",
                                       "--monitor-socket",
                                       "--monitor-paused",
                                       "--monitor-open",

@@ -44,7 +44,8 @@ struct RunCommandOptions {
   bool record_compress = false;
   Rotation rotation = {};
   bool stop_on_record_error = false;
-  std::vector<std::string> breaks;  // where the run pauses, for who types
+  // Where the run pauses, for who types.
+  std::vector<std::string> breaks, break_conditions;
   std::string view = "auto";
   lockstep_log_level log_level = LOCKSTEP_LOG_INFO;
   std::string record_entries = "all";

@@ -73,13 +73,13 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
 }
 
 Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
-                   WatcherSockets sockets, std::span<const Breakpoint> breakpoints,
+                   WatcherSockets sockets, const PausePlaces& places,
                    std::function<void(const std::string& line)> print)
     : options_(options) {
-  if (options.monitor_control || options.groot2_control || !breakpoints.empty()) {
+  if (options.monitor_control || options.groot2_control || !places.empty()) {
     control_.emplace();
   }
-  if (!breakpoints.empty()) prompt_.emplace(shape, *control_, breakpoints, options.is_real());
+  if (!places.empty()) prompt_.emplace(shape, *control_, places, options.is_real());
   if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
   if (sockets.monitor || sockets.attach) {
     monitor_.emplace(

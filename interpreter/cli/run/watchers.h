@@ -32,7 +32,7 @@ class Watchers {
  public:
   // `print` shows a line to the person; from any thread.
   Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
-           WatcherSockets sockets, std::span<const Breakpoint> breakpoints,
+           WatcherSockets sockets, const PausePlaces& places,
            std::function<void(const std::string& line)> print);
 
   // Says where the monitor is, before the run starts.
