@@ -143,6 +143,10 @@ int compare(const DiffCommandOptions& options, Side& a, Side& b) {
     if (!*it && it->error() != LoadFailure::NothingToRun) return exit_code_of(it->error());
   }
   if (old_loaded && new_loaded) {
+    if (old_loaded->definition.rules != new_loaded->definition.rules) {
+      print_note("the trees are in two languages, in which many nodes have different names",
+                 "`lockstep convert` converts one of them to the language of the other");
+    }
     const TreeDiff diff(a.side(*old_loaded), b.side(*new_loaded));
     const int written = write_results(text_of(diff, options.format));
     return first_failure(written, diff.same() ? kExitSuccess : kExitFailure);
