@@ -54,7 +54,8 @@ std::string without_logs(const std::string& recording) {
   std::string all;
   for (std::string line; std::getline(lines, line);) {
     const auto logs = line.find(",\"logs\":");
-    all += (logs == std::string::npos ? line : line.substr(0, logs) + "}") + "\n";
+    const char* const end = line.starts_with("{\"end\"") ? "}}" : "}";
+    all += (logs == std::string::npos ? line : line.substr(0, logs) + end) + "\n";
   }
   return all;
 }
