@@ -161,7 +161,10 @@ class Auditor {
     const std::size_t moments = tick.moments.moments.size();
     leaf.progress = moments == 0 ? progress : calls_.progress_at(tick, leaf.node, moments - 1);
     leaf.was_held = state.held && tick.moments.rest.empty();
-    if (!knows_before_) leaf.knows_begin = false;
+    if (!knows_before_) {  // it may have ended and begun again
+      leaf.knows_begin = false;
+      leaf.ticks = 0;
+    }
     for (const RecordedCalls::Call& call : calls) {
       if (call.begins) {
         leaf.ticks = 0;

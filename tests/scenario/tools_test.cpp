@@ -282,24 +282,32 @@ TEST_CASE("log check knows the tick in which a held leaf was ended and began aga
 
 TEST_CASE("log check knows nothing of ticks that have no line") {
   const TemporaryDirectory directory;
-  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
-<BehaviorTree ID="T"><ParallelAbsolute barriers="0.2;0.4;0.6;0.8"><Advance name="a" step="0.2"/>
-<Advance name="b" step="0.1"/></ParallelAbsolute></BehaviorTree></root>)");
-  const std::string made = directory.path("made.jsonl");
-  REQUIRE(
-      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", made}).code ==
-      0);
-  std::string text = read_file(made);
-  const std::size_t from = text.find("{\"tick\":2,"), to = text.find("{\"tick\":9,");
-  REQUIRE((from != std::string::npos && to != std::string::npos));
-  text.replace(from, to - from, "{\"lost\":{\"ticks\":7,\"from\":2}}\n");
-  text.insert(text.find("\"overruns\""), "\"lost\":7,");
-  const Outcome it = run_lockstep({"log", "check", directory.file("run.jsonl", text), "--leaves",
-                                   directory.file("t.leaves.xml", R"(<leaves lockstep="1">
-<leaf path="*/a" ticks="5"/><leaf path="*/b" ticks="10"/></leaves>)"),
-                                   "--tree-file", tree});
-  INFO(it.out << it.err);
-  CHECK(it.code == 0);
+  // What the check says of the run without the ticks from `from` up to `to`.
+  const auto check = [&](const std::string& nodes, int from, int to, const std::string& rows) {
+    const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T">)" + nodes + "</BehaviorTree></root>");
+    const std::string made = directory.path("made.jsonl");
+    REQUIRE(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", made})
+                .code == 0);
+    std::string text = read_file(made);
+    const auto line_of = [&](int tick) { return text.find(fmt::format("{{\"tick\":{},", tick)); };
+    const std::string lost = fmt::format(R"("ticks":{},"from":{})", to - from, from);
+    text.replace(line_of(from), line_of(to) - line_of(from), "{\"lost\":{" + lost + "}}\n");
+    text.insert(text.find("\"overruns\""), fmt::format("\"lost\":{},", to - from));
+    return run_lockstep(
+        {"log", "check", directory.file("run.jsonl", text), "--leaves",
+         directory.file("t.leaves.xml", "<leaves lockstep=\"1\">" + rows + "</leaves>"),
+         "--tree-file", tree});
+  };
+  const Outcome held = check(R"(<ParallelAbsolute barriers="0.2;0.4;0.6;0.8">
+<Advance name="a" step="0.2"/><Advance name="b" step="0.1"/></ParallelAbsolute>)",
+                             2, 9, R"(<leaf path="*/a" ticks="5"/><leaf path="*/b" ticks="10"/>)");
+  INFO(held.out << held.err);
+  CHECK(held.code == 0);
+  const Outcome again = check(R"(<Repeat times="3"><Advance name="a" step="0.25"/></Repeat>)", 3, 5,
+                              R"(<leaf path="*/a" ticks="4"/>)");
+  INFO(again.out << again.err);
+  CHECK(again.code == 0);
 }
 
 TEST_CASE("log check does not take the result of a script for that of its leaf") {
