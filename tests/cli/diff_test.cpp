@@ -252,3 +252,28 @@ TEST_CASE("diff git:REV reads a file and its includes as the revision has them")
   CHECK(contains(outcome.err, "git has no revision 'none'"));
   CHECK(contains(outcome.err, "the revision 'HEAD' has no file 'none.xml'"));
 }
+
+TEST_CASE("diff git:REV writes nothing outside of its folder, and follows links within it") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = shell(R"(
+    export GIT_CONFIG_GLOBAL=/dev/null GIT_CONFIG_SYSTEM=/dev/null HOME=$PWD TMPDIR=$PWD/tmp
+    mkdir tmp repo && cd repo && git init -q . 2>/dev/null
+    git config user.email a@example.com && git config user.name a
+    mkdir real && ln -s real linked
+    echo '<root lockstep="1"><BehaviorTree ID="P"><Wait seconds="1"/></BehaviorTree></root>' > real/p.xml
+    echo '<root lockstep="1" main_tree_to_execute="M"><include path="linked/p.xml"/><BehaviorTree ID="M"><SubTree ID="P"/></BehaviorTree></root>' > t.xml
+    git add . && git commit -qm one
+    sed -i s/seconds=.1./seconds=\"2\"/ real/p.xml
+    lockstep diff t.xml
+    blob=$(git rev-parse HEAD:t.xml); part=$(git rev-parse HEAD:real)
+    outside=$(printf "100644 blob $blob\tevil.xml\n" | git mktree)
+    up=$(printf "040000 tree $outside\t..\n" | git mktree)
+    tree=$(printf "100644 blob $blob\tt.xml\n040000 tree $part\tlinked\n040000 tree $up\tx\n040000 tree $up\t..\n" | git mktree)
+    lockstep diff git:$tree t.xml; ls -A ../tmp; find .. -name evil.xml)",
+                                directory);
+  CHECK(outcome.out.starts_with(
+      "changed  M/P/Wait  seconds 1 → 2  HEAD:linked/p.xml:1 → linked/p.xml:1\n1 changed\n"));
+  CHECK(contains(outcome.out, ":linked/p.xml:1 → linked/p.xml:1\n1 changed\n"));
+  CHECK(!contains(outcome.out, "evil"));
+  CHECK(outcome.out.ends_with("1 changed\n"));
+}

@@ -99,7 +99,13 @@ struct Blob {
   bool is_link = false;
 };
 
-// Of `git ls-tree -r -z`: "100644 blob ID\tPATH".
+// Git itself makes no such path, but a repository may have one.
+bool leads_out(const fs::path& path) {
+  return path.is_absolute() || std::ranges::count(path, "..") != 0;
+}
+
+// Of `git ls-tree -r -z`: "100644 blob ID\tPATH". Links come last, so that nothing is written
+// through one.
 std::vector<Blob> xml_files(std::string_view list) {
   std::vector<Blob> files;
   while (!list.empty()) {
@@ -112,10 +118,11 @@ std::vector<Blob> xml_files(std::string_view list) {
     const bool is_link = line.starts_with("120000");
     const std::string_view path = line.substr(tab + 1);
     // A link may lead to a folder.
-    if (!is_link && !path.ends_with(".xml")) continue;
+    if ((!is_link && !path.ends_with(".xml")) || leads_out(path)) continue;
     files.push_back(
         {std::string(line.substr(blob + 6, tab - blob - 6)), std::string(path), is_link});
   }
+  std::ranges::stable_partition(files, [](const Blob& it) { return !it.is_link; });
   return files;
 }
 
@@ -146,8 +153,8 @@ Result<void> write_files(const std::vector<Blob>& files, std::string_view all,
     if (it.is_link) {
       // One that leads out of the repository is none of the revision.
       const auto target = (fs::path(it.path).parent_path() / text).lexically_normal();
-      if (target.is_absolute() || *target.begin() == "..") continue;
-      fs::create_symlink(fs::path(text), path, error);
+      const bool is_below = fs::weakly_canonical(path.parent_path(), error) == path.parent_path();
+      if (!leads_out(target) && is_below) fs::create_symlink(fs::path(text), path, error);
     } else if (!write_text(path, text)) {
       return problem(
           fmt::format("'{}' cannot be written: {}", path.string(), std::strerror(errno)));
@@ -205,7 +212,7 @@ Result<GitFiles> GitFiles::read(const std::string& revision, const std::string& 
   if (mkdtemp(name.data()) == nullptr) {
     return problem(fmt::format("no folder for the files of git: {}", std::strerror(errno)));
   }
-  files.folder_ = name;
+  files.folder_ = fs::canonical(name, error);
   if (const auto written = write_files(blobs, *texts, files.folder_); !written) {
     return tl::unexpected(written.error());
   }
