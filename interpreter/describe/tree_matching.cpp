@@ -174,23 +174,10 @@ class Matcher {
   void match_around_equal() {
     for (auto a = static_cast<std::uint32_t>(a_.whole.size()); a-- > 0;) {
       if (to_new()[a] != kNoNode || a_.size(a) == 1) continue;
-      // How many of the nodes below are also below each node of the other tree.
-      std::map<std::uint32_t, std::uint32_t> common;
-      for (std::uint32_t i = a + 1; i < a_.node(a).end;) {
-        const std::uint32_t partner = to_new()[i];
-        const std::uint32_t next = partner != kNoNode && is_whole_[i] ? a_.node(i).end : i + 1;
-        if (partner != kNoNode) {
-          for (std::uint32_t b = partner; !b_.is_top(b);) {
-            b = b_.node(b).parent;
-            if (to_old()[b] == kNoNode) common[b] += next - i;
-          }
-        }
-        i = next;
-      }
       double best = 0;
       std::uint32_t partner = kNoNode;
-      for (const auto& [b, count] : common) {
-        const double similarity = 2.0 * count / (a_.size(a) + b_.size(b) - 2);
+      for (const std::uint32_t b : candidates(a)) {
+        const double similarity = 2.0 * common_below(a, b) / (a_.size(a) + b_.size(b) - 2);
         const bool is_same = same_kind(a, b);
         if (similarity < (is_same || same_name(a, b) ? kSimilar : kSimilarOfOtherKind)) continue;
         const double score = similarity + (is_same ? 1 : 0) + (same_name(a, b) ? 1 : 0) +
@@ -201,6 +188,44 @@ class Matcher {
       }
       if (partner != kNoNode) add(a, partner);
     }
+  }
+
+  // The nodes of the other tree that are nearest around what is matched below this one.
+  std::vector<std::uint32_t> candidates(std::uint32_t a) const {
+    constexpr std::size_t kMost = 16;
+    constexpr int kLevels = 8;
+    std::map<std::uint32_t, std::uint32_t> hits;
+    for (std::uint32_t i = a + 1; i < a_.node(a).end;) {
+      const std::uint32_t partner = matching_.to_new[i];
+      if (partner == kNoNode) {
+        ++i;
+        continue;
+      }
+      std::uint32_t b = partner;
+      for (int level = 0; level < kLevels && !b_.is_top(b); ++level) {
+        b = b_.node(b).parent;
+        if (to_old()[b] == kNoNode) ++hits[b];
+      }
+      i = a_.node(i).end;
+    }
+    std::vector<std::uint32_t> nearest;
+    for (const auto& [b, count] : hits) nearest.push_back(b);
+    std::ranges::stable_sort(nearest, std::ranges::greater(),
+                             [&](std::uint32_t b) { return hits[b]; });
+    nearest.resize(std::min(nearest.size(), kMost));
+    return nearest;
+  }
+
+  // How many of the nodes below the one are matched with nodes below the other one.
+  std::uint32_t common_below(std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = a + 1; i < a_.node(a).end;) {
+      const std::uint32_t partner = matching_.to_new[i];
+      const std::uint32_t next = partner != kNoNode && is_whole_[i] ? a_.node(i).end : i + 1;
+      if (partner != kNoNode && partner > b && partner < b_.node(b).end) count += next - i;
+      i = next;
+    }
+    return count;
   }
 
   void match_tops() {
