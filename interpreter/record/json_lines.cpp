@@ -44,7 +44,7 @@ Json json_of(const ShapeNode& node, std::size_t index) {
   if (node.paces) json[lines::kHeaderNode["pace"]] = true;
   if (!node.condition.empty()) json[lines::kHeaderNode["condition"]] = node.condition;
   if (!node.reads.empty()) json[lines::kHeaderNode["reads"]] = node.reads;
-  if (!node.ports.empty()) json[lines::kHeaderNode["ports"]] = json_of(node.ports);
+  if (node.ports) json[lines::kHeaderNode["ports"]] = json_of(*node.ports);
   if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
   return json;
 }

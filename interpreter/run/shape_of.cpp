@@ -48,20 +48,26 @@ void add_condition(const Tree& tree, NodeIndex index, ShapeNode& node) {
 // node has those that differ from the default.
 class Ports {
  public:
-  Ports(const Tree& tree, Shape& shape) : tree_(tree), shape_(shape) {}
+  Ports(const Tree& tree, Shape& shape) : tree_(tree), shape_(shape), found_(tree.nodes.size()) {}
 
   void add() {
     for (const LeafNode& leaf : tree_.leaves) add_bindings(leaf.node, *leaf.type, leaf.first_port);
     for (const BoundNode& bound : tree_.bound)
       add_bindings(bound.node, bound.kind->type, bound.first_port);
-    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) add_built_in(node);
+    for (NodeIndex node = 0; node < tree_.nodes.size(); ++node) {
+      add_built_in(node);
+      if (found_[node].empty()) continue;
+      shape_.nodes[node].ports = std::make_shared<const Texts>(std::move(found_[node]));
+    }
   }
 
  private:
+  using Texts = std::map<std::string, std::string, std::less<>>;
+
   static constexpr std::size_t kMost = 256;  // bytes
 
   void add(NodeIndex node, const Parameter& port, std::string text) {
-    if (text.size() <= kMost) shape_.nodes[node].ports.emplace(port.name, std::move(text));
+    if (text.size() <= kMost) found_[node].emplace(port.name, std::move(text));
   }
 
   void add_bindings(NodeIndex node, const NodeType& type, std::uint32_t first) {
@@ -81,10 +87,12 @@ class Ports {
   void add_built_in(NodeIndex node) {
     const NodeType& type = *tree_.labels[node].type;
     const std::uint32_t first = tree_.nodes[node].params;
-    const bool has_bindings = type.mock != nullptr ? !type.mock->outputs.empty() : type.reads_ports;
-    if (type.plugin.empty() && has_bindings) return add_bindings(node, type, first);
-    if (!type.plugin.empty() || type.mock != nullptr) return;  // no cells
-    if (!shape_.nodes[node].ports.empty()) return;             // it is bound
+    const bool is_mock = type.mock != nullptr, is_leaf = type.leaf != nullptr;
+    const bool has_bindings =
+        is_mock ? !type.mock->outputs.empty() : !is_leaf && type.reads_ports;  // as it is compiled
+    if (has_bindings) return add_bindings(node, type, first);
+    // No cells, or it is bound.
+    if (is_mock || is_leaf || !found_[node].empty()) return;
     for (std::size_t i = 0; i < type.parameters.size(); ++i) {
       const Parameter& parameter = type.parameters[i];
       const std::string text = text_of(parameter, tree_.cells[first + i]);
@@ -126,6 +134,7 @@ class Ports {
 
   const Tree& tree_;
   Shape& shape_;
+  std::vector<Texts> found_;  // by index
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,7 +36,8 @@ struct ShapeNode {
   bool tries_again = false;             // it begins its child again when that fails
   std::string condition = {};           // of a node that a script decides: its text
   std::vector<std::string> reads = {};  // the keys of the entries in it, as it names them
-  std::map<std::string, std::string, std::less<>> ports = {};  // and parameters: "0.5", "{goal}"
+  // And parameters: "0.5", "{goal}". Null: it has none.
+  std::shared_ptr<const std::map<std::string, std::string, std::less<>>> ports = {};
 
   // Only of a tree that runs (run/shape_of.h). The header of a recording has none of these.
   const NodeType* type = nullptr;

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <regex>
 
 #include "support/paths.h"
 #include "support/program.h"
@@ -36,7 +37,8 @@ std::string door_recording(const std::string& plugin, const std::string& path) {
                     "</Sequence></BehaviorTree></root>"});
   INFO(plugin << outcome.err);
   REQUIRE(outcome.code == 0);
-  return read_file(file);
+  // Each implementation has some ports of its own.
+  return std::regex_replace(read_file(file), std::regex(R"(,"ports":\{[^}]*\})"), "");
 }
 
 bool is_installed(const std::string& program) {

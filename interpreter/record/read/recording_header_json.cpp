@@ -156,7 +156,10 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
        {lines::kHeaderNode["reads"],
         [&](JsonValue value) { node.reads = texts_from(value, index); }, kMayLack},
        {lines::kHeaderNode["ports"],
-        [&](JsonValue value) { node.ports = named_texts(value, "port"); }, kMayLack},
+        [&](JsonValue value) {
+          node.ports = std::make_shared<const Texts>(named_texts(value, "port"));
+        },
+        kMayLack},
        {lines::kHeaderNode["guard"],
         [&](JsonValue value) { node.is_guard = is_yes(value, "guard", index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));

@@ -233,7 +233,8 @@ std::string sample_header(std::uint64_t first_tick) {
   leaf.is_guard = true;
   leaf.condition = "k > 1";
   leaf.reads = {"k"};
-  leaf.ports = {{"k", "{k}"}};
+  using Texts = decltype(RecordingHeader::arguments);
+  leaf.ports = std::make_shared<const Texts>(Texts{{"k", "{k}"}});
   ShapeNode& group = add("g", std::nullopt);
   group.synchronization = Synchronization::Absolute;
   group.barriers = {0.5};
