@@ -11,6 +11,7 @@
 #include "base/core/diagnostics.h"
 #include "base/core/value.h"
 #include "base/core/wording.h"
+#include "language/expression/expression.h"
 #include "leaves/declared.h"
 #include "leaves/models.h"
 
