@@ -1,5 +1,6 @@
 // What is written is what is read; and bytes that nobody wrote are refused, never trusted.
 #include "leaves/remote/shared_memory/message.h"
+#include "leaves/remote/shared_memory/remote_entries.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -62,15 +63,35 @@ TEST_CASE("message: wherever it is cut, what is missing is missed") {
   }
 }
 
-TEST_CASE("message: numbers that are not finite are no values") {
+TEST_CASE(
+    "message: whether an entry takes a number that is not finite is not for the message to say") {
   for (const double number :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     MessageWriter message;
     message.put_value(Value(number));
-    CHECK(read_values(message.bytes(), 1).empty());
+    CHECK(read_values(message.bytes(), 1).size() == 1);
     message.clear();
     message.put_value(Value(std::vector<double>{0, number}));
-    CHECK(read_values(message.bytes(), 1).empty());
+    CHECK(read_values(message.bytes(), 1).size() == 1);
+  }
+}
+
+TEST_CASE("entries of another process: only a loose one takes a number that is not finite") {
+  for (const Typing typing : {Typing::Strict, Typing::Declared}) {
+    Entry entry(typing, ValueType::Double);
+    RemoteEntries entries;
+    BoundPort port;
+    port.read = &entry.value();
+    port.write = &entry;
+    port.type = ValueType::Double;
+    MessageWriter message;
+    message.put(entries.number_of(port));
+    message.put_value(Value(std::numeric_limits<double>::infinity()));
+    message.put(RemoteEntries::kNone);
+    MessageReader reader(message.bytes());
+    std::string refused;
+    CHECK(entries.read(reader, refused) == (typing == Typing::Declared));
+    CHECK(entry.has_value() == (typing == Typing::Declared));
   }
 }
 
