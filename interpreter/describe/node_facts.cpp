@@ -61,7 +61,8 @@ std::string children_text(const NodeType& type) {
 }
 
 std::string facts_text(const Parameter& parameter) {
-  std::string text(parameter.is_script    ? "script"
+  std::string text(parameter.is_template  ? "text"
+                   : parameter.is_script  ? "script"
                    : parameter.is_generic ? "any type"
                                           : type_name(parameter.type, parameter.object));
   if (!parameter.group.empty()) text = fmt::format("the name of a {}", parameter.name);
@@ -80,7 +81,10 @@ std::string facts_text(const Parameter& parameter) {
   } else {
     text += parameter.required ? ", required" : ", optional";
   }
-  if (parameter.constant || parameter.is_script) text += ", never a {key}";
+  if (parameter.is_template) text += ", with the value of an entry for each {key}";
+  if (parameter.constant || (parameter.is_script && !parameter.is_template)) {
+    text += ", never a {key}";
+  }
   return text;
 }
 

@@ -17,15 +17,16 @@ Json range_json(const Range& range) {
 }
 
 Json parameter_json(const Parameter& parameter) {
+  const bool is_code = parameter.is_script && !parameter.is_template;
   Json json{{"name", parameter.name},
-            {"type", parameter.is_script ? "script" : type_name(parameter.type, parameter.object)},
+            {"type", is_code ? "script" : type_name(parameter.type, parameter.object)},
             {"direction", to_string(parameter.direction)},
             {"default", nullptr},
             {"required", parameter.required},
             {"unit", parameter.unit},
             {"range", range_json(parameter.range)},
             {"choices", Json::array({parameter.choices.begin(), parameter.choices.end()})},
-            {"blackboard", !parameter.constant && !parameter.is_script},
+            {"blackboard", !parameter.constant && !is_code},
             {"doc", parameter.doc}};
   if (parameter.default_text) json["default"] = *parameter.default_text;
   return json;

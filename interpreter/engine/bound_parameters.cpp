@@ -49,6 +49,11 @@ std::span<const std::string> BoundParameters::texts(NodeIndex node, unsigned ind
   return std::get<std::vector<std::string>>(constant);
 }
 
+const std::string* BoundParameters::text(NodeIndex node, unsigned index) const {
+  const auto place = static_cast<std::size_t>(cells_[tree_.nodes[node].params + index].integer);
+  return place == 0 ? nullptr : &std::get<std::string>(tree_.constants[place - 1]);
+}
+
 std::span<const std::string> BoundParameters::pool_of(const BoundNode& node) const {
   return tree_.group(tree_.membership(node.node).group).resources;
 }
@@ -188,7 +193,7 @@ void BoundParameters::set_cells(const BoundNode& node, Values& values) {
   Cell* const cells = own_.cells.data() + tree_.nodes[node.node].params;
   const auto& parameters = node.kind->type.parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].is_script) continue;
+    if (parameters[i].is_script || parameters[i].constant) continue;
     const auto* list = std::get_if<std::vector<double>>(&values.values[i]);
     if (parameters[i].of_pool) {
       const auto& names = std::get<std::string>(values.values[i]);

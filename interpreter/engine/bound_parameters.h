@@ -32,6 +32,8 @@ class BoundParameters {
   }
   // A list of texts that is a constant.
   std::span<const std::string> texts(NodeIndex node, unsigned index) const;
+  // A text that is a constant; null: it is left out.
+  const std::string* text(NodeIndex node, unsigned index) const;
   // No entry gives a parameter of the node.
   bool are_constant(NodeIndex node) const { return !nodes_[node].kind->reads_entries; }
 

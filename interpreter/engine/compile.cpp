@@ -491,10 +491,19 @@ class Compiler {
     return first;
   }
 
+  // A constant that is none of some words, and no name of something else.
+  static bool is_plain_text(const Parameter& it) {
+    return it.constant && it.type == ValueType::String && it.choices.empty() && it.group.empty();
+  }
+
   Cell cell(const Parameter& parameter, const Value& value) {
     if (std::holds_alternative<std::vector<std::string>>(value)) {
       tree_.constants.push_back(value);
       return {.integer = static_cast<std::int64_t>(tree_.constants.size() - 1)};
+    }
+    if (is_plain_text(parameter) && std::holds_alternative<std::string>(value)) {
+      tree_.constants.push_back(value);
+      return {.integer = static_cast<std::int64_t>(tree_.constants.size())};
     }
     const auto* list = std::get_if<std::vector<double>>(&value);
     return list == nullptr ? scalar_cell(parameter, value) : list_cell(*list);

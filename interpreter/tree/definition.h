@@ -196,7 +196,7 @@ struct Definition {
       if (category != NodeCategory::Condition && category != NodeCategory::Decorator && !waits)
         continue;
       for (std::size_t i = 0; i < node.type->parameters.size(); ++i) {
-        add(ports[node.first + i].script);
+        if (!node.type->parameters[i].is_template) add(ports[node.first + i].script);
       }
     }
     return are;

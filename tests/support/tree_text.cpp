@@ -120,14 +120,14 @@ class Builder {
     return static_cast<std::uint32_t>(definition_.hooks.size() - 1);
   }
 
-  std::uint32_t script(std::string_view text) {
+  std::uint32_t script(std::string_view text, bool is_template = false) {
     if (text.empty()) return Port::kNone;
-    if (text.starts_with('{')) {
+    if (text.starts_with('{') && !is_template) {
       names_at_run_time_ = true;
       definition_.scripts.push_back({.entries = {entry(key_in(text), ValueType::String)}});
       return static_cast<std::uint32_t>(definition_.scripts.size() - 1);
     }
-    auto code = Expression::parse(text);
+    auto code = is_template ? Expression::parse_template(text) : Expression::parse(text);
     if (!code) fail(code.error().message);
     BoundScript& bound = definition_.scripts.emplace_back();
     bound.code = std::make_shared<const Expression>(std::move(*code));
@@ -226,7 +226,7 @@ class Builder {
         if (attribute.name != parameter.name) continue;
         ++used;
         if (parameter.is_script) {
-          port.script = script(attribute.value);
+          port.script = script(attribute.value, parameter.is_template);
           text = attribute.value;
         } else if (attribute.value.starts_with('{')) {
           names_at_run_time_ |= parameter.is_key;

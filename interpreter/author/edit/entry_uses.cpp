@@ -54,6 +54,7 @@ class UseFinder {
                                : hook_named(attribute.name, texts_.rules()).has_value();
     EntryUse use{Way::Port, at, {}, &attribute, 0, attribute.value.size(), parameter};
     if (attribute.name == "name" || attribute.name == "_description") return;
+    if (parameter != nullptr && parameter->is_template) return visit_template(use);
     if (is_script && !key_in_braces(attribute.value)) return visit_script(use);
     if (attribute.value == "{=}") {
       use.way = Way::SameName;
@@ -92,6 +93,16 @@ class UseFinder {
       use.key = token->text;
       use.begin = token->offset;
       use.end = token->offset + token->text.size();
+      uses_.push_back(use);
+    }
+  }
+
+  void visit_template(EntryUse use) {
+    use.way = Way::Script;  // a name in a text
+    for (const std::string_view key : keys_in_template(use.attribute->value)) {
+      use.key = key;
+      use.begin = static_cast<std::size_t>(key.data() - use.attribute->value.data());
+      use.end = use.begin + key.size();
       uses_.push_back(use);
     }
   }

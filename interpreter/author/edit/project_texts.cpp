@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "author/edit/element_text.h"
+#include "base/core/identifier.h"
 #include "base/core/pre_order.h"
 #include "language/document/references.h"
 #include "language/document/value_text.h"
@@ -143,6 +144,18 @@ void replace_in_value(TextEdit& edit, const Document& document, const Attribute&
   const std::string_view raw = at ? all.substr(first, at->value_end - first) : all.substr(first);
   edit.replace(first + raw_offset(raw, begin), first + raw_offset(raw, end),
                escaped(text, at ? at->quote_in(all) : '"'));
+}
+
+std::vector<std::string_view> keys_in_template(std::string_view value) {
+  std::vector<std::string_view> keys;
+  for (auto at = value.find('{'); at != value.npos; at = value.find('{', at + 1)) {
+    const auto end = value.find('}', at);
+    if (end == value.npos) break;
+    const bool is_argument = at > 0 && value[at - 1] == '$';
+    const std::string_view key = value.substr(at + 1, end - at - 1);
+    if (!is_argument && is_identifier(key)) keys.push_back(key);
+  }
+  return keys;
 }
 
 std::optional<std::string_view> key_in_braces(std::string_view value) {

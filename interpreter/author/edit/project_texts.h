@@ -81,5 +81,7 @@ void replace_in_value(TextEdit& edit, const Document& document, const Attribute&
 
 // "k" of "{k}"; nothing if it is something else.
 std::optional<std::string_view> key_in_braces(std::string_view value);
+// The keys in a text that has the values of entries: a Parameter::is_template. Not ${argument}.
+std::vector<std::string_view> keys_in_template(std::string_view value);
 
 }  // namespace lockstep::host

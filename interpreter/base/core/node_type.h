@@ -69,6 +69,7 @@ struct Parameter {
   std::string_view group = {};  // its value names a group of this type: the node is a member
   bool of_pool = false;         // its value names resources of that group: base/core/resource_set.h
   bool is_script = false;       // a text that is compiled: expression/
+  bool is_template = false;     // such a text is itself a text, with the values of entries: {key}
   bool names_entry = false;     // "k" is the entry k, as "{k}" is
   bool is_generic = false;      // takes a value of any type; `type` is String
   bool is_hint = false;         // a model says so, which may be older than the leaf
@@ -147,6 +148,7 @@ struct NodeType {
   bool real_time = false;               // an action that continues to work between ticks
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
   bool can_be_slowed = false;           // an action that obeys a pace: docs/pacing.md
+  bool asks = false;                    // an action that waits for the answer of a person
   bool opens_entries = false;           // a leaf that uses entries that no port names
   bool reads_ports = false;             // a built-in kind that reads its values as leaves do
   std::string_view plugin = {};         // the plugin it comes from; "" = built in

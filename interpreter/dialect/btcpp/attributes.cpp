@@ -109,6 +109,7 @@ class PortChecker {
     const Attribute* attribute = find_attribute(element_.attributes, parameter.name);
     if (attribute == nullptr) return absent(parameter, port, value);
     port.place = attribute->place;
+    if (parameter.is_template) return literal(parameter, *attribute, port, value);
     port.key = key_of(attribute->value, parameter.name);
     const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
     if (!port.key.empty()) {
@@ -176,8 +177,8 @@ class PortChecker {
   bool literal(const Parameter& parameter, const Attribute& attribute, CheckedPort& port,
                Value& value) {
     if (parameter.is_script) {
-      const bool decides = node_.type->category != NodeCategory::Action;
-      return read_script(attribute, report_,
+      const bool decides = node_.type->category != NodeCategory::Action || parameter.is_template;
+      return read_script(attribute, report_, parameter,
                          decides ? EmptyScript::IsRefused : EmptyScript::DoesNothing, port, trees_);
     }
     auto read = value_from_text(parameter.type, parameter.object, attribute.value);

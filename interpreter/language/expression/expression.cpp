@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/blackboard/conversion.h"
+#include "base/core/identifier.h"
 #include "base/core/wording.h"
 #include "language/expression/token.h"
 
@@ -88,7 +89,44 @@ class ExpressionParser {
     return std::move(result_);
   }
 
+  // Its parts, joined.
+  tl::expected<Expression, Expression::Error> parse_template() {
+    if (script_.empty()) {
+      fail("the text is empty", "write a text for people", 0);
+      return tl::unexpected(std::move(*error_));
+    }
+    push_text("");  // all of it is a text, also a number
+    for (std::size_t at = 0; at < script_.size();) {
+      const std::size_t open = std::min(script_.find('{', at), script_.size());
+      if (open > at) join([&] { push_text(script_.substr(at, open - at)); });
+      if (open == script_.size()) break;
+      const std::size_t close = script_.find('}', open);
+      const std::string_view key = script_.substr(open + 1, close - open - 1);
+      if (close == std::string_view::npos || !is_identifier(key)) {
+        fail(close == std::string_view::npos ? std::string("'{' has no '}'")
+                                             : fmt::format("'{}' is not a key", brief(key)),
+             "{key} stands for the value of an entry", open);
+        return tl::unexpected(std::move(*error_));
+      }
+      join([&] {
+        const std::uint32_t entry = use(key);
+        result_.uses_[entry].is_read = true;
+        push(Instruction::of(Operation::Load, entry));
+      });
+      at = close + 1;
+    }
+    emit(Operation::End);
+    return std::move(result_);
+  }
+
  private:
+  template <class Push>
+  void join(Push push) {
+    push();
+    emit(Operation::Join);
+    --depth_;
+  }
+
   // An operand as a left side: a name, and where its code begins.
   struct Operand {
     std::string_view name = {};
@@ -452,6 +490,12 @@ class ExpressionParser {
 tl::expected<Expression, Expression::Error> Expression::parse(
     std::string_view text, std::shared_ptr<const ScriptEnums> enums, Words words) {
   auto parsed = ExpressionParser(text, std::move(enums), words).parse();
+  if (parsed) parsed->text_ = text;
+  return parsed;
+}
+
+tl::expected<Expression, Expression::Error> Expression::parse_template(std::string_view text) {
+  auto parsed = ExpressionParser(text, nullptr, Words::AreNames).parse_template();
   if (parsed) parsed->text_ = text;
   return parsed;
 }

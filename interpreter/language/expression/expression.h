@@ -39,6 +39,9 @@ class Expression {
                                                std::shared_ptr<const ScriptEnums> enums = nullptr,
                                                Words words = Words::AreNames);
 
+  // A text in which {key} stands for the value of an entry: what it is then is its value.
+  static tl::expected<Expression, Error> parse_template(std::string_view text);
+
   // The entries that it reads or assigns, each once, as they are written; "@k" with its '@'.
   std::span<const std::string> names() const { return names_; }
   // The uses of each of them.

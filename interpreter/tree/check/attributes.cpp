@@ -107,7 +107,7 @@ class AttributeChecker {
     if (given.attribute == AttributeLayout::kNone) return check_absent(parameter, port);
     const Attribute& attribute = element_.attributes[given.attribute];
     if (parameter.is_script) {
-      return read_script(attribute, report_, EmptyScript::IsRefused, port, trees_);
+      return read_script(attribute, report_, parameter, EmptyScript::IsRefused, port, trees_);
     }
     const auto key = key_of(attribute.value);
     if (key.empty()) return check_value(attribute, given.parameter, port);

@@ -8,9 +8,23 @@
 namespace lockstep::host {
 namespace {
 
+void report_syntax(const Attribute& attribute, const Reporter& report, Expression::Error error) {
+  // A wrong or missing argument was reported already.
+  const bool is_known = attribute.value.find("${") == std::string_view::npos;
+  if (!is_known && report.has_errors()) return;
+  report.in_value("script-syntax"_code, attribute.place, error.offset, std::move(error.message),
+                  std::move(error.hint));
+}
+
 // Null after an error, which is reported. A text that was there before is not compiled again.
 std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const Reporter& report,
-                                               CheckedTrees& trees) {
+                                               CheckedTrees& trees, bool is_template = false) {
+  if (is_template) {
+    auto text = Expression::parse_template(attribute.value);
+    if (text) return std::make_shared<const Expression>(*std::move(text));
+    report_syntax(attribute, report, std::move(text.error()));
+    return nullptr;
+  }
   const auto same = trees.compiled.find(attribute.value);
   if (same != trees.compiled.end()) return same->second;
   const bool is_strict = trees.rules->strict_scripts;
@@ -18,12 +32,7 @@ std::shared_ptr<const Expression> parse_script(const Attribute& attribute, const
       Expression::parse(attribute.value, trees.words,
                         is_strict ? Expression::Words::AreSigns : Expression::Words::AreNames);
   if (!code) {
-    // A wrong or missing argument was reported already.
-    const bool is_known = attribute.value.find("${") == std::string_view::npos;
-    if (!is_known && report.has_errors()) return nullptr;
-    auto& error = code.error();
-    report.in_value("script-syntax"_code, attribute.place, error.offset, std::move(error.message),
-                    std::move(error.hint));
+    report_syntax(attribute, report, std::move(code.error()));
     return nullptr;
   }
   for (const auto& remark : code->remarks()) {
@@ -50,10 +59,10 @@ std::optional<Hook> hook_of(const NodeType& type, std::string_view attribute,
 
 }  // namespace
 
-bool read_script(const Attribute& attribute, const Reporter& report, EmptyScript empty,
-                 CheckedPort& port, CheckedTrees& trees) {
+bool read_script(const Attribute& attribute, const Reporter& report, const Parameter& parameter,
+                 EmptyScript empty, CheckedPort& port, CheckedTrees& trees) {
   if (attribute.value.empty() && empty == EmptyScript::DoesNothing) return true;
-  auto code = parse_script(attribute, report, trees);
+  auto code = parse_script(attribute, report, trees, parameter.is_template);
   if (code == nullptr) return false;
   port.value = static_cast<std::uint32_t>(trees.scripts.size());
   trees.scripts.push_back({{}, attribute.place, true, std::move(code)});

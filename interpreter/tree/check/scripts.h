@@ -10,8 +10,8 @@ namespace lockstep::host {
 enum class EmptyScript : bool { IsRefused, DoesNothing };
 
 // The script of a parameter. False after an error, which is reported.
-bool read_script(const Attribute& attribute, const Reporter& report, EmptyScript empty,
-                 CheckedPort& port, CheckedTrees& trees);
+bool read_script(const Attribute& attribute, const Reporter& report, const Parameter& parameter,
+                 EmptyScript empty, CheckedPort& port, CheckedTrees& trees);
 
 // Appends the scripts around the ticks of a node to `trees`.
 void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode& node,

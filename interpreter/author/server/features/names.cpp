@@ -87,6 +87,7 @@ class NameVisitor {
     it.parameter = parameter;
     it.is_declaration = parameter != nullptr && parameter->direction != Direction::Input;
     if (is_script(type, attribute.name, rules_)) return add_script(it, attribute);
+    if (parameter != nullptr && parameter->is_template) return add_template(it, attribute);
     const bool takes_names = parameter != nullptr && (parameter->names_entry || parameter->is_key);
     if (const auto key = key_in(attribute.value)) {
       it.name = *key;
@@ -95,6 +96,15 @@ class NameVisitor {
     }
     it.range = range_of(tree_, it.name);
     add(it);
+  }
+
+  void add_template(NamePlace it, const TolerantAttribute& attribute) {
+    it.parameter = nullptr;  // of any type
+    for (const std::string_view key : keys_in_template(attribute.value)) {
+      it.name = key;
+      it.range = range_of(tree_, it.name);
+      add(it);
+    }
   }
 
   void add_script(NamePlace it, const TolerantAttribute& attribute) {
@@ -334,7 +344,8 @@ bool is_sub_tree(std::string_view tag) {
 
 bool is_script(const NodeType* type, std::string_view attribute, const LanguageRules& rules) {
   const Parameter* const parameter = parameter_of(type, attribute);
-  return parameter != nullptr ? parameter->is_script : hook_named(attribute, rules).has_value();
+  if (parameter != nullptr) return parameter->is_script && !parameter->is_template;
+  return hook_named(attribute, rules).has_value();
 }
 
 std::optional<std::string_view> key_in(std::string_view value) {
