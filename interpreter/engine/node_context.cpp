@@ -126,15 +126,28 @@ Status NodeContext::tick_unreset(NodeIndex node) {
 // idle. Where all are active, eight nodes at a time. What a skipped node keeps is over when its
 // parent has completed, not when that was skipped too.
 void NodeContext::say(NodeIndex node, LeafSlot& leaf, std::string_view text) {
-  if (leaf.reason_place == 0) {
-    if (text.empty()) return;
-    reasons_.push_back({.node = node});
-    reasons_.back().text.reserve(kMostOfReason);
-    leaf.reason_place = static_cast<std::uint32_t>(reasons_.size());
-  }
-  Reason& reason = reasons_[leaf.reason_place - 1];
+  if (leaf.reason_place != 0 || !text.empty()) say(node, leaf.reason_place, text);
+}
+
+void NodeContext::say(NodeIndex node, std::uint32_t& place, std::string_view text) {
+  Reason& reason = reasons_[(place = place_of_reason(node, place)) - 1];
   reason.number = text.empty() ? 0 : state_.tick_number;
   reason.text = text;
+}
+
+void NodeContext::say_again(NodeIndex node, std::uint32_t& place) {
+  reasons_[(place = place_of_reason(node, place)) - 1].number = state_.tick_number;
+}
+
+// `known` may be 0, or of another run.
+std::uint32_t NodeContext::place_of_reason(NodeIndex node, std::uint32_t known) {
+  if (known != 0 && known <= reasons_.size() && reasons_[known - 1].node == node) return known;
+  auto it = std::ranges::find(reasons_, node, &Reason::node);
+  if (it == reasons_.end()) {
+    it = reasons_.insert(it, {.node = node});
+    it->text.reserve(kMostOfReason);
+  }
+  return static_cast<std::uint32_t>(it - reasons_.begin()) + 1;
 }
 
 void NodeContext::forget_descendants(NodeIndex node) {

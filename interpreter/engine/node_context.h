@@ -186,6 +186,10 @@ class NodeContext : public RunView {
   void note_error() { is_usual_.clear(); }
   // A leaf gives the reason of its result in this tick. Allocates with its first one.
   void say(NodeIndex node, LeafSlot& leaf, std::string_view text);
+  // The same of a node that is no leaf of a plugin: `place` is its place in reasons(), and 1, or 0.
+  void say(NodeIndex node, std::uint32_t& place, std::string_view text);
+  // It is still what it was in its last tick.
+  void say_again(NodeIndex node, std::uint32_t& place);
   // Of the leaves that have ever given one, in the order of their first ones.
   std::span<const Reason> reasons() const { return reasons_; }
   // Tells who watches the node what it returns. Gives that, or what is to be in its place.
@@ -206,6 +210,7 @@ class NodeContext : public RunView {
 
   std::optional<Status> tick_interrupted(NodeIndex node);
   Status fail(NodeIndex node);
+  std::uint32_t place_of_reason(NodeIndex node, std::uint32_t known);
   void forget_descendants(NodeIndex node);
   NodeIndex end_activation(NodeIndex node);
   void end_calls_in_line();

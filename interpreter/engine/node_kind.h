@@ -84,6 +84,11 @@ struct NodeKind {
   // Whether equal children may change places (verify/symmetry.h).
   IfMoved if_moved = IfMoved::Differs;
   bool has_any_order = false;  // its children get their ticks whatever the others do
+  // Of a node that asks a person, between two ticks: the answer, one of its options by its place,
+  // of one who has seen the tick with this number. False: it did not ask then, or does not now. May
+  // be null.
+  bool (*answer)(NodeContext& context, NodeIndex self, std::uint32_t option,
+                 std::uint32_t seen) = nullptr;
   // For views. Null if the child runs once. Called only while the node is Running.
   Round (*round)(NodeContext& context, NodeIndex self) = nullptr;
 };

@@ -94,6 +94,20 @@ Status Ticker::end_calls(Status result) {
   return result;
 }
 
+bool Ticker::answer(NodeIndex node, Answer given, std::uint32_t seen) {
+  const auto answer = nodes_[node].kind->answer;
+  if (answer == nullptr || !answer(*this, node, given.option, seen)) return false;
+  const std::uint32_t next = state_.tick_number + 1;
+  std::erase_if(answers_, [next](const GivenAnswer& it) { return it.number != next; });
+  answers_.push_back({node, next, std::move(given.text), std::move(given.who)});
+  return true;
+}
+
+std::span<const GivenAnswer> Ticker::answers() const {
+  const bool are_of_tick = !answers_.empty() && answers_.back().number == state_.tick_number;
+  return are_of_tick ? std::span(answers_) : std::span<const GivenAnswer>();
+}
+
 void Ticker::halt_all() {
   const InEngine scope(board_.lock.get());
   shares_progress_ = false;
@@ -127,6 +141,7 @@ void Ticker::reset() {
   if (watch_ != nullptr) watch_->begin_run(tree_, leaves_, &is_usual_);
   for (LeafSlot& leaf : leaves_) leaf.out_of_range = leaf.went_on = false;
   for (Reason& it : reasons_) it.number = 0;
+  answers_.clear();
 }
 
 }  // namespace lockstep::host

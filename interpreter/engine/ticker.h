@@ -9,6 +9,7 @@
 
 #include "engine/held_leaves.h"
 #include "engine/node_context.h"
+#include "trace/answer.h"
 
 namespace lockstep::host {
 
@@ -51,6 +52,16 @@ class Ticker : public NodeContext {
   void fail_next(NodeIndex node);
   // After that tick: takes back what it did not reach. True if the node has failed so.
   bool take_failed(NodeIndex node);
+
+  // Between two ticks: an answer to a node that asks a person, by who has seen the tick with the
+  // number `seen`. False: the node did not ask then, does not ask now, or has an answer already.
+  struct Answer {
+    std::uint32_t option;   // its place among those of the node
+    std::string text, who;  // that option; the person
+  };
+  bool answer(NodeIndex node, Answer given, std::uint32_t seen);
+  // Those that came before the last tick.
+  std::span<const GivenAnswer> answers() const;
 
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
   // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
@@ -103,7 +114,8 @@ class Ticker : public NodeContext {
   void fold_entries();
   void forget_below_ended();
 
-  bool is_plain_;  // a tick is that of the root, and nothing else
+  std::vector<GivenAnswer> answers_;  // of one tick
+  bool is_plain_;                     // a tick is that of the root, and nothing else
 };
 
 }  // namespace lockstep::host

@@ -116,6 +116,7 @@ const Moment& LiveMoments::now(Ticker& ticker) {
   moment_.number = state.tick_number;
   moment_.ended = state.ended;
   moment_.reasons = ticker.reasons();
+  moment_.answers = ticker.answers();
   moment_.entries = ticker.blackboard().entries;
   return moment_;
 }

@@ -136,8 +136,38 @@ class Ports {
   Shape& shape_;
   std::vector<Texts> found_;  // by index
 };
+// A constant parameter, in its cell; null: it is absent, or an entry gives it.
+const Cell* constant_cell(const Tree& tree, NodeIndex index, std::string_view name) {
+  const NodeType& type = *tree.labels[index].type;
+  const auto place = static_cast<std::size_t>(
+      std::ranges::find(type.parameters, name, &Parameter::name) - type.parameters.begin());
+  if (!type.parameters[place].constant && tree.nodes[index].kind->reads_entries) {
+    const BoundNode& bound = tree.bound[tree.place_in_front(index, FrontCell::Bound)];
+    if (tree.ports[bound.first_port + place].slot != PortBinding::kUnbound) return nullptr;
+  }
+  return &tree.cells[tree.nodes[index].params + place];
+}
 
 }  // namespace
+
+std::optional<NodeQuestion> question_of(const Tree& tree, NodeIndex index) {
+  if (tree.nodes[index].kind->answer == nullptr) return std::nullopt;
+  NodeQuestion it;
+  const auto constant = [&](std::int64_t place) -> const Value& {
+    return tree.constants[static_cast<std::size_t>(place)];
+  };
+  it.options =
+      std::get<std::vector<std::string>>(constant(constant_cell(tree, index, "options")->integer));
+  const std::int64_t fallback = constant_cell(tree, index, "default")->integer;
+  if (fallback != 0) it.fallback = std::get<std::string>(constant(fallback - 1));
+  const Cell* const timeout = constant_cell(tree, index, "timeout");
+  if (timeout != nullptr && timeout->number > 0) it.timeout = timeout->number;
+  const Cell* const severity = constant_cell(tree, index, "severity");
+  const auto& parameters = tree.labels[index].type->parameters;
+  const auto words = std::ranges::find(parameters, "severity", &Parameter::name)->choices;
+  if (severity != nullptr) it.severity = words[static_cast<std::size_t>(severity->integer)];
+  return it;
+}
 
 void add_facts(const NodeType& type, ShapeNode& node) {
   node.latches |= type.latches;
@@ -165,6 +195,9 @@ Shape shape_of(const Tree& tree) {
     add_facts(*label.type, node);
     node.type = label.type;
     add_condition(tree, index, node);
+    if (auto question = question_of(tree, index)) {
+      node.question = std::make_shared<const NodeQuestion>(*std::move(question));
+    }
     node.repeats = tree.nodes[index].kind->round != nullptr;
     if (!tree.is_group(index)) continue;
     node.resources = tree.group(index).resources;

@@ -13,6 +13,8 @@ struct LanguageRules;
 struct Tree;
 
 Shape shape_of(const Tree& tree);
+// What a node asks a person; nothing: it is no such node.
+std::optional<NodeQuestion> question_of(const Tree& tree, NodeIndex node);
 
 // What the Shape has of a kind.
 void add_facts(const NodeType& type, ShapeNode& node);

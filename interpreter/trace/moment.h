@@ -18,6 +18,7 @@
 #include "base/blackboard/entry.h"
 #include "base/core/clock.h"
 #include "base/core/synchronization.h"
+#include "trace/answer.h"
 #include "trace/faults.h"
 #include "trace/moments_view.h"
 #include "trace/reason.h"
@@ -72,6 +73,9 @@ struct Moment {
   MomentsView within = {};  // what happened within the tick
   // Of the leaves that have ever given one, in the order of their first ones.
   std::span<const Reason> reasons = {};
+
+  // Given since the tick before.
+  std::span<const GivenAnswer> answers = {};
 
   // By entry of the Shape; the one of a run, the other of a recording.
   std::span<const Entry> entries = {};

@@ -20,6 +20,16 @@
 
 namespace lockstep::host {
 
+// What a node asks a person. The text of the question is its reason while it runs.
+struct NodeQuestion {
+  std::vector<std::string> options = {};
+  std::string fallback = {};           // the answer when the time is over; "": none
+  std::optional<double> timeout = {};  // s, if it is a constant
+  std::string severity = {};           // "info", "warning" or "critical"; "": an entry gives it
+
+  friend bool operator==(const NodeQuestion&, const NodeQuestion&) = default;
+};
+
 struct ShapeNode {
   std::string path, kind, name;
   std::optional<NodeIndex> parent = {};  // none: the root, or a group
@@ -38,6 +48,7 @@ struct ShapeNode {
   std::vector<std::string> reads = {};  // the keys of the entries in it, as it names them
   // And parameters: "0.5", "{goal}". Null: it has none.
   std::shared_ptr<const std::map<std::string, std::string, std::less<>>> ports = {};
+  std::shared_ptr<const NodeQuestion> question = {};  // null: it asks nothing
 
   // Only of a tree that runs (run/shape_of.h). The header of a recording has none of these.
   const NodeType* type = nullptr;

@@ -8,6 +8,18 @@
 
 namespace lockstep::host::test {
 
+namespace {
+
+// So many 50 ms; some ask, and nobody answers.
+Plan waiting(int steps) {
+  const double seconds = .05 * steps;
+  if (steps % 3 != 1) return Plan{.kind = "Wait", .seconds = seconds};
+  const char* const fallback = steps % 4 == 0 ? "" : steps % 2 == 0 ? "no" : "yes";
+  return Plan{.kind = "Ask", .seconds = seconds, .fallback = fallback};
+}
+
+}  // namespace
+
 Plan TreeGenerator::leaf() {
   if (scripts_ && one_in(5)) {
     if (one_in(3)) {
@@ -23,7 +35,7 @@ Plan TreeGenerator::leaf() {
       return one_in(2) ? Plan{.kind = "AlwaysFailure"} : Plan{.kind = "AlwaysRunning"};
     case 2:
     case 3:
-      return Plan{.kind = "Wait", .seconds = .05 * between(0, 20)};
+      return waiting(between(0, 20));
     case 4:
     case 5:
       return scripted("condition");

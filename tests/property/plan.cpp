@@ -73,7 +73,10 @@ class AttributeList {
   void add_others() {
     if (plan_.times >= 0) add(plan_.kind == "Retry" ? "attempts" : "times", plan_.times);
     if (has_parameter("seconds")) add("seconds", plan_.seconds);
-    if (plan_.kind == "WaitUntil" && plan_.seconds > 0) add("timeout", plan_.seconds);
+    if (plan_.kind == "Ask") add("text", "Now?");
+    if (!plan_.fallback.empty()) add("default", plan_.fallback);
+    if ((plan_.kind == "WaitUntil" || plan_.kind == "Ask") && plan_.seconds > 0)
+      add("timeout", plan_.seconds);
     if (plan_.wall_clock) add("clock", "wall");
     const bool is_switch = plan_.kind == "Switch";
     if (!plan_.code.empty()) add(is_switch ? "on" : "code", plan_.code);

@@ -36,7 +36,8 @@ struct Plan {
   bool wall_clock = false;   // Timeout, Delay, Rate
   std::string barrier = {};  // SyncProgress: the name of one of the root's
 
-  std::string code = {};  // Script, Check; of Switch, what it is on
+  std::string fallback = {};  // of an Ask, when its time is over
+  std::string code = {};      // Script, Check; of Switch, what it is on
   std::vector<std::string> cases = {};
 
   // SubTree: what names of barriers and pools mean inside.

@@ -107,6 +107,34 @@ class Constant : public ReferenceNode {
   double on_progress() override { return 0; }
 };
 
+// Nobody answers: "Running until the time is over", then as after the default, or Failure.
+class Ask : public ReferenceNode {
+ public:
+  using ReferenceNode::ReferenceNode;
+  Status on_tick(bool first) override {
+    if (first) {
+      waited_ = Nanoseconds(0);
+    } else if (!paused) {
+      waited_ += world.now - counted_until_;
+    }
+    paused = false;
+    counted_until_ = world.now;
+    const bool is_over = plan.seconds > 0 && waited_ >= from_seconds(plan.seconds);
+    if (first || !is_over) return Status::Running;
+    return plan.fallback == "yes" ? Status::Success : Status::Failure;
+  }
+  void on_pause() override { waited_ += world.now - counted_until_; }
+  double on_progress() override { return 0; }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state.duration(waited_);
+    state.moment(counted_until_);
+  }
+
+ private:
+  Nanoseconds waited_{0}, counted_until_{0};
+};
+
 // "Running until the condition is true, then Success; Failure when the time is over."
 class WaitUntil : public ReferenceNode {
  public:
@@ -656,6 +684,7 @@ std::unique_ptr<ReferenceNode> ReferenceNode::make(Reference& tree, const Plan& 
   }
   if (!plan.script.empty()) return std::make_unique<Leaf>(tree, plan, tree.world_->leaves++);
   if (kind == "Script" || kind == "Check") return node<Script>(tree, plan);
+  if (kind == "Ask") return node<Ask>(tree, plan);
   if (kind == "WaitUntil") return node<WaitUntil>(tree, plan);
   if (kind == "IfThenElse" || kind == "WhileDoElse") return node<Branches>(tree, plan);
   if (kind == "Switch") return node<Switch>(tree, plan);

@@ -10,8 +10,8 @@ extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParal
 extern const NodeKind kInverter, kForceSuccess, kForceFailure, kRepeat, kRetry, kTimeout, kDelay,
     kCooldown, kRate, kRunOnce, kKeepRunningUntilFailure, kSubTree;
 extern const NodeKind kBarrier, kSyncProgress, kResources, kUseResources;
-extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kWaitUntil, kScript,
-    kCheck;
+extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kWaitUntil, kAsk,
+    kScript, kCheck;
 
 // In the order in which they are documented.
 inline constexpr const NodeKind* kBuiltInKinds[] = {
@@ -22,7 +22,8 @@ inline constexpr const NodeKind* kBuiltInKinds[] = {
     &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kCooldown,
     &kRate, &kRunOnce, &kKeepRunningUntilFailure, &kSyncProgress, &kUseResources, &kSubTree,
     // Leaves
-    &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait, &kWaitUntil, &kScript, &kCheck,
+    &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait, &kWaitUntil, &kAsk, &kScript,
+    &kCheck,
     // Beside the trees
     &kBarrier, &kResources};
 
