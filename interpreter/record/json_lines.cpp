@@ -45,6 +45,13 @@ Json json_of(const ShapeNode& node, std::size_t index) {
   if (!node.condition.empty()) json[lines::kHeaderNode["condition"]] = node.condition;
   if (!node.reads.empty()) json[lines::kHeaderNode["reads"]] = node.reads;
   if (node.ports) json[lines::kHeaderNode["ports"]] = json_of(*node.ports);
+  if (node.question) {
+    json[lines::kHeaderNode["options"]] = node.question->options;
+    const NodeQuestion& it = *node.question;
+    if (!it.fallback.empty()) json[lines::kHeaderNode["default"]] = it.fallback;
+    if (it.timeout) json[lines::kHeaderNode["timeout_s"]] = *it.timeout;
+    if (!it.severity.empty()) json[lines::kHeaderNode["severity"]] = it.severity;
+  }
   if (node.is_guard) json[lines::kHeaderNode["guard"]] = true;
   return json;
 }
@@ -176,6 +183,13 @@ void add_factor(std::string& text, const FactorChange& it) {
 void add_reason(std::string& text, const ReasonChange& it) {
   add_number(text += '[', it.node);
   append_json(text += ',', it.text);
+  text += ']';
+}
+
+void add_answer(std::string& text, const GivenAnswer& it) {
+  add_number(text += '[', it.node);
+  append_json(text += ',', it.answer);
+  append_json(text += ',', it.who);
   text += ']';
 }
 
@@ -330,6 +344,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   add_list(text, lines::kTick["rounds"], end.rounds, add_round);
   add_list(text, lines::kTick["factors"], end.factors, add_factor);
   add_list(text, lines::kTick["reasons"], end.reasons, add_reason);
+  add_list(text, lines::kTick["answers"], end.answers, add_answer);
   add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
   add_moments(text, end.moments);
   add_list(text, lines::kTick["leaf_progress"], end.moments.progress, add_leaf_progress);

@@ -17,6 +17,7 @@
 #include "judge/measure/entry_changes.h"
 #include "record/header_and_end.h"
 #include "record/packet.h"
+#include "trace/answer.h"
 #include "trace/faults.h"
 #include "trace/moments_view.h"
 
@@ -28,6 +29,7 @@ struct TickEnd {
   std::span<const RoundChange> rounds = {};
   std::span<const FactorChange> factors = {};
   std::span<const ReasonChange> reasons = {};
+  std::span<const GivenAnswer> answers = {};
   std::span<const NodeIndex> succeeded = {};
   MomentsView moments = {};
   std::span<const Fault> faults = {};
@@ -47,8 +49,8 @@ constexpr std::size_t kMostAtOnce = 512;
 
 std::string header(const RecordingHeader& header);
 std::string end(const RecordedEnd& end);
-// Replaces `text`. Allocates only for faults, logs, reasons and texts of entries, and where `text`
-// has less room than most_of_tick_end.
+// Replaces `text`. Allocates only for faults, logs, reasons, answers and texts of entries, and
+// where `text` has less room than most_of_tick_end.
 void set_tick_end(std::string& text, const TickEnd& end);
 // For a tree of so many nodes, of which so many have a limit or a round.
 std::size_t most_of_tick_end(std::size_t nodes, std::size_t limits, std::size_t entries);

@@ -64,6 +64,7 @@ constexpr Tuple kTuples[] = {
     {"RoundChange", {{{"index", "Index"}, {"number", "Whole"}, {"of", "Whole"}}}},
     {"FactorChange", {{{"index", "Index"}, {"factor", "Real"}}}},
     {"ReasonChange", {{{"index", "Index"}, {"reason", "Text"}}}},
+    {"GivenAnswer", {{{"index", "Index"}, {"answer", "Text"}, {"who", "Text"}}}},
     {"Fault", {{{"index", "Index"}, {"message", "Text"}}}},
     {"EntryValue", {{{"index", "Index"}, {"value", "Text | null"}}}},
     {"LogLine", {{{"who", "Text"}, {"level", "Level"}, {"text", "Text"}}}},
@@ -179,6 +180,13 @@ constexpr Field kHeaderNodeFields[] = {
     {"ports", "Texts", kMaybe,
      "only if there are any: its ports or parameters with their values, as strings; `{key}` for a "
      "blackboard entry. Values of more than 256 bytes and objects are left out"},
+    {"options", "Text[]", kMaybe,
+     "of an [Ask](people.md): the answers that it takes. The text of its question is its reason "
+     "while it is running"},
+    {"default", "Text", kMaybe, "with `options`: the answer when the time is over"},
+    {"timeout_s", "Seconds", kMaybe, "with `options`: that time, unless an entry gives it"},
+    {"severity", "Text", kMaybe,
+     "with `options`: `info`, `warning` or `critical`, unless an entry gives it"},
     {"guard", "Yes", kMaybe,
      "for a child of a parallel, and for the child of a SyncProgress, that contains no action: it "
      "is a [guard](language.md#guards), and part of no measure"},
@@ -216,8 +224,13 @@ constexpr Field kTickFields[] = {
      "only if there are any: {} for each node that is [paced](pacing.md) and whose factor differs "
      "from the line before. Until then it is 1"},
     {"reasons", "ReasonChange[]", kMaybe,
-     "only if there are any: {} for each leaf whose [reason](why.md) differs from the line before. "
+     "only if there are any: {} for each leaf and each Ask whose [reason](why.md) differs from the "
+     "line before. "
      "`\"\"`: it gives none any more"},
+    {"answers", "GivenAnswer[]", kMaybe,
+     "only if there are any: {} for each answer that a person or program has given to an "
+     "[Ask](people.md) "
+     "since the line before: `who` is the terminal, a user of the page, or another client"},
     {"succeeded", "Index[]", kMaybe,
      "only if there are any: the synchronized nodes, the children of parallels and the children of "
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "

@@ -71,6 +71,7 @@ struct RecordedTick {
   std::span<const NodeIndex> succeeded = {};
   MomentsView moments = {};
   std::span<const RecordedReason> reasons = {};
+  std::span<const GivenAnswer> answers = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
   std::span<const std::uint32_t> set = {};  // of these: written since the tick before, too

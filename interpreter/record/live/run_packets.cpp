@@ -89,6 +89,7 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
               .rounds = delta_.rounds(moment),
               .factors = delta_.factors(moment),
               .reasons = delta_.reasons(moment),
+              .answers = moment.answers,
               .succeeded = delta_.succeeded(moment),
               .moments = moment.within,
               .faults = report.faults,
@@ -100,9 +101,9 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   json_lines::set_tick_end(line_end_, end);
   Packet packet{.nodes = nodes, .text = line_end_};
   has_events_ = delta_.has_turns() || !end.limits.empty() || !end.rounds.empty() ||
-                !end.factors.empty() || !end.reasons.empty() || !end.succeeded.empty() ||
-                !end.moments.empty() || !end.faults.empty() || !end.entries.empty() ||
-                !end.logs.empty();
+                !end.factors.empty() || !end.reasons.empty() || !end.answers.empty() ||
+                !end.succeeded.empty() || !end.moments.empty() || !end.faults.empty() ||
+                !end.entries.empty() || !end.logs.empty();
   packet.head.is_tick = 1;
   packet.head.tick = report.tick;
   packet.head.time = report.time.count();

@@ -99,6 +99,7 @@ const Moment& RecordedMoments::read(const RecordedTick& tick) {
     it->text = reason.text;
   }
   moment_.reasons = reasons_;
+  moment_.answers = tick.answers;
   read_ended(tick);
   moment_.tick = tick.tick;
   moment_.time = from_seconds(tick.time);

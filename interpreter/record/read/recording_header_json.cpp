@@ -123,6 +123,7 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
   ShapeNode node;
   std::uint64_t place = 0;
   bool is_absolute = false, is_relative = false;
+  NodeQuestion question;
   object.read(
       {{lines::kHeaderNode["index"], into(place)},
        {lines::kHeaderNode["path"], into(node.path)},
@@ -160,11 +161,20 @@ ShapeNode node_from(JsonObject object, std::size_t index) {
           node.ports = std::make_shared<const Texts>(named_texts(value, "port"));
         },
         kMayLack},
+       {lines::kHeaderNode["options"],
+        [&](JsonValue value) { question.options = texts_from(value, index); }, kMayLack},
+       {lines::kHeaderNode["default"], into(question.fallback), kMayLack},
+       {lines::kHeaderNode["timeout_s"],
+        [&](JsonValue value) { into(question.timeout.emplace())(value); }, kMayLack},
+       {lines::kHeaderNode["severity"], into(question.severity), kMayLack},
        {lines::kHeaderNode["guard"],
         [&](JsonValue value) { node.is_guard = is_yes(value, "guard", index); }, kMayLack}});
   if (place != index) throw JsonError(fmt::format("node {} is missing", index));
   if (is_absolute && is_relative)
     throw JsonError(fmt::format("node {} has both barriers and delta", index));
+  if (!question.options.empty()) {
+    node.question = std::make_shared<const NodeQuestion>(std::move(question));
+  }
   if (is_absolute) node.synchronization = Synchronization::Absolute;
   if (is_relative) node.synchronization = Synchronization::Relative;
   if (!node.resources.empty()) node.synchronization = Synchronization::Resources;

@@ -248,6 +248,23 @@ std::uint32_t key_from(JsonValue value, std::size_t keys, const char* otherwise)
   throw JsonError(fmt::format("no entry {}, the header has {}", number, keys));
 }
 
+GivenAnswer answer_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "an answer is not [index, answer, who]";
+  GivenAnswer found;
+  read_tuple(value, 3, kNone, [&](std::size_t place, JsonValue item) {
+    std::string_view text;
+    if (place == 0) {
+      found.node = node_from(item, nodes, kNone);
+    } else if (item.get(text)) {
+      (place == 1 ? found.answer : found.who) = text;
+    } else {
+      return false;
+    }
+    return true;
+  });
+  return found;
+}
+
 RecordedEntry entry_from(JsonValue value, std::size_t keys) {
   constexpr char kNone[] = "an entry is not [index, text or null]";
   RecordedEntry entry;
@@ -363,6 +380,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   bool has_nodes = false, is_whole = false;
   changed_.clear();
   reasons_.clear();
+  answers_.clear();
   faults_.clear();
   whole_.clear();
   succeeded_.clear();
@@ -399,6 +417,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
       reasons_.push_back(text_of_node_from<RecordedReason, &RecordedReason::text>(
           it, states.size(), "a reason is not [index, text]"));
     });
+  };
+  const auto read_answers = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) { answers_.push_back(answer_from(it, states.size())); });
   };
   const auto read_succeeded = [&](JsonValue value) {
     constexpr char kNone[] = "'succeeded' is not a list of indices";
@@ -458,6 +479,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["leaf_progress"], read_leaf_progress, kMayLack},
          {lines::kTick["more"], read_more, kMayLack},
          {lines::kTick["reasons"], read_reasons, kMayLack},
+         {lines::kTick["answers"], read_answers, kMayLack},
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},
          {lines::kTick["set"], read_set, kMayLack},
@@ -490,6 +512,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .succeeded = succeeded_,
                       .moments = moments(states),
                       .reasons = reasons_,
+                      .answers = answers_,
                       .faults = faults_,
                       .entries = entries_,
                       .set = set_,

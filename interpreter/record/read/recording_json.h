@@ -41,6 +41,7 @@ class RecordingJson {
   std::vector<NodeTotals> totals_;
   std::vector<LeafProgress> leaf_progress_;
   std::vector<RecordedReason> reasons_;
+  std::vector<GivenAnswer> answers_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<std::uint32_t> set_;

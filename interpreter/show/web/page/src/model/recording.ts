@@ -89,6 +89,10 @@ export interface HeaderNode {
   condition?: string;
   reads?: string[];
   ports?: Record<string, string>;
+  options?: string[];
+  default?: string;
+  timeout_s?: number;
+  severity?: string;
   guard?: boolean;
 }
 
