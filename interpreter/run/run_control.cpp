@@ -2,6 +2,7 @@
 
 #include "engine/blackboard.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lockstep::host {
@@ -20,7 +21,23 @@ RunControl::State RunControl::state() const {
   return state_;
 }
 
+void RunControl::need_attendance(Nanoseconds longest) {
+  longest_alone_ = longest;
+  const Lock lock(mutex_);
+  state_.is_attended = true;
+}
+
 void RunControl::take_orders(Ticker& ticker, Blackboard& blackboard) {
+  obey_new(ticker, blackboard);
+  if (!longest_alone_) return;
+  const Nanoseconds now = monotonic_now();
+  if (!attended_) attended_ = now;
+  if (std::exchange(is_attended_, now - *attended_ < *longest_alone_) == is_attended_) return;
+  const Lock lock(mutex_);
+  state_.is_attended = is_attended_;
+}
+
+void RunControl::obey_new(Ticker& ticker, Blackboard& blackboard) {
   if (!has_new_.load(std::memory_order_acquire)) return;
   std::vector<Order> orders;
   {
@@ -54,10 +71,23 @@ void RunControl::obey(const Order& order, Ticker& ticker, Blackboard& blackboard
       return;
     case Order::What::Set:
       return set(blackboard.entries[order.slot], order);
+    case Order::What::Attend:
+      attended_ = monotonic_now();
+      return;
+    case Order::What::Answer:
+      return answer(order, ticker);
     case Order::What::Break:
       if (order.is_on) return breakpoints_.set(ticker, order.breakpoint);
       return breakpoints_.remove(order.breakpoint);
   }
+}
+
+// What came with a question that the person has not seen yet is no answer to it.
+void RunControl::answer(const Order& order, Ticker& ticker) {
+  const std::uint32_t last = ticker.tick_number();
+  const std::uint64_t seen = order.seen ? std::min<std::uint64_t>(*order.seen + 1, last) : last;
+  ticker.answer(order.node, {order.option, order.text, order.who},
+                static_cast<std::uint32_t>(seen));
 }
 
 // An entry without a type keeps none, as one of a tree for BehaviorTree.CPP may.

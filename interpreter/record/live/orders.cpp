@@ -9,6 +9,8 @@
 
 #include "base/core/any_value.h"
 #include "base/core/diagnostics.h"
+#include "base/core/suggest.h"
+#include "base/core/wording.h"
 #include "base/json/reader.h"
 
 namespace lockstep::host {
@@ -22,8 +24,9 @@ constexpr std::array<std::string_view, 5> kWhen{"begins", "completes", "barrier"
                                                 "fails"};  // by When
 
 struct Fields {
-  std::string what, entry, value, when;
-  std::uint64_t ticks = 1, node = 0;
+  std::string what, entry, value, when, answer, by;
+  std::uint64_t ticks = 1;
+  std::optional<std::uint64_t> node = {}, seen = {};
   double factor = -1;
   bool on = true;
 };
@@ -44,8 +47,8 @@ bool flag_of(JsonValue value) {
 
 // Who misspells a key means something by it.
 void check_keys(std::string& text) {
-  constexpr std::array<std::string_view, 8> kKeys{"do",    "ticks", "factor", "entry",
-                                                  "value", "node",  "when",   "on"};
+  constexpr std::array<std::string_view, 11> kKeys{
+      "do", "ticks", "factor", "entry", "value", "node", "when", "on", "answer", "by", "seen"};
   JsonReader().read(text, [&](JsonObject object) {
     object.each_field([&](std::string_view name, JsonValue value) {
       if (std::ranges::find(kKeys, name) == kKeys.end()) {
@@ -65,7 +68,10 @@ Fields read_fields(std::string& text) {
                  {"factor", into(fields.factor), kMayLack},
                  {"entry", into(fields.entry), kMayLack},
                  {"value", [&](JsonValue value) { fields.value = text_of(value); }, kMayLack},
-                 {"node", into(fields.node), kMayLack},
+                 {"node", [&](JsonValue value) { fields.node = value.whole(); }, kMayLack},
+                 {"seen", [&](JsonValue value) { fields.seen = value.whole(); }, kMayLack},
+                 {"answer", into(fields.answer), kMayLack},
+                 {"by", into(fields.by), kMayLack},
                  {"when", into(fields.when), kMayLack},
                  {"on", [&](JsonValue value) { fields.on = flag_of(value); }, kMayLack}});
   });
@@ -120,20 +126,50 @@ std::optional<When> when_of(std::string_view word) {
   return static_cast<When>(found - kWhen.begin());
 }
 
+Result<NodeIndex> node_of(const Shape& shape, const Fields& fields) {
+  if (!fields.node) return problem("'node' is missing");
+  if (*fields.node < shape.nodes.size()) return static_cast<NodeIndex>(*fields.node);
+  return problem(fmt::format("no node {}, expected 0 to {}", *fields.node, shape.nodes.size() - 1));
+}
+
 Result<Order> breakpoint(const Shape& shape, const Fields& fields) {
   const auto when = when_of(fields.when);
-  if (fields.node >= shape.nodes.size()) {
-    return problem(
-        fmt::format("no node {}, expected 0 to {}", fields.node, shape.nodes.size() - 1));
-  }
+  const auto node = node_of(shape, fields);
+  if (!node) return tl::unexpected(node.error());
   if (!when)
     return problem("'when' is none of 'begins', 'completes', 'barrier', 'succeeds' and 'fails'");
-  const auto node = static_cast<NodeIndex>(fields.node);
-  if (*when == When::Barrier && !compares_progress(shape.nodes[node].synchronization)) {
+  if (*when == When::Barrier && !compares_progress(shape.nodes[*node].synchronization)) {
     return problem(
-        fmt::format("'{}' has no barriers and no delta", printable(shape.nodes[node].path)));
+        fmt::format("'{}' has no barriers and no delta", printable(shape.nodes[*node].path)));
   }
-  return Order{.what = What::Break, .breakpoint = {node, *when}, .is_on = fields.on};
+  return Order{.what = What::Break, .breakpoint = {*node, *when}, .is_on = fields.on};
+}
+
+// Without a node, the tree asks in one place only.
+Result<Order> answer(const Shape& shape, const Fields& fields) {
+  constexpr std::size_t kMostOfName = 200;
+  const auto asks = [](const ShapeNode& it) { return it.question != nullptr; };
+  auto node = node_of(shape, fields);
+  if (!fields.node && std::ranges::count_if(shape.nodes, asks) == 1) {
+    node = static_cast<NodeIndex>(std::ranges::find_if(shape.nodes, asks) - shape.nodes.begin());
+  }
+  if (!node) return tl::unexpected(node.error());
+  const ShapeNode& it = shape.nodes[*node];
+  if (!it.question) return problem(fmt::format("'{}' asks nothing", printable(it.path)));
+  const auto option = std::ranges::find(it.question->options, fields.answer);
+  if (option == it.question->options.end()) {
+    const std::vector<std::string_view> options(it.question->options.begin(),
+                                                it.question->options.end());
+    return problem(
+        fmt::format("'{}' is no answer to '{}'", brief(fields.answer), printable(it.path)),
+        suggest(fields.answer, options, "its answers"));
+  }
+  Order order{.what = What::Answer, .node = *node};
+  order.option = static_cast<std::uint32_t>(option - it.question->options.begin());
+  order.seen = fields.seen;
+  order.text = fields.answer;
+  order.who = printable(fields.by.substr(0, kMostOfName));
+  return order;
 }
 
 }  // namespace
@@ -156,8 +192,10 @@ Result<Order> read_order(const Shape& shape, bool is_real_time, std::string text
   if (fields.what == "speed") return speed(fields, is_real_time);
   if (fields.what == "set") return set(shape, fields);
   if (fields.what == "break") return breakpoint(shape, fields);
+  if (fields.what == "attend") return Order{.what = What::Attend};
+  if (fields.what == "answer") return answer(shape, fields);
   return problem(fmt::format("'{}' is not an order", printable(fields.what)),
-                 "pause, resume, step, halt, speed, set, break");
+                 "pause, resume, step, halt, speed, set, break, answer, attend");
 }
 
 }  // namespace lockstep::host

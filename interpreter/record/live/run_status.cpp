@@ -30,6 +30,7 @@ std::optional<std::string> RunStatus::next(const RunControl::State& state, LineF
   told_ = state;
   is_changed_ = false;
   Json json = {{"state", state.is_paused ? "paused" : "running"}};
+  if (state.is_attended) json["attended"] = *state.is_attended;
   if (!is_real_time) json["speed"] = state.speed;
   json["breakpoints"] = Json::array();
   for (const Breakpoint& it : breakpoints_) json["breakpoints"].push_back(json_of(it));

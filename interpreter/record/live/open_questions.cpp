@@ -1,0 +1,72 @@
+#include "record/live/open_questions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/core/diagnostics.h"
+
+namespace lockstep::host {
+
+OpenQuestions::OpenQuestions(const Shape& shape, Tell tell, std::function<void()> on_change)
+    : shape_(shape), tell_(std::move(tell)), on_change_(std::move(on_change)) {
+  for (NodeIndex node = 0; node < shape.nodes.size(); ++node) {
+    if (shape.nodes[node].question) asking_.push_back(node);
+  }
+}
+
+std::vector<OpenQuestion> OpenQuestions::now() const {
+  const Lock lock(mutex_);
+  return now_;
+}
+
+void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
+  bool is_changed = false;
+  for (const NodeIndex node : asking_) {
+    const bool is_answered =
+        std::ranges::find(moment.answers, node, &GivenAnswer::node) != moment.answers.end();
+    const bool asks = moment.status(node) == Status::Running;
+    const Lock lock(mutex_);  // nobody holds it for long
+    auto it = std::ranges::find(now_, node, &OpenQuestion::node);
+    if (it != now_.end() && asks && !is_answered && it->text == moment.reason(node)) continue;
+    if (it == now_.end() && !asks) continue;
+    is_changed = true;
+    if (it != now_.end()) {
+      tell_end(moment, *it);
+      now_.erase(it);
+    }
+    if (!asks) continue;
+    now_.push_back({node, std::string(moment.reason(node)), moment.tick, moment.time});
+    std::string options;
+    for (const std::string& option : shape_.nodes[node].question->options) {
+      options += (options.empty() ? "" : ", ") + option;
+    }
+    tell_(fmt::format("{} asks: {} ({})", printable(shape_.nodes[node].path),
+                      printable(now_.back().text), printable(options)));
+  }
+  if (is_changed) on_change_();
+}
+
+void OpenQuestions::tell_end(const Moment& moment, const OpenQuestion& question) const {
+  const std::string path = printable(shape_.nodes[question.node].path);
+  const auto answer = std::ranges::find(moment.answers, question.node, &GivenAnswer::node);
+  if (answer != moment.answers.end()) {
+    return tell_(fmt::format("{}: {} (by {})", path, printable(answer->answer), answer->who));
+  }
+  const bool is_halted = moment.status(question.node) == Status::Idle;
+  const std::string why(moment.reason(question.node));
+  tell_(fmt::format("{}: {}", path, is_halted || why.empty() ? "halted before an answer" : why));
+}
+
+void OpenQuestions::run_ended(const Moment&, const RunEnd&) {
+  const Lock lock(mutex_);
+  now_.clear();
+}
+
+bool asks_people(const Shape& shape) {
+  return std::ranges::any_of(shape.nodes,
+                             [](const ShapeNode& it) { return it.question != nullptr; });
+}
+
+}  // namespace lockstep::host
