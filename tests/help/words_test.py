@@ -49,6 +49,7 @@ DONE = [
     "docs/pacing.md",
     "docs/why.md",
     "docs/debugging.md",
+    "docs/people.md",
     "docs/packages.md",
     "docs/paper.md",
     "docs/performance.md",
@@ -77,7 +78,7 @@ REFUSED = {  # what is refused: what to write
     r"\b(nobody|somebody|everybody)\b": "no node, another process, you",
     r"\bbeside\b": "next to, alongside, compared with",
     r"\bfor ?ever\b": "indefinitely; a deadlock",
-    r"\b(says?|said|tells?|told|asks?|asked|denies|denied)\b": "reports, documents, evaluates, contradicts",
+    r"\b(says?|said|tells?|told|denies|denied)\b": "reports, documents, contradicts",
     r"\b(is|are) to\b": "must, should",
     r"\b(half of (its|the)|their|its) way\b": "distance, halfway",
     r"\b(it|that|this|which) is no\b(?! longer)": "is not a",
@@ -103,7 +104,6 @@ LONGEST = 27  # words in a sentence
 # Where a refused word is right: the page, the words around it, and why.
 EXCEPTIONS = [("docs/glossary.md", f"| {old} |", "the column of the terms that messages still use")
               for old in ("trap", "circle", "leaf file", "law", "standstill")]
-EXCEPTIONS += [("docs/btcpp.md", "does not ask again after a halt", "the name of a row, which a test compares")]
 IN_MESSAGES = [("cli/tools/verify/verify.cpp", "trap", "the name of a finding"),
                ("study/plots/box_plot.cpp", "circle", "the sign in a plot")]
 TEXT = re.compile(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*')

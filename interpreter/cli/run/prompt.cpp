@@ -53,6 +53,10 @@ std::string_view first_word(std::string_view& rest) {
   return word;
 }
 
+bool is_in_foreground() {
+  return !is_terminal(STDIN_FILENO) || tcgetpgrp(STDIN_FILENO) == getpgrp();
+}
+
 void say(const std::string& text) {
   messages().say(text);
 }
@@ -85,13 +89,14 @@ Result<Breakpoint> parse_breakpoint(std::string_view text, const Shape& shape) {
 }
 
 Prompt::Prompt(const Shape& shape, RunControl& control, const PausePlaces& places,
-               bool is_real_time)
+               bool is_real_time, const OpenQuestions* questions)
     : shape_(shape),
       control_(control),
       is_real_time_(is_real_time),
       why_(shape),
       conditions_(places.conditions),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      questions_(questions) {
   for (const Breakpoint& it : places.breakpoints) {
     control_.give({.what = What::Break, .breakpoint = it});
   }
@@ -118,6 +123,11 @@ void Prompt::run_ended(const Moment&, const RunEnd&) {
 
 // --- in the thread of the loop -------------------------------------------------------------------
 
+// Also when somebody else has let it go on.
+void Prompt::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
+  if (stands_.exchange(false)) look_at_questions();
+}
+
 void Prompt::after_tick(const Moment& moment, const TickReport&) {
   why_.after_tick(moment);
   condition_ = conditions_.after_tick(moment);
@@ -137,6 +147,7 @@ void Prompt::standing(const Moment& moment) {
     const Lock lock(mutex_);
     picture_ = std::move(picture);
   }
+  stands_ = true;
   eventfd_write(wake_.number(), 1);
 }
 
@@ -167,54 +178,131 @@ std::string Prompt::entries(const Moment& moment) const {
 
 void Prompt::live() {
   while (true) {
-    pollfd wait{wake_.number(), POLLIN, 0};
-    poll(&wait, 1, -1);
-    eventfd_t unused = 0;
-    eventfd_read(wake_.number(), &unused);
+    auto question = next_question();
+    if (!question) {
+      pollfd wait{wake_.number(), POLLIN, 0};
+      poll(&wait, 1, -1);
+    }
+    take_wake();
     std::optional<Picture> picture;
     {
       const Lock lock(mutex_);
       if (is_over_) return;
       picture = std::exchange(picture_, std::nullopt);
     }
-    if (picture) ask(*picture);
+    if (picture) {
+      ask(*picture);
+    } else if (question) {
+      ask(*question);
+    }
+  }
+}
+
+void Prompt::take_wake() const {
+  eventfd_t unused = 0;
+  eventfd_read(wake_.number(), &unused);
+}
+
+bool Prompt::is_over() {
+  const Lock lock(mutex_);
+  return is_over_;
+}
+
+void Prompt::look_at_questions() {
+  eventfd_write(wake_.number(), 1);
+}
+
+// The oldest that waits for an answer.
+std::optional<OpenQuestion> Prompt::next_question() const {
+  if (questions_ == nullptr || is_closed_) return std::nullopt;
+  for (OpenQuestion& it : questions_->now()) {
+    if (it != answered_) return std::move(it);
+  }
+  return std::nullopt;
+}
+
+// What it asks was shown when it was asked.
+void Prompt::ask(const OpenQuestion& question) {
+  const std::vector<std::string>& options = shape_.nodes[question.node].question->options;
+  std::string list;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    list += fmt::format("  {}  {}\n", i + 1, printable(options[i]));
+  }
+  say(list);
+  const auto is_gone = [&] {
+    if (const Lock lock(mutex_); picture_) return true;
+    return next_question() != question;
+  };
+  while (true) {
+    say(fmt::format("(1 to {}) ", options.size()));
+    const auto line = read_line(is_gone);
+    if (!line) {
+      if (is_over() || is_gone()) return;
+      is_closed_ = true;
+      return say("stdin has ended: `lockstep answer` answers from another terminal\n");
+    }
+    std::string_view word = *line;
+    while (word.ends_with(' ') || word.ends_with('\r')) word.remove_suffix(1);
+    const auto number = parse_int(word);
+    auto option = std::ranges::find(options, word);
+    if (option == options.end() && number && *number >= 1 &&
+        static_cast<std::size_t>(*number) <= options.size()) {
+      option = options.begin() + (*number - 1);
+    }
+    if (option != options.end()) {
+      answered_ = question;
+      return control_.give({.what = What::Answer,
+                            .node = question.node,
+                            .option = static_cast<std::uint32_t>(option - options.begin()),
+                            .seen = question.tick,
+                            .text = *option,
+                            .who = "terminal"});
+    }
+    if (!word.empty()) say(fmt::format("'{}' is no answer\n", printable(word)));
   }
 }
 
 void Prompt::ask(const Picture& picture) {
   say(fmt::format("paused {}\n{}", picture.where, picture.why));
+  if (!control_.state().is_attended.value_or(true)) {
+    say("the run is unattended; c continues it\n");
+  }
   while (true) {
     if (!is_closed_) say("(c, s, w, p, set, b, d, q, or ? for help) ");
-    const auto line = is_closed_ ? std::nullopt : read_line();
-    if (!line) {
-      const Lock lock(mutex_);
-      if (is_over_) return;
+    const auto line = is_closed_ ? std::nullopt : read_line([this] { return !stands_.load(); });
+    if (line) {
+      control_.give({.what = What::Attend});  // who types is there
+      if (!obey(*line, picture)) return;
+    } else if (is_over()) {
+      return;
+    } else if (!stands_) {
+      return say("\n");
+    } else {
       // No command can come any more.
       if (!std::exchange(is_closed_, true)) say("stdin has ended: the run continues\n");
       return control_.give({.what = What::Resume});
     }
-    if (!obey(*line, picture)) return;
   }
 }
 
-// Nothing: stdin is closed, or the run has ended.
-std::optional<std::string> Prompt::read_line() {
+std::optional<std::string> Prompt::read_line(const std::function<bool()>& is_gone) {
   constexpr std::size_t kLongest = 64 << 10;
+  constexpr int kLook = 200;  // ms
   while (true) {
     if (const auto end = rest_.find('\n'); end != std::string::npos || rest_.size() > kLongest) {
       std::string line = rest_.substr(0, end);
       rest_.erase(0, end == std::string::npos ? end : end + 1);
       return line;
     }
-    pollfd waits[] = {{STDIN_FILENO, POLLIN, 0}, {wake_.number(), POLLIN, 0}};
-    poll(waits, 2, -1);
+    // A program in the background is stopped when it reads its terminal.
+    const bool may_read = is_in_foreground();
+    pollfd waits[] = {{may_read ? STDIN_FILENO : -1, POLLIN, 0}, {wake_.number(), POLLIN, 0}};
+    poll(waits, 2, may_read ? -1 : kLook);
     if (waits[1].revents != 0) {
-      const Lock lock(mutex_);
-      if (is_over_) return std::nullopt;
-      eventfd_t unused = 0;
-      eventfd_read(wake_.number(), &unused);
+      take_wake();
+      if (is_over() || is_gone()) return std::nullopt;
     }
-    if (waits[0].revents == 0) continue;
+    if (waits[0].revents == 0 || !is_in_foreground()) continue;
     char bytes[4096];
     const ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
     if (count > 0) {

@@ -1,8 +1,10 @@
-// A run that pauses at breakpoints, and a person who then types what comes next: `run --break`. The
-// loop gives it a picture of the run where it stands; a thread of its own shows that, reads
-// commands from stdin, and gives orders to the run.
+// A person who types: what comes next where the run pauses (`run --break`), and answers to what the
+// tree asks. The loop gives it a picture of the run where it stands, or says that questions have
+// changed; a thread of its own shows that, reads stdin, and gives orders to the run.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +16,7 @@
 #include "base/system/mutex.h"
 #include "cli/run/break_conditions.h"
 #include "judge/summary/why.h"
+#include "record/live/open_questions.h"
 #include "run/run_control.h"
 #include "trace/observer.h"
 
@@ -32,11 +35,16 @@ struct PausePlaces {
 
 class Prompt final : public Observer {
  public:
-  // `shape` and `control` must outlive this.
-  Prompt(const Shape& shape, RunControl& control, const PausePlaces& places, bool is_real_time);
+  // `shape`, `control` and `questions`, which may be null, must outlive this.
+  Prompt(const Shape& shape, RunControl& control, const PausePlaces& places, bool is_real_time,
+         const OpenQuestions* questions);
   ~Prompt() override;
 
+  // Questions have come or gone. For any thread.
+  void look_at_questions();
+
   AskedOfRun asked() const override { return conditions_.asked(); }
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(const Moment& moment, const TickReport& report) override;
   void standing(const Moment& moment) override;
   void run_ended(const Moment& moment, const RunEnd& end) override;
@@ -50,7 +58,12 @@ class Prompt final : public Observer {
 
   void live();
   void ask(const Picture& picture);
-  std::optional<std::string> read_line();
+  void ask(const OpenQuestion& question);
+  std::optional<OpenQuestion> next_question() const;
+  // Nothing: stdin is closed, or meanwhile the run has ended or `is_over` has become true.
+  std::optional<std::string> read_line(const std::function<bool()>& is_over);
+  bool is_over();
+  void take_wake() const;
   // False: the run goes on.
   bool obey(std::string_view line, const Picture& picture);
   void obey_break(std::string_view words, bool is_on);
@@ -72,7 +85,10 @@ class Prompt final : public Observer {
   bool is_over_ LOCKSTEP_GUARDED_BY(mutex_) = false;
   std::uint64_t step_ = 1;  // ticks of the last s
   std::string rest_;        // read, and not used yet
-  bool is_closed_ = false;  // stdin: no command comes any more
+  std::atomic<bool> stands_{false};
+  bool is_closed_ = false;  // stdin: nothing comes any more
+  const OpenQuestions* const questions_;
+  std::optional<OpenQuestion> answered_;  // and the run has not taken that yet
   std::thread thread_;
 };
 

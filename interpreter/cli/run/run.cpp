@@ -139,8 +139,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
         shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
         // A person who types reads lines.
-        view_(options.view == "auto" && !places.empty() ? "plain" : options.view, shape_,
-              options.log_level),
+        view_(options.view == "auto" && (!places.empty() || has_typist(options, shape_))
+                  ? "plain"
+                  : options.view,
+              shape_, options.log_level),
         watch_(shape_, options,
                [this](const std::string& line) { view_.print("warning: " + line); }),
         statistics_(shape_),
@@ -151,8 +153,13 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                           view_.print("warning: " + text);
                         }),
         description_(describe_run(runnable)),
-        watchers_(shape_, options, description_, std::move(sockets), places,
-                  [this](const std::string& line) { view_.print(line); }) {
+        watchers_(
+            shape_, options, description_, std::move(sockets), places,
+            [this](const std::string& line) { view_.print(line); },
+            [this](const std::string& line) {
+              log("run", line);
+              view_.print(line);
+            }) {
     if (!options.record.empty()) {
       recorder_.emplace(shape_, recorder_options());
     }

@@ -262,6 +262,11 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
                  "`lockstep docs properties`")
       ->type_name("CONDITION")
       ->allow_extra_args(false);
+  app.add_option("--attended", options.attended,
+                 "Pause a run that is unattended for S seconds: `lockstep attend`, the switch of "
+                 "the page, or a command at the prompt")
+      ->type_name("S")
+      ->check(number_between(0.1, 1e6));
   app.add_option("--view", options.view,
                  "On stderr while it runs: live (a terminal), plain lines, none; auto = live on a "
                  "terminal, otherwise plain")

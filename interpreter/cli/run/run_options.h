@@ -46,6 +46,7 @@ struct RunCommandOptions {
   bool stop_on_record_error = false;
   // Where the run pauses, for who types.
   std::vector<std::string> breaks, break_conditions;
+  std::optional<double> attended;  // s: the run stands while nobody has renewed for so long
   std::string view = "auto";
   lockstep_log_level log_level = LOCKSTEP_LOG_INFO;
   std::string record_entries = "all";

@@ -1,11 +1,16 @@
 #include "cli/run/watchers.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "base/json/json.h"
 #include "base/terminal/outlet.h"
 #include "cli/console.h"
+#include "cli/reach_run.h"
+#include "record/live/orders.h"
 #include "run/stop_signals.h"
 
 namespace lockstep::host {
@@ -49,6 +54,11 @@ Nanoseconds linger_of(const RunCommandOptions& options) {
   return from_seconds(options.monitor_linger.value_or(is_person ? kPerson : 0));
 }
 
+bool needs_people(const RunCommandOptions& options, const Definition& definition) {
+  const auto asks = [](const DefinitionNode& it) { return it.type->asks; };
+  return options.attended || std::ranges::any_of(definition.nodes, asks);
+}
+
 void tell_linger() {
   messages().say("monitor: serves the page until no browser has it open; Ctrl-C ends it\n");
 }
@@ -65,6 +75,18 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
   if (!wrong && options.monitor_socket) {
     wrong = keep(make_monitor_socket(*options.monitor_socket), sockets.attach);
   }
+  if (!wrong && !sockets.attach && needs_people(options, definition)) {
+    const std::string path = Registration::own_socket();
+    if (auto made = AttachSocket::at(path)) {
+      sockets.attach.emplace(std::move(*made));
+      sockets.own = path;
+    } else {
+      messages().say(
+          fmt::format("lockstep: warning: `lockstep answer` and `lockstep attend` cannot "
+                      "reach this run: {}\n",
+                      made.error().message));
+    }
+  }
   if (!wrong && options.groot2) {
     wrong = keep(listen_for_groot(*options.groot2, definition), sockets.groot);
   }
@@ -73,13 +95,25 @@ Result<WatcherSockets> listen_for_watchers(const RunCommandOptions& options,
 }
 
 Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const RunDescription& run,
-                   WatcherSockets sockets, const PausePlaces& places,
-                   std::function<void(const std::string& line)> print)
-    : options_(options) {
-  if (options.monitor_control || options.groot2_control || !places.empty()) {
+                   WatcherSockets sockets, const PausePlaces& places, Print print, Print note)
+    : shape_(shape), options_(options), own_socket_(std::move(sockets.own)) {
+  const bool needs_people = options.attended || asks_people(shape);
+  if (options.monitor_control || options.groot2_control || !places.empty() || needs_people) {
     control_.emplace();
   }
-  if (!places.empty()) prompt_.emplace(shape, *control_, places, options.is_real());
+  if (options.attended) {
+    control_->need_attendance(from_seconds(*options.attended));
+    attendance_.emplace(*control_, *options.attended, std::move(note));
+  }
+  if (asks_people(shape)) {
+    questions_.emplace(shape, print, [this] {
+      if (prompt_) prompt_->look_at_questions();
+    });
+  }
+  if (!places.empty() || has_typist(options, shape)) {
+    prompt_.emplace(shape, *control_, places, options.is_real(),
+                    questions_ ? &*questions_ : nullptr);
+  }
   if (options.begins_paused) control_->give({.what = RunControl::Order::What::Pause});
   if (sockets.monitor || sockets.attach) {
     monitor_.emplace(
@@ -89,6 +123,7 @@ Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const R
                               .linger = linger_of(options),
                               .stop = [] { return StopSignals::received() != 0; },
                               .on_linger = tell_linger,
+                              .on_request = [this](const auto& it) { return answer_request(it); },
                               .on_attached = [this](const auto& it) { link_->tell(it, false); }});
   }
   if (sockets.monitor) opened_ = monitor_->open(std::move(*sockets.monitor));
@@ -99,8 +134,50 @@ Watchers::Watchers(const Shape& shape, const RunCommandOptions& options, const R
   }
 }
 
+bool has_typist(const RunCommandOptions& options, const Shape& shape) {
+  const bool needs_people = options.attended || asks_people(shape);
+  return needs_people && options.tree != "-" && is_terminal(STDIN_FILENO) &&
+         is_terminal(STDERR_FILENO);
+}
+
+void Watchers::Attendance::standing(const Moment&) {
+  if (control_.is_attended() || std::exchange(is_alone_, true)) return;
+  note_(fmt::format("paused: unattended for {} s", longest_));
+}
+
+void Watchers::Attendance::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
+  if (std::exchange(is_alone_, false)) note_("continues: attended again");
+}
+
+// From another process of the same user.
+Result<std::string> Watchers::answer_request(const std::string& request) {
+  using What = RunControl::Order::What;
+  if (request == kListQuestions) {
+    Json list = Json::array();
+    for (const OpenQuestion& it : questions_ ? questions_->now() : std::vector<OpenQuestion>()) {
+      list.push_back({{"node", it.node},
+                      {"path", shape_.nodes[it.node].path},
+                      {"text", it.text},
+                      {"options", shape_.nodes[it.node].question->options},
+                      {"tick", it.tick}});
+    }
+    return list.text();
+  }
+  auto order = read_order(shape_, options_.is_real(), request);
+  if (!order) return tl::unexpected(order.error());
+  if (order->what != What::Answer && order->what != What::Attend) {
+    return problem("only answers and attendance come through this socket");
+  }
+  if (order->what == What::Attend && !options_.attended) {
+    return problem("the run was not started with --attended", "lockstep run TREE.xml --attended 5");
+  }
+  const bool attends = order->what == What::Attend;
+  control_->give(*std::move(order));
+  return attends ? fmt::format("{}", *options_.attended) : std::string();
+}
+
 void Watchers::tell() {
-  if (monitor_) link_.emplace(options_.tree, options_.monitor_socket.value_or(""));
+  if (monitor_) link_.emplace(options_.tree, options_.monitor_socket.value_or(own_socket_));
   if (!opened_.empty()) link_->tell(opened_, options_.opens_browser);
 }
 
@@ -113,6 +190,8 @@ void Watchers::linger() {
 }
 
 void Watchers::add_to(std::vector<Observer*>& observers) {
+  if (questions_) observers.push_back(&*questions_);
+  if (attendance_) observers.push_back(&*attendance_);
   if (prompt_) observers.push_back(&*prompt_);
   if (groot_) observers.push_back(groot_.get());
   if (monitor_) observers.push_back(&*monitor_);

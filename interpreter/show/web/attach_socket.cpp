@@ -7,7 +7,6 @@
 #include <sys/un.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <optional>
@@ -22,13 +21,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kLongestPacket = 4096;  // bytes
+constexpr std::size_t kLongestPacket = 64 << 10;  // bytes
 // The asker has sent its packet before the run looks; one that has not does not get in the way.
 constexpr milliseconds kAskerTakes{100};
 constexpr milliseconds kRunTakes{5000};
 
 // The first byte of an answer.
-constexpr char kLink = '+', kRefused = '-';
+constexpr char kGiven = '+', kRefused = '-';
 
 Problem cannot(std::string_view what, const std::string& path) {
   return {fmt::format("cannot {} '{}': {}", what, printable(path),
@@ -83,10 +82,11 @@ bool is_readable(int socket, milliseconds longest) {
 
 // "": nothing came, or too much.
 std::string receive(int socket) {
-  std::array<char, kLongestPacket> packet{};
+  std::string packet(kLongestPacket, '\0');
   const ssize_t size = recv(socket, packet.data(), packet.size(), MSG_TRUNC);
   if (size <= 0 || static_cast<std::size_t>(size) > packet.size()) return {};
-  return {packet.data(), static_cast<std::size_t>(size)};
+  packet.resize(static_cast<std::size_t>(size));
+  return packet;
 }
 
 bool send_packet(int socket, const std::string& packet) {
@@ -117,29 +117,35 @@ AttachSocket::~AttachSocket() {
 }
 
 void AttachSocket::answer(
-    const std::function<Result<std::string>(const std::string& address)>& open) {
+    const std::function<Result<std::string>(const std::string& request)>& answer) {
   const FileDescriptor asker(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
   if (asker.number() < 0 || !is_readable(asker.number(), kAskerTakes)) return;
-  const std::string address = receive(asker.number());
-  if (address.empty()) return;
-  const auto link = open(address);
-  const Problem refused = link ? Problem() : link.error();
+  const std::string request = receive(asker.number());
+  if (request.empty()) return;
+  const auto given = answer(request);
+  const Problem refused = given ? Problem() : given.error();
   send_packet(asker.number(),
-              link ? kLink + *link : kRefused + refused.message + '\n' + refused.hint);
+              given ? kGiven + *given : kRefused + refused.message + '\n' + refused.hint);
 }
 
 Result<std::string> attach(const std::string& path, const std::string& address) {
   const auto resolved = resolve(address);
   if (!resolved) return tl::unexpected(resolved.error());
+  return ask_run(path, *resolved);
+}
+
+Result<std::string> ask_run(const std::string& path, const std::string& request) {
   const auto place = unix_address(path);
   const FileDescriptor socket = make_socket();
   if (!place || !connect_to(socket.number(), *place)) {
-    return tl::unexpected(cannot("attach to", path));
+    return tl::unexpected(cannot("reach the run at", path));
   }
-  if (!send_packet(socket.number(), *resolved)) return tl::unexpected(cannot("attach to", path));
+  if (!send_packet(socket.number(), request)) {
+    return tl::unexpected(cannot("reach the run at", path));
+  }
   const std::string answer =
       is_readable(socket.number(), kRunTakes) ? receive(socket.number()) : std::string();
-  if (answer.starts_with(kLink)) return answer.substr(1);
+  if (answer.starts_with(kGiven)) return answer.substr(1);
   if (!answer.starts_with(kRefused)) {
     return problem(fmt::format("the run at '{}' does not answer", printable(path)));
   }

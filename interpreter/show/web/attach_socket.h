@@ -1,6 +1,7 @@
-// Where a run without a monitor waits to be asked for one: a socket that only its user can reach.
-// A request is one packet, an address for listen_on_resolved; so is the answer. Names are looked up
-// by the one who asks, so that no run waits for a name server.
+// Where a run waits to be asked for something: a socket that only its user can reach. A request is
+// one packet, and so is the answer. An order to the run, or a question about it, is JSON; anything
+// else is an address for listen_on_resolved, where a monitor is wanted. Names are looked up by the
+// one who asks, so that no run waits for a name server.
 #pragma once
 
 #include <functional>
@@ -21,8 +22,8 @@ class AttachSocket {
 
   // Can be read when somebody asks.
   int descriptor() const { return socket_.number(); }
-  // Answers the one who has asked. `open` gives the link.
-  void answer(const std::function<Result<std::string>(const std::string& address)>& open);
+  // Answers the one who has asked.
+  void answer(const std::function<Result<std::string>(const std::string& request)>& answer);
 
  private:
   AttachSocket(FileDescriptor socket, std::string path)
@@ -31,6 +32,9 @@ class AttachSocket {
   FileDescriptor socket_;
   std::string path_;
 };
+
+// What the run at this socket answers to a request.
+Result<std::string> ask_run(const std::string& path, const std::string& request);
 
 // Asks the run at this socket for a monitor, and gives its link. A run that has one already keeps
 // it.

@@ -45,6 +45,7 @@ Monitor::Monitor(Shape shape, MonitorOptions options)
       recording_(std::move(options.recording)),
       control_(options.control),
       feed_(shape_, std::move(options.run)),
+      on_request_(std::move(options.on_request)),
       on_attached_(std::move(options.on_attached)),
       linger_(options.linger),
       stop_(std::move(options.stop)),
@@ -201,7 +202,10 @@ void Monitor::wait(std::chrono::milliseconds longest) {
   poll(files, std::size(files), has_more ? 0 : static_cast<int>(longest.count()));
   thread_.forget_wakes();
   if ((files[2].revents & POLLIN) == 0) return;
-  socket_->answer([this](const std::string& address) { return attach(address); });
+  socket_->answer([this](const std::string& request) {
+    const bool is_json = request.starts_with('{') && on_request_;
+    return is_json ? on_request_(request) : attach(request);
+  });
 }
 
 std::optional<WebAnswer> Monitor::refuse(const WebRequest& head) {
@@ -248,6 +252,7 @@ WebAnswer Monitor::obey(const std::string& text) {
   }
   auto order = read_order(shape_, is_real_time_, text);
   if (!order) return refusal(400, order.error());
+  order->who = order->who.empty() ? "page" : "page: " + order->who;
   if (order->what == RunControl::Order::What::Break) status_.note(order->breakpoint, order->is_on);
   control_->give(std::move(*order));
   return {.status = 204};

@@ -30,6 +30,8 @@ struct MonitorOptions {
   std::function<bool()> stop = [] { return false; };
   // Called on that thread when somebody is waited for, after Monitor::linger.
   std::function<void()> on_linger = [] {};
+  // Answers a request through the socket that is JSON, on the monitor's thread.
+  std::function<Result<std::string>(const std::string& request)> on_request = {};
   // Called on the monitor's thread when it was opened through the socket.
   std::function<void(const std::string& link)> on_attached = {};
 };
@@ -90,6 +92,7 @@ class Monitor final : public Observer, private Answering {
   LineLog log_;
   std::optional<Entrance> entrance_;
   std::optional<AttachSocket> socket_;
+  const std::function<Result<std::string>(const std::string& request)> on_request_;
   const std::function<void(const std::string& link)> on_attached_;
   std::string lines_;  // for its room
   Nanoseconds woken_{0};

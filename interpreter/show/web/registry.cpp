@@ -98,6 +98,11 @@ Registration::Registration(const std::string& tree_file, const std::string& sock
   set_link("");
 }
 
+std::string Registration::own_socket() {
+  const std::string path = directory();
+  return path.empty() ? path : fmt::format("{}/{}.socket", path, getpid());
+}
+
 void Registration::set_link(const std::string& link) {
   if (file_.number() < 0) return;
   const std::string text = fmt::format("{}\n{}\n{}\n", link, tree_file_, socket_);

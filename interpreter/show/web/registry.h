@@ -30,6 +30,8 @@ class Registration {
   Registration(const Registration&) = delete;
   Registration& operator=(const Registration&) = delete;
 
+  // Where the run may have a socket that was not asked for; "": nowhere.
+  static std::string own_socket();
   void set_link(const std::string& link);
 
  private:

@@ -255,6 +255,8 @@ std::function<int()> define_diff(CLI::App& app) {
                  "drawing and the lines")
       ->check(one_of({"text", "tree", "json", "svg", "html"}))
       ->capture_default_str();
+  app.add_flag_callback(
+      "--json", [options] { options->format = "json"; }, "As --format json");
   app.add_flag("--git", options->for_git,
                "Take the arguments that git gives to an external diff program, and exit with 0");
   add_load_options(app, options->load);

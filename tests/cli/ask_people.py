@@ -1,0 +1,143 @@
+"""A person in the terminal of a run: ask_people.py LOCKSTEP TREES. The run has a pseudo-terminal; nothing sleeps."""
+import json
+import os
+import pty
+import re
+import select
+import subprocess
+import sys
+import tempfile
+import time
+
+LOCKSTEP, TREES = sys.argv[1:3]
+PATIENCE = 30  # s
+
+
+class Terminal:
+    "A run in a terminal of its own."
+
+    def __init__(self, directory, *options):
+        main, side = pty.openpty()
+        environment = dict(os.environ, XDG_RUNTIME_DIR=directory, TERM="xterm")
+        self.run = subprocess.Popen([LOCKSTEP, "run", *options], stdin=side, stderr=side, stdout=subprocess.PIPE,
+                                    env=environment, start_new_session=True,
+                                    preexec_fn=lambda: __import__("fcntl").ioctl(0, __import__("termios").TIOCSCTTY, 0))
+        os.close(side)
+        self.main, self.seen, self.environment = main, "", environment
+
+    def wait_for(self, pattern):
+        end = time.monotonic() + PATIENCE
+        while not (found := re.search(pattern, self.seen)):
+            if not select.select([self.main], [], [], max(0.0, end - time.monotonic()))[0]:
+                raise AssertionError(f"no {pattern!r} in {self.seen!r}")
+            try:
+                self.seen += os.read(self.main, 65536).decode()
+            except OSError:
+                raise AssertionError(f"the run ended, no {pattern!r} in {self.seen!r}")
+        self.seen = self.seen[found.end():]
+        return found
+
+    def type(self, text):
+        os.write(self.main, text.encode() + b"\n")
+
+    def other(self, *words):
+        "Another command of the same user."
+        return subprocess.run([LOCKSTEP, *words], env=self.environment, capture_output=True, text=True, timeout=PATIENCE)
+
+    def end(self):
+        end, out = time.monotonic() + PATIENCE, self.run.stdout.fileno()
+        streams, texts = [self.main, out], {self.main: b"", out: b""}
+        while streams and time.monotonic() < end:  # a terminal that nobody reads stops who writes
+            for stream in select.select(streams, [], [], 1)[0]:
+                try:
+                    more = os.read(stream, 65536)
+                except OSError:
+                    more = b""
+                texts[stream] += more
+                if not more:
+                    streams.remove(stream)
+        os.close(self.main)
+        return self.run.wait(timeout=PATIENCE), texts[out].decode()
+
+
+def test_answers_in_the_terminal(directory):
+    recording = os.path.join(directory, "run.jsonl")
+    run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--record", recording)
+    run.wait_for(r"Main/Sequence/where asks: Where shall gear 7 go\? \(shelf, table, bin\)")
+    run.wait_for(r"1  shelf\r\n  2  table\r\n  3  bin\r\n\(1 to 3\) ")
+    run.type("nowhere")
+    run.wait_for("'nowhere' is no answer")
+    run.type("3")
+    run.wait_for(r"Main/Sequence/where: bin \(by terminal\)")
+    run.wait_for("Really throw gear 7 away")
+    run.type("no")
+    run.wait_for(r"sure: no \(by terminal\)")
+    code, out = run.end()
+    assert code == 0 and "success" in out, out
+    lines = [json.loads(line) for line in open(recording)]
+    answers = [it for line in lines for it in line.get("answers", [])]
+    assert [it[1:] for it in answers] == [["bin", "terminal"], ["no", "terminal"]], answers
+    header = {node["path"]: node for node in lines[0]["nodes"]}
+    where = header["Main/Sequence/where"]
+    assert where["options"] == ["shelf", "table", "bin"] and where["default"] == "shelf" and where["timeout_s"] == 10
+
+
+def test_another_command_answers(directory):
+    run = Terminal(directory, os.path.join(TREES, "ask.xml"))
+    run.wait_for("where asks")
+    listed = run.other("answer")
+    assert "Where shall gear 7 go?" in listed.stdout and "shelf, table, bin" in listed.stdout, listed
+    wrong = run.other("answer", "tabel")
+    assert wrong.returncode == 2 and "did you mean 'table'?" in wrong.stderr, wrong
+    given = run.other("answer", "table", str(run.run.pid), "--node", "where", "--by", "maria")
+    assert given.returncode == 0, given
+    run.wait_for(r"where: table \(by maria\)")
+    code, _ = run.end()
+    assert code == 0
+    assert run.other("answer", "table").returncode == 2
+    assert not [name for name in os.listdir(os.path.join(directory, "lockstep")) if name.endswith(".socket")]
+
+
+def test_a_run_with_a_monitor_is_reached_too(directory):
+    run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--monitor", "127.0.0.1:0", "--monitor-linger", "0")
+    run.wait_for("where asks")
+    assert run.other("answer", "shelf").returncode == 0
+    assert run.end()[0] == 0
+
+
+def waiting(directory, seconds):
+    tree = os.path.join(directory, "tree.xml")
+    with open(tree, "w") as file:
+        file.write(f'<root lockstep="1"><BehaviorTree ID="Main"><Wait seconds="{seconds}"/></BehaviorTree></root>')
+    return tree
+
+
+def test_attended(directory):
+    run = Terminal(directory, waiting(directory, 0.6), "--attended", "0.2")
+    run.wait_for("paused: unattended for 0.2 s")
+    assert run.other("attend", "--once").returncode == 0
+    run.wait_for("continues: attended again")
+    run.wait_for("paused: unattended")
+    attend = subprocess.Popen([LOCKSTEP, "attend"], env=run.environment, stderr=subprocess.PIPE, text=True)
+    code, _ = run.end()
+    assert code == 0
+    assert "the run has ended" in attend.communicate(timeout=PATIENCE)[1] and attend.returncode == 0
+    assert run.other("attend").returncode == 2
+
+
+def test_a_command_at_the_prompt_attends(directory):
+    run = Terminal(directory, waiting(directory, 1000), "--attended", "0.3")
+    run.wait_for("the run is unattended; c continues it")
+    run.type("c")
+    run.wait_for("continues: attended again")
+    run.wait_for("the run is unattended")
+    run.type("q")
+    code, _ = run.end()
+    assert code == 130, code
+
+
+with tempfile.TemporaryDirectory() as directory:
+    for name, test in list(globals().items()):
+        if name.startswith("test_"):
+            test(directory)
+            print(name)
