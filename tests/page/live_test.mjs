@@ -58,6 +58,36 @@ test("the door opens: the base is seen held at 0.25, tick by tick, back and on",
   await page.context().close();
 });
 
+test("a person answers what the tree asks, and a page in front attends the run", async () => {
+  const { run, page } = await watch(tree(`<Sequence memory="true"><Ask name="where" text="Where to?" options="left;right" answer="{side}"/>
+    <Ask name="sure" text="Really {side}?" severity="critical" timeout="60" default="no"/></Sequence>`), "--attended", "600");
+  await page.getByRole("checkbox", { name: "attend" }).check();
+  await page.getByRole("combobox", { name: "Speed of the run" }).selectOption("1×");
+  await page.getByRole("button", { name: "resume" }).click();
+  const asked = (name) => page.getByRole("group", { name: `Question of ${name}` });
+  await asked("where").getByText("Where to?").waitFor();
+  assert.deepEqual(await violations(page), []);
+  await asked("where").getByRole("button", { name: "right", exact: true }).click();
+  await asked("sure").getByText("Really right?").waitFor();
+  await asked("sure").getByText(/: no$/).waitFor();
+  await asked("sure").getByRole("button", { name: "yes", exact: true }).focus();
+  await page.keyboard.press("Enter");
+  await state(page, "ended: success (completed)").waitFor();
+  assert.equal(await asked("sure").count(), 0);
+  assert.equal(await run.ended, 0);
+  await page.context().close();
+});
+
+test("a run that is unattended pauses, and the page tells it", async () => {
+  const { run, page } = await watch(tree(`<Wait seconds="1000"/>`), "--attended", "0.2");
+  await page.getByRole("button", { name: "resume" }).click();
+  await state(page, "paused: unattended").waitFor();
+  await page.getByRole("checkbox", { name: "attend" }).check();
+  await state(page, "paused: unattended").waitFor({ state: "detached" });
+  run.process.kill("SIGTERM");
+  await page.context().close();
+});
+
 test("a click pauses the run when a node succeeds, or fails", async () => {
   const { run, page } = await watch(tree(`<Fallback memory="true"><Sequence name="first" memory="true"><Advance name="go" step="0.1"/>
     <Wait seconds="0.05"/><AlwaysFailure name="no"/></Sequence><Advance name="other" step="0.1"/></Fallback>`));

@@ -10,6 +10,7 @@ interface Breakpoint {
 
 export interface ServerState {
   state?: "running" | "paused" | "ended";
+  attended?: boolean; // only of a run that somebody must attend
   speed?: number;
   breakpoints?: Breakpoint[];
   reached?: Breakpoint; // that paused the run

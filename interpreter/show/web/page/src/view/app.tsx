@@ -9,6 +9,7 @@ import { Entries } from "./panels/entries";
 import { Help } from "./panels/help";
 import { Log } from "./panels/log";
 import { Now } from "./panels/now";
+import { Questions } from "./panels/questions";
 import { onColorChange } from "./parts/colors";
 import { Timeline } from "./timeline/timeline";
 import { Tools } from "./tree/tools";
@@ -57,6 +58,7 @@ export function App({ store }: { store: Store }) {
     <>
       <Header store={store} />
       <Control store={store} />
+      <Questions store={store} />
       {store.trouble && <p class="trouble" role="alert">{store.trouble}</p>}
       <main>
         <div class="left">

@@ -3,6 +3,7 @@ import { useState } from "preact/hooks";
 import type { Live } from "../store/live";
 import type { Store } from "../store/store";
 import { WHEN, controls } from "./panels/breakpoints";
+import { Attend } from "./panels/questions";
 
 const SPEEDS: [string, number][] = [
   ["0.1×", 0.1], ["0.5×", 0.5], ["1×", 1], ["2×", 2], ["10×", 10], ["100×", 100], ["as fast as possible", 0],
@@ -86,6 +87,7 @@ export function Control({ store }: { store: Store }) {
           onClick={() => pauseOrResume(live)}>{paused ? "▶ resume" : "‖ pause"}</button>
         <button type="button" aria-keyshortcuts="s" disabled={!paused} title="one tick (s)"
           onClick={() => live.order({ do: "step", ticks: 1 })}>one tick</button>
+        <Attend live={live} />
         <button type="button" class="on-phone" aria-expanded={more} onClick={() => setMore(!more)}>more</button>
         <div class={more ? "extras open" : "extras"}>
           <Speed store={store} live={live} />

@@ -24,7 +24,7 @@ function State({ store }: { store: Store }) {
   return (
     <span role="status" class="states">
       {live && !end && <span class={`connection ${live.connection}`}>{CONNECTIONS[live.connection]}</span>}
-      {live && !end && paused && <span class="warning">‖ paused</span>}
+      {live && !end && paused && <span class="warning">{live.state.attended === false ? "‖ paused: unattended" : "‖ paused"}</span>}
       {!live && <span class="dim">{recorded(store.range)}</span>}
       {end && !store.moment.isLastOfEnded() && <span class="dim">{`ended later: ${end.result}`}</span>}
       {store.moment.isLastOfEnded() && <span class={`result ${end?.result}`}>{`ended: ${end?.result} (${end?.reason})`}</span>}
