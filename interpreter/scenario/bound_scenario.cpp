@@ -79,6 +79,7 @@ class ScenarioBinder {
     bound_.bindings =
         bind_leaves(scenario_, tree_, fixture_.definition(), file != nullptr, missing_, report_);
     for (const SetEntry& it : scenario_.changes) add_change(it);
+    for (const AnswerEvent& it : scenario_.answers) add_answer(it);
     if (file != nullptr) add_models(*file);
     for (const Expectation& it : scenario_.expectations) add_expectation(it);
     return std::move(bound_);
@@ -99,6 +100,36 @@ class ScenarioBinder {
                        fmt::format("'{}': {}", tree_.path(it.node), it.message), it.hint);
     }
     bound_.models = std::move(models);
+  }
+
+  void add_answer(const AnswerEvent& answer) {
+    const Definition& given = fixture_.definition();
+    bool is_there = false;
+    for (const NodeIndex node : find_leaves(tree_, "", answer.path)) {
+      if (!given.nodes[node].type->asks) continue;
+      is_there = true;
+      if (!bound_.bindings.real.contains(node)) {
+        return report_.at_value(
+            "bad-scenario"_code, answer.path_place,
+            fmt::format("'{}' has a <leaf> that declares what it does", tree_.path(node)),
+            "give it one of both");
+      }
+      const auto& options =
+          std::get<std::vector<std::string>>(*given.constant(given.nodes[node], "options"));
+      const auto option = std::ranges::find(options, answer.value);
+      if (option == options.end()) {
+        const std::vector<std::string_view> known(options.begin(), options.end());
+        return report_.at_value(
+            "bad-scenario"_code, answer.value_place,
+            fmt::format("'{}' is no answer to '{}'", brief(answer.value), tree_.path(node)),
+            suggest(answer.value, known, "its answers"));
+      }
+      bound_.answers.push_back(
+          {node, static_cast<std::uint32_t>(option - options.begin()), &answer});
+    }
+    if (is_there || missing_ == MissingLeaves::AreLeftOut) return;
+    report_.at_value("bad-scenario"_code, answer.path_place,
+                     fmt::format("no node with the path '{}' asks anything", brief(answer.path)));
   }
 
   void add_change(const SetEntry& change) {

@@ -20,6 +20,13 @@ struct PreparedChange {
   std::optional<double> time;
 };
 
+// An answer of a person to this node.
+struct PreparedAnswer {
+  NodeIndex node;
+  std::uint32_t option;
+  const AnswerEvent* of;
+};
+
 struct PreparedProperty {
   Property property;
   const Expectation* of;
@@ -48,6 +55,7 @@ struct BoundScenario {
   LeafBindings bindings;
   std::shared_ptr<const LeafModels> models;  // null: there is no leaf file
   std::vector<PreparedChange> changes;
+  std::vector<PreparedAnswer> answers;
   std::vector<PreparedProperty> properties;
   std::vector<PreparedLimit> limits;
   std::vector<PreparedInput> inputs;

@@ -44,6 +44,8 @@ class CastMaker {
       if (!is_leaf(*it.type)) continue;
       if (rows[leaf] != nullptr) {
         give(*rows[leaf], it);
+      } else if (given_.nodes[it.node].type->asks) {
+        reader_.real.insert(it.node);  // <answer> is for it
       } else {
         reader_.without_row.push_back(it.node);
         if (!has_models) {

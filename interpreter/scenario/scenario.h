@@ -33,6 +33,14 @@ struct SetEntry {
   std::optional<double> time = {};  // s; if it is there, `tick` does not count
 };
 
+// What a person answers: before a tick, or from the first at a time, once; or whenever it is asked.
+struct AnswerEvent {
+  std::string path, value;
+  Place path_place = {}, value_place = {};
+  std::optional<std::uint64_t> tick = {};
+  std::optional<double> time = {};  // s; if it is there, there is no tick
+};
+
 struct LateTick {
   std::uint64_t tick = 0;
   double by = 0;  // s
@@ -98,6 +106,7 @@ struct Scenario {
   std::vector<NamedText> arguments = {};
   std::vector<SetEntry> changes = {};
   std::vector<BindingRow> bindings = {};
+  std::vector<AnswerEvent> answers = {};
   std::vector<LateTick> late = {};
   std::size_t changes_of_file = 0, late_of_file = 0;  // the first of them are for all scenarios
   std::vector<Expectation> expectations = {};

@@ -124,6 +124,7 @@ class Reader {
     }
     const bool says_one_run = scenario.bindings.size() > common_.bindings.size() ||
                               scenario.changes.size() > common_.changes.size() ||
+                              scenario.answers.size() > common_.answers.size() ||
                               scenario.late.size() > common_.late.size();
     if (scenario.is_verified && says_one_run) {
       report_.at("bad-scenario"_code, elements_[at].place,
@@ -194,6 +195,7 @@ class Reader {
     if (!check_words(document_, at, open, tag->words, report_)) return;
     if (tag->name == "arg") read_argument(at, into);
     if (tag->name == "set") read_change(at, into);
+    if (tag->name == "answer") read_answer(at, into);
     if (tag->name == "leaf") reader_.read_leaf(at, into);
     if (tag->name == "late") read_late(at, into);
     if (tag->name == "substitutions") read_substitutions(*attribute(at, "from"), into);
@@ -209,13 +211,27 @@ class Reader {
   void read_change(std::uint32_t at, Scenario& into) const {
     const Attribute &key = *attribute(at, "key"), &value = *attribute(at, "value");
     SetEntry change{std::string(key.value), std::string(value.value), key.place, value.place};
+    std::optional<std::uint64_t> tick;
+    read_moment(at, tick, change.time);
+    change.tick = tick.value_or(0);
+    into.changes.push_back(std::move(change));
+  }
+
+  void read_moment(std::uint32_t at, std::optional<std::uint64_t>& into_tick,
+                   std::optional<double>& into_time) const {
     const Attribute *tick = attribute(at, "tick"), *time = attribute(at, "time");
     if (tick != nullptr && time != nullptr) {
       report_.at("bad-attributes"_code, time->place, "give one of 'tick' and 'time'");
     }
-    if (tick != nullptr) change.tick = reader_.count(*tick, 0);
-    if (time != nullptr) change.time = reader_.number(*time, 0, 1e9);
-    into.changes.push_back(std::move(change));
+    if (tick != nullptr) into_tick = reader_.count(*tick, 0);
+    if (time != nullptr) into_time = reader_.number(*time, 0, 1e9);
+  }
+
+  void read_answer(std::uint32_t at, Scenario& into) const {
+    const Attribute &path = *attribute(at, "path"), &value = *attribute(at, "value");
+    AnswerEvent answer{std::string(path.value), std::string(value.value), path.place, value.place};
+    read_moment(at, answer.tick, answer.time);
+    into.answers.push_back(std::move(answer));
   }
 
   void read_late(std::uint32_t at, Scenario& into) const {

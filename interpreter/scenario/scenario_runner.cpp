@@ -70,8 +70,9 @@ ScenarioResult ScenarioRunner::run(const ScenarioRunOptions& options) const {
                  .exactly_once = scenario.exactly_once,
                  .virtual_time = true});
   EntryWriter writer(bound_, run);
+  Answerer answerer(bound_, run);
   LateTicks late(scenario, clock);
-  std::vector<Observer*> observers{&writer, &inputs, &judge};
+  std::vector<Observer*> observers{&writer, &answerer, &inputs, &judge};
   if (measured) observers.push_back(&*measured);
   if (recorder && result.problem.empty()) observers.push_back(&*recorder);
   if (options.observer != nullptr) observers.push_back(options.observer);
@@ -83,6 +84,7 @@ ScenarioResult ScenarioRunner::run(const ScenarioRunOptions& options) const {
   result.end = run_loop(run, clock, loop, observers);
   result.surprises = judge.verdict(result.end, measured ? &*measured : nullptr);
   std::ranges::move(inputs.verdict(), std::back_inserter(result.surprises));
+  std::ranges::copy(answerer.verdict(), std::back_inserter(result.surprises));
   std::ranges::stable_sort(result.surprises, {}, [](const Surprise& it) { return it.place.byte; });
   if (recorder && !recorder->error().empty()) result.problem = recorder->error();
   return result;

@@ -50,6 +50,13 @@ inline constexpr Word kSet[] = {
     {"tick", kCount, "Before this tick, counted from 0; before the first when absent."},
     {"time", kRate, "Before the first tick at this time or after it, in seconds."},
 };
+inline constexpr Word kAnswer[] = {
+    {"path", "", "The nodes that ask, with this path or this end of it; * stands for any part.",
+     true},
+    {"value", "", "One of their options.", true},
+    {"tick", kCount, "Before this tick, counted from 0; when absent, whenever it is asked."},
+    {"time", kRate, "Before the first tick at this time or after it, in seconds."},
+};
 inline constexpr Word kLate[] = {
     {"tick", kCount, "The tick that takes long, counted from 0.", true},
     {"by", kRate, "So many seconds: deadlines that pass meanwhile are skipped.", true},
@@ -83,6 +90,7 @@ inline constexpr Word kExpect[] = {
 inline constexpr Tag kTags[] = {
     {"arg", kArgument, "The value of an argument of the tree."},
     {"set", kSet, "The value of an entry."},
+    {"answer", kAnswer, "What a person answers to an Ask. Without one, there is no answer."},
     {"leaf", kLeaf, "What some leaves do. Later rows win. Leaves without a row succeed at once."},
     {"late", kLate, "A tick that takes longer than its period."},
     {"substitutions", kSubstitutions,

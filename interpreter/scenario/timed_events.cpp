@@ -1,5 +1,7 @@
 #include "scenario/timed_events.h"
 
+#include <fmt/format.h>
+
 namespace lockstep::host {
 
 void EntryWriter::before_tick(const Moment&, std::uint64_t tick, Nanoseconds time) {
@@ -12,6 +14,24 @@ void EntryWriter::before_tick(const Moment&, std::uint64_t tick, Nanoseconds tim
     Entry& entry = run_.blackboard().entries[it.slot];
     entry.is_present = true;
     write_entry(entry, slot.type, slot.object, it.value);
+  }
+}
+
+void Answerer::before_tick(const Moment&, std::uint64_t tick, Nanoseconds time) {
+  Ticker& ticker = run_.ticker();
+  for (std::size_t i = 0; i < answers_.size(); ++i) {
+    const PreparedAnswer& it = answers_[i];
+    const AnswerEvent& of = *it.of;
+    const bool is_due = of.time ? time >= from_seconds(*of.time) : tick >= of.tick.value_or(0);
+    if (is_done_[i] || !is_due) continue;
+    const bool is_once = of.time || of.tick;
+    is_done_[i] = is_once;
+    const bool is_taken =
+        ticker.answer(it.node, {it.option, of.value, "scenario"}, ticker.tick_number());
+    if (is_taken || !is_once) continue;
+    surprises_.push_back(
+        {of.path_place, fmt::format("'{}' does not ask before tick {}, so '{}' answers nothing",
+                                    ticker.tree().path(it.node), tick, of.value)});
   }
 }
 

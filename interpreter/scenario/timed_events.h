@@ -6,6 +6,7 @@
 #include "base/core/clock.h"
 #include "run/run.h"
 #include "scenario/bound_scenario.h"
+#include "scenario/scenario_runner.h"
 #include "trace/observer.h"
 
 namespace lockstep::host {
@@ -36,6 +37,22 @@ class EntryWriter final : public Observer {
   const std::vector<PreparedChange>& changes_;
   std::vector<bool> is_done_;
   Run& run_;
+};
+
+// Answers for people, before ticks.
+class Answerer final : public Observer {
+ public:
+  Answerer(const BoundScenario& bound, Run& run)
+      : answers_(bound.answers), is_done_(answers_.size()), run_(run) {}
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  // The answers that came when nobody asked.
+  const std::vector<Surprise>& verdict() const { return surprises_; }
+
+ private:
+  const std::vector<PreparedAnswer>& answers_;
+  std::vector<bool> is_done_;
+  Run& run_;
+  std::vector<Surprise> surprises_;
 };
 
 // Lets time pass in ticks. The last of the observers.

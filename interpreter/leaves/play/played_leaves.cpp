@@ -284,31 +284,64 @@ PlayedLeaves::PlayedLeaves() {
 void PlayedLeaves::take_over(Definition& definition) {
   std::map<const NodeType*, const NodeType*> taken;
   for (DefinitionNode& node : definition.nodes) {
-    if (!is_leaf(*node.type)) continue;
-    const auto [it, is_new] = taken.try_emplace(node.type);
-    if (is_new) {
-      Type& type = types_.emplace_back(Type{proxy_leaf_type(), *node.type});
-      const bool is_condition = type.node.category == NodeCategory::Condition;
-      type.leaf.kind = is_condition ? LOCKSTEP_CONDITION : LOCKSTEP_ACTION;
-      type.leaf.flags = is_condition && type.node.can_run ? LOCKSTEP_MAY_RUN : 0;
-      type.leaf.id = type.node.leaf != nullptr ? type.node.leaf->id : "leaf";
-      if (type.node.leaf != nullptr) {
-        type.leaf.behavior_count = type.node.leaf->behavior_count;
-        type.leaf.behavior = type.node.leaf->behavior;
-      }
-      type.leaf.set_pace = nullptr;       // what it does is given
-      type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
-      if (!type.node.has_progress) type.leaf.progress = nullptr;
-      type.node.mock = nullptr;
-      type.node.leaf = &type.leaf;
-      type.node.origin = &plugin_;
-      type.node.real_time = false;
-      type.node.can_be_slowed = false;
-      if (type.node.plugin.empty()) type.node.plugin = plugin_.name;
-      it->second = &type.node;
+    if (node.type->asks) {
+      node.type = add_asking(definition, node);
+    } else if (is_leaf(*node.type)) {
+      const auto [it, is_new] = taken.try_emplace(node.type);
+      if (is_new) it->second = add_type(*node.type);
+      node.type = it->second;
     }
-    node.type = it->second;
   }
+}
+
+const NodeType* PlayedLeaves::add_type(const NodeType& from) {
+  Type& type = types_.emplace_back(Type{proxy_leaf_type(), from});
+  const bool is_condition = type.node.category == NodeCategory::Condition;
+  type.leaf.kind = is_condition ? LOCKSTEP_CONDITION : LOCKSTEP_ACTION;
+  type.leaf.flags = is_condition && type.node.can_run ? LOCKSTEP_MAY_RUN : 0;
+  type.leaf.id = type.node.leaf != nullptr ? type.node.leaf->id : "leaf";
+  if (type.node.leaf != nullptr) {
+    type.leaf.behavior_count = type.node.leaf->behavior_count;
+    type.leaf.behavior = type.node.leaf->behavior;
+  }
+  type.leaf.set_pace = nullptr;       // what it does is given
+  type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
+  if (!type.node.has_progress) type.leaf.progress = nullptr;
+  type.node.mock = nullptr;
+  type.node.leaf = &type.leaf;
+  type.node.origin = &plugin_;
+  type.node.real_time = false;
+  type.node.can_be_slowed = false;
+  if (type.node.plugin.empty()) type.node.plugin = plugin_.name;
+  return &type.node;
+}
+
+// Its options differ from those of other nodes of its kind. It asks in its first tick, so an answer
+// comes in the second at the earliest.
+const NodeType* PlayedLeaves::add_asking(const Definition& definition, const DefinitionNode& node) {
+  add_type(*node.type);
+  Type& type = types_.back();
+  type.parameters.assign(node.type->parameters.begin(), node.type->parameters.end());
+  for (Parameter& it : type.parameters) it.is_script = it.is_template = false;
+  type.node.parameters = type.parameters;
+  type.node.asks = type.node.has_progress = false;
+  type.leaf.progress = nullptr;
+  const auto answer = std::ranges::find(type.parameters, "answer", &Parameter::name);
+  const auto place = static_cast<std::size_t>(answer - type.parameters.begin());
+  const bool tells = definition.ports[node.first + place].entry != Port::kNone;
+  const auto& options = std::get<std::vector<std::string>>(*definition.constant(node, "options"));
+  const bool may_be_late = definition.has(node, "timeout") && !definition.has(node, "default");
+  const bool may_fail = may_be_late || (!tells && options.size() > 1);
+  type.texts = {may_fail ? "success;failure" : "success", "2..inf", "success",
+                joined(options, "|")};
+  type.behavior = {{"result", type.texts[0].c_str()}, {"ticks", type.texts[1].c_str()}};
+  if (tells) {
+    type.behavior.push_back({"writes", type.texts[2].c_str()});
+    type.behavior.push_back({"out.answer", type.texts[3].c_str()});
+  }
+  type.leaf.behavior = type.behavior.data();
+  type.leaf.behavior_count = static_cast<std::uint32_t>(type.behavior.size());
+  return &type.node;
 }
 
 std::optional<PlayedLeaves::Mistake> PlayedLeaves::check(const LeafScripts& scripts,

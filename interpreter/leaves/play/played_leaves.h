@@ -4,6 +4,8 @@
 
 #include <deque>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "leaves/leaf_script.h"
 #include "leaves/models.h"
@@ -26,7 +28,8 @@ class PlayedLeaves final : public RemotePlugin {
   PlayedLeaves(const PlayedLeaves&) = delete;
   PlayedLeaves& operator=(const PlayedLeaves&) = delete;
 
-  // All leaves of the definition are of this plugin from now on, also those that no plugin has.
+  // All leaves of the definition are of this plugin from now on, also those that no plugin has, and
+  // nodes that ask a person: each answer is one of their results.
   // This must outlive the definition, and the tree that is made of it.
   void take_over(Definition& definition);
   // Before a run. A leaf without a script runs for ever; a condition without one fails.
@@ -52,7 +55,14 @@ class PlayedLeaves final : public RemotePlugin {
   struct Type {
     lockstep_leaf_type leaf;
     NodeType node;
+    // Of a node that asks.
+    std::vector<Parameter> parameters = {};
+    std::vector<std::string> texts = {};
+    std::vector<lockstep_behavior> behavior = {};
   };
+
+  const NodeType* add_type(const NodeType& from);
+  const NodeType* add_asking(const Definition& definition, const DefinitionNode& node);
 
   HostedPlugin plugin_{};
   std::deque<Type> types_;
