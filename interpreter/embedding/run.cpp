@@ -1,6 +1,7 @@
 // lockstep_run: ticks, states of nodes, and the fixed-rate loop.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -8,8 +9,10 @@
 
 #include "embedding/groot.h"
 #include "embedding/run_handle.h"
+#include "engine/node_kind.h"
 #include "leaves/plugin/contract/boards.h"
 #include "run/loop.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host::embedding {
 namespace {
@@ -329,6 +332,42 @@ bool lockstep_run_node(lockstep_run* run, uint32_t node, lockstep_node_state* st
                                       state);
     run->warnings.tell(ticker, {}, 0);
     return is_good;
+  });
+}
+
+const char* lockstep_run_question(lockstep_run* run, uint32_t node) {
+  return guarded([&]() -> const char* {
+    if (run == nullptr || node >= tree_of(*run).nodes.size()) {
+      fail("no such node");
+      return nullptr;
+    }
+    Ticker& ticker = run->run.ticker();
+    const bool asks = tree_of(*run).nodes[node].kind->answer != nullptr;
+    if (asks && ticker.status(node) == Status::Running) {
+      const auto found = std::ranges::find(ticker.reasons(), node, &Reason::node);
+      if (found != ticker.reasons().end()) return (run->text = found->text).c_str();
+    }
+    fail("the node asks nothing");
+    return nullptr;
+  });
+}
+
+bool lockstep_run_answer(lockstep_run* run, uint32_t node, const char* answer, const char* who) {
+  return guarded([&] {
+    if (run == nullptr || node >= tree_of(*run).nodes.size()) return fail("no such node");
+    if (answer == nullptr) return fail("an argument is NULL");
+    if (!is_own(*run)) return false;
+    const auto question = question_of(tree_of(*run), node);
+    if (!question) return fail("the node asks nothing");
+    const auto option = std::ranges::find(question->options, std::string_view(answer));
+    if (option == question->options.end()) {
+      return fail(fmt::format("'{}' is no answer to '{}'", answer, tree_of(*run).path(node)));
+    }
+    Ticker& ticker = run->run.ticker();
+    const auto place = static_cast<std::uint32_t>(option - question->options.begin());
+    return ticker.answer(node, {place, answer, who == nullptr ? "program" : who},
+                         ticker.tick_number()) ||
+           fail("the node asks nothing");
   });
 }
 

@@ -293,6 +293,15 @@ class TreesTest(unittest.TestCase):
         it.restart()
         self.assertEqual(it.tick(), "success")
 
+    def test_a_tree_asks(self):
+        with tree('<Ask text="Now?" options="yes;no"/>') as it:
+            self.assertIsNone(it.root.question)
+            self.assertEqual((it.tick(), it.root.question), ("running", "Now?"))
+            with self.assertRaisesRegex(ValueError, "'maybe' is no answer"):
+                it.root.answer("maybe")
+            it.root.answer("no", who="a test")
+            self.assertEqual((it.tick(), it.root.question), ("failure", None))
+
     def test_held_leaves_are_paused(self):
         with tree('<ParallelAbsolute barriers="0.5"><Count name="fast"/><Count name="slow" ticks="8"/></ParallelAbsolute>') as it:
             it.tick(), it.tick(), it.tick()

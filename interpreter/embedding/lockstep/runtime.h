@@ -240,6 +240,14 @@ typedef struct lockstep_node_state {
 LOCKSTEP_EXPORT bool lockstep_run_node(lockstep_run* run, uint32_t node,
                                        lockstep_node_state* state);
 
+/* What a node asks a person at this moment: the text of its question, valid until the next call for
+ * this run; NULL when it asks nothing. And the answer to it, one of the options of the node,
+ * between two ticks: it counts in the next one. `who` is for recordings, and may be NULL. False:
+ * the node asks nothing, or has no such option. */
+LOCKSTEP_EXPORT const char* lockstep_run_question(lockstep_run* run, uint32_t node);
+LOCKSTEP_EXPORT bool lockstep_run_answer(lockstep_run* run, uint32_t node, const char* answer,
+                                         const char* who);
+
 /* Blackboard entries, between ticks, by key: "height", or "Deliver/height" in a SubTree. get fails
  * while nothing has written the entry. Numbers, flags and lists need an entry of their type; but
  * get_double also reads an int, and set_int sets a double where the entry is one. Text is written

@@ -432,6 +432,16 @@ class Run {
             state.progress, state.held, state.ticked};
   }
 
+  // What a node asks a person at this moment; nothing: it asks nothing. And the answer, one of its
+  // options, which counts in the next tick.
+  std::optional<std::string> question(std::uint32_t index) const {
+    const char* const text = lockstep_run_question(it_.get(), index);
+    return text == nullptr ? std::nullopt : std::optional<std::string>(text);
+  }
+  void answer(std::uint32_t index, const std::string& answer, const std::string& who = "program") {
+    detail::require(lockstep_run_answer(it_.get(), index, answer.c_str(), who.c_str()));
+  }
+
   // An entry of the blackboard, by key, "height" or "Deliver/height", or by the handle that
   // Project::find_entry gives, which saves the search: a bool, std::int64_t, double, a std::vector
   // of one of these or of std::string, or as text (std::string), which works for every type, also

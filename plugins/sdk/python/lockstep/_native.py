@@ -153,6 +153,7 @@ _FUNCTIONS = {
     "run_restart": (c_bool, c_void_p, c_uint64), "run_tick": (c_int32, c_void_p, c_double),
     "run_halt": (None, c_void_p), "run_fault": (c_char_p, c_void_p, POINTER(c_uint32)),
     "run_node": (c_bool, c_void_p, c_uint32, POINTER(NodeState)), "run_value_type_at": (c_int32, c_void_p, c_uint32),
+    "run_question": (c_char_p, c_void_p, c_uint32), "run_answer": (c_bool, c_void_p, c_uint32, c_char_p, c_char_p),
     "run_get_text_at": (c_char_p, c_void_p, c_uint32), "run_set_text_at": (c_bool, c_void_p, c_uint32, c_char_p),
     "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p), "run_record": (c_bool, c_void_p, c_char_p),
     "run_monitor": (c_char_p, c_void_p, c_char_p), "run_groot2": (c_bool, c_void_p, c_char_p),

@@ -37,6 +37,19 @@ class Node:
             index = found[-1]._fact.end
         return found
 
+    @property
+    def question(self):
+        "What it asks a person at this moment; None: nothing."
+        text = self._tree._read(lambda library, handle: library.run_question(handle, self.index))
+        return None if text is None else native.text_of(text)
+
+    def answer(self, answer, who="program"):
+        "One of the options of its question. It counts in the next tick."
+        def give(library, handle):
+            if not library.run_answer(handle, self.index, native.bytes_of(answer), native.bytes_of(who)):
+                raise ValueError(library.why())
+        self._tree._read(give)
+
     def _state(self):
         it = native.sized(native.NodeState)
         self._tree._ask(self.index, it)
