@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/core/shortened.h"
 #include "engine/groups.h"
 #include "engine/held_leaves.h"
 #include "engine/node_ports.h"
@@ -122,9 +123,6 @@ Status NodeContext::tick_unreset(NodeIndex node) {
   return result;
 }
 
-// A subtree that was not reached costs nothing, however large it is: below an idle node all are
-// idle. Where all are active, eight nodes at a time. What a skipped node keeps is over when its
-// parent has completed, not when that was skipped too.
 void NodeContext::say(NodeIndex node, LeafSlot& leaf, std::string_view text) {
   if (leaf.reason_place != 0 || !text.empty()) say(node, leaf.reason_place, text);
 }
@@ -133,10 +131,27 @@ void NodeContext::say(NodeIndex node, std::uint32_t& place, std::string_view tex
   Reason& reason = reasons_[(place = place_of_reason(node, place)) - 1];
   reason.number = text.empty() ? 0 : state_.tick_number;
   reason.text = text;
+  reason.of_fault = false;
 }
 
 void NodeContext::say_again(NodeIndex node, std::uint32_t& place) {
   reasons_[(place = place_of_reason(node, place)) - 1].number = state_.tick_number;
+}
+
+void NodeContext::say_fault(NodeIndex node, const std::string& message) {
+  const bool is_leaf = tree_.labels[node].type->leaf != nullptr;
+  const std::uint32_t place = place_of_reason(node, is_leaf ? leaf(node).reason_place : 0);
+  if (is_leaf) leaf(node).reason_place = place;
+  Reason& reason = reasons_[place - 1];
+  reason.number = state_.tick_number;
+  reason.text = Shortened("fault: " + message).text();
+  reason.of_fault = true;
+}
+
+void NodeContext::fail_with_fault(const LeafSlot& leaf) {
+  if (leaf.reason_place == 0) return;
+  Reason& reason = reasons_[leaf.reason_place - 1];
+  if (reason.of_fault) reason.number = state_.tick_number;
 }
 
 // `known` may be 0, or of another run.
@@ -150,6 +165,9 @@ std::uint32_t NodeContext::place_of_reason(NodeIndex node, std::uint32_t known) 
   return static_cast<std::uint32_t>(it - reasons_.begin()) + 1;
 }
 
+// A subtree that was not reached costs nothing, however large it is: below an idle node all are
+// idle. Where all are active, eight nodes at a time. What a skipped node keeps is over when its
+// parent has completed, not when that was skipped too.
 void NodeContext::forget_descendants(NodeIndex node) {
   if (tree_.keeps_over_skips && state_.activity[node] != Activity::Skipped) {
     forget_range(node + 1, nodes_[node].end);
@@ -263,6 +281,7 @@ void NodeContext::set_fault(NodeIndex node, std::string message) {
   Fault fault{node, std::move(message), state_.in_last_halt};
   if (state_.in_last_halt ? state_.faulted : policy_ == FaultPolicy::Fail) {
     if (tree_.labels[node].type->leaf != nullptr) note_failed_leaf(node);
+    say_fault(node, fault.message);
     state_.tolerated.push_back(std::move(fault));
     return;
   }

@@ -190,7 +190,9 @@ class NodeContext : public RunView {
   void say(NodeIndex node, std::uint32_t& place, std::string_view text);
   // It is still what it was in its last tick.
   void say_again(NodeIndex node, std::uint32_t& place);
-  // Of the leaves that have ever given one, in the order of their first ones.
+  // A leaf that has failed as a program, maybe outside of its ticks, returns Failure for that.
+  void fail_with_fault(const LeafSlot& leaf);
+  // Of the nodes that have ever had one, in the order of their first ones.
   std::span<const Reason> reasons() const { return reasons_; }
   // Tells who watches the node what it returns. Gives that, or what is to be in its place.
   Status tell_result(NodeIndex node, Status status);
@@ -216,6 +218,7 @@ class NodeContext : public RunView {
   void end_calls_in_line();
   void keep_ancestors_running(NodeIndex node);
   void note_failed_leaf(NodeIndex node);
+  void say_fault(NodeIndex node, const std::string& message);
   bool has_failed_leaf(NodeIndex child);
   bool fails_itself(NodeIndex child);
   void halt_failed(NodeIndex node);

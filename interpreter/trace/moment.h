@@ -71,7 +71,7 @@ struct Moment {
   // That have succeeded in the tick, and were ended later in it.
   std::span<const NodeIndex> ended = {};
   MomentsView within = {};  // what happened within the tick
-  // Of the leaves that have ever given one, in the order of their first ones.
+  // Of the nodes that have ever had one, in the order of their first ones.
   std::span<const Reason> reasons = {};
 
   // Given since the tick before.

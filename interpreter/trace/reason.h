@@ -1,4 +1,5 @@
 // Why the result of a leaf's tick is what it is, in the words of the leaf: lockstep/ext/reason.h.
+// Also the text of a fault after which the run goes on, of any node.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,7 @@ struct Reason {
   NodeIndex node = 0;
   std::uint32_t number = 0;  // of the tick that it is of, as Moment::reached counts; 0: of none
   std::string text = {};
+  bool of_fault = false;
 };
 
 }  // namespace lockstep::host

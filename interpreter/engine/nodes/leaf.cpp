@@ -98,6 +98,7 @@ template <Kind kKind>
 Status out(NodeContext& context, NodeIndex self) {
   if (context.faulted()) return Status::Running;  // halted at the end of the run, in its order
   halt_leaf<kKind>(context, self);
+  context.fail_with_fault(context.leaf(self));
   return Status::Failure;
 }
 
