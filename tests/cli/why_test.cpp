@@ -22,6 +22,27 @@ class See(Action):
             return Waiting(f"frame {self.frames} of 3")
         raise Failed("the camera is dark")
 
+class Lift(Action):
+    def tick(self):
+        return Waiting("force 3 of 10 N")
+
+class Broken(Action):
+    def tick(self):
+        raise OSError("no device")
+
+class Spoiled(Action):
+    def start(self):
+        self.ticks = 0
+    def progress(self):
+        return float("nan") if self.ticks == 2 else 0.1
+    def tick(self):
+        self.ticks += 1
+        return Waiting("goes on")
+
+class Twice(Action):
+    def tick(self):
+        return Waiting("a", "b")
+
 class IsOpen(Condition):
     def tick(self):
         return Failed("the door is closed")
@@ -34,16 +55,21 @@ struct SeeingRun {
   std::string file;
 };
 
-SeeingRun record_seeing(const TemporaryDirectory& directory, const std::string& nodes) {
+SeeingRun record_seeing(const TemporaryDirectory& directory, const std::string& nodes,
+                        const std::vector<std::string>& more = {},
+                        const std::string& declared = {}) {
   const std::string program = directory.file("seeing.py", kSeeing);
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string tree =
-      directory.file("tree.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + nodes +
-                                     "</BehaviorTree></root>");
+      directory.file("tree.xml", "<root lockstep=\"1\">" + declared + "<BehaviorTree ID=\"Main\">" +
+                                     nodes + "</BehaviorTree></root>");
   SeeingRun recorded{.run = {}, .file = directory.path("r.jsonl")};
   std::filesystem::remove(recorded.file);
-  recorded.run = run_lockstep({"run", tree, "--plugin", program, "--clock", "virtual", "--view",
-                               "none", "--max-ticks", "100", "--record", recorded.file});
+  std::vector<std::string> words{"run",         tree,      "--plugin", program,
+                                 "--clock",     "virtual", "--view",   "none",
+                                 "--max-ticks", "100",     "--record", recorded.file};
+  words.insert(words.end(), more.begin(), more.end());
+  recorded.run = run_lockstep(words);
   return recorded;
 }
 
@@ -109,7 +135,8 @@ TEST_CASE("conditions, timeouts, halted nodes and nodes that were not reached ha
   CHECK(contains(run.out, "      See: failure: the camera is dark\n"));
   CHECK(contains(why(file, {"IsOpen"}), "IsOpen: failure: the door is closed\n"));
   CHECK(contains(why(file, {"Timeout"}),
-                 "Timeout: failure: its time was over, 0.1 s after its start\n"));
+                 "Timeout: failure: its time was over, 0.1 s after its start; before that, long "
+                 "at 0.02\n"));
   CHECK(why(file, {"long"})
             .starts_with("'Main/Fallback/Timeout/long' was halted in tick 10, when "
                          "'Main/Fallback/Timeout' failed\n"));
@@ -213,4 +240,115 @@ TEST_CASE("leaves in C++ give reasons, and the same in a separate process") {
   CHECK(contains(outcome.out, "        Grasp: failure: the mug is not within reach\n"));
   CHECK(run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--isolate"}).out ==
         outcome.out);
+}
+
+TEST_CASE("after a fault that counts as a failure, its message is the reason of the node") {
+  const TemporaryDirectory directory;
+  const auto [run, file] =
+      record_seeing(directory,
+                    "<Fallback memory=\"true\"><Broken/>"
+                    "<ParallelRelative delta=\"1\"><Spoiled/></ParallelRelative>"
+                    "<Script code=\"x := 1 / y\"/></Fallback>",
+                    {"--on-fault", "fail", "--set", "y=0"});
+  INFO(run.err);
+  const std::string chain =
+      "    Fallback: failure (3 of 3 children)\n"
+      "      - Broken: fault: OSError: no device (seeing.py:19)\n"
+      "      - Spoiled: fault: ValueError: progress returned nan, expected a number from 0 to 1\n"
+      "      Script: failure: fault: its code: cannot assign inf to 'x', which has the type "
+      "double\n";
+  CHECK(run.code == 1);
+  CHECK(contains(run.out, chain));
+  CHECK(contains(why(file), chain));
+  CHECK(contains(why(file, {"Broken"}), "Broken: failure: fault: OSError: no device"));
+}
+
+TEST_CASE(
+    "a node that waits for a pool names who owns what it waits for, and what that waits for") {
+  const TemporaryDirectory directory;
+  const auto [run, file] = record_seeing(
+      directory,
+      "<Parallel><Sequence memory=\"true\"><Wait seconds=\"0.05\"/><UseResources name=\"left\" "
+      "pool=\"cranes\" resources=\"b\" keep=\"true\"><Lift "
+      "name=\"lift\"/></UseResources></Sequence>"
+      "<Sequence memory=\"true\"><Wait seconds=\"0.1\"/><Timeout seconds=\"0.2\"><UseResources "
+      "name=\"right\" pool=\"cranes\" resources=\"a;b\"><AlwaysRunning/></UseResources></Timeout>"
+      "</Sequence></Parallel>",
+      {}, "<resources name=\"cranes\" increment=\"1\" resources=\"a;b\"/>");
+  INFO(run.out);
+  const std::string waits =
+      "waits for a;b of the pool cranes, of which 'Main/Parallel/Sequence/left' owns b since tick "
+      "5";
+  CHECK(contains(why(file, {"right", "--at", "15"}),
+                 "right (UseResources): running: " + waits + "; 'lift' there: force 3 of 10 N\n"));
+  const std::string over =
+      "Timeout: failure: its time was over, 0.2 s after its start; before that, right: " + waits;
+  CHECK(contains(run.out, over));
+  CHECK(contains(why(file), over));
+}
+
+TEST_CASE("a timeout has what a leaf in it waited for") {
+  const TemporaryDirectory directory;
+  const auto [run, file] =
+      record_seeing(directory, "<Timeout seconds=\"0.1\"><Lift name=\"lift\"/></Timeout>");
+  const std::string over =
+      "its time was over, 0.1 s after its start; before that, lift: force 3 of 10 N\n";
+  CHECK(contains(run.out, over));
+  CHECK(contains(why(file), over));
+}
+
+TEST_CASE("the attempts within a tick count, and only the last one has a reason") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml",
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"Main\"><BehaviorTree ID=\"Main\">"
+      "<RetryUntilSuccessful name=\"again\" num_attempts=\"5\"><Sequence><AlwaysSuccess/>"
+      "<ScriptCondition name=\"is_3\" code=\"x == 3\"/></Sequence></RetryUntilSuccessful>"
+      "</BehaviorTree></root>");
+  const std::string file = directory.path("r.jsonl");
+  const std::vector<std::string> words{"run",     tree,      "--set",  "x=1",
+                                       "--clock", "virtual", "--view", "none"};
+  const std::string chain =
+      "    again (RetryUntilSuccessful): failure, 5 attempts failed\n"
+      "      - tick 0: is_3, 4 times\n"
+      "      - tick 0: is_3: x == 3 is false: x is 1\n";
+  CHECK(contains(run_lockstep(words).out, chain));
+  auto recorded = words;
+  recorded.insert(recorded.end(), {"--record", file});
+  CHECK(run_lockstep(recorded).code == 1);
+  CHECK(contains(why(file), chain));
+  CHECK(parse_json(why(file, {"--json"}))["links"][0]["attempts"][0]["times"] == 4);
+}
+
+TEST_CASE("in a part of a recording, attempts count from its beginning, and the text says so") {
+  const TemporaryDirectory directory;
+  record_seeing(directory,
+                "<Timeout seconds=\"0.5\"><Retry attempts=\"500\"><See/></Retry></Timeout>",
+                {"--record-rotate", "0.2s"});
+  const std::string second = directory.path("r.0002.jsonl");
+  CHECK(contains(why(directory.path("r.0001.jsonl")), "Retry: running, 6 attempts failed\n"));
+  CHECK(contains(why(second, {"--at", "35"}),
+                 "Retry: running, 6 attempts failed since tick 20, where this recording begins\n"));
+  CHECK(parse_json(why(second, {"--json"}))["links"][1]["attempts_since"] == 20);
+  CHECK(
+      contains(why(directory.path("r.0003.jsonl")), "Timeout: failure: its time was over; before"));
+}
+
+TEST_CASE("a value that is too long to be recorded has its tick and its writer") {
+  const TemporaryDirectory directory;
+  const std::string file =
+      record_seeing(directory,
+                    "<Sequence memory=\"true\"><Script name=\"set\" code=\"x := '" +
+                        std::string(300, 'a') +
+                        "'\"/><Wait seconds=\"0.1\"/><Check code=\"x == 'b'\"/></Sequence>")
+          .file;
+  CHECK(contains(
+      why(file),
+      "x == 'b' is false: x is too long to be recorded, since tick 0 by 'Main/Sequence/set'\n"));
+}
+
+TEST_CASE("Waiting of a program in Python takes one text") {
+  const TemporaryDirectory directory;
+  CHECK(contains(record_seeing(directory, "<Twice/>").run.err,
+                 "TypeError: Waiting takes one text, not 2: Waiting('a')"));
 }

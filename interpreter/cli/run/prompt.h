@@ -43,7 +43,11 @@ class Prompt final : public Observer {
   // Questions have come or gone. For any thread.
   void look_at_questions();
 
-  AskedOfRun asked() const override { return conditions_.asked(); }
+  AskedOfRun asked() const override {
+    AskedOfRun asked = conditions_.asked();
+    asked.within |= why_.asked().within;
+    return asked;
+  }
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(const Moment& moment, const TickReport& report) override;
   void standing(const Moment& moment) override;

@@ -17,6 +17,7 @@ class Statistics final : public Observer {
  public:
   explicit Statistics(Shape shape);
 
+  AskedOfRun asked() const override { return why_.asked(); }
   void run_started(const Moment& moment, const RunStart& start) override;
   void after_tick(const Moment& moment, const TickReport& report) override;
   void run_ended(const Moment& moment, const RunEnd& end) override;

@@ -134,6 +134,9 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
   if (node.stood_still) out += ", it stood still (--stall-fail)";
   if (node.failed_attempts > 0) {
     out += fmt::format(", {} failed", counted(node.failed_attempts, "attempt"));
+    if (node.attempts_since) {
+      out += fmt::format(" since tick {}, where this recording begins", *node.attempts_since);
+    }
   }
   if (!node.reason.empty()) out += fmt::format(": {}", printable(node.reason));
   out += '\n';
@@ -143,12 +146,15 @@ void write_link(const WhySummary& node, std::size_t indent, std::string& out, bo
                        printable(it.reason));
   }
   if (node.failed_attempts < 2 && node.status != Status::Running) return;
-  if (node.failed_attempts > node.attempts.size()) {
-    out += fmt::format("{:{}}- the last {}:\n", "", indent + 2, node.attempts.size());
+  std::uint64_t listed = 0;
+  for (const WhySummary::Attempt& it : node.attempts) listed += it.times;
+  if (node.failed_attempts > listed) {
+    out += fmt::format("{:{}}- the last {}:\n", "", indent + 2, listed);
   }
   for (const WhySummary::Attempt& it : node.attempts) {
     out += fmt::format("{:{}}- tick {}: {}", "", indent + 2, it.tick,
                        printable(last_segment(it.path)));
+    if (it.times > 1) out += fmt::format(", {} times", it.times);
     out += it.reason.empty() ? "\n" : fmt::format(": {}\n", printable(it.reason));
   }
 }
@@ -207,10 +213,11 @@ std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& s
                                                             .children = it.decided.children,
                                                             .agreeing = it.decided.agreeing,
                                                             .reason = it.reason,
-                                                            .failed_attempts = it.failed_attempts});
+                                                            .failed_attempts = it.failed_attempts,
+                                                            .attempts_since = it.attempts_since});
     const auto add = [&](std::span<const Attempt> from, std::vector<WhySummary::Attempt>& to) {
       for (const Attempt& attempt : from) {
-        to.push_back({attempt.tick, shape.nodes[attempt.node].path, attempt.reason});
+        to.push_back({attempt.tick, shape.nodes[attempt.node].path, attempt.reason, attempt.times});
       }
     };
     add(it.attempts, summary.attempts);

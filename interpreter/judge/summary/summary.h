@@ -50,6 +50,7 @@ struct WhySummary {
   struct Attempt {
     std::uint64_t tick = 0;
     std::string path, reason;
+    std::uint64_t times = 1;  // in a row in this tick, without a reason
   };
   std::string path, kind;
   Status status = Status::Idle;
@@ -58,9 +59,10 @@ struct WhySummary {
   std::size_t children = 0, agreeing = 0;
   std::string reason = {};
   std::uint64_t failed_attempts = 0;
-  std::vector<Attempt> attempts = {};  // the last of these
-  std::vector<Attempt> others = {};    // of the other children with the same result
-  bool stood_still = false;            // it failed because of --stall-fail
+  std::optional<std::uint64_t> attempts_since = {};  // where the recording begins
+  std::vector<Attempt> attempts = {};                // the last of these
+  std::vector<Attempt> others = {};                  // of the other children with the same result
+  bool stood_still = false;                          // it failed because of --stall-fail
 };
 
 std::vector<WhySummary> summarize(std::span<const WhyLink> links, const Shape& shape);

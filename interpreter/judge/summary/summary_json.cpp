@@ -74,6 +74,7 @@ Json json_of(const std::vector<WhySummary::Attempt>& attempts) {
   for (const WhySummary::Attempt& it : attempts) {
     list.push_back({{"tick", it.tick}, {"path", it.path}});
     if (!it.reason.empty()) list.back()["reason"] = it.reason;
+    if (it.times > 1) list.back()["times"] = it.times;
   }
   return list;
 }
@@ -91,6 +92,7 @@ Json json_of(const WhySummary& node) {
   if (node.failed_attempts == 0) return json;
   json["failed_attempts"] = node.failed_attempts;
   json["attempts"] = json_of(node.attempts);
+  if (node.attempts_since) json["attempts_since"] = *node.attempts_since;
   return json;
 }
 

@@ -22,6 +22,18 @@ std::uint32_t writes_of(const Moment& moment, std::uint32_t entry) {
   return moment.live == nullptr ? moment.texts[entry].writes : moment.entries[entry].writes();
 }
 
+// Attempts of one tick without a reason are one row.
+void add_attempt(std::vector<Attempt>& all, Attempt it) {
+  const bool is_again = !all.empty() && all.back().tick == it.tick && all.back().node == it.node &&
+                        all.back().reason.empty() && it.reason.empty();
+  if (is_again) {
+    all.back().times += it.times;
+    return;
+  }
+  if (all.size() == WhyWatch::kAttempts) all.erase(all.begin());
+  all.push_back(std::move(it));
+}
+
 }  // namespace
 
 WhyWatch::WhyWatch(const Shape& shape) : shape_(shape) {
@@ -41,11 +53,28 @@ WhyWatch::WhyWatch(const Shape& shape) : shape_(shape) {
       tries_.push_back({.node = node, .child = it.children.front()});
       tries_.back().last.reserve(kAttempts);
     }
-    if (it.limits_time) timed_.push_back({.node = node});
+    if (it.limits_time) {
+      timed_.push_back({.node = node});
+      timed_.back().reason.reserve(kMostOfReason);
+    }
   }
+  for (const NodeIndex user : users_of_pools(shape)) users_.push_back({.node = user});
+  if (!asked().within) return;
+  column_.reserve(shape.nodes.size());
+  activity_.resize(shape.nodes.size());
+  reached_.resize(shape.nodes.size());
+}
+
+AskedOfRun WhyWatch::asked() const {
+  // The only one that begins several attempts in a tick.
+  const auto may_try_at_once = [&](const Tries& it) {
+    return shape_.nodes[it.node].kind == "RetryUntilSuccessful";
+  };
+  return {.within = std::ranges::any_of(tries_, may_try_at_once)};
 }
 
 void WhyWatch::after_tick(const Moment& moment) {
+  const bool is_later_part = !has_begun_ && moment.tick > 0;
   for (Watched& it : watched_) {
     const std::uint32_t writes = writes_of(moment, it.entry);
     if (writes == it.writes) continue;
@@ -57,37 +86,108 @@ void WhyWatch::after_tick(const Moment& moment) {
     }
     it.tick = moment.tick;
     it.writers.clear();
+    if (is_later_part) it.tick.reset();
+    if (is_later_part) continue;
     for (const NodeIndex writer : shape_.entries[it.entry].writers) {
       if (moment.ticked(writer)) it.writers.push_back(writer);
     }
     if (!has_begun_ && it.writers.empty()) it.tick.reset();  // the value of the start
   }
   has_begun_ = true;
-  for (Timed& it : timed_) {
-    const bool ran = it.runs;
-    it.runs = moment.status(it.node) == Status::Running;
-    if (!ran && moment.ticked(it.node)) it.began = moment.time;
+  for (User& it : users_) {
+    const bool runs = moment.status(it.node) == Status::Running;
+    const ResourceSet owned = runs ? owned_set(moment.limit(it.node)) : 0;
+    if ((owned & ~it.owned) != 0) it.since = moment.tick;
+    it.owned = owned;
   }
-  for (Tries& it : tries_) {
-    const bool ran = it.runs;
-    it.runs = moment.status(it.node) == Status::Running;
-    if (!moment.ticked(it.node)) continue;
-    if (!ran) {
-      it.failed = 0;
-      it.last.clear();
-    }
-    if (moment.ticked(it.child) && moment.status(it.child) == Status::Failure) {
-      note_attempt(moment, it);
-    }
+  for (Timed& it : timed_) follow_time(moment, it, is_later_part);
+  if (!tries_.empty()) follow_attempts(moment, is_later_part);
+}
+
+// Of what runs in it, since its end ends that, too. Allocates only where a pool is waited for.
+void WhyWatch::follow_time(const Moment& moment, Timed& timed, bool is_later_part) const {
+  const bool ran = timed.runs;
+  timed.runs = moment.status(timed.node) == Status::Running;
+  if (!ran && moment.ticked(timed.node)) {
+    timed.began = is_later_part ? std::nullopt : std::optional(moment.time);
+    timed.waiting = 0;
+  }
+  if (!timed.runs) return;
+  const auto is_in_it = [&](NodeIndex node) {
+    return timed.node < node && node < shape_.nodes[timed.node].end &&
+           moment.status(node) == Status::Running;
+  };
+  for (const User& it : users_) {
+    const double limit = moment.limit(it.node);
+    if (!is_in_it(it.node) || !waits(limit)) continue;
+    if (timed.waiting == it.node && timed.limit == limit) return;
+    timed.waiting = it.node;
+    timed.limit = limit;
+    timed.reason = owner_text(moment, it.node);
+    return;
+  }
+  timed.limit = 0;
+  const auto it = std::ranges::find_if(moment.reasons, [&](const Reason& reason) {
+    return is_in_it(reason.node) && moment.holds(reason);
+  });
+  timed.waiting = it == moment.reasons.end() ? 0 : it->node;
+  if (timed.waiting != 0) timed.reason = it->text;
+}
+
+void WhyWatch::follow_attempts(const Moment& moment, bool is_later_part) {
+  if (moment.within.empty() || column_.capacity() == 0) {
+    for (Tries& it : tries_) follow_attempt(moment, it, 1, true, is_later_part);
+    return;
+  }
+  Moment part = moment;
+  part.activity = activity_;
+  part.reached = reached_;
+  part.number = 1;
+  moment.within.each(
+      column_, [&](std::span<const NodeState> states, const TickMoment& of, bool is_last) {
+        for (std::size_t i = 0; i < states.size(); ++i) {
+          activity_[i] = states[i].activity();
+          reached_[i] = states[i].ticked() ? 1 : 0;
+        }
+        for (Tries& it : tries_) {
+          follow_attempt(is_last ? moment : part, it, of.times, is_last, is_later_part);
+        }
+      });
+  // The order of the rest is not known.
+  for (const NodeTotals& rest : moment.within.rest) {
+    const auto it = std::ranges::find(tries_, rest.node, &Tries::child);
+    if (it == tries_.end() || rest.of(Status::Failure) == 0) continue;
+    it->runs = moment.status(it->node) == Status::Running;
+    note_attempt(moment, *it, rest.of(Status::Failure), false);
   }
 }
 
-void WhyWatch::note_attempt(const Moment& moment, Tries& tries) const {
-  ++tries.failed;
+void WhyWatch::follow_attempt(const Moment& part, Tries& tries, std::uint64_t times, bool is_last,
+                              bool is_later_part) const {
+  const bool ran = tries.runs;
+  tries.runs = part.status(tries.node) == Status::Running;
+  if (!part.ticked(tries.node)) return;
+  if (!ran) {
+    tries.failed = 0;
+    tries.last.clear();
+    tries.since = is_later_part ? std::optional(part.tick) : std::nullopt;
+  }
+  const bool has_failed = part.ticked(tries.child) && part.status(tries.child) == Status::Failure;
+  if (has_failed) note_attempt(part, tries, times, is_last);
+}
+
+// A reason is of the last attempt of a tick: the earlier ones have none.
+void WhyWatch::note_attempt(const Moment& part, Tries& tries, std::uint64_t times,
+                            bool is_last) const {
+  tries.failed += times;
   NodeIndex node = tries.child;
-  while (const auto child = deciding_child(shape_, moment, node)) node = *child;
-  if (tries.last.size() == kAttempts) tries.last.erase(tries.last.begin());
-  tries.last.push_back({.tick = moment.tick, .node = node, .reason = reason(moment, node)});
+  while (const auto child = deciding_child(shape_, part, node)) node = *child;
+  if (times > 1 || !is_last) {
+    const std::uint64_t earlier = is_last ? times - 1 : times;
+    add_attempt(tries.last, {.tick = part.tick, .node = node, .times = earlier});
+  }
+  if (!is_last) return;
+  add_attempt(tries.last, {.tick = part.tick, .node = node, .reason = reason(part, node)});
 }
 
 std::string WhyWatch::value_text(const Moment& moment, const std::string& key) const {
@@ -95,11 +195,10 @@ std::string WhyWatch::value_text(const Moment& moment, const std::string& key) c
   if (entry == shape_.entries.end()) return {};
   const auto place = static_cast<std::uint32_t>(entry - shape_.entries.begin());
   const auto text = text_of(moment, place);
-  if (!text && writes_of(moment, place) > 0 && moment.live == nullptr) {
-    return fmt::format("{} has a value that is too long to be recorded", key);
-  }
-  if (!text) return fmt::format("{} has no value", key);
-  std::string all = fmt::format("{} is {}", key, brief(*text));
+  const bool is_long = !text && writes_of(moment, place) > 0 && moment.live == nullptr;
+  if (!text && !is_long) return fmt::format("{} has no value", key);
+  std::string all =
+      fmt::format("{} is {}", key, is_long ? "too long to be recorded" : brief(*text));
   const auto it = std::ranges::find(watched_, place, &Watched::entry);
   if (it == watched_.end() || !it->tick) return all;
   all += fmt::format(", since tick {}", *it->tick);
@@ -141,8 +240,24 @@ std::string WhyWatch::time_text(const Moment& moment, NodeIndex node) const {
   const bool is_over =
       moment.status(node) == Status::Failure && moment.status(child) != Status::Failure;
   if (it == timed_.end() || !is_over) return {};
-  return fmt::format("its time was over, {:.3g} s after its start",
-                     to_seconds(moment.time - it->began));
+  std::string text = "its time was over";
+  if (it->began) {
+    text += fmt::format(", {:.3g} s after its start", to_seconds(moment.time - *it->began));
+  }
+  if (it->waiting != 0) {
+    text += fmt::format("; before that, {}: {}", shape_.nodes[it->waiting].segment, it->reason);
+    return text;
+  }
+  // Of those that were on their way, if the run is asked for it. That is before the tick.
+  constexpr std::size_t kMostNamed = 4;
+  std::size_t named = 0;
+  for (NodeIndex leaf = node + 1; leaf < shape_.nodes[node].end && named < kMostNamed; ++leaf) {
+    const double at = moment.progress.empty() ? 0 : moment.progress[leaf];
+    if (!shape_.nodes[leaf].children.empty() || at <= 0 || at >= 1) continue;
+    text += fmt::format("{} {} at {:.3g}", named++ == 0 ? "; before that," : ",",
+                        shape_.nodes[leaf].segment, at);
+  }
+  return text;
 }
 
 std::string WhyWatch::reason(const Moment& moment, NodeIndex node) const {
@@ -151,7 +266,59 @@ std::string WhyWatch::reason(const Moment& moment, NodeIndex node) const {
   if (!it.condition.empty() && moment.status(node) != Status::Idle) {
     return condition_text(moment, node);
   }
-  return it.limits_time ? time_text(moment, node) : std::string();
+  if (it.limits_time) return time_text(moment, node);
+  const bool is_user = std::ranges::find(users_, node, &User::node) != users_.end();
+  const bool is_denied =
+      is_user && moment.status(node) == Status::Running && waits(moment.limit(node));
+  return is_denied ? owner_text(moment, node) + words_of_owners(moment, node) : std::string();
+}
+
+std::vector<WhyWatch::User> WhyWatch::owners(const Moment& moment, NodeIndex user) const {
+  const double limit = moment.limit(user);
+  const ResourceSet wanted = resource_set(limit) & ~owned_set(limit);
+  std::vector<User> owners;
+  for (const User& it : users_) {
+    const bool is_of_pool = shape_.nodes[it.node].group == shape_.nodes[user].group;
+    if (is_of_pool && it.node != user && (it.owned & wanted) != 0) {
+      owners.push_back({.node = it.node, .owned = it.owned & wanted, .since = it.since});
+    }
+  }
+  return owners;
+}
+
+// "waits for crane_2 of the pool cranes, which Main/left owns since tick 31".
+std::string WhyWatch::owner_text(const Moment& moment, NodeIndex user) const {
+  const ShapeNode& pool = shape_.nodes[*shape_.nodes[user].group];
+  const double limit = moment.limit(user);
+  const ResourceSet wanted = resource_set(limit) & ~owned_set(limit);
+  std::string text =
+      fmt::format("waits for {} of the pool {}", to_text(wanted, pool.resources), pool.name);
+  std::string_view before = ", ";
+  for (const User& it : owners(moment, user)) {
+    const bool is_all = it.owned == wanted;
+    text += fmt::format("{}{}'{}' owns {}since tick {}", before,
+                        before == ", " ? (is_all ? "which " : "of which ") : "",
+                        shape_.nodes[it.node].path,
+                        is_all ? "" : to_text(it.owned, pool.resources) + ' ', it.since);
+    before = ", and ";
+  }
+  return text;
+}
+
+// What runs in the owners, and what that waits for itself.
+std::string WhyWatch::words_of_owners(const Moment& moment, NodeIndex user) const {
+  std::string text;
+  for (const User& it : owners(moment, user)) {
+    for (const Reason& reason : moment.reasons) {
+      const bool is_in_it = it.node < reason.node && reason.node < shape_.nodes[it.node].end;
+      if (!is_in_it || !moment.holds(reason) || moment.status(reason.node) != Status::Running) {
+        continue;
+      }
+      text += fmt::format("; '{}' there: {}", shape_.nodes[reason.node].segment, reason.text);
+      break;
+    }
+  }
+  return text;
 }
 
 // Such as the alternatives of a Fallback, which may have failed in earlier ticks.
@@ -194,6 +361,7 @@ std::vector<WhyLink> WhyWatch::why(const Moment& moment, NodeIndex node) const {
     link.others = others(moment, link.decided);
     if (const auto it = std::ranges::find(tries_, self, &Tries::node); it != tries_.end()) {
       link.failed_attempts = it->failed;
+      link.attempts_since = it->since;
       link.attempts = it->last;
     }
     if (const auto child = deciding_child(shape_, moment, self)) {
