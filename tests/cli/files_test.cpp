@@ -352,6 +352,10 @@ TEST_CASE("a project file names the folders of trees") {
     CHECK(contains(message_of("<trees folder=\"../x\"/>"), "is not below the project file"));
     CHECK(contains(message_of("<trees folder=\"/\"/>"), "is not below the project file"));
     CHECK(contains(message_of("<trees/>"), "needs the attribute 'folder'"));
+    const std::string twice = message_of(
+        "<main file=\"trees/main.xml\"/><main file=\"shared/go.xml\"/><trees folder=\"shared\"/>");
+    CHECK(contains(twice, "lockstep.project.xml:1:52: error: a second 'main' in 'project'"));
+    CHECK(contains(twice, "a project has one main tree"));
     CHECK(contains(message_of("<trees folder=\"shared\""), "lockstep.project.xml:"));
     files.file("lockstep.project.xml", "<project lockstep=\"2\"/>");
     CHECK(contains(run_lockstep({"check", main}).err, "unknown version '2'"));

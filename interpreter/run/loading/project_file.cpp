@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "base/core/pre_order.h"
 #include "base/core/suggest.h"
@@ -93,6 +94,10 @@ class ProjectFileReader {
                         suggest(it.tag, kTags, "elements of 'project'"));
     }
     const bool is_main = it.tag == "main";
+    if (is_main && std::exchange(has_main_, true)) {
+      return report_.at("duplicate-name"_code, it.place, "a second 'main' in 'project'",
+                        "a project has one main tree: delete the others");
+    }
     const bool is_file = is_main || it.tag == "models";
     if (!check_vocabulary(document, element, is_file ? kFile : kFolder, 1, report_)) return;
     const Attribute& named = *document.find_attribute(element, is_file ? "file" : "folder");
@@ -131,6 +136,7 @@ class ProjectFileReader {
 
   const std::string path_;
   std::string main_;
+  bool has_main_ = false;
   Library& library_;
   PluginOptions& plugins_;
   Diagnostics& diagnostics_;

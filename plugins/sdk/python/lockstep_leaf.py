@@ -42,13 +42,26 @@ class Skipped:
     "What a tick may return in a tree for BehaviorTree.CPP: as if the leaf were not there."
 
 
+def _one_text(of, texts):
+    if len(texts) > 1:
+        raise TypeError(f"{of.__name__} takes one text, not {len(texts)}: {of.__name__}({texts[0]!r})")
+
+
 class Failed(Exception):
     """A failure and its reason, which `lockstep log why` shows: `raise Failed("no object at the door")`, also from a
     function that tick calls. It may also be returned."""
 
+    def __init__(self, *text):
+        _one_text(Failed, text)
+        super().__init__(*text)
+
 
 class Waiting(str):
     'What a tick that runs may return: what it waits for. `return Waiting("force 3 of 10 N")`'
+
+    def __new__(cls, *text):
+        _one_text(Waiting, text)
+        return super().__new__(cls, *text)
 
 
 class Port:
