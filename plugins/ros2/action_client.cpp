@@ -54,6 +54,17 @@ Outcome ActionClient::outcome(std::uint64_t activation) const {
   return ended >> 8 == activation ? static_cast<Outcome>(ended & 0xff) : Outcome::Open;
 }
 
+ActionClient::State ActionClient::state(std::uint64_t activation) const {
+  const std::uint64_t shown = shown_.load(std::memory_order_relaxed);
+  return shown >> 8 == activation ? static_cast<State>(shown & 0xff) : State::Idle;
+}
+
+void ActionClient::set_state(State state) {
+  state_ = state;
+  shown_.store(goal_.activation << 8 | static_cast<std::uint64_t>(state),
+               std::memory_order_relaxed);
+}
+
 void ActionClient::open() {
   const rcl_action_client_options_t options = rcl_action_client_get_default_options();
   const auto code = rcl_action_client_init(&client_, &Middleware::get().node(), type_.support,
@@ -91,7 +102,7 @@ void ActionClient::begin(Goal goal) {
 }
 
 void ActionClient::send_again() {
-  state_ = State::WaitsForServer;
+  set_state(State::WaitsForServer);
   replaced_.reset();
   wish_ = Wish::None;
   is_canceling_ = is_resumed_ = false;
@@ -100,6 +111,7 @@ void ActionClient::send_again() {
   poll_for_server(Clock::now());
 }
 
+// The state that it shows stays: the leaf may still have to see that it has ended.
 void ActionClient::end(Outcome outcome) {
   state_ = State::Idle;
   ended_.store(goal_.activation << 8 | static_cast<std::uint64_t>(outcome),
@@ -150,7 +162,7 @@ void ActionClient::hold(std::uint64_t activation) {
   if (!is_open(activation)) return;
   wish_ = Wish::Hold;
   is_resumed_ = false;
-  if (state_ == State::WaitsForServer) state_ = State::IsHeld;
+  if (state_ == State::WaitsForServer) set_state(State::IsHeld);
   if (state_ == State::IsAccepted) ask_to_cancel();
 }
 
@@ -216,7 +228,7 @@ void ActionClient::send_goal() {
   make_id(goal_.request->get(), kIdSize);
   next_look_ = Clock::now() + kBetweenLooks;
   ++sent_;
-  state_ = State::IsSent;
+  set_state(State::IsSent);
   if (rcl_action_send_goal_request(&client_, goal_.request->get(), &goal_call_) != RCL_RET_OK) {
     fail("the goal could not be sent: " + last_ros_error());
   }
@@ -323,7 +335,7 @@ void ActionClient::take_goal_response() {
   }
   if (!is_accepted) return reject();
   replaced_.reset();
-  state_ = State::IsAccepted;
+  set_state(State::IsAccepted);
   ask_for_result();
   if (state_ == State::IsAccepted && wish_ != Wish::None) ask_to_cancel();
 }
@@ -357,7 +369,7 @@ void ActionClient::take_result() {
   const int status = *next_result_->at<std::int8_t>(type_.status);
   if (status == 5 && wish_ == Wish::Hold) {
     if (is_resumed_) return send_again();
-    state_ = State::IsHeld;
+    set_state(State::IsHeld);
     return;
   }
   std::swap(result_, next_result_);

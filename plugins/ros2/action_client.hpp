@@ -31,6 +31,8 @@ enum class Outcome : std::uint8_t {
 
 class ActionClient final : public Waitable {
  public:
+  enum class State : std::uint8_t { Idle, WaitsForServer, IsSent, IsAccepted, IsHeld };
+
   ActionClient(const ActionType& type, std::string action);
   ~ActionClient() override;
 
@@ -46,6 +48,8 @@ class ActionClient final : public Waitable {
     unsigned sent = 0;  // how many times its goal had been sent
   };
   Outcome outcome(std::uint64_t activation) const;
+  // How far the activation is. Idle: it waits for the end of the one before.
+  State state(std::uint64_t activation) const;
   // Whether a goal up to this one may still be at work.
   bool is_busy(std::uint64_t activation) const { return ended_.load() >> 8 < activation; }
   TripleBuffer<Feedback>& feedback() { return feedback_; }
@@ -71,12 +75,12 @@ class ActionClient final : public Waitable {
   bool poll(Clock::time_point now) override;
 
  private:
-  enum class State { Idle, WaitsForServer, IsSent, IsAccepted, IsHeld };
   enum class Wish { None, Cancel, Hold };
 
   bool is_open(std::uint64_t activation) const {
     return state_ != State::Idle && goal_.activation == activation;
   }
+  void set_state(State state);
   void begin(Goal goal);
   void send_again();
   void end(Outcome outcome);
@@ -131,6 +135,7 @@ class ActionClient final : public Waitable {
   std::unique_ptr<Message> result_, next_result_;
   TripleBuffer<Feedback> feedback_;
   std::atomic<std::uint64_t> ended_{0};  // the activation, and its outcome in the last 8 bits
+  std::atomic<std::uint64_t> shown_{0};  // that of state_, and this in the last 8 bits
   Lines lines_;
 };
 

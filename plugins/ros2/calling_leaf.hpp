@@ -20,6 +20,7 @@ class CallingLeaf : public LeafBase {
               const std::string& service)
       : LeafBase(host, caller),
         type_(type),
+        service_(service),
         client_(std::make_shared<ServiceClient>(type, service)) {
     Middleware::get().post([client = client_] {
       client->open();
@@ -42,10 +43,18 @@ class CallingLeaf : public LeafBase {
     log_lines(*client_);
     return client_->outcome(activation_);
   }
+  // The call is open.
+  lockstep_status waits() {
+    const bool is_sent = client_->is_sent(activation_);
+    return LeafBase::waits(is_sent ? 1 : 0, [&] {
+      return (is_sent ? "waits for the response of '" : "waits for the service '") + service_ + "'";
+    });
+  }
   const Message& response() const { return client_->response(); }
 
  private:
   const ServiceType& type_;
+  const std::string service_;
   std::shared_ptr<ServiceClient> client_;
   std::uint64_t activation_ = 0;
 };

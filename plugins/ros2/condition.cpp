@@ -4,10 +4,10 @@ namespace ros2 {
 
 bool Condition::read(const FixedTexts& texts, const lockstep_port& port, const std::string& prefix,
                      const std::vector<Field>& fields, Refusal& refusal) {
-  const std::string text = texts[port];
-  if (text.empty()) return true;
+  text_ = texts[port];
+  if (text_.empty()) return true;
   fields_ = &fields;
-  auto expression = read_condition(text, prefix, fields);
+  auto expression = read_condition(text_, prefix, fields);
   if (expression) {
     expression_ = std::move(*expression);
   } else {

@@ -22,10 +22,12 @@ class Condition {
             const std::vector<Field>& fields, Refusal& refusal);
   // Without a text, always.
   bool holds(const void* message, double elapsed, Expression::Memory& memory) const;
+  const std::string& text() const { return text_; }
   bool is_given() const { return !expression_.is_empty(); }
   Expression::Memory memory() const { return expression_.memory(); }
 
  private:
+  std::string text_;
   const std::vector<Field>* fields_ = nullptr;
   Expression expression_;
 };

@@ -1,6 +1,7 @@
 // All leaves of this plugin share this: the host, their element, ports, lines for the log.
 #pragma once
 
+#include <lockstep/ext/reason.h>
 #include <lockstep/leaf.h>
 
 #include <string>
@@ -63,11 +64,25 @@ class LeafBase {
   void set_text(std::uint32_t port, const std::string& text) {
     host_.set_string(caller_, port, text.data(), text.size());
   }
+  // The reason of the result of this tick.
+  void say(const std::string& text) {
+    if (reason_ != nullptr) reason_->say(caller_, text.c_str());
+  }
+  // The leaf waits. `make` gives the words for what it waits for: called when `what` is another one
+  // than in the last tick.
+  template <class Make>
+  lockstep_status waits(int what, Make make) {
+    if (what != waits_for_) waiting_ = make();
+    waits_for_ = what;
+    say(waiting_);
+    return LOCKSTEP_RUNNING;
+  }
   // The leaf fails. `why` goes into the entry of `error`, and to people where the tree has none;
-  // with `faults` it ends the run.
+  // with `faults` it ends the run. `words` are those of the server, for people.
   lockstep_status failed(std::uint32_t error, const std::string& of, const std::string& why,
-                         bool faults = false) {
-    const std::string line = of + ": " + why;
+                         bool faults = false, const std::string& words = {}) {
+    const std::string line = of + ": " + why + words;
+    say(line);
     const bool is_kept = host_.set_string(caller_, error, why.data(), why.size());
     if (faults) {
       fail(line.c_str());
@@ -89,6 +104,11 @@ class LeafBase {
   const lockstep_caller* caller_;
 
  private:
+  const lockstep_reason* const reason_ =
+      static_cast<const lockstep_reason*>(host_.get_extension(LOCKSTEP_REASON));
+  std::string waiting_;
+  int waits_for_ = -1;
+
   bool is_good(const std::string& wrong) {
     if (!wrong.empty()) fail(wrong.c_str());
     return wrong.empty();

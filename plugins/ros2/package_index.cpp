@@ -95,6 +95,13 @@ Result<TypeName> parse_type_name(const std::string& text, const std::string& kin
                  "write package/" + kind + "/Name"};
 }
 
+std::string interface_file(const TypeName& type) {
+  std::string resource;
+  const std::string prefix = prefix_of(type.package, resource);
+  if (prefix.empty()) return {};
+  return prefix + "/share/" + type.text() + ".idl";
+}
+
 Result<const void*> type_support(const TypeName& type) {
   if (std::getenv("AMENT_PREFIX_PATH") == nullptr) {
     return Problem{"no ROS 2 is set up: AMENT_PREFIX_PATH is not set",

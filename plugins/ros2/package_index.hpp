@@ -20,6 +20,9 @@ Result<TypeName> parse_type_name(const std::string& text, const std::string& kin
 // The result of the type's get_…_type_support_handle. The library stays loaded.
 Result<const void*> type_support(const TypeName& type);
 
+// Its definition as IDL, which every package of interfaces installs; "" when there is none.
+std::string interface_file(const TypeName& type);
+
 // "; did you mean 'x'?", or what there is.
 std::string suggestion(const std::string& wrong, const std::vector<std::string>& known);
 

@@ -175,15 +175,17 @@ class RosAction : public LeafBase {
     take_feedback();
     if (outcome == Outcome::Open) {
       if (has_another_goal()) preempt();
-      return LOCKSTEP_RUNNING;
+      const State state = this->state();
+      const int feedback = sent_ != 0 || element_.type.feedback.empty() ? 0 : 100;
+      return waits(static_cast<int>(state) + feedback, [&] { return words_of(state); });
     }
     end_hold_and_pace();
     const bool has_result = outcome == Outcome::Succeeded || outcome == Outcome::Aborted ||
                             outcome == Outcome::Canceled;
     if (has_result) write(result_ports_, client_->result());
     if (outcome == Outcome::Succeeded) return LOCKSTEP_SUCCESS;
-    return failed(kError, "the action '" + element_.action + "'", words_of(outcome),
-                  element_.faults);
+    return failed(kError, "the action '" + element_.action + "'", ros2::words_of(outcome),
+                  element_.faults, has_result ? words_of_result() : std::string());
   }
 
   void halt() {
@@ -216,6 +218,31 @@ class RosAction : public LeafBase {
   }
 
  private:
+  using State = ActionClient::State;
+
+  State state() const {
+    const State state = client_->state(activation_);
+    const bool is_next = state == State::Idle && client_->is_busy(activation_ - 1);
+    return state == State::Idle && !is_next ? State::WaitsForServer : state;
+  }
+  std::string words_of(State state) const {
+    const std::string name = "'" + element_.action + "'";
+    switch (state) {
+      case State::WaitsForServer:
+        return "waits for the server of " + name;
+      case State::IsSent:
+        return "waits for the server of " + name + " to accept the goal";
+      case State::IsAccepted:
+        return "the server of " + name + " has accepted the goal" +
+               (sent_ == 0 && !element_.type.feedback.empty() ? ", no feedback yet" : "");
+      default:
+        return "waits for the end of the goal before it at " + name;
+    }
+  }
+  std::string words_of_result() const {
+    return element_.type.result_words.text(client_->result().get());
+  }
+
   bool read_goal() {
     has_another_goal();
     goal_ = std::make_shared<Message>(*element_.type.send_goal);

@@ -63,7 +63,7 @@ class RosLifecycle : public CallingLeaf {
 
   lockstep_status tick() {
     const auto outcome = this->outcome();
-    if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
+    if (outcome == ServiceClient::Outcome::Open) return waits();
     const std::string why = what_is_wrong(outcome);
     if (why.empty()) return LOCKSTEP_SUCCESS;
     return failed(kError, element_.transition + " '" + element_.node + "'", why, element_.faults);

@@ -65,7 +65,7 @@ class RosParameter : public CallingLeaf {
 
   lockstep_status tick() {
     const auto outcome = this->outcome();
-    if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
+    if (outcome == ServiceClient::Outcome::Open) return waits();
     const std::string why = outcome == ServiceClient::Outcome::Answered    ? take_answer()
                             : outcome == ServiceClient::Outcome::NoService ? "no node"
                                                                            : words_of(outcome);

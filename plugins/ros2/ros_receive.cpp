@@ -73,12 +73,17 @@ class RosReceive : public LeafBase {
       objects_.forget();
     }
     const auto now = Clock::now();
-    if (has_some_ && fits(subscription_->received().front(), now)) {
+    const Lack lack = has_some_ ? lack_of(subscription_->received().front(), now) : Lack::Message;
+    if (lack == Lack::Nothing) {
       objects_.write(host_, caller_, fields_, subscription_->received().front().message);
       return LOCKSTEP_SUCCESS;
     }
-    if (seconds(now - began_) < timeout_) return LOCKSTEP_RUNNING;
-    return write_default() ? LOCKSTEP_SUCCESS : LOCKSTEP_FAILURE;
+    if (seconds(now - began_) < timeout_) {
+      return waits(static_cast<int>(lack), [&] { return words_of(lack); });
+    }
+    if (write_default()) return LOCKSTEP_SUCCESS;
+    say(words_of(lack) + (lack == Lack::Condition ? last_message() : ""));
+    return LOCKSTEP_FAILURE;
   }
 
  private:
@@ -92,10 +97,35 @@ class RosReceive : public LeafBase {
     return value;
   }
 
-  bool fits(const Subscription::Received& received, Clock::time_point now) {
-    if (element_.takes_next && received.at < began_) return false;
-    return seconds(now - received.at) <= max_age_ &&
-           element_.condition.holds(received.message.get(), seconds(now - began_), memory_);
+  // What the leaf waits for.
+  enum class Lack { Nothing, Message, Next, Age, Condition };
+
+  Lack lack_of(const Subscription::Received& received, Clock::time_point now) {
+    if (element_.takes_next && received.at < began_) return Lack::Next;
+    if (seconds(now - received.at) > max_age_) return Lack::Age;
+    const bool holds =
+        element_.condition.holds(received.message.get(), seconds(now - began_), memory_);
+    return holds ? Lack::Nothing : Lack::Condition;
+  }
+
+  std::string words_of(Lack lack) const {
+    const std::string of = " on '" + element_.topic + "'";
+    switch (lack) {
+      case Lack::Next:
+        return "no message" + of + " since it began";
+      case Lack::Age:
+        return "the last message" + of + " is older than max_age";
+      case Lack::Condition:
+        return "the last message" + of + " does not meet the condition '" +
+               element_.condition.text() + "'";
+      default:
+        return "no message" + of + " yet";
+    }
+  }
+  std::string last_message() {
+    const std::string text =
+        text_of(*element_.type.members, subscription_->received().front().message.get());
+    return text.empty() ? "" : ": " + text;
   }
 
   // False: the tree gives none.

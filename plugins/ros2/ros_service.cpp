@@ -51,14 +51,17 @@ class RosService : public CallingLeaf {
 
   lockstep_status tick() {
     const auto outcome = this->outcome();
-    if (outcome == ServiceClient::Outcome::Open) return LOCKSTEP_RUNNING;
+    if (outcome == ServiceClient::Outcome::Open) return waits();
     if (outcome == ServiceClient::Outcome::Answered) {
       write(response_ports_, response());
       auto memory = element_.condition.memory();
       const bool holds = element_.condition.holds(response().get(), now() - began_, memory);
       if (holds) return LOCKSTEP_SUCCESS;
-      if (element_.faults) return end_without("condition");
-      set_text(kError, "condition");  // that it is not true is nothing to tell people
+      const std::string words = " '" + element_.condition.text() + "'" +
+                                element_.type.response_words.text(response().get());
+      if (element_.faults) return end_without("condition", words);
+      set_text(kError, "condition");  // that it is not true is no line of output
+      say("the response of '" + element_.service + "' does not meet the condition" + words);
       return LOCKSTEP_FAILURE;
     }
     return end_without(words_of(outcome));
@@ -71,8 +74,8 @@ class RosService : public CallingLeaf {
         element_(element),
         response_ports_(given(element.response)) {}
 
-  lockstep_status end_without(const std::string& why) {
-    return failed(kError, "the service '" + element_.service + "'", why, element_.faults);
+  lockstep_status end_without(const std::string& why, const std::string& words = {}) {
+    return failed(kError, "the service '" + element_.service + "'", why, element_.faults, words);
   }
 
   const ServiceElement& element_;

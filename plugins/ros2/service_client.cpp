@@ -73,6 +73,7 @@ bool ServiceClient::poll(Clock::time_point now) {
   if (!is_open_) return false;
   if (!is_sent_ && has_service()) {
     is_sent_ = true;
+    sent_ = call_.activation;
     if (rcl_send_request(&client_, call_.request->get(), &number_) != RCL_RET_OK) {
       lines_.add("the request could not be sent: " + last_ros_error());
       end(Outcome::Failed);

@@ -26,6 +26,8 @@ class ServiceClient final : public Waitable {
     double timeout = 0;
   };
   Outcome outcome(std::uint64_t activation) const;
+  // Whether the request of the activation has been sent to a service.
+  bool is_sent(std::uint64_t activation) const { return sent_.load() == activation; }
   const Message& response() const { return *response_; }  // once it is Answered
   Lines& lines() { return lines_; }
 
@@ -56,6 +58,7 @@ class ServiceClient final : public Waitable {
   Clock::time_point deadline_;
   std::unique_ptr<Message> response_, next_response_;
   std::atomic<std::uint64_t> ended_{0};  // the activation, and its outcome in the last 8 bits
+  std::atomic<std::uint64_t> sent_{0};
   Lines lines_;
 };
 

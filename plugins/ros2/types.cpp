@@ -60,6 +60,8 @@ Result<const ActionType*> make_action_type(const std::string& name) {
   type->goal = fields_in(*type->send_goal, "goal");
   type->result = fields_in(*type->result_response, "result");
   type->feedback = fields_in(*type->feedback_message, "feedback");
+  type->result_words =
+      ResultWords(members_of(member_named(*type->result_response, "result")), type->result);
   return static_cast<const ActionType*>(type.release());
 }
 
@@ -71,9 +73,14 @@ Result<const ServiceType*> make_service_type(const std::string& name) {
   const auto* const support = static_cast<const rosidl_service_type_support_t*>(*found);
   const ServiceMembers* const members = members_of_service(support);
   if (members == nullptr) return no_introspection(name);
-  return static_cast<const ServiceType*>(new ServiceType{
-      name, support, members->request_members_, members->response_members_,
-      fields_of(*members->request_members_), fields_of(*members->response_members_)});
+  auto* const type = new ServiceType{name,
+                                     support,
+                                     members->request_members_,
+                                     members->response_members_,
+                                     fields_of(*members->request_members_),
+                                     fields_of(*members->response_members_)};
+  type->response_words = ResultWords(*type->response_message, type->response);
+  return static_cast<const ServiceType*>(type);
 }
 
 Result<const MessageType*> make_message_type(const std::string& name) {

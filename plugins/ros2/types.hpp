@@ -12,6 +12,7 @@
 #include "fields.hpp"
 #include "message.hpp"
 #include "result.hpp"
+#include "result_words.hpp"
 
 namespace ros2 {
 
@@ -23,6 +24,7 @@ struct ActionType {
   // feedback_message.
   std::size_t accepted, status;
   std::vector<Field> goal, result, feedback;  // offsets from the whole message that has them
+  ResultWords result_words = {};
 };
 
 // The same type gives the same pointer, for ever.
@@ -33,6 +35,7 @@ struct ServiceType {
   const rosidl_service_type_support_t* support;
   const Members *request_message, *response_message;
   std::vector<Field> request, response;
+  ResultWords response_words = {};
 };
 Result<const ServiceType*> service_type(const std::string& name);
 

@@ -25,11 +25,16 @@ if [ "${1:-}" = --build ]; then
     -Dlockstep_DIR="$PWD/build/release/cmake/lockstep" >/dev/null
   cmake --build build/ros2/plugin
   # An interface package is used from where it is installed.
+  cmake -S tests/ros2/interfaces -B build/ros2/interfaces -G Ninja $python \
+    -DCMAKE_INSTALL_PREFIX="$PWD/build/ros2/installed" >/dev/null
+  cmake --build build/ros2/interfaces
+  cmake --install build/ros2/interfaces >/dev/null
   cmake -S plugins/lockstep_ros -B build/ros2/lockstep_ros -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo $python \
     -Dlockstep_DIR="$PWD/build/release/cmake/lockstep" -DCMAKE_INSTALL_PREFIX="$PWD/build/ros2/installed" >/dev/null
   cmake --build build/ros2/lockstep_ros
   cmake --install build/ros2/lockstep_ros >/dev/null
   cmake -S tests/ros2 -B build/ros2/tests -G Ninja -DCMAKE_BUILD_TYPE=Release $python \
+    -Dlockstep_ros2_test_interfaces_DIR="$PWD/build/ros2/installed/share/lockstep_ros2_test_interfaces/cmake" \
     -Dlockstep_DIR="$PWD/build/release/cmake/lockstep" -Dlockstep_ros_DIR="$PWD/build/ros2/installed/share/lockstep_ros/cmake" \
     >/dev/null
   cmake --build build/ros2/tests
