@@ -35,6 +35,16 @@ class BtNodes(World):
         self.failure(self.count("c", "/count", -1, 'why="{why}"'), "INVALID_GOAL")
         self.failure(self.count("c", "/nobody", 1, 'why="{why}"'), "SERVER_UNREACHABLE")
 
+    def test_failures_have_reasons(self):
+        self.server("--action", "/count", "--abort", 2)
+        run = self.run_tree(self.count("c", "/count", 5))
+        self.assertIn("c (Count): failure: the action '/count': ACTION_ABORTED: {sequence: [1, 2]}\n", run.out)
+        recorded = self.recording.read_text()
+        self.assertIn("waits for the server of '/count' to accept the goal", recorded)
+        self.assertIn("the server of '/count' has accepted the goal", recorded)
+        run = self.run_tree('<Hold service_name="/nobody" held="true"/>')
+        self.assertIn(": failure: the service '/nobody': SERVICE_UNREACHABLE\n", run.out)
+
     def test_feedback_may_end_an_action(self):
         server = self.server("--action", "/count")
         run = self.run_tree(self.count("c", "/count", 1000, 'stop_at="3"') )

@@ -69,6 +69,9 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
   virtual NodeStatus onFailure(ActionNodeErrorCode /*code*/) { return NodeStatus::FAILURE; }
   virtual void onHalt() {}
 
+  // For lockstep: why it has failed, or what it waits for. A class may have its own.
+  const std::string& reason() const { return lockstep_reason_; }
+
   void cancelGoal() {
     if (lockstep_handle_ != nullptr && !lockstep_result_) lockstep_cancel(lockstep_handle_);
   }
@@ -118,6 +121,7 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
 
   void lockstep_begin() {
     lockstep_phase_ = Phase::WaitsForServer;
+    lockstep_say("waits for the server of ");
     lockstep_work_.begin_wait(lockstep_work_.params().wait_for_server_timeout);
   }
 
@@ -158,6 +162,7 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
       lockstep_is_rejected_ = handle == nullptr;
       lockstep_handle_ = std::move(handle);
       lockstep_phase_ = Phase::IsAccepted;
+      lockstep_say("the server of ", " has accepted the goal");
     };
     options.feedback_callback = [this, sent](Handle, std::shared_ptr<const Feedback> feedback) {
       if (sent == lockstep_sent_ && lockstep_early_ == NodeStatus::RUNNING) {
@@ -168,6 +173,7 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
       if (sent == lockstep_sent_) lockstep_result_ = result;
     };
     lockstep_phase_ = Phase::IsSent;
+    lockstep_say("waits for the server of ", " to accept the goal");
     lockstep_work_.begin_wait(lockstep_work_.params().server_timeout);
     ++lockstep_unanswered_;
     lockstep_client_->async_send_goal(lockstep_goal_, options);
@@ -183,16 +189,22 @@ class RosActionNode : public lockstep_detail::RosNode<ActionNodeBase, lockstep_d
 
   NodeStatus lockstep_take_result() {
     const WrappedResult result = *lockstep_result_;
-    if (result.code == rclcpp_action::ResultCode::ABORTED) return lockstep_failed(ACTION_ABORTED);
+    if (result.code == rclcpp_action::ResultCode::ABORTED) {
+      return lockstep_failed(ACTION_ABORTED, result.result.get());
+    }
     if (result.code == rclcpp_action::ResultCode::CANCELED) {
-      return lockstep_failed(ACTION_CANCELLED);
+      return lockstep_failed(ACTION_CANCELLED, result.result.get());
     }
     lockstep_end();
+    lockstep_reason_.clear();
     return lockstep_detail::completed(onResultReceived(result), "onResultReceived");
   }
 
-  NodeStatus lockstep_failed(ActionNodeErrorCode code) {
+  NodeStatus lockstep_failed(ActionNodeErrorCode code,
+                             const typename ActionT::Result* result = nullptr) {
     lockstep_end();
+    lockstep_say("the action ", ": ");
+    lockstep_reason_ += toStr(code) + lockstep_detail::text_of(result);
     return lockstep_detail::completed(onFailure(code), "onFailure");
   }
 

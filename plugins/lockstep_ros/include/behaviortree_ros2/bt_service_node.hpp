@@ -46,6 +46,9 @@ class RosServiceNode
   virtual NodeStatus onResponseReceived(const typename Response::SharedPtr& response) = 0;
   virtual NodeStatus onFailure(ServiceNodeErrorCode /*code*/) { return NodeStatus::FAILURE; }
 
+  // For lockstep: why it has failed, or what it waits for. A class may have its own.
+  const std::string& reason() const { return lockstep_reason_; }
+
   void halt() override {
     lockstep_end();
     resetStatus();
@@ -57,6 +60,7 @@ class RosServiceNode
       lockstep_request_ = std::make_shared<Request>();
       if (!setRequest(lockstep_request_)) return lockstep_failed(INVALID_REQUEST);
       lockstep_phase_ = Phase::WaitsForServer;
+      lockstep_say("waits for the service ");
       lockstep_work_.begin_wait(lockstep_work_.params().wait_for_server_timeout);
     }
     return lockstep_advance();
@@ -86,6 +90,7 @@ class RosServiceNode
     if (lockstep_response_ != nullptr) {
       const auto response = lockstep_response_;
       lockstep_end();
+      lockstep_reason_.clear();
       return lockstep_detail::completed(onResponseReceived(response), "onResponseReceived");
     }
     return lockstep_work_.has_waited_long() ? lockstep_failed(SERVICE_TIMEOUT)
@@ -95,6 +100,7 @@ class RosServiceNode
   void lockstep_send() {
     const unsigned sent = ++lockstep_sent_;
     lockstep_phase_ = Phase::IsSent;
+    lockstep_say("waits for the response of ");
     lockstep_work_.begin_wait(lockstep_work_.params().server_timeout);
     lockstep_client_->async_send_request(lockstep_request_,
                                          [this, sent](typename ServiceClient::SharedFuture answer) {
@@ -105,6 +111,8 @@ class RosServiceNode
 
   NodeStatus lockstep_failed(ServiceNodeErrorCode code) {
     lockstep_end();
+    lockstep_say("the service ", ": ");
+    lockstep_reason_ += toStr(code);
     return lockstep_detail::completed(onFailure(code), "onFailure");
   }
 

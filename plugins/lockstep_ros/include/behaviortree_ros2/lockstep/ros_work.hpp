@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <rclcpp/rclcpp.hpp>
+#include <sstream>
 #include <thread>
 
 #include "behaviortree_ros2/ros_node_params.hpp"
@@ -132,8 +133,13 @@ class RosNode : public Base {
     return true;
   }
 
+  // For the `reason()` of a node: why it has failed, or what it waits for.
+  void lockstep_say(const char* before, const char* after = "") {
+    lockstep_reason_ = before + ("'" + lockstep_name_) + "'" + after;
+  }
+
   RosWork lockstep_work_;
-  std::string lockstep_name_;
+  std::string lockstep_name_, lockstep_reason_;
 
  private:
   std::string lockstep_find_name() const {
@@ -142,6 +148,15 @@ class RosNode : public Base {
     return is_given ? given.value() : lockstep_work_.params().default_port_value;
   }
 };
+
+// A result as YAML, of any type: ": {error_code: 101, error_msg: too far}".
+template <class T>
+std::string text_of(const T* message) {
+  std::ostringstream text;
+  if (message == nullptr) return {};
+  to_flow_style_yaml(*message, text);
+  return ": " + text.str();
+}
 
 inline NodeStatus completed(NodeStatus status, const char* function) {
   if (status == NodeStatus::SUCCESS || status == NodeStatus::FAILURE) return status;

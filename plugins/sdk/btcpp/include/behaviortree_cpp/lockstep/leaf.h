@@ -63,7 +63,7 @@ struct Leaf {
     if (table == nullptr || (status != LOCKSTEP_FAILURE && status != LOCKSTEP_RUNNING))
       return status;
     leaf.call([&leaf, table](const TreeNode& node, const ClassHooks& it) {
-      table->say(leaf.place.caller, it.reason(node).c_str());
+      it.reason(node, *table, leaf.place.caller);
     });
     return status;
   }

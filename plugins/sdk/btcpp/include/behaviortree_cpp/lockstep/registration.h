@@ -1,6 +1,7 @@
 // The types of nodes that a plugin has registered, as the host reads them.
 #pragma once
 
+#include <lockstep/ext/reason.h>
 #include <lockstep/leaf.h>
 
 #include <deque>
@@ -36,7 +37,7 @@ struct ClassHooks {
   void (*pause)(TreeNode&) = nullptr;
   void (*resume)(TreeNode&) = nullptr;
   double (*pace)(TreeNode&, double factor) = nullptr;
-  std::string (*reason)(const TreeNode&) = nullptr;
+  void (*reason)(const TreeNode&, const lockstep_reason&, const lockstep_caller*) = nullptr;
 };
 
 template <class T, class = void>
@@ -114,8 +115,10 @@ ClassHooks hooks_of() {
     };
   }
   if constexpr (has_reason<T>) {
-    hooks.reason = [](const TreeNode& node) -> std::string {
-      return as_class<const T>(node).reason();
+    hooks.reason = [](const TreeNode& node, const lockstep_reason& table,
+                      const lockstep_caller* caller) {
+      const std::string& text = as_class<const T>(node).reason();  // which may be kept there
+      table.say(caller, text.c_str());
     };
   }
   return hooks;
