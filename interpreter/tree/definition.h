@@ -76,7 +76,10 @@ struct BoundScript {
   std::vector<std::uint32_t> entries =
       {};            // of each of Expression::names(); or the one that has it
   Place place = {};  // of its attribute
-  std::vector<std::uint32_t> readings = {};  // of each of Expression::readings()
+  // Of each of Expression::readings(); `renamed`: the name in the project of the barrier or pool
+  // that it names, where a SubTree or a file gives that another one here, else "".
+  std::vector<std::uint32_t> readings = {};
+  std::vector<std::string_view> renamed = {};
 };
 
 // The scripts of a node, in Definition::scripts; Port::kNone where it has none.

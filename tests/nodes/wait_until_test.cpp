@@ -1,8 +1,11 @@
 // WaitUntil, and what scripts read of the run.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <string>
 
 #include "support/scripted_run.h"
 #include "support/tick_table.h"
+#include "support/tree_document.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -80,7 +83,56 @@ constexpr TickRow kReadingRows[] = {
   {"a leaf that cannot say its progress is at fault",
    "Parallel(a Check[code=progress(a)<2])", "a=RR<nan>R", "R[a] R[a] X{halt a}=a"},
 };
+
+// The pool q, and the barrier h, are p and g in the tree "Inner".
+struct RenamedRow {
+  std::string_view law, inner;
+  bool reads_other;  // p, which 'a' owns, or g, where 'a' runs
+};
+constexpr RenamedRow kRenamedRows[] = {
+  {"an attribute of a SubTree renames a pool for the scripts inside",
+   R"(<Sequence memory="true"><WaitUntil code="owner(q/A)!=none"/><Scripted name="c"/></Sequence>)", true},
+  {"also where the tree inside uses the pool itself",
+   R"(<Sequence memory="true"><WaitUntil code="owner(q/A)!=none"/><UseResources pool="q" resources="C"><Scripted name="c"/></UseResources></Sequence>)", true},
+  {"and of a pool that a node around the script has",
+   R"(<UseResources pool="q" resources="C"><Scripted name="c" skip_if="owner(q/A)==none"/></UseResources>)", true},
+  {"and for the trees inside of that one",
+   R"(<SubTree ID="Deep"/>)", true},
+  {"the names that no attribute gives are those of outside",
+   R"(<Sequence memory="true"><WaitUntil code="owner(p/A)!=none"/><Scripted name="c"/></Sequence>)", true},
+  {"a resource that only the pool of the other name has is that one's",
+   R"(<Sequence memory="true"><WaitUntil code="owner(q/D)!=none"/><Scripted name="c"/></Sequence>)", false},
+  {"likewise a barrier",
+   R"(<Sequence memory="true"><WaitUntil code="status(h)==running"/><Scripted name="c"/></Sequence>)", true},
+};
 // clang-format on
+
+// Whether 'c' is ticked within three ticks.
+bool ticks_c(std::string_view inner) {
+  const LoadedDocument loaded =
+      tree_from_document(R"(<root lockstep="1" main_tree_to_execute="Test">
+    <resources name="p" resources="A;C"/> <resources name="q" resources="A;C;D"/>
+    <barrier name="g" delta="1"/> <barrier name="h" delta="1"/>
+    <BehaviorTree ID="Test"><Parallel failure_count="4">
+      <UseResources pool="p" resources="A"><SyncProgress barrier="g"><Scripted name="a"/></SyncProgress></UseResources>
+      <SyncProgress barrier="g"><Scripted name="b"/></SyncProgress>
+      <SubTree ID="Inner" q="p" h="g"/>
+      <Delay seconds="9"><UseResources pool="q" resources="A"><Parallel>
+        <SyncProgress barrier="h"><Scripted name="d"/></SyncProgress>
+        <SyncProgress barrier="h"><Scripted name="e"/></SyncProgress></Parallel></UseResources></Delay>
+    </Parallel></BehaviorTree>
+    <BehaviorTree ID="Deep"><Sequence memory="true">
+      <WaitUntil code="owner(q/A)!=none"/><Scripted name="c"/></Sequence></BehaviorTree>
+    <BehaviorTree ID="Inner">)" +
+                         std::string(inner) + "</BehaviorTree></root>");
+  CAPTURE(loaded.errors);
+  REQUIRE(loaded.tree);
+  ScriptedRun run(*loaded.tree, "a=R b=R c=R d=R e=R");
+  for (int tick = 0; tick < 3; ++tick) run.tick(tick * std::chrono::milliseconds(100));
+  return std::ranges::any_of(run.events, [&](const Event& it) {
+    return it.call == Call::Tick && run.leaf_name(it.leaf) == "c";
+  });
+}
 
 }  // namespace
 
@@ -90,6 +142,13 @@ TEST_CASE("WaitUntil") {
 
 TEST_CASE("what scripts read of the run") {
   check_rows(kReadingRows);
+}
+
+TEST_CASE("what scripts read of the run has the names of their SubTree") {
+  for (const RenamedRow& row : kRenamedRows) {
+    INFO(row.law);
+    CHECK(ticks_c(row.inner) == row.reads_other);
+  }
 }
 
 }  // namespace lockstep::host::test

@@ -73,7 +73,8 @@ double MiniScript::value(const std::string& text) const {
                                                     {"failure", 3}, {"skipped", 4}, {"none", -1},
                                                     {"true", 1},    {"false", 0}};
   if (const auto word = kWords.find(text); word != kWords.end()) return word->second;
-  const auto reading = entries_.readings.find(text);
+  const auto other = meanings_.find(text);
+  const auto reading = entries_.readings.find(other == meanings_.end() ? text : other->second);
   if (reading != entries_.readings.end()) return reading->second;
   const auto entry = entries_.numbers.find(text);
   if (entry == entries_.numbers.end()) throw ReferenceFault{node_};

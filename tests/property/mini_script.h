@@ -21,10 +21,14 @@ struct Entries {
   std::map<std::string, double> readings;    // "status(a0)", as it was before this tick
 };
 
+// What a script reads in a SubTree, where pools may have other names: "owner(q/A)" of "owner(p/A)".
+using Meanings = std::map<std::string, std::string>;
+
 class MiniScript {
  public:
   // An entry without a value is a fault of `node`.
-  MiniScript(Entries& entries, std::size_t node) : entries_(entries), node_(node) {}
+  MiniScript(Entries& entries, std::size_t node, const Meanings& meanings)
+      : entries_(entries), node_(node), meanings_(meanings) {}
 
   bool holds(const std::string& text) const;
   double number(const std::string& text) const;  // "x" or "x+y"
@@ -37,6 +41,7 @@ class MiniScript {
 
   Entries& entries_;
   std::size_t node_;
+  const Meanings& meanings_;
 };
 
 }  // namespace lockstep::host::test

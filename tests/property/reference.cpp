@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <ranges>
 #include <stdexcept>
 
 #include "property/reference_barrier.h"
@@ -338,7 +339,8 @@ class Ordered : public ReferenceNode {
   bool is_limit_reached() {
     if (is_guard(plan)) return false;
     for (ReferenceNode* branch = this; branch->parent != nullptr; branch = branch->parent) {
-      if (branch->parent->is_reached_between(progress_in_tick(*branch))) return true;
+      if (branch->parent->is_reached_between([&] { return progress_in_tick(*branch); }))
+        return true;
     }
     return false;
   }
@@ -448,8 +450,8 @@ class Synchronized : public Parallel {
     }
     return least;
   }
-  bool is_reached_between(double progress) const override {
-    return plan.holds_between && ProgressLimit(plan).holds(progress, least_of(snapshot));
+  bool is_reached_between(const std::function<double()>& progress) const override {
+    return plan.holds_between && ProgressLimit(plan).holds(progress(), least_of(snapshot));
   }
 
   void on_pause() override { pacer_.pause(world.now); }
@@ -720,6 +722,7 @@ Reference::Reference(const Plan& plan, LeafBehavior* behavior) : world_(std::mak
     }
   }
   order_groups();
+  for (ReferenceNode* node : nodes_) find_meanings(*node);
 }
 
 // What a barrier holds owns nothing, and a member of a pool owns only while those around it do: the
@@ -739,6 +742,34 @@ void Reference::order_groups() {
     pools.erase(outermost);
   }
   world_->groups = ordered;
+}
+
+// "An attribute on SubTree may remap" the name of a pool: the innermost name whose pool has the
+// resource.
+void Reference::find_meanings(ReferenceNode& node) const {
+  std::vector<const Plan*> around;  // the innermost first
+  for (const ReferenceNode* it = node.parent; it != nullptr; it = it->parent) {
+    if (!it->plan.renames.empty()) around.push_back(&it->plan);
+  }
+  std::vector<GroupNames> names(1);
+  for (const Plan* tree : around | std::views::reverse) {
+    names.push_back(names_inside(*tree, names.back()));
+  }
+  for (const std::string& text : readings_in(node.plan)) {
+    const auto slash = text.find('/');
+    if (!text.starts_with("owner(") || slash == text.npos) continue;
+    const std::string written = text.substr(6, slash - 6), resource = text.substr(slash + 1, 1);
+    for (const GroupNames& inside : names | std::views::reverse) {
+      const std::string name = meaning(inside, written);
+      const bool has_resource = std::ranges::any_of(world_->groups, [&](const auto* group) {
+        const auto* pool = dynamic_cast<const ReferencePool*>(group);
+        return pool != nullptr && pool->plan.name == name && pool->knows(resource);
+      });
+      if (!has_resource) continue;
+      node.meanings[text] = "owner(" + name + text.substr(slash);
+      break;
+    }
+  }
 }
 
 Reference::~Reference() = default;

@@ -73,6 +73,7 @@ class Reference {
  private:
   friend class ReferenceNode;
   void order_groups();
+  void find_meanings(ReferenceNode& node) const;
   // What scripts read of the run, before the tick. False after a fault.
   bool read_nodes();
   void keep(KeptState& state);

@@ -154,9 +154,11 @@ void ReferenceBarrier::read_limit() {
   }
 }
 
-bool ReferenceBarrier::is_reached_between(const ReferenceNode& node, double progress) const {
-  return plan.holds_between && limit_ && !members_[place_of(node)].has_succeeded &&
-         limit_->holds(progress, least_of(snapshot));
+bool ReferenceBarrier::is_reached_between(const ReferenceNode& node,
+                                          const std::function<double()>& progress) const {
+  if (!plan.holds_between || members_[place_of(node)].has_succeeded) return false;
+  const double reached = progress();
+  return limit_ && limit_->holds(reached, least_of(snapshot));
 }
 
 bool ReferenceBarrier::somebody_runs() const {

@@ -25,7 +25,7 @@ class ReferenceBarrier : public ReferenceGroup {
 
   bool has_member(const ReferenceNode& node) const { return place_of(node) < count(); }
   bool holds(const ReferenceNode& node) const { return members_[place_of(node)].is_held; }
-  bool is_reached_between(const ReferenceNode& node, double progress) const;
+  bool is_reached_between(const ReferenceNode& node, const std::function<double()>& progress) const;
   // A tick has reached a member.
   void reach(const ReferenceNode& member);
 
@@ -71,7 +71,7 @@ class SyncProgress : public ReferenceNode {
   Status on_tick(bool first) override;
   double on_progress() override { return child().progress(); }
   bool is_held() const { return barrier().holds(*this); }
-  bool is_reached_between(double progress) const override {
+  bool is_reached_between(const std::function<double()>& progress) const override {
     return barrier().is_reached_between(*this, progress);
   }
 

@@ -1,6 +1,7 @@
 // Of the reference interpreter: a node that calls its children, and what all nodes share.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -47,15 +48,18 @@ class ReferenceNode {
 
   bool asks(const char* hook, bool otherwise) const;
   void run(const char* hook) const;
-  MiniScript script() const { return {world.entries, number}; }
+  MiniScript script() const { return {world.entries, number, meanings}; }
   void note(const std::string& what) const {
     if (world.behavior == nullptr) ++world.cases[what];
   }
 
   virtual Status on_tick(bool first) = 0;
   virtual double on_progress() = 0;
-  // Of one with hold="between": a branch that has come so far within this tick is held.
-  virtual bool is_reached_between(double /*progress*/) const { return false; }
+  // Of one with hold="between": a branch that has come so far within this tick is held. Nobody else
+  // asks how far that is.
+  virtual bool is_reached_between(const std::function<double()>& /*progress*/) const {
+    return false;
+  }
   virtual void on_halt() {}
   // The least that its running leaves took up of their pace, each divided by what nodes from here
   // to it asked, and by `between`.
@@ -81,6 +85,7 @@ class ReferenceNode {
   std::uint32_t last_tick = 0;
   std::uint32_t withheld_in = 0;  // the last tick in which its synchronized parallel held it
   std::vector<double> snapshot;
+  Meanings meanings;  // of its scripts
   // Of this moment.
   bool in_tick = false;
   bool was_ticked = false;

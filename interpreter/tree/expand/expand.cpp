@@ -13,6 +13,7 @@
 #include "base/core/pre_order.h"
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
+#include "tree/expand/readings.h"
 #include "tree/expand/scope.h"
 #include "tree/types/literal.h"
 #include "tree/types/script_entries.h"
@@ -259,7 +260,18 @@ class Expander {
     for (const std::string& name : script.code->names()) {
       bound.entries.push_back(find(name, scope));
     }
+    bind_renamed(bound, scope);
     return add_script(std::move(bound));
+  }
+
+  static void bind_renamed(BoundScript& script, Scope& scope) {
+    const auto readings = script.code->readings();
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      const std::string_view group = scope.renamed_group(group_in(readings[i]));
+      if (group.empty()) continue;
+      script.renamed.resize(readings.size());
+      script.renamed[i] = group;
+    }
   }
 
   std::uint32_t add_script(BoundScript script) {

@@ -24,8 +24,9 @@ class ReadingResolver {
   void resolve() {
     for (BoundScript& script : definition_.scripts) {
       if (script.code == nullptr) continue;
-      for (const Reading& it : script.code->readings()) {
-        const auto found = find(script.inside, it);
+      for (std::size_t i = 0; i < script.code->readings().size(); ++i) {
+        const Reading& it = script.code->readings()[i];
+        const auto found = find(script.inside, it, script.renamed.empty() ? "" : script.renamed[i]);
         if (!found) {
           tell(script, it, found.error());
           continue;
@@ -51,7 +52,11 @@ class ReadingResolver {
     }
   }
 
-  Result<BoundReading> find(std::uint32_t inside, const Reading& reading) {
+  Result<BoundReading> find(std::uint32_t inside, const Reading& reading,
+                            std::string_view renamed) {
+    if (!renamed.empty()) {
+      if (const auto found = find_renamed(inside, reading, renamed)) return *found;
+    }
     if (reading.what == Reading::What::Owner) return find_resource(inside, reading.of);
     const auto key = std::tuple(inside, std::string_view(reading.of));
     auto known = nodes_.find(key);
@@ -60,15 +65,38 @@ class ReadingResolver {
     return BoundReading{.node = *known->second, .what = reading.what};
   }
 
-  Result<std::uint32_t> find_node_in(std::uint32_t inside, std::string_view name) {
+  // Where a SubTree gives a barrier or a pool another name, nodes of the same SubTree come first.
+  std::optional<BoundReading> find_renamed(std::uint32_t inside, const Reading& reading,
+                                           std::string_view name) {
+    const auto group = std::ranges::find(definition_.groups, name, [this](const auto& it) {
+      return definition_.nodes[it.node].name;
+    });
+    if (group == definition_.groups.end()) return std::nullopt;
+    if (reading.what != Reading::What::Owner) {
+      if (find_inside(inside, reading.of)) return std::nullopt;
+      return BoundReading{.node = group->node, .what = reading.what};
+    }
+    const auto resource = std::ranges::find(
+        group->resources, std::string_view(reading.of).substr(group_in(reading).size() + 1));
+    if (resource == group->resources.end()) return std::nullopt;
+    return BoundReading{
+        .node = group->node,
+        .what = reading.what,
+        .resource = static_cast<std::uint32_t>(resource - group->resources.begin())};
+  }
+
+  std::optional<std::uint32_t> find_inside(std::uint32_t tree, std::string_view name) {
     if (!ends_) {
       paths_ = paths_of(definition_);
       ends_.emplace(paths_);
     }
+    const auto all = static_cast<std::uint32_t>(paths_.size());
+    return ends_->find(name, paths_, tree, tree == 0 ? all : definition_.nodes[tree].end);
+  }
+
+  Result<std::uint32_t> find_node_in(std::uint32_t inside, std::string_view name) {
     while (inside != 0) {
-      if (const auto found = ends_->find(name, paths_, inside, definition_.nodes[inside].end)) {
-        return *found;
-      }
+      if (const auto found = find_inside(inside, name)) return *found;
       for (const auto& [written, group] : groups_in(inside)) {
         if (written == name) return group->node;
       }
@@ -77,8 +105,7 @@ class ReadingResolver {
     for (const auto& [written, group] : groups_in(0)) {  // the main tree may be a SubTree itself
       if (written == name) return group->node;
     }
-    const auto end = static_cast<std::uint32_t>(paths_.size());
-    if (const auto found = ends_->find(name, paths_, 0, end)) return *found;
+    if (const auto found = find_inside(0, name)) return *found;
     return find_node(name, paths_);  // says why not
   }
 
@@ -190,6 +217,13 @@ class ReadingResolver {
 };
 
 }  // namespace
+
+std::string_view group_in(const Reading& reading) {
+  const std::string_view name = reading.of;
+  if (reading.what != Reading::What::Owner) return name;
+  const auto slash = name.rfind('/');
+  return slash == name.npos ? std::string_view() : name.substr(0, slash);
+}
 
 void resolve_readings(Definition& definition, const Reporter& report) {
   ReadingResolver(definition, report).resolve();

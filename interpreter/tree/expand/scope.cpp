@@ -58,12 +58,21 @@ Board Scope::board() const {
 }
 
 std::string_view Scope::group(std::string_view name) {
-  groups_.insert(name);
+  return meaning_of_group(name, true);
+}
+
+std::string_view Scope::renamed_group(std::string_view name) {
+  const std::string_view meaning = meaning_of_group(name, false);
+  return meaning != name && declared_.contains(meaning) ? group(name) : std::string_view();
+}
+
+std::string_view Scope::meaning_of_group(std::string_view name, bool uses_it) {
+  if (uses_it) groups_.insert(name);
   if (const auto other = texts_.find(name); outer_ != nullptr && other != texts_.end()) {
-    return outer_->group(other->second);
+    return outer_->meaning_of_group(other->second, uses_it);
   }
   if (const auto own = group_of_file(name); !own.empty()) return own;
-  return outer_ == nullptr ? name : outer_->group(name);
+  return outer_ == nullptr ? name : outer_->meaning_of_group(name, uses_it);
 }
 
 std::string_view Scope::group_of_file(std::string_view name) const {

@@ -64,6 +64,8 @@ class Scope {
   // The name in the project of the group that `name` means here: what an attribute of a SubTree
   // says, else that of its file, else that of the file outside.
   std::string_view group(std::string_view name);
+  // The same of a name that may be something else; "" if it means itself.
+  std::string_view renamed_group(std::string_view name);
   bool used(std::string_view key) const { return known_.contains(key) || groups_.contains(key); }
   // The keys and names that are used but that no attribute of the SubTree sets.
   std::vector<std::string_view> open_keys() const;
@@ -71,6 +73,7 @@ class Scope {
  private:
   // Whether a key that is neither remapped nor has a start value is one outside.
   bool passes_on(std::string_view key) const;
+  std::string_view meaning_of_group(std::string_view name, bool uses_it);
   // The group of that name that this file, or one that includes it by a name, declares; "" if the
   // scope outside knows better.
   std::string_view group_of_file(std::string_view name) const;
