@@ -1,8 +1,8 @@
 // The engine against the reference interpreter, tick by tick, on random trees.
 #include <catch2/catch.hpp>
-#include <cstdlib>
 
 #include "property/comparison.h"
+#include "property/seeds.h"
 #include "support/scripted_run.h"
 
 namespace lockstep::host::test {
@@ -10,19 +10,6 @@ namespace {
 
 constexpr std::uint64_t kAgreementTrees = 10000, kGroupTrees = 7000, kRepeatedTrees = 500,
                         kPacedTrees = 4000;
-
-// Which trials: so many, from a first seed.
-struct Seeds {
-  std::uint64_t first, count;
-};
-
-// ./dev property sets these variables.
-Seeds seeds(std::uint64_t otherwise) {
-  const char* const first = std::getenv("LOCKSTEP_PROPERTY_SEED");
-  const char* const count = std::getenv("LOCKSTEP_PROPERTY_TREES");
-  return {first == nullptr ? 0 : std::stoull(first),
-          count == nullptr ? otherwise : std::stoull(count)};
-}
 
 // Reports the first few trials in which the engine differs from the reference interpreter.
 template <class RandomTrial>
@@ -75,27 +62,27 @@ void check_same_again(const Trial& trial) {
 
 TEST_CASE("the engine agrees with the reference interpreter on random trees") {
   Coverage coverage;
-  const Seeds trials = seeds(kAgreementTrees);
+  const Seeds trials = seeds(0, kAgreementTrees);
   compare_all(trials, random_trial, &coverage, nullptr);
   if (trials.count >= kAgreementTrees) coverage.check();
 }
 
 TEST_CASE("the engine agrees with the law of barriers and resources on random trees") {
   GroupCoverage coverage;
-  const Seeds trials = seeds(kGroupTrees);
+  const Seeds trials = seeds(0, kGroupTrees);
   compare_all(trials, random_group_trial, nullptr, &coverage);
   if (trials.count >= kGroupTrees) coverage.check();
 }
 
 TEST_CASE("the engine agrees with the law of pacing on random trees") {
   const auto paced_trial = [](std::uint64_t seed) { return paced(random_trial(seed), seed); };
-  compare_all(seeds(kPacedTrees), paced_trial, nullptr, nullptr);
+  compare_all(seeds(0, kPacedTrees), paced_trial, nullptr, nullptr);
 }
 
 TEST_CASE("the engine agrees with the law of pacing on random trees with barriers and resources") {
   GroupCoverage coverage;
   const auto paced_trial = [](std::uint64_t seed) { return paced(random_group_trial(seed), seed); };
-  compare_all(seeds(kPacedTrees), paced_trial, nullptr, &coverage);
+  compare_all(seeds(0, kPacedTrees), paced_trial, nullptr, &coverage);
 }
 
 TEST_CASE("the same tree and seed give the same run") {
