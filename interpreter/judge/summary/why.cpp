@@ -22,13 +22,18 @@ std::uint32_t writes_of(const Moment& moment, std::uint32_t entry) {
   return moment.live == nullptr ? moment.texts[entry].writes : moment.entries[entry].writes();
 }
 
-// Attempts of one tick without a reason are one row.
+// A leaf has one reason in a tick, which is that of the last attempt. Those before it are one row.
 void add_attempt(std::vector<Attempt>& all, Attempt it) {
-  const bool is_again = !all.empty() && all.back().tick == it.tick && all.back().node == it.node &&
-                        all.back().reason.empty() && it.reason.empty();
-  if (is_again) {
-    all.back().times += it.times;
-    return;
+  const auto joins = [](Attempt& row, const Attempt& next) {
+    const bool is_same = row.tick == next.tick && row.node == next.node;
+    if (!is_same || !row.reason.empty() || !next.reason.empty()) return false;
+    row.times += next.times;
+    return true;
+  };
+  if (!all.empty() && all.back().tick == it.tick) {
+    all.back().reason.clear();
+    if (all.size() > 1 && joins(all[all.size() - 2], all.back())) all.pop_back();
+    if (joins(all.back(), it)) return;
   }
   if (all.size() == WhyWatch::kAttempts) all.erase(all.begin());
   all.push_back(std::move(it));
@@ -65,12 +70,9 @@ WhyWatch::WhyWatch(const Shape& shape) : shape_(shape) {
   reached_.resize(shape.nodes.size());
 }
 
+// A node may begin several attempts in a tick.
 AskedOfRun WhyWatch::asked() const {
-  // The only one that begins several attempts in a tick.
-  const auto may_try_at_once = [&](const Tries& it) {
-    return shape_.nodes[it.node].kind == "RetryUntilSuccessful";
-  };
-  return {.within = std::ranges::any_of(tries_, may_try_at_once)};
+  return {.within = !tries_.empty()};
 }
 
 void WhyWatch::after_tick(const Moment& moment) {
@@ -135,59 +137,53 @@ void WhyWatch::follow_time(const Moment& moment, Timed& timed, bool is_later_par
 }
 
 void WhyWatch::follow_attempts(const Moment& moment, bool is_later_part) {
-  if (moment.within.empty() || column_.capacity() == 0) {
-    for (Tries& it : tries_) follow_attempt(moment, it, 1, true, is_later_part);
+  if (moment.within.empty()) {
+    for (Tries& it : tries_) follow_attempt(moment, moment, it, 1, is_later_part);
     return;
   }
   Moment part = moment;
   part.activity = activity_;
   part.reached = reached_;
   part.number = 1;
-  moment.within.each(
-      column_, [&](std::span<const NodeState> states, const TickMoment& of, bool is_last) {
-        for (std::size_t i = 0; i < states.size(); ++i) {
-          activity_[i] = states[i].activity();
-          reached_[i] = states[i].ticked() ? 1 : 0;
-        }
-        for (Tries& it : tries_) {
-          follow_attempt(is_last ? moment : part, it, of.times, is_last, is_later_part);
-        }
-      });
+  moment.within.each(column_, [&](std::span<const NodeState> states, const TickMoment& of, bool) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      activity_[i] = states[i].activity();
+      reached_[i] = states[i].ticked() ? 1 : 0;
+    }
+    for (Tries& it : tries_) follow_attempt(moment, part, it, of.times, is_later_part);
+  });
   // The order of the rest is not known.
   for (const NodeTotals& rest : moment.within.rest) {
     const auto it = std::ranges::find(tries_, rest.node, &Tries::child);
     if (it == tries_.end() || rest.of(Status::Failure) == 0) continue;
     it->runs = moment.status(it->node) == Status::Running;
-    note_attempt(moment, *it, rest.of(Status::Failure), false);
+    note_attempt(moment, moment, *it, rest.of(Status::Failure));
   }
 }
 
-void WhyWatch::follow_attempt(const Moment& part, Tries& tries, std::uint64_t times, bool is_last,
-                              bool is_later_part) const {
+void WhyWatch::follow_attempt(const Moment& moment, const Moment& part, Tries& tries,
+                              std::uint64_t times, bool is_later_part) const {
   const bool ran = tries.runs;
   tries.runs = part.status(tries.node) == Status::Running;
   if (!part.ticked(tries.node)) return;
   if (!ran) {
     tries.failed = 0;
     tries.last.clear();
-    tries.since = is_later_part ? std::optional(part.tick) : std::nullopt;
+    tries.since = is_later_part ? std::optional(moment.tick) : std::nullopt;
   }
   const bool has_failed = part.ticked(tries.child) && part.status(tries.child) == Status::Failure;
-  if (has_failed) note_attempt(part, tries, times, is_last);
+  if (has_failed) note_attempt(moment, part, tries, times);
 }
 
-// A reason is of the last attempt of a tick: the earlier ones have none.
-void WhyWatch::note_attempt(const Moment& part, Tries& tries, std::uint64_t times,
-                            bool is_last) const {
+void WhyWatch::note_attempt(const Moment& moment, const Moment& part, Tries& tries,
+                            std::uint64_t times) const {
   tries.failed += times;
   NodeIndex node = tries.child;
   while (const auto child = deciding_child(shape_, part, node)) node = *child;
-  if (times > 1 || !is_last) {
-    const std::uint64_t earlier = is_last ? times - 1 : times;
-    add_attempt(tries.last, {.tick = part.tick, .node = node, .times = earlier});
-  }
-  if (!is_last) return;
-  add_attempt(tries.last, {.tick = part.tick, .node = node, .reason = reason(part, node)});
+  if (times > 1) add_attempt(tries.last, {.tick = moment.tick, .node = node, .times = times - 1});
+  Attempt last{.tick = moment.tick, .node = node};
+  if (moment.status(node) == part.status(node)) last.reason = reason(moment, node);
+  add_attempt(tries.last, std::move(last));
 }
 
 std::string WhyWatch::value_text(const Moment& moment, const std::string& key) const {

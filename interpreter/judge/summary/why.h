@@ -99,9 +99,11 @@ class WhyWatch {
   std::string owner_text(const Moment& moment, NodeIndex user) const;
   std::string words_of_owners(const Moment& moment, NodeIndex user) const;
   void follow_attempts(const Moment& moment, bool is_later_part);
-  void follow_attempt(const Moment& part, Tries& tries, std::uint64_t times, bool is_last,
+  // `part` is the state within the tick.
+  void follow_attempt(const Moment& moment, const Moment& part, Tries& tries, std::uint64_t times,
                       bool is_later_part) const;
-  void note_attempt(const Moment& part, Tries& tries, std::uint64_t times, bool is_last) const;
+  void note_attempt(const Moment& moment, const Moment& part, Tries& tries,
+                    std::uint64_t times) const;
   void follow_time(const Moment& moment, Timed& timed, bool is_later_part) const;
 
   const Shape& shape_;
