@@ -17,7 +17,7 @@ constexpr std::uint32_t kRises = 2;
 
 void HeldLeaves::add(NodeContext& context, NodeIndex node) {
   const LeafSlot& leaf = context.leaf(node);
-  if (leaf.went_on || leaf.failed()) return;
+  if (leaf.went_on || leaf.is_out()) return;
   if (const auto now = look_at_progress(context, node)) held_.push_back({node, 0, *now, *now});
 }
 

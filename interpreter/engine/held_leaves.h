@@ -26,12 +26,18 @@ class HeldLeaves {
   std::span<const WentOn> went_on() const { return went_on_; }
   void reset();
 
- private:
   struct Held {
     NodeIndex node;
     std::uint32_t rises;  // in how many ticks it has risen
     double from, most;
   };
+  // All that it keeps, for who stores a run.
+  template <class Self, class Visit>
+  static void visit(Self& self, Visit&& visit) {
+    visit(self.held_, self.went_on_);
+  }
+
+ private:
   bool is_done(NodeContext& context, Held& held);
 
   std::vector<Held> held_;

@@ -29,9 +29,10 @@ struct LeafSlot {
   // kError: it has an error. kFailed: a tolerated fault in this activation, which ends in a
   // Failure. kUnreset: the activation begins from a result that its parent has not ended. kStarts:
   // it may begin with a call. kRests: it has nothing to halt. kHeld: it was, and may still be.
-  // kTimed: its calls are timed also in a tick that times no others.
+  // kTimed: its calls are timed also in a tick that times no others. kCut: it ran when its process
+  // was cut, and this object has not begun yet (Ticker::go_on_after_cut).
   static constexpr std::uint8_t kFailed = 1, kUnreset = 2, kStarts = 4, kError = 8, kRests = 16,
-                                kHeld = 32, kTimed = 64;
+                                kHeld = 32, kTimed = 64, kCut = 128;
   void mark(std::uint8_t with, bool is_so) {
     marks = static_cast<std::uint8_t>(is_so ? marks | with : marks & ~with);
   }
@@ -39,10 +40,13 @@ struct LeafSlot {
     error = reason;
     mark(kError, reason != nullptr);
   }
-  // It has failed, or has an error, or is timed by itself.
-  bool is_unusual() const { return (marks & (kFailed | kError | kTimed)) != 0; }
+  // It has failed, or has an error, or is timed by itself, or was cut.
+  bool is_unusual() const { return (marks & (kFailed | kError | kTimed | kCut)) != 0; }
   bool is_timed() const { return (marks & kTimed) != 0; }
   bool failed() const { return (marks & kFailed) != 0; }
+  bool was_cut() const { return (marks & kCut) != 0; }
+  // Nothing of it may be called in this activation, or not before its start.
+  bool is_out() const { return (marks & (kFailed | kCut)) != 0; }
   bool unreset() const { return (marks & kUnreset) != 0; }
   // The activation began, so it has to be halted.
   bool started() const { return (marks & kRests) == 0; }

@@ -147,6 +147,8 @@ class NodeContext : public RunView {
   void set_fault(NodeIndex node, std::string message);
   // Only the first of each leaf is kept.
   void note_out_of_range(NodeIndex node, double reported);
+  // The first tick of a leaf that was cut. Running: it begins, as an idle one; else its result.
+  Status begin_after_cut(NodeIndex node);
   // A leaf that is held from now on: whether it goes on is looked at before each tick.
   void watch_held(NodeIndex node);
 
@@ -238,6 +240,7 @@ class NodeContext : public RunView {
   HeldLeaves& held_leaves_;
   Readings& readings_;
   const FaultPolicy policy_;
+  Status after_cut_ = Status::Running;  // what leaves do that were cut: Running: begin again
   LeafWatch* const watch_;
   LeafWatch* timer_ = nullptr;  // the same while it times each call, else null
   // The mark of the ticking thread, while a leaf is called with nothing around it but this mark and

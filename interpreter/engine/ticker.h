@@ -99,6 +99,11 @@ class Ticker : public NodeContext {
   // the same tree.
   void save(SavedRun& into) const;
   void restore(const SavedRun& from);
+  // After `restore` in a new process, with leaves that have not begun. Those that ran give `result`
+  // in their next tick; Running: they begin again in it, and until then their progress is 0. One
+  // that was held stays held. What ran below a node of a plugin begins with it. Nothing is reported
+  // again. Returns the places of these leaves in Tree::leaves.
+  std::vector<std::uint32_t> go_on_after_cut(Status result = Status::Running);
   // Between two ticks: brings the state of the run to the one form that stands for all from which
   // the tree goes on in the same way, so that two of these can be compared as bytes. Time and the
   // number of the tick begin at 0 again, and nothing counts as ticked. What the leaves keep in

@@ -1,5 +1,5 @@
 // A run that is taken back to an earlier moment goes on as it did from there: on the random trees
-// of both languages.
+// of both languages. So does one that goes on as bytes in another run, of another copy of the tree.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -7,6 +7,7 @@
 #include "engine/node_ports.h"
 #include "property/btcpp_tree.h"
 #include "property/comparison.h"
+#include "run/checkpoint/run_bytes.h"
 #include "support/scripted_types.h"
 #include "support/tree_text.h"
 
@@ -31,12 +32,14 @@ struct Seen {
 // A run that may be taken to any tick; `before` is what is done from outside before one.
 class Walk {
  public:
-  Walk(ScriptedRun& run, double period, std::function<void(int)> before)
+  using Before = std::function<void(ScriptedRun&, int)>;
+  using Again = std::function<std::unique_ptr<ScriptedRun>()>;
+  Walk(ScriptedRun& run, double period, Before before)
       : run_(run), period_(period), before_(std::move(before)) {}
 
   Seen tick(int number) {
     run_.events.clear();
-    before_(number);
+    before_(run_, number);
     Seen seen{.status = run_.tick(number * from_seconds(period_)),
               .events = run_.events,
               .run = run_.ticker().run_state(),
@@ -53,12 +56,15 @@ class Walk {
   }
 
   // From each third tick, the last first, all comes again as it was.
-  void check() {
+  void check(const Again& another = {}) {
     std::vector<ScriptedRun::Saved> saved;
     std::vector<Seen> seen;
     for (int number = 0; number < kRestoreTicks; ++number) {
       saved.push_back(run_.save());
       seen.push_back(tick(number));
+    }
+    for (int from = 1; another && from < kRestoreTicks; from += 9) {
+      check_as_bytes(from, saved[static_cast<std::size_t>(from)], seen, another);
     }
     for (int from = kRestoreTicks - 1; from >= 0; from -= 3) {
       run_.restore(saved[static_cast<std::size_t>(from)]);
@@ -69,10 +75,33 @@ class Walk {
     }
   }
 
+  void check_as_bytes(int from, const ScriptedRun::Saved& saved, const std::vector<Seen>& seen,
+                      const Again& another) {
+    std::string bytes;
+    append_bytes(saved.engine, bytes);
+    const auto run = another();
+    ScriptedRun::Saved read{.engine = {}, .leaves = saved.leaves, .tree_tick = saved.tree_tick};
+    REQUIRE(read_bytes(bytes, run->tree(), read.engine));
+    std::string again;
+    append_bytes(read.engine, again);
+    REQUIRE(again == bytes);
+    CHECK_FALSE(read_bytes(bytes + '\0', run->tree(), read.engine));
+    for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 20) {
+      SavedRun none;
+      CHECK_FALSE(read_bytes(std::string_view(bytes).substr(0, size), run->tree(), none));
+    }
+    run->go_on_as(read);
+    Walk walk(*run, period_, before_);
+    for (int number = from; number < kRestoreTicks; ++number) {
+      INFO("as bytes from tick " << from << ", at tick " << number);
+      REQUIRE(walk.tick(number) == seen[static_cast<std::size_t>(number)]);
+    }
+  }
+
  private:
   ScriptedRun& run_;
   const double period_;
-  const std::function<void(int)> before_;
+  const Before before_;
 };
 
 void check_restored(const Trial& trial) {
@@ -83,11 +112,78 @@ void check_restored(const Trial& trial) {
       leaf.type = &kStartlessActionType;
   }
   INFO(tree_text(trial.plan));
+  const auto make = [&] { return std::make_unique<ScriptedRun>(*tree, leaves_text(trial.plan)); };
+  const auto run = make();
+  Walk(*run, trial.period, [&](ScriptedRun& it, int tick) {
+    write_entries(it, trial, tick);
+  }).check(make);
+}
+
+// From a tick on with new leaves: each of them begins before anything else of it is called.
+void check_cut(const Trial& trial, int from) {
+  const auto tree = tree_of(trial).tree;
+  if (!tree) return;
+  INFO(tree_text(trial.plan) << ", cut before tick " << from);
   ScriptedRun run(*tree, leaves_text(trial.plan));
-  Walk(run, trial.period, [&](int tick) { write_entries(run, trial, tick); }).check();
+  const auto tick = [&](ScriptedRun& it, int number) {
+    write_entries(it, trial, number);
+    it.tick(number * from_seconds(trial.period));
+  };
+  for (int number = 0; number < from; ++number) tick(run, number);
+  SavedRun saved;
+  run.ticker().save(saved);
+  ScriptedRun again(*tree, leaves_text(trial.plan));
+  again.ticker().restore(saved);
+  for (const std::uint32_t place : again.ticker().go_on_after_cut()) {
+    const NodeIndex node = tree->leaves[place].node;
+    REQUIRE(again.ticker().activity(node) == run.ticker().activity(node));
+    REQUIRE(again.ticker().progress(node) == 0);
+  }
+  std::vector<bool> has_begun(tree->leaves.size());
+  for (int number = from; number < kRestoreTicks; ++number) {
+    INFO("tick " << number);
+    for (NodeIndex node = 0; node < tree->nodes.size(); ++node) again.ticker().progress(node);
+    again.events.clear();
+    tick(again, number);
+    for (const Event& event : again.events) {
+      const bool has_start = tree->leaves[event.leaf].type->leaf->start != nullptr;
+      if (event.call == (has_start ? Call::Start : Call::Tick)) has_begun[event.leaf] = true;
+      REQUIRE(has_begun[event.leaf]);
+    }
+    for (std::size_t place = 0; place < has_begun.size(); ++place) {
+      REQUIRE((has_begun[place] || again.leaf(place).asked() == 0));
+    }
+  }
 }
 
 }  // namespace
+
+TEST_CASE("after a cut, each leaf that ran begins again, and nothing else of it is called before") {
+  for (std::uint64_t seed = 0; seed < kRestoreTrees; ++seed) {
+    INFO("seed " << seed);
+    for (const int from : {1, 4, 11}) {
+      check_cut(random_trial(seed), from);
+      check_cut(random_group_trial(seed), from);
+    }
+  }
+}
+
+TEST_CASE("after a cut, a leaf that was held stays held, and others may have a result") {
+  ScriptedRun run("ParallelAbsolute[barriers=0.5](a b)", "a+.5 b+.1");
+  for (int number = 0; number < 3; ++number) run.tick(number * from_seconds(0.1));
+  REQUIRE(run.ticker().held(1));
+  SavedRun saved;
+  run.ticker().save(saved);
+  ScriptedRun again("ParallelAbsolute[barriers=0.5](a b)", "a+.5 b+.1");
+  again.ticker().restore(saved);
+  CHECK(again.ticker().go_on_after_cut().size() == 2);
+  CHECK(again.ticker().held(1));
+  ScriptedRun failed("ParallelAbsolute[barriers=0.5](a b)", "a+.5 b+.1");
+  failed.ticker().restore(saved);
+  failed.ticker().go_on_after_cut(Status::Failure);
+  CHECK(failed.tick(from_seconds(0.3)) == Status::Failure);
+  CHECK(failed.events.empty());
+}
 
 TEST_CASE("a run that is taken back goes on as it did") {
   for (std::uint64_t seed = 0; seed < kRestoreTrees; ++seed) {
@@ -103,7 +199,7 @@ TEST_CASE("a run that is taken back to before a fault has it again") {
       "resources=A](b))"
       " resources[name=p]",
       "a=R!pause b=R d=R", FaultPolicy::Fail);
-  Walk(run, 0.1, [](int) {}).check();
+  Walk(run, 0.1, [](ScriptedRun&, int) {}).check();
 }
 
 TEST_CASE("a run that is taken back may go on otherwise: a parameter is what its entry says then") {
@@ -144,8 +240,11 @@ TEST_CASE("a run of a tree for BehaviorTree.CPP that is taken back goes on as it
   for (std::uint64_t seed = 1; seed <= kRestoreTrees; ++seed) {
     const law::Document document = law::random_document(seed);
     INFO("seed " << seed << ": " << law::to_xml(document));
-    ScriptedRun run(law::tree_of(document), law::leaves_text(document));
-    Walk(run, 0.1, [](int) {}).check();
+    const auto make = [&] {
+      return std::make_unique<ScriptedRun>(law::tree_of(document), law::leaves_text(document));
+    };
+    const auto run = make();
+    Walk(*run, 0.1, [](ScriptedRun&, int) {}).check(make);
   }
 }
 

@@ -35,6 +35,15 @@ class ScriptedLeaf {
   const std::vector<double>& told_paces() const { return told_paces_; }
   // How often it was asked for its progress.
   std::uint64_t asked() const { return asked_; }
+  // As a leaf of the same script in another run.
+  void go_on_as(const ScriptedLeaf& other) {
+    paused_at_ = other.paused_at_;
+    ticks_ = other.ticks_;
+    activation_ticks_ = other.activation_ticks_;
+    progress_ = other.progress_;
+    pace_ = other.pace_;
+    told_paces_ = other.told_paces_;
+  }
   // As new.
   void rewind() {
     paused_at_.reset();

@@ -95,6 +95,12 @@ void ScriptedRun::restore(const Saved& from) {
   tree_tick_ = from.tree_tick;
 }
 
+void ScriptedRun::go_on_as(const Saved& from) {
+  ticker_.restore(from.engine);
+  for (std::size_t i = 0; i < leaves_.size(); ++i) leaves_[i].go_on_as(from.leaves[i]);
+  tree_tick_ = from.tree_tick;
+}
+
 void ScriptedRun::restart() {
   ticker_.halt_all();
   board_.reset(tree_);

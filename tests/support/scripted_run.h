@@ -39,6 +39,8 @@ class ScriptedRun {
   };
   Saved save() const;
   void restore(const Saved& from);
+  // The same of what another run of such a tree has saved.
+  void go_on_as(const Saved& from);
 
   const Tree& tree() const { return tree_; }
   Ticker& ticker() { return ticker_; }

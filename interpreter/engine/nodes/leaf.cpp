@@ -70,7 +70,7 @@ void halt_before_children(NodeContext& context, NodeIndex self, LeafSlot& leaf) 
     take_error(context, self, leaf);
   }
   context.halt_range(self + 1, context.end_of(self));
-  leaf.mark(LeafSlot::kFailed, false);
+  leaf.mark(LeafSlot::kFailed | LeafSlot::kCut, false);
 }
 
 // Children are halted before their control node.
@@ -85,18 +85,25 @@ void halt_leaf(NodeContext& context, NodeIndex self) {
     if (context.faulted() && !context.in_last_halt()) return;  // halted at the end of the run
   }
   if (leaf.started()) call<PluginFunction::Halt>(context, self, leaf.type->halt);
-  leaf.mark(LeafSlot::kFailed, false);
+  leaf.mark(LeafSlot::kFailed | LeafSlot::kCut, false);
 }
 
 // No function of the leaf is called any more but halt, in its time.
 bool is_out(const NodeContext& context, const LeafSlot& leaf) {
-  return leaf.failed() || context.faulted();
+  return leaf.is_out() || context.faulted();
 }
 
-// Ends a tick once the leaf is out.
-template <Kind kKind>
+template <Kind kKind, bool kObeys>
+Status tick_leaf(NodeContext& context, NodeIndex self);
+
+// Ends a tick once the leaf is out. One that was cut begins again, or has its result.
+template <Kind kKind, bool kObeys = false>
 Status out(NodeContext& context, NodeIndex self) {
   if (context.faulted()) return Status::Running;  // halted at the end of the run, in its order
+  if (context.leaf(self).was_cut() && !context.leaf(self).failed()) {
+    const Status result = context.begin_after_cut(self);
+    return result == Status::Running ? tick_leaf<kKind, kObeys>(context, self) : result;
+  }
   halt_leaf<kKind>(context, self);
   context.fail_with_fault(context.leaf(self));
   return Status::Failure;
@@ -118,13 +125,13 @@ Status out(NodeContext& context, NodeIndex self) {
 }
 
 [[gnu::noinline]] void resume(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
-  if (!leaf.failed()) call<PluginFunction::Resume>(context, self, leaf.type->resume);
+  if (!leaf.is_out()) call<PluginFunction::Resume>(context, self, leaf.type->resume);
 }
 
 // The first tick of an activation, or the first after a pause. False: the leaf is out.
 bool prepare(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   const Activity before = context.activity(self);
-  if (before == Activity::Running) return !leaf.failed();
+  if (before == Activity::Running) return !leaf.is_out();
   leaf.mark(LeafSlot::kHeld, false);
   if (before == Activity::Paused) {
     resume(context, self, leaf);
@@ -193,14 +200,14 @@ bool follow_pace(NodeContext& context, NodeIndex self, LeafSlot& leaf) {
   return !is_out(context, leaf);
 }
 
-template <Kind kKind, bool kObeys = false>
+template <Kind kKind, bool kObeys>
 Status tick_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
   if constexpr (kObeys) {
     if (context.first_tick(self)) context.state<LeafPace>(self) = {.told = 1, .taken = 1};
   }
   if (!prepare(context, self, leaf)) [[unlikely]]
-    return out<kKind>(context, self);
+    return out<kKind, kObeys>(context, self);
   if constexpr (kObeys) {
     if (!follow_pace(context, self, leaf)) return out<kKind>(context, self);
   }
@@ -219,7 +226,7 @@ Status tick_leaf(NodeContext& context, NodeIndex self) {
 }
 
 Status tick_control(NodeContext& context, NodeIndex self) {
-  const Status status = tick_leaf<Kind::Control>(context, self);
+  const Status status = tick_leaf<Kind::Control, false>(context, self);
   if (status != Status::Running) context.halt_running_children(self);
   return status;
 }
@@ -232,7 +239,7 @@ Unreset unreset_leaf(NodeContext& context, NodeIndex self) {
 
 void pause(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (!leaf.failed()) call<PluginFunction::Pause>(context, self, leaf.type->pause);
+  if (!leaf.is_out()) call<PluginFunction::Pause>(context, self, leaf.type->pause);
 }
 
 void pause_leaf(NodeContext& context, NodeIndex self) {
@@ -262,7 +269,7 @@ double corrected(NodeContext& context, NodeIndex self, LeafSlot& leaf, double re
 
 double progress_of_leaf(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (leaf.failed()) return 0.0;
+  if (leaf.is_out()) return 0.0;
   double reported = 0.0;
   if (leaf.kept_progress != nullptr) {
     reported = leaf.read_progress();
@@ -288,7 +295,7 @@ double progress_of_children(NodeContext& context, NodeIndex self) {
 
 double progress_of_control(NodeContext& context, NodeIndex self) {
   LeafSlot& leaf = context.leaf(self);
-  if (leaf.failed()) return 0.0;
+  if (leaf.is_out()) return 0.0;
   if (leaf.type->progress == nullptr) return progress_of_children(context, self);
   const Reach reach(leaf, ChildAccess::Look);
   return progress_of_leaf(context, self);
@@ -349,7 +356,7 @@ extern const NodeKind kObeyingAction;
 
 const NodeKind kPluginAction{
     .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
-    .tick = tick_leaf<Kind::Action>,
+    .tick = tick_leaf<Kind::Action, false>,
     .progress = progress_of_leaf,
     .halt = halt_leaf<Kind::Action>,
     .pause = pause_leaf,
@@ -371,7 +378,7 @@ const NodeKind kObeyingAction{
 
 const NodeKind kPluginCondition{
     .type = {.id = "Condition", .category = NodeCategory::Condition, .doc = "", .arity = {0, 0}},
-    .tick = tick_leaf<Kind::Condition>,
+    .tick = tick_leaf<Kind::Condition, false>,
     .progress = progress_of_leaf,
     .halt = halt_leaf<Kind::Condition>,
     .pause = pause_leaf,
