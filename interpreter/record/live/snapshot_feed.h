@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/core/clock.h"
+#include "base/core/triple_buffer.h"
 #include "judge/measure/entry_changes.h"
 #include "judge/measure/synchronized_ticks.h"
 #include "record/live/snapshot.h"
-#include "record/live/triple_buffer.h"
 #include "run/leaf_lines.h"
 
 namespace lockstep::host {

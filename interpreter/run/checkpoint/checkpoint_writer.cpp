@@ -1,0 +1,185 @@
+#include "run/checkpoint/checkpoint_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "base/system/own_thread.h"
+#include "engine/tree.h"
+#include "run/checkpoint/run_bytes.h"
+
+namespace lockstep::host {
+namespace {
+
+// A run in which only time passes is synced as often.
+constexpr Nanoseconds kSyncOfTime = std::chrono::seconds(1);
+
+Nanoseconds wall_time() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);  // no system call
+  return std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec);
+}
+
+bool is_action(const Tree& tree, NodeIndex node) {
+  return tree.labels[node].type->category == NodeCategory::Action;
+}
+
+}  // namespace
+
+CheckpointWriter::CheckpointWriter(std::unique_ptr<CheckpointFile> file, CheckpointOptions options)
+    : options_(std::move(options)), file_(std::move(file)) {}
+
+CheckpointWriter::~CheckpointWriter() {
+  stop();
+}
+
+bool CheckpointWriter::begin(const Ticker& ticker, const CheckpointFacts& facts,
+                             std::uint64_t ticks, std::uint32_t resumes) {
+  head_.ticks = kept_ = ticks;
+  head_.resumes = resumes;
+  running_.reserve(ticker.tree().nodes.size());
+  note_results(ticker);
+  Snapshot first;
+  fill(first, ticker);
+  if (!lost_.empty()) return false;
+  std::string bytes;
+  append_facts(facts, bytes);
+  if (!file_->begin(std::move(bytes), first.bytes)) return false;
+  snapshots_.for_each([&](Snapshot& it) { it.bytes.reserve(2 * first.bytes.size()); });
+  thread_ = own_thread([this] {
+    try {
+      write_until_stopped();
+    } catch (...) {  // who waits for it must not wait for ever
+      failed_.store(true, std::memory_order_release);
+      done_.ring();
+      throw;
+    }
+  });
+  return true;
+}
+
+// Before: what runs. After: whether one of these has a result.
+void CheckpointWriter::note_results(const Ticker& ticker) {
+  if (head_.resumes == 0) return;
+  const bool has_one = std::ranges::any_of(running_, [&](NodeIndex node) {
+    return has_ended(ticker.status(node)) || ticker.ended_after_success(node);
+  });
+  if (has_one) head_.resumes = 0;
+  running_.clear();
+  const Tree& tree = ticker.tree();
+  for (NodeIndex node = 0; node < tree.nodes[0].end; ++node) {
+    if (ticker.status(node) == Status::Running && is_action(tree, node)) running_.push_back(node);
+  }
+}
+
+void CheckpointWriter::fill(Snapshot& snapshot, const Ticker& ticker) {
+  ticker.save(saved_);
+  if (const auto entry = entry_with_object(saved_, ticker.tree())) [[unlikely]] {
+    return lose(fmt::format("the entry '{}' holds an object, which no checkpoint has", *entry));
+  }
+  head_.time = ticker.now();
+  head_.written = wall_time();
+  snapshot.bytes.clear();
+  append_head(head_, snapshot.bytes);
+  const std::size_t head = snapshot.bytes.size();
+  const std::size_t passing = append_bytes(saved_, snapshot.bytes);
+  const std::string_view lasting = std::string_view(snapshot.bytes).substr(head + passing);
+  if (lasting != lasting_) {
+    lasting_ = lasting;
+    ++changes_;
+  }
+  snapshot.number = ++number_;
+  snapshot.changes = changes_;
+}
+
+void CheckpointWriter::after_tick(const Ticker& ticker, std::uint64_t ticks) {
+  if (!lost_.empty()) return;
+  if (failed_.load(std::memory_order_acquire)) return lose(file_->error());
+  head_.ticks = ticks;
+  note_results(ticker);
+  fill(snapshots_.back(), ticker);
+  if (!lost_.empty()) return;
+  snapshots_.publish();
+  kept_ = ticks;
+  if (!options_.real_time) flush();
+}
+
+// Once: a run that goes on must not be resumed from an old state.
+void CheckpointWriter::lose(const std::string& why) {
+  lost_ = why.empty() ? "out of memory" : why;
+  if (!thread_.joinable()) return;
+  stop();
+  file_->write_last(last_bytes(Checkpoint::Kind::Lost, lost_));
+  if (options_.on_error) options_.on_error(lost_);
+}
+
+void CheckpointWriter::end() {
+  stop();
+  file_->write_last(last_bytes(Checkpoint::Kind::Ended, {}));
+}
+
+std::string CheckpointWriter::error() const {
+  return lost_.empty() ? file_->error() : lost_;
+}
+
+std::string CheckpointWriter::last_bytes(Checkpoint::Kind kind, const std::string& note) const {
+  Checkpoint last = head_;
+  last.kind = kind;
+  last.note = note;
+  last.written = wall_time();
+  std::string bytes;
+  append_head(last, bytes);
+  return bytes;
+}
+
+void CheckpointWriter::stop() {
+  if (!thread_.joinable()) return;
+  stopping_.store(true, std::memory_order_release);
+  work_.ring();
+  thread_.join();
+}
+
+void CheckpointWriter::flush() {
+  while (true) {
+    const std::uint32_t seen = done_.rung();
+    if (failed_.load(std::memory_order_acquire) ||
+        written_.load(std::memory_order_acquire) == number_) {
+      return;
+    }
+    work_.ring();
+    done_.wait(seen, options_.sync);
+  }
+}
+
+// Rung only where time stands still: else it looks twice a tick, but not too often.
+void CheckpointWriter::write_until_stopped() {
+  constexpr Nanoseconds kOften = std::chrono::milliseconds(1), kSeldom = kOften * 10;
+  const Nanoseconds pause =
+      options_.real_time ? std::clamp(options_.period / 2, kOften, kSeldom) : kSyncOfTime;
+  std::uint64_t synced = 0, written = 0;  // changes
+  Nanoseconds synced_at = monotonic_now();
+  while (true) {
+    const std::uint32_t seen = work_.rung();
+    const bool stops = stopping_.load(std::memory_order_acquire);
+    bool is_good = true;
+    if (snapshots_.take()) {
+      is_good = file_->write(snapshots_.front().bytes);
+      written = snapshots_.front().changes;
+      if (is_good) written_.store(snapshots_.front().number, std::memory_order_release);
+    }
+    const Nanoseconds since = monotonic_now() - synced_at;
+    if (stops ||
+        since >= (written != synced ? options_.sync : std::max(options_.sync, kSyncOfTime))) {
+      is_good = is_good && file_->sync();
+      synced = written;
+      synced_at = monotonic_now();
+    }
+    if (!is_good) failed_.store(true, std::memory_order_release);
+    if (!options_.real_time) done_.ring();
+    if (stops || !is_good) return;
+    work_.wait(seen, pause);
+  }
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,84 @@
+// Keeps a run in a checkpoint file, after each tick. The tick thread makes bytes, and another one
+// writes them: where time passes by itself, the first neither waits nor calls the system, and
+// states that come faster than they are written are left out. Where time stands still, each is
+// written before the next tick.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/core/triple_buffer.h"
+#include "base/system/bell.h"
+#include "engine/saved_run.h"
+#include "engine/ticker.h"
+#include "run/checkpoint/checkpoint_file.h"
+
+namespace lockstep::host {
+
+struct CheckpointOptions {
+  Nanoseconds sync = std::chrono::milliseconds(100);  // at most so often
+  Nanoseconds period{0};                              // of ticks
+  bool real_time = true;
+  // Once, on the tick thread: nothing is kept any more.
+  std::function<void(const std::string& error)> on_error = {};
+};
+
+class CheckpointWriter {
+ public:
+  CheckpointWriter(std::unique_ptr<CheckpointFile> file, CheckpointOptions options);
+  // Leaves the run unfinished.
+  ~CheckpointWriter();
+  CheckpointWriter(const CheckpointWriter&) = delete;
+  CheckpointWriter& operator=(const CheckpointWriter&) = delete;
+
+  // Before the first tick, of a run that has `ticks` ticks behind it, and was resumed so often in a
+  // row. Returns once it is synced. False: error() says why.
+  bool begin(const Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
+             std::uint32_t resumes);
+  // After a tick, so many in all.
+  void after_tick(const Ticker& ticker, std::uint64_t ticks);
+  // The run has ended in order.
+  void end();
+
+  // "" if there is no error.
+  std::string error() const;
+  // How many ticks were kept before it.
+  std::uint64_t kept() const { return kept_; }
+
+ private:
+  struct Snapshot {
+    std::string bytes = {};
+    std::uint64_t number = 0;   // from 1 on
+    std::uint64_t changes = 0;  // so often something but time has changed before it
+  };
+  void note_results(const Ticker& ticker);
+  void fill(Snapshot& snapshot, const Ticker& ticker);
+  void lose(const std::string& why);
+  void flush();
+  void write_until_stopped();
+  void stop();
+  std::string last_bytes(Checkpoint::Kind kind, const std::string& note) const;
+
+  const CheckpointOptions options_;
+  const std::unique_ptr<CheckpointFile> file_;  // the thread's, while there is one
+
+  Checkpoint head_;  // of the next snapshot, without the run
+  SavedRun saved_;
+  std::string lasting_;  // of the last snapshot: what not only time changes
+  std::uint64_t changes_ = 0, number_ = 0, kept_ = 0;
+  std::vector<NodeIndex> running_;  // actions, before the tick; while there were resumes
+  std::string lost_;                // why nothing is kept any more, as the tick thread knows it
+
+  TripleBuffer<Snapshot> snapshots_{Snapshot()};
+  std::atomic<std::uint64_t> written_{0};
+  std::atomic<bool> failed_{false}, stopping_{false};
+  Bell work_, done_;
+  std::thread thread_;
+};
+
+}  // namespace lockstep::host
