@@ -29,17 +29,17 @@ namespace lockstep::host {
 
 extern const Command kRunCommand, kCheckCommand, kShowCommand, kDiffCommand, kNodesCommand,
     kSchemaCommand, kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand,
-    kMonitorCommand, kAnswerCommand, kAttendCommand, kVerifyCommand, kTestCommand, kNewCommand,
-    kFmtCommand, kLspCommand, kCompletionCommand, kManualCommand, kDoctorCommand, kDocsCommand,
-    kExamplesCommand;
+    kMonitorCommand, kCheckpointCommand, kAnswerCommand, kAttendCommand, kVerifyCommand,
+    kTestCommand, kNewCommand, kFmtCommand, kLspCommand, kCompletionCommand, kManualCommand,
+    kDoctorCommand, kDocsCommand, kExamplesCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kNewCommand,     &kRunCommand,      &kCheckCommand,      &kVerifyCommand, &kTestCommand,
-      &kShowCommand,    &kDiffCommand,     &kNodesCommand,      &kSchemaCommand, &kFmtCommand,
-      &kConvertCommand, &kPluginCommand,   &kLogCommand,        &kReplayCommand, &kStudyCommand,
-      &kMonitorCommand, &kAnswerCommand,   &kAttendCommand,     &kLspCommand,    &kDoctorCommand,
-      &kDocsCommand,    &kExamplesCommand, &kCompletionCommand, &kManualCommand};
+      &kNewCommand,     &kRunCommand,    &kCheckCommand,    &kVerifyCommand,     &kTestCommand,
+      &kShowCommand,    &kDiffCommand,   &kNodesCommand,    &kSchemaCommand,     &kFmtCommand,
+      &kConvertCommand, &kPluginCommand, &kLogCommand,      &kReplayCommand,     &kStudyCommand,
+      &kMonitorCommand, &kAnswerCommand, &kAttendCommand,   &kCheckpointCommand, &kLspCommand,
+      &kDoctorCommand,  &kDocsCommand,   &kExamplesCommand, &kCompletionCommand, &kManualCommand};
   return kAll;
 }
 

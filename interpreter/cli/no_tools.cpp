@@ -6,11 +6,12 @@ namespace lockstep::host {
 extern const Command kShowCommand = absent("show"), kDiffCommand = absent("diff"),
                      kNodesCommand = absent("nodes"), kSchemaCommand = absent("schema"),
                      kConvertCommand = absent("convert"), kPluginCommand = absent("plugin"),
-                     kLogCommand = absent("log"), kReplayCommand = absent("replay"),
-                     kStudyCommand = absent("study"), kVerifyCommand = absent("verify"),
-                     kTestCommand = absent("test"), kNewCommand = absent("new"),
-                     kFmtCommand = absent("fmt"), kLspCommand = absent("lsp"),
-                     kCompletionCommand = absent("completion"), kManualCommand = absent("manual"),
-                     kDocsCommand = absent("docs"), kExamplesCommand = absent("examples");
+                     kLogCommand = absent("log"), kCheckpointCommand = absent("checkpoint"),
+                     kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
+                     kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
+                     kNewCommand = absent("new"), kFmtCommand = absent("fmt"),
+                     kLspCommand = absent("lsp"), kCompletionCommand = absent("completion"),
+                     kManualCommand = absent("manual"), kDocsCommand = absent("docs"),
+                     kExamplesCommand = absent("examples");
 
 }  // namespace lockstep::host

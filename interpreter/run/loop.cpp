@@ -8,6 +8,7 @@
 
 #include "base/core/deadlines.h"
 #include "base/system/own_thread.h"
+#include "run/checkpoint/checkpoint_writer.h"
 #include "run/observers.h"
 #include "run/pace.h"
 #include "run/run_control.h"
@@ -28,9 +29,13 @@ class Loop {
         observers_(run.ticker().tree(), observers),
         deadlines_(options.rate),
         is_real_(clock.is_real()),
-        begun_(clock.now()),
+        first_(options.before.ticks == 0
+                   ? 0
+                   : deadlines_.first_from(options.before.time + Nanoseconds(1))),
+        begun_(clock.now() - deadlines_.at(first_)),
         start_(begun_),
-        wake_up_(is_real_ ? run.wake_up() : nullptr) {}
+        wake_up_(is_real_ ? run.wake_up() : nullptr),
+        deadline_(first_) {}
 
   RunEnd run() {
     observe([&](Observers& it) { it.run_started(run_.ticker(), {run_.period(), is_real_}); });
@@ -41,7 +46,8 @@ class Loop {
       }
     }
     // On the virtual clock the last tick, too, lasts until the next one would begin.
-    end_.time = is_real_ ? clock_.now() - start_ : deadlines_.at(end_.ticks);
+    end_.time = (is_real_ ? clock_.now() - start_ : deadlines_.at(first_ + end_.ticks)) -
+                deadlines_.at(first_);
     observe([&](Observers& it) { it.standing(run_.ticker()); });
     run_.halt();
     end_.budget = run_.end_budget();
@@ -74,7 +80,8 @@ class Loop {
     if (options_.property_violated && options_.property_violated()) {
       return stop(StopReason::Property);
     }
-    if (options_.max_ticks && end_.ticks >= *options_.max_ticks) return stop(StopReason::MaxTicks);
+    if (options_.max_ticks && ticks_in_all() >= *options_.max_ticks)
+      return stop(StopReason::MaxTicks);
     if (clock_.now() - begun_ >= std::min(options_.timeout.value_or(kLongestRun), kLongestRun)) {
       return stop(StopReason::Timeout);
     }
@@ -166,7 +173,15 @@ class Loop {
     end_.last = now;
     if (ticker.faulted()) return false;
     if (has_ended(end_.status)) return stop(StopReason::Completed);
+    if (options_.checkpoints != nullptr) keep();
     return true;
+  }
+
+  std::uint64_t ticks_in_all() const { return options_.before.ticks + end_.ticks; }
+
+  void keep() {
+    const InEngine scope(run_.blackboard().lock.get());
+    options_.checkpoints->after_tick(run_.ticker(), ticks_in_all());
   }
 
   void note_worst(Nanoseconds took) {
@@ -231,13 +246,14 @@ class Loop {
   Observers observers_;
   const Deadlines deadlines_;
   const bool is_real_;
+  const std::uint64_t first_;  // number of the first deadline
   const Nanoseconds begun_;
   Nanoseconds start_;        // as if there had been no pauses
   WakeUp* const wake_up_;    // null: nobody ends a wait
   std::uint32_t wakes_ = 0;  // before the last tick
   bool is_woken_ = false;    // the next tick comes before its deadline
   Pace pace_;
-  std::uint64_t deadline_ = 0;  // number of the deadline that the next tick waits for
+  std::uint64_t deadline_;  // number of the deadline that the next tick waits for
   std::uint64_t skipped_before_ = 0;
   RunEnd end_;
 };

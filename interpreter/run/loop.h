@@ -14,6 +14,7 @@
 
 namespace lockstep::host {
 
+class CheckpointWriter;
 class RunControl;
 class StallFail;
 
@@ -39,6 +40,14 @@ struct LoopOptions {
   std::function<bool()> property_violated = {};  // likewise
   RunControl* control = nullptr;                 // who may pause the run, and more; or nobody
   StallFail* stall_fail = nullptr;               // who ends standstills, or nobody
+  CheckpointWriter* checkpoints = nullptr;       // who keeps the run, or nobody
+  // Of a run that goes on: what was before. Its time goes on; its ticks are counted anew, but for
+  // `max_ticks` and for who keeps it.
+  struct Before {
+    std::uint64_t ticks = 0;
+    Nanoseconds time{0};  // of the last one
+  };
+  Before before = {};
 };
 
 // Runs to the end: halts every running leaf and notifies every observer.

@@ -58,6 +58,7 @@ DONE = [
     "docs/properties.md",
     "docs/recipes.md",
     "docs/recording.md",
+    "docs/resume.md",
     "docs/reliability.md",
     "docs/roadmap.md",
     "docs/ros2.md",

@@ -16,6 +16,7 @@
 #include "cli/load/given_leaves.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
+#include "cli/run/kept_run.h"
 #include "cli/run/mcap_recording.h"
 #include "cli/run/progress_notes.h"
 #include "cli/run/run_options.h"
@@ -133,9 +134,11 @@ std::optional<PausePlaces> pause_places_of(const RunCommandOptions& options, con
 class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Runnable& runnable,
-             std::vector<Property> properties, WatcherSockets sockets, const PausePlaces& places)
+             std::vector<Property> properties, WatcherSockets sockets, const PausePlaces& places,
+             std::unique_ptr<KeptRun> kept)
       : options_(options),
         tree_(runnable.tree),
+        kept_(std::move(kept)),
         shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
         // A person who types reads lines.
@@ -204,14 +207,28 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     std::vector<Fault> in_last_halt;
     {
       Run run(tree_, run_options());
-      if (!make_realtime()) return std::nullopt;
+      if (!make_realtime() || (kept_ && !begin_to_keep(run))) return std::nullopt;
       end = run_loop(run, clock, loop_options(), observers());
+      if (kept_) kept_->end();
       if (end.fault) in_last_halt = run.ticker().take_tolerated();
     }
     view_.close();
     if (end.fault) print_error(describe(*end.fault, shape_, end));
     for (const Fault& fault : in_last_halt) print_error(describe(fault, shape_, end));
     return end;
+  }
+
+  bool begin_to_keep(Run& run) {
+    const bool has_begun = kept_->begin(run, [this](const std::string& error) {
+      view_.print("error: nothing is kept any more: " + error);
+    });
+    if (!has_begun) view_.close();
+    if (has_begun && !kept_->resumed().empty()) {
+      if (recorder_) recorder_->log("lockstep", "info", kept_->resumed());
+      watchers_.log("lockstep", "info", kept_->resumed());
+      view_.print(kept_->resumed());
+    }
+    return has_begun;
   }
 
   bool open_clock(const PluginSet& plugins) {
@@ -343,6 +360,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       loop.property_violated = [this] { return properties_->is_violated(); };
     }
     loop.control = watchers_.control();
+    if (kept_) {
+      loop.checkpoints = kept_->writer();
+      loop.before = kept_->before();
+    }
     if (recorder_ && options_.stop_on_record_error) {
       loop.recording_failed = [this] { return recorder_->failed(); };
     }
@@ -364,6 +385,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   int print_summary() {
     Summary summary = statistics_.summary();
     summary.tick_limit = options_.tick_limit;
+    if (kept_ && !kept_->resumed().empty()) summary.notes.push_back(kept_->resumed());
+    if (kept_ && !kept_->error().empty()) summary.notes.push_back(kept_->error());
     if (recorder_ && !recorder_->error().empty()) summary.notes.push_back(recorder_->error());
     if (recorder_ && recorder_->lost() != 0) {
       summary.notes.push_back(fmt::format("the recording lacks {}: the disk was too slow",
@@ -394,6 +417,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   const RunCommandOptions& options_;
   const Tree& tree_;
+  const std::unique_ptr<KeptRun> kept_;  // null: it is not kept
   const Shape shape_;
   EndBudget end_budget_;
   std::optional<PluginClock> plugin_clock_;  // none: a clock of lockstep
@@ -469,6 +493,9 @@ std::vector<std::string> replaced_files(const RunCommandOptions& options) {
 }
 
 bool would_replace(const RunCommandOptions& options, std::span<const NamedFile> used) {
+  if (!options.checkpoint.empty() && would_overwrite("--checkpoint", options.checkpoint, used)) {
+    return true;
+  }
   return std::ranges::any_of(replaced_files(options), [&](const std::string& file) {
     return would_overwrite("--record", file, used);
   });
@@ -483,8 +510,14 @@ bool can_rotate(const RunCommandOptions& options) {
   return false;
 }
 
+bool is_checkpoint_recorded(const RunCommandOptions& options) {
+  if (options.checkpoint.empty() || options.checkpoint != options.record) return false;
+  print_error("--checkpoint and --record name the same file");
+  return true;
+}
+
 int run(RunCommandOptions options) {
-  if (is_compressed_twice(options)) return kExitUsage;
+  if (is_compressed_twice(options) || is_checkpoint_recorded(options)) return kExitUsage;
   // First, while /dev/stdout still is what the user means by it.
   if (would_replace(options, standard_outputs()) || !can_rotate(options)) return kExitUsage;
   keep_stdout_for_results();
@@ -514,6 +547,7 @@ int run(RunCommandOptions options) {
     return kExitUsage;
   }
   if (!options.leaves.empty()) leaves.take_over(loaded->definition);
+  CheckpointFacts identity = KeptRun::identity_of(options, *loaded);
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!options.leaves.empty() && !leaves.give(runnable.tree)) return kExitUsage;
@@ -523,6 +557,8 @@ int run(RunCommandOptions options) {
   if (!properties) return kExitUsage;
   const auto places = pause_places_of(options, runnable.tree);
   if (!places) return kExitUsage;
+  auto kept = KeptRun::open(options, std::move(identity), runnable.tree);
+  if (!kept) return kept.error();
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);
   if (!options.is_real()) {
@@ -530,7 +566,8 @@ int run(RunCommandOptions options) {
                              notes);
   }
   print_diagnostics(notes, Severity::Note);
-  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *places)
+  return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *places,
+                    std::move(*kept))
       .run(runnable.plugins);
 }
 

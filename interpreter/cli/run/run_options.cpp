@@ -249,6 +249,34 @@ void define_record_options(CLI::App& app, RunCommandOptions& options) {
                    "the run, or continue without it");
 }
 
+void define_checkpoint_options(CLI::App& app, RunCommandOptions& options) {
+  begin_group(app, "Resume after a cut");
+  app.add_option("--checkpoint", options.checkpoint,
+                 "Keep the state of the run in FILE, so that --resume can continue it; see "
+                 "`lockstep docs resume`")
+      ->type_name("FILE");
+  app.add_flag("--resume", options.resumes,
+               "Continue the run of --checkpoint that a kill, a crash or a power cut ended; if "
+               "there is none, start a new run")
+      ->needs("--checkpoint");
+  add_choice<Status>(
+      app, "--on-resume", options.on_resume,
+      {{"restart", Status::Running}, {"failure", Status::Failure}, {"success", Status::Success}},
+      "With --resume: leaves that ran at the cut start again, or count as Failure or "
+      "as Success in their next tick");
+  app.add_option("--resume-limit", options.resume_limit,
+                 "End with exit code 5 instead of resuming more often than N times in a row "
+                 "without a leaf that completes")
+      ->type_name("N")
+      ->transform(whole_number(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--checkpoint-sync", options.checkpoint_sync_ms,
+                 "Write the checkpoint through to the disk at most each MS milliseconds")
+      ->type_name("MS")
+      ->check(number_between(1.0, 1e6))
+      ->capture_default_str();
+}
+
 void define_view_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Watching");
   app.add_option("--break", options.breaks,
@@ -311,6 +339,9 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--record-keep",
                                       "--record-entries",
                                       "--on-record-error",
+                                      "--on-resume",
+                                      "--resume-limit",
+                                      "--checkpoint-sync",
                                       "--break-if",
                                       "--monitor-socket",
                                       "--monitor-paused",
@@ -365,6 +396,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   define_fault_options(app, options);
   define_property_options(app, options);
   define_record_options(app, options);
+  define_checkpoint_options(app, options);
   define_view_options(app, options);
   only_in_help_all(app, kOfExperts);
 }

@@ -1,0 +1,197 @@
+#include "cli/run/kept_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "base/core/crc32c.h"
+#include "base/core/version.h"
+#include "base/core/wording.h"
+#include "base/system/output_file.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "engine/tree.h"
+#include "run/checkpoint/run_bytes.h"
+
+namespace lockstep::host {
+namespace {
+
+// Of 3 s and more without a fraction: who reads it has waited so long.
+std::string duration_text(Nanoseconds time) {
+  const double seconds = to_seconds(std::max(time, Nanoseconds(0)));
+  return seconds < 3 ? fmt::format("{:.1f} s", seconds) : fmt::format("{:.0f} s", seconds);
+}
+
+// What no text says, as which nodes are mocks.
+std::string nodes_mark(const Tree& tree) {
+  std::string all;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    all += fmt::format("{} {} {} {}\n", tree.labels[node].type->id, tree.labels[node].name,
+                       tree.nodes[node].end, tree.nodes[node].state);
+  }
+  for (const Slot& slot : tree.slots) {
+    all += fmt::format("{} {} {}\n", slot.name, static_cast<int>(slot.type),
+                       static_cast<int>(slot.typing));
+  }
+  return fmt::format("{}, {:08x}", counted(tree.nodes.size(), "node"), crc32c(all));
+}
+
+std::string value_text(const std::string& value) {
+  return value.empty() ? "nothing" : "'" + printable(value) + "'";
+}
+
+}  // namespace
+
+CheckpointFacts KeptRun::identity_of(const RunCommandOptions& options, const Loaded& loaded) {
+  CheckpointFacts facts;
+  const auto add = [&](std::string name, std::string value) {
+    facts.identity.emplace_back(std::move(name), std::move(value));
+  };
+  add("the version of lockstep", kVersion);
+  add("the main tree", std::string(loaded.definition.id));
+  for (const auto& source : loaded.project->sources.all()) {
+    add(fmt::format("the text of '{}'", source->path()), text_mark(source->text()));
+  }
+  for (const auto& [name, value] : values_of(loaded.project->arguments)) {
+    add(fmt::format("the argument '{}'", name), value);
+  }
+  for (const auto& [name, value] : loaded.values) {
+    add(fmt::format("the start value of '{}'", name), value);
+  }
+  for (const PluginSet::Info& plugin : loaded.plugins->list()) {
+    add(fmt::format("the version of the plugin '{}'", plugin.name), plugin.version);
+  }
+  add("--rate", fmt::format("{}", options.rate));
+  add("--tick", options.exactly_once ? "exactly-once" : "once");
+  add("--on-fault", options.on_fault == FaultPolicy::Stop ? "stop" : "fail");
+  return facts;
+}
+
+tl::expected<std::unique_ptr<KeptRun>, int> KeptRun::open(const RunCommandOptions& options,
+                                                          CheckpointFacts facts, const Tree& tree) {
+  if (options.checkpoint.empty()) return nullptr;
+  if (const auto entry = entry_for_objects(tree)) {
+    print_error(fmt::format("--checkpoint: the entry '{}' holds objects, which no checkpoint has",
+                            printable(*entry)),
+                "run this tree without --checkpoint");
+    return tl::unexpected(kExitInvalidTree);
+  }
+  facts.identity.emplace_back("the nodes and entries", nodes_mark(tree));
+  std::vector<bool> is_leaf(tree.nodes.size());
+  for (const LeafNode& leaf : tree.leaves) is_leaf[leaf.node] = true;
+  for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
+    facts.nodes.push_back(tree.path(node));
+    facts.is_leaf.push_back(is_leaf[node] ? 1 : 0);
+  }
+  std::unique_ptr<KeptRun> kept(new KeptRun(options, std::move(facts), tree));
+  kept->file_ = std::make_unique<CheckpointFile>(options.checkpoint);
+  if (!kept->file_->error().empty()) {
+    print_error("--checkpoint: " + printable(kept->file_->error()));
+    return tl::unexpected(kExitUsage);
+  }
+  const int refused = options.resumes ? kept->read() : kExitSuccess;
+  if (refused != kExitSuccess) return tl::unexpected(refused);
+  return kept;
+}
+
+int KeptRun::read() {
+  auto kept = read_checkpoint_file(options_.checkpoint);
+  if (!kept) {
+    print_error("--resume: " + printable(kept.error().message),
+                "remove the file to start a new run");
+    return kExitInvalidTree;
+  }
+  if (!*kept || (*kept)->checkpoint.kind == Checkpoint::Kind::Ended) return kExitSuccess;
+  if (const int refused = refuse(**kept); refused != kExitSuccess) return refused;
+  if ((*kept)->checkpoint.ticks != 0) from_ = std::move((*kept)->checkpoint);
+  return kExitSuccess;
+}
+
+int KeptRun::refuse(const KeptCheckpoint& kept) {
+  const std::string begin = fmt::format("--resume: '{}' ", printable(options_.checkpoint));
+  const std::string hint = "remove the file to start a new run";
+  if (kept.checkpoint.kind == Checkpoint::Kind::Lost) {
+    print_error(begin + fmt::format("has no state of its run after {}: {}",
+                                    counted(kept.checkpoint.ticks, "tick"),
+                                    printable(kept.checkpoint.note)),
+                hint);
+    return kExitInvalidTree;
+  }
+  const auto found = differences(kept.facts, facts_);
+  if (!found.empty()) {
+    const Difference& it = found.front();
+    std::string more = found.size() == 1
+                           ? ""
+                           : fmt::format(", and {} more", counted(found.size() - 1, "difference"));
+    print_error(begin + fmt::format("is of another run: {} was {} and is {}{}", printable(it.name),
+                                    value_text(it.kept), value_text(it.now), more),
+                hint);
+    return kExitInvalidTree;
+  }
+  if (kept.checkpoint.resumes >= options_.resume_limit) {
+    print_error(begin + fmt::format("was resumed {} in a row and no leaf has completed",
+                                    counted(kept.checkpoint.resumes, "time")),
+                hint + ", or give a larger --resume-limit");
+    return kExitLeafFault;
+  }
+  if (!read_bytes(kept.checkpoint.run, tree_, saved_)) {
+    print_error(begin + "is damaged: its state is not one of this tree", hint);
+    return kExitInvalidTree;
+  }
+  return kExitSuccess;
+}
+
+bool KeptRun::begin(Run& run, std::function<void(const std::string& error)> on_error) {
+  if (run.fault() != nullptr) return true;
+  if (from_) go_on(run);
+  writer_.emplace(std::move(file_),
+                  CheckpointOptions{.sync = from_seconds(options_.checkpoint_sync_ms / 1e3),
+                                    .period = run.period(),
+                                    .real_time = options_.is_real(),
+                                    .on_error = std::move(on_error)});
+  const InEngine scope(run.blackboard().lock.get());
+  const bool is_good =
+      writer_->begin(run.ticker(), facts_, before().ticks, from_ ? from_->resumes + 1 : 0);
+  if (!is_good) print_error("--checkpoint: " + printable(writer_->error()));
+  return is_good;
+}
+
+LoopOptions::Before KeptRun::before() const {
+  return from_ ? LoopOptions::Before{.ticks = from_->ticks, .time = from_->time}
+               : LoopOptions::Before{};
+}
+
+void KeptRun::go_on(Run& run) {
+  const InEngine scope(run.blackboard().lock.get());
+  run.ticker().restore(saved_);
+  const auto cut = run.ticker().go_on_after_cut(options_.on_resume);
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  const Nanoseconds gap =
+      std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec) - from_->written;
+  resumed_ = "resumed after " + duration_text(gap);
+  if (cut.empty()) return;
+  std::vector<std::string> paths;
+  for (const std::uint32_t leaf : cut) paths.push_back(tree_.path(tree_.leaves[leaf].node));
+  const std::vector<std::string_view> names(paths.begin(), paths.end());
+  resumed_ +=
+      fmt::format("; {} {}", printable(listed(names)), what_cut_leaves_do(names.size() == 1));
+}
+
+// "starts again", of one leaf, or of several.
+std::string_view KeptRun::what_cut_leaves_do(bool is_one) const {
+  if (options_.on_resume == Status::Running) return is_one ? "starts again" : "start again";
+  if (options_.on_resume == Status::Success) {
+    return is_one ? "counts as succeeded" : "count as succeeded";
+  }
+  return is_one ? "counts as failed" : "count as failed";
+}
+
+std::string KeptRun::error() const {
+  if (!writer_ || writer_->error().empty()) return {};
+  return fmt::format("the checkpoint has nothing after {}: {}", counted(writer_->kept(), "tick"),
+                     printable(writer_->error()));
+}
+
+}  // namespace lockstep::host

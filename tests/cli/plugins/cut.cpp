@@ -1,0 +1,68 @@
+// A leaf that says in the file LOG what happens to it, and ends its process in the middle of a tick
+// at the time CUT_AT of the run.
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <lockstep/leaf.hpp>
+#include <string>
+
+namespace {
+
+using lockstep::Status;
+
+struct StepPorts : lockstep::Ports {
+  Input<std::string> who{this, "who", "it", "what it says of itself"};
+  Input<std::int64_t> number{this, "number", "0", "behind that; 0: none"};
+  Input<std::int64_t> ticks{this, "ticks", "1", "so many until its result"};
+  Input<bool> fails{this, "fails", "false", "its result"};
+  Output<std::int64_t> count{this, "count", "its ticks"};
+};
+
+class Step : public lockstep::ProgressAction<StepPorts> {
+ public:
+  void start() override {
+    done_ = 0;
+    say("begins");
+  }
+  Status tick() override {
+    const char* const cut = std::getenv("CUT_AT");
+    if (cut != nullptr && now() > std::atof(cut) - 1e-6) kill(getpid(), SIGKILL);
+    ++done_;
+    count.set(done_);
+    char at[32];
+    std::snprintf(at, sizeof at, "at %.3f", share());
+    say(at);
+    set_progress(share());
+    if (done_ < ticks.get()) return Status::Running;
+    say(fails.get() ? "fails" : "succeeds");
+    return fails.get() ? Status::Failure : Status::Success;
+  }
+  void halt() override { say("is halted"); }
+  void pause() override { say("is held"); }
+  void resume() override { say("goes on"); }
+  double progress() const override {
+    if (done_ < 0) say("is asked before it begins");
+    return share();
+  }
+
+ private:
+  double share() const { return static_cast<double>(done_) / static_cast<double>(ticks.get()); }
+  void say(const char* what) const {
+    const char* const log = std::getenv("LOG");
+    if (log == nullptr) return;
+    const int file = open(log, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600);
+    const std::string digits = number.get() == 0 ? "" : std::to_string(number.get());
+    const std::string line = std::string(who.view()) + digits + " " + what + "\n";
+    if (write(file, line.data(), line.size()) < 0) std::abort();
+    close(file);
+  }
+
+  std::int64_t done_ = -1;
+};
+
+}  // namespace
+
+LOCKSTEP_PLUGIN("cut", "1.0", "Ends its process", lockstep::leaf<Step>("Step", "Counts ticks."));

@@ -1,0 +1,238 @@
+// Runs that a kill ends in the middle of a tick, and that go on: docs/resume.md.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "support/paths.h"
+#include "support/program.h"
+
+namespace lockstep::host::test {
+namespace {
+
+// Its ticks come each 0.1 s.
+class CutRun {
+ public:
+  explicit CutRun(const std::string& text) : tree_(directory_.file("tree.xml", text)) {}
+
+  Outcome go(std::vector<std::string> more = {}, const std::string& cut_at = "") {
+    std::vector<std::string> arguments{"run", tree_,           "--clock", "virtual",      "--rate",
+                                       "10",  "--plugin-path", kPlugins,  "--checkpoint", file()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Invocation call{.arguments = arguments, .environment = {{"LOG", log()}}};
+    if (!cut_at.empty()) call.environment["CUT_AT"] = cut_at;
+    return run(call);
+  }
+  Outcome cut(int tick, std::vector<std::string> more = {}) {
+    return go(std::move(more), std::to_string(tick / 10) + "." + std::to_string(tick % 10));
+  }
+  Outcome resume(std::vector<std::string> more = {}) {
+    more.emplace_back("--resume");
+    return go(std::move(more));
+  }
+  std::vector<std::string> said() const { return lines(read_file(log())); }
+  // Only the results, in their order.
+  std::vector<std::string> results() const {
+    std::vector<std::string> list;
+    for (const std::string& line : said()) {
+      if (line.ends_with("succeeds") || line.ends_with("fails")) list.push_back(line);
+    }
+    return list;
+  }
+  void forget() const {
+    std::filesystem::remove(log());
+    std::filesystem::remove(file());
+  }
+  std::string file() const { return directory_.path("run.checkpoint"); }
+  std::string log() const { return directory_.path("log"); }
+  const TemporaryDirectory& directory() const { return directory_; }
+  const std::string& tree() const { return tree_; }
+
+ private:
+  static constexpr const char* kPlugins = LOCKSTEP_BINARY_DIR "/tests/cli";
+  TemporaryDirectory directory_;
+  const std::string tree_;
+};
+
+std::string ours(const std::string& nodes, const std::string& beside = "") {
+  return "<root lockstep=\"1\">" + beside + "<plugin name=\"cut\"/><BehaviorTree ID=\"Main\">" +
+         nodes + "</BehaviorTree></root>";
+}
+
+std::string theirs(const std::string& nodes) {
+  return "<root BTCPP_format=\"4\"><plugin name=\"cut\"/><BehaviorTree ID=\"Main\">" + nodes +
+         "</BehaviorTree></root>";
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// In each of them, who begins again changes no order.
+const std::vector<std::string> kTrees{
+    ours("<Sequence memory='true'><Step who='a' ticks='3'/><ParallelAbsolute barriers='0.5'>"
+         "<Step who='b' ticks='4'/><Sequence memory='true'><Step who='c' ticks='6'/></Sequence>"
+         "</ParallelAbsolute><Step who='d' ticks='2'/></Sequence>"),
+    ours("<Sequence memory='true'><Script code='sum := 0; text := \"x\"'/><Repeat "
+         "times='3'><Sequence memory='true'>"
+         "<Step who='a' ticks='2' count='{n}'/><Script code='sum += n; text := text + \"y\"'/>"
+         "</Sequence></Repeat><Step number='{sum}'/><Step who='{text}'/></Sequence>"),
+    ours("<Sequence memory='true'><Script code='n := 0'/><Retry attempts='4'><Sequence "
+         "memory='true'><Script code='n += 1'/>"
+         "<Step number='{n}' ticks='2'/><Check code='n == 3'/></Sequence></Retry>"
+         "<Wait seconds='0.5'/><Step who='end'/></Sequence>"),
+    ours("<Sequence memory='true'><Parallel><UseResources pool='arm' resources='one'>"
+         "<Step who='a' ticks='4'/></UseResources><UseResources pool='arm' resources='one'>"
+         "<Step who='b' ticks='3'/></UseResources></Parallel><Step who='c'/></Sequence>",
+         "<resources name='arm' resources='one'/>"),
+    ours("<Sequence memory='true'><Fallback memory='true'><Timeout seconds='1.2'><Sequence "
+         "memory='true'><Step who='a' ticks='3'/>"
+         "<Step who='b' ticks='50'/></Sequence></Timeout><Step who='c' ticks='2'/></Fallback>"
+         "<Step who='d'/></Sequence>"),
+    theirs("<Sequence><Script code=\"n := 0; word := 'one'\"/><RetryUntilSuccessful "
+           "num_attempts='5'><Sequence><Script code='n += 1'/><Step who='{n}' ticks='2'/>"
+           "<ScriptCondition code='n == 3'/></Sequence></RetryUntilSuccessful>"
+           "<Repeat num_cycles='2'><Delay delay_msec='200'><Step who='{word}' ticks='2' "
+           "_onSuccess=\"word := 'two'\"/></Delay></Repeat><Step who='{word}'/></Sequence>")};
+
+}  // namespace
+
+TEST_CASE("a run that a kill ends goes on to the results that it would have had") {
+  for (const std::string& text : kTrees) {
+    INFO(text);
+    CutRun run(text);
+    const Outcome uncut = run.go();
+    INFO(uncut.out << uncut.err);
+    REQUIRE(uncut.code == 0);
+    const auto expected = run.results();
+    REQUIRE(expected.size() > 2);
+    int cuts = 0;
+    for (int tick = 0; tick < 25; ++tick) {
+      INFO("cut at tick " << tick);
+      run.forget();
+      const Outcome cut = run.cut(tick);
+      if (cut.code == 0) break;  // it ends before that
+      REQUIRE(cut.code == 128 + SIGKILL);
+      const Outcome outcome = run.resume();
+      INFO(outcome.err << read_file(run.log()));
+      CHECK(outcome.code == 0);
+      CHECK(run.results() == expected);
+      CHECK_FALSE(holds(read_file(run.log()), "before it begins"));
+      CHECK_FALSE(holds(read_file(run.log()), "is halted") !=
+                  (text.find("Timeout") != std::string::npos));
+      ++cuts;
+    }
+    CHECK(cuts > 8);
+  }
+}
+
+TEST_CASE("a barrier holds who is ahead until the leaf that begins again has reached it") {
+  CutRun run(
+      ours("<ParallelAbsolute barriers='0.5'><Step who='left' ticks='10'/>"
+           "<Step who='right' ticks='20'/></ParallelAbsolute>"));
+  for (int tick = 0; tick < 18; ++tick) {
+    run.forget();
+    REQUIRE(run.cut(tick).code == 128 + SIGKILL);
+    const std::size_t before = run.said().size();
+    CHECK(run.resume().code == 0);
+    const auto said = run.said();
+    const auto part = said.begin() + static_cast<std::ptrdiff_t>(before);
+    const auto has_come = std::find(part, said.end(), "right at 0.500");
+    const auto goes_on = std::find(part, said.end(), "left at 0.600");
+    INFO("cut at tick " << tick << "\n" << read_file(run.log()));
+    CHECK(has_come < goes_on);
+    CHECK(goes_on != said.end());
+  }
+}
+
+TEST_CASE("leaves that ran at the cut may have a result instead") {
+  CutRun run(ours(
+      "<Fallback memory='true'><Step who='a' ticks='9'/><Step who='b' ticks='2'/></Fallback>"));
+  REQUIRE(run.cut(4).code == 128 + SIGKILL);
+  const Outcome failed = run.resume({"--on-resume", "failure"});
+  CHECK(failed.code == 0);
+  CHECK(holds(failed.err, "'Main/Fallback/Step' counts as failed"));
+  CHECK(run.results() == std::vector<std::string>{"b succeeds"});
+  run.forget();
+  REQUIRE(run.cut(4).code == 128 + SIGKILL);
+  CHECK(run.resume({"--on-resume", "success"}).code == 0);
+  CHECK(run.results().empty());
+}
+
+TEST_CASE("what has ended in order does not go on, and a resumed run says so") {
+  CutRun run(ours(
+      "<Sequence memory='true'><Step who='a' ticks='3'/><Step who='b' ticks='3'/></Sequence>"));
+  CHECK(run.resume().code == 0);  // there is nothing: it begins
+  const Outcome again = run.resume();
+  CHECK(again.code == 0);
+  CHECK_FALSE(holds(again.err, "resumed"));
+  CHECK(run.results().size() == 4);
+  run.forget();
+  CHECK(run.go({"--max-ticks", "4"}).code == 124);
+  CHECK_FALSE(holds(run.resume().err, "resumed"));
+  run.forget();
+  REQUIRE(run.cut(4).code == 128 + SIGKILL);
+  const Outcome cut = run_lockstep({"checkpoint", run.file()});
+  CHECK(holds(cut.out, "unfinished after 4 ticks, 0.300 s of the run"));
+  CHECK(holds(cut.out, "Main/Sequence/Step#2 is running"));
+  CHECK(holds(run_lockstep({"checkpoint", run.file(), "--json"}).out, "\"state\": \"unfinished\""));
+  const std::string recording = run.directory().path("run.jsonl");
+  const Outcome resumed = run.resume({"--record", recording});
+  CHECK(holds(resumed.err, "resumed after "));
+  CHECK(holds(resumed.err, "; 'Main/Sequence/Step#2' starts again"));
+  CHECK(holds(resumed.out, "resumed after "));
+  CHECK(holds(read_file(recording), "resumed after "));
+  const Outcome shown = run_lockstep({"checkpoint", run.file()});
+  CHECK(shown.code == 0);
+  CHECK(holds(shown.out, "ended after "));
+  CHECK(run_lockstep({"log", "info", recording}).code == 0);
+}
+
+TEST_CASE("a run does not go on with another tree, nor from what is no checkpoint") {
+  CutRun run(ours("<Sequence memory='true'><Step who='a' ticks='${n}'/></Sequence>",
+                  "<arg name='n' default='6'/>"));
+  REQUIRE(run.cut(3).code == 128 + SIGKILL);
+  const Outcome other = run.resume({"--arg", "n=7"});
+  CHECK(other.code == 3);
+  CHECK(holds(other.err, "the argument 'n' was '6' and is '7'"));
+  const std::string text = read_file(run.tree());
+  std::ofstream(run.tree()) << text << "<!-- -->";
+  const Outcome changed = run.resume();
+  CHECK(changed.code == 3);
+  CHECK(holds(changed.err, "the text of '" + run.tree() + "' was "));
+  std::ofstream(run.tree()) << text;
+  CHECK(run.resume().code == 0);
+
+  std::ofstream(run.file()) << "a diary";
+  const Outcome diary = run.go();
+  CHECK(diary.code == 2);
+  CHECK(read_file(run.file()) == "a diary");
+  CHECK(run.resume().code == 2);
+  std::filesystem::remove(run.file());
+  std::filesystem::create_symlink(run.directory().path("other"), run.file());
+  CHECK(run.go().code == 2);
+  std::filesystem::remove(run.file());
+  std::filesystem::create_directory(run.file());
+  CHECK(run.go().code == 2);
+}
+
+TEST_CASE("a leaf that ends the process at its start does not do so for ever") {
+  CutRun run(ours(
+      "<Sequence memory='true'><Step who='a' ticks='3'/><Step who='b' ticks='9'/></Sequence>"));
+  REQUIRE(run.cut(2).code == 128 + SIGKILL);
+  for (int again = 0; again < 2; ++again) {
+    REQUIRE(run.cut(0, {"--resume", "--resume-limit", "2"}).code == 128 + SIGKILL);
+  }
+  const Outcome given_up = run.resume({"--resume-limit", "2"});
+  CHECK(given_up.code == 5);
+  CHECK(holds(given_up.err, "was resumed 2 times in a row"));
+  CHECK(run.resume({"--resume-limit", "2"}).code == 5);
+  // A leaf that completes: the count begins anew.
+  REQUIRE(run.cut(8, {"--resume"}).code == 128 + SIGKILL);
+  CHECK(run.resume({"--resume-limit", "1"}).code == 0);
+}
+
+}  // namespace lockstep::host::test
