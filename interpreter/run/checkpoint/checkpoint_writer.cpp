@@ -36,7 +36,8 @@ CheckpointWriter::~CheckpointWriter() {
 
 bool CheckpointWriter::begin(const Ticker& ticker, const CheckpointFacts& facts,
                              std::uint64_t ticks, std::uint32_t resumes) {
-  head_.ticks = kept_ = ticks;
+  head_.ticks = ticks;
+  kept_.store(ticks, std::memory_order_release);
   head_.resumes = resumes;
   running_.reserve(ticker.tree().nodes.size());
   note_results(ticker);
@@ -89,6 +90,7 @@ void CheckpointWriter::fill(Snapshot& snapshot, const Ticker& ticker) {
     lasting_ = lasting;
     ++changes_;
   }
+  snapshot.ticks = head_.ticks;
   snapshot.number = ++number_;
   snapshot.changes = changes_;
 }
@@ -101,8 +103,9 @@ void CheckpointWriter::after_tick(const Ticker& ticker, std::uint64_t ticks) {
   fill(snapshots_.back(), ticker);
   if (!lost_.empty()) return;
   snapshots_.publish();
-  kept_ = ticks;
-  if (!options_.real_time) flush();
+  if (options_.real_time) return;
+  flush();
+  if (failed_.load(std::memory_order_acquire)) lose(file_->error());
 }
 
 // Once: a run that goes on must not be resumed from an old state.
@@ -126,6 +129,7 @@ std::string CheckpointWriter::error() const {
 std::string CheckpointWriter::last_bytes(Checkpoint::Kind kind, const std::string& note) const {
   Checkpoint last = head_;
   last.kind = kind;
+  if (kind == Checkpoint::Kind::Lost) last.ticks = kept();
   last.note = note;
   last.written = wall_time();
   std::string bytes;
@@ -166,7 +170,10 @@ void CheckpointWriter::write_until_stopped() {
     if (snapshots_.take()) {
       is_good = file_->write(snapshots_.front().bytes);
       written = snapshots_.front().changes;
-      if (is_good) written_.store(snapshots_.front().number, std::memory_order_release);
+      if (is_good) {
+        kept_.store(snapshots_.front().ticks, std::memory_order_release);
+        written_.store(snapshots_.front().number, std::memory_order_release);
+      }
     }
     const Nanoseconds since = monotonic_now() - synced_at;
     if (stops ||

@@ -48,12 +48,13 @@ class CheckpointWriter {
   // "" if there is no error.
   std::string error() const;
   // How many ticks were kept before it.
-  std::uint64_t kept() const { return kept_; }
+  std::uint64_t kept() const { return kept_.load(std::memory_order_acquire); }
 
  private:
   struct Snapshot {
     std::string bytes = {};
-    std::uint64_t number = 0;   // from 1 on
+    std::uint64_t number = 0;  // from 1 on
+    std::uint64_t ticks = 0;
     std::uint64_t changes = 0;  // so often something but time has changed before it
   };
   void note_results(const Ticker& ticker);
@@ -70,12 +71,13 @@ class CheckpointWriter {
   Checkpoint head_;  // of the next snapshot, without the run
   SavedRun saved_;
   std::string lasting_;  // of the last snapshot: what not only time changes
-  std::uint64_t changes_ = 0, number_ = 0, kept_ = 0;
+  std::uint64_t changes_ = 0, number_ = 0;
   std::vector<NodeIndex> running_;  // actions, before the tick; while there were resumes
   std::string lost_;                // why nothing is kept any more, as the tick thread knows it
 
   TripleBuffer<Snapshot> snapshots_{Snapshot()};
-  std::atomic<std::uint64_t> written_{0};
+  std::atomic<std::uint64_t> written_{0};  // a number
+  std::atomic<std::uint64_t> kept_{0};     // ticks
   std::atomic<bool> failed_{false}, stopping_{false};
   Bell work_, done_;
   std::thread thread_;
