@@ -134,8 +134,10 @@ void NodeContext::say(NodeIndex node, std::uint32_t& place, std::string_view tex
   reason.of_fault = false;
 }
 
-void NodeContext::say_again(NodeIndex node, std::uint32_t& place) {
-  reasons_[(place = place_of_reason(node, place)) - 1].number = state_.tick_number;
+bool NodeContext::say_again(NodeIndex node, std::uint32_t& place) {
+  Reason& reason = reasons_[(place = place_of_reason(node, place)) - 1];
+  reason.number = state_.tick_number;
+  return !reason.text.empty();
 }
 
 void NodeContext::say_fault(NodeIndex node, const std::string& message) {

@@ -190,8 +190,8 @@ class NodeContext : public RunView {
   void say(NodeIndex node, LeafSlot& leaf, std::string_view text);
   // The same of a node that is no leaf of a plugin: `place` is its place in reasons(), and 1, or 0.
   void say(NodeIndex node, std::uint32_t& place, std::string_view text);
-  // It is still what it was in its last tick.
-  void say_again(NodeIndex node, std::uint32_t& place);
+  // It is still what it was in its last tick. False: it is not known, since another process had it.
+  bool say_again(NodeIndex node, std::uint32_t& place);
   // A leaf that has failed as a program, maybe outside of its ticks, returns Failure for that.
   void fail_with_fault(const LeafSlot& leaf);
   // Of the nodes that have ever had one, in the order of their first ones.

@@ -101,22 +101,25 @@ Status end_time(NodeContext& context, NodeIndex self) {
   return give(context, self, static_cast<std::uint32_t>(option), "no answer in time: ");
 }
 
+Status ask(NodeContext& context, NodeIndex self) {
+  const Value* const text = context.scripts().value_of(self, kText);
+  if (text == nullptr) return Status::Failure;
+  context.say(self, context.state<AskState>(self).reason, std::get<std::string>(*text));
+  return Status::Running;
+}
+
 Status tick_ask(NodeContext& context, NodeIndex self) {
   timed::count(context, self);
   auto& state = context.state<AskState>(self);
   if (context.first_tick(self)) {
     state.answer = state.reason = 0;
     state.since = context.tick_number();
-    const Value* const text = context.scripts().value_of(self, kText);
-    if (text == nullptr) return Status::Failure;
-    context.say(self, state.reason, std::get<std::string>(*text));
-    return Status::Running;
+    return ask(context, self);
   }
   if (state.answer != 0) return give(context, self, state.answer - 1, "answered ");
   const bool has_limit = context.parameter(self, timed::kSeconds).number != 0;
   if (has_limit && timed::is_over(context, self)) return end_time(context, self);
-  context.say_again(self, state.reason);
-  return Status::Running;
+  return context.say_again(self, state.reason) ? Status::Running : ask(context, self);
 }
 
 bool answer_ask(NodeContext& context, NodeIndex self, std::uint32_t option, std::uint32_t seen) {
