@@ -3,6 +3,7 @@
 
 #include "engine/held_leaves.h"
 #include "engine/ticker.h"
+#include "engine/tree.h"
 
 namespace lockstep::host {
 

@@ -8,7 +8,6 @@
 #include "base/core/crc32c.h"
 #include "base/core/version.h"
 #include "base/core/wording.h"
-#include "base/system/output_file.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "engine/tree.h"
