@@ -103,7 +103,11 @@ std::function<int()> define_checkpoint(CLI::App& app) {
 extern const Command kCheckpointCommand{
     "checkpoint", "Show the checkpoint of a run",
     "Prints whether the run has ended, what runs in it, and of which tree it is.\n"
-    "Exit code: 0 printed, 2 usage, or the file is not a checkpoint.",
+    "Exit code: 0 printed, 2 usage, or the file is not a checkpoint.\n"
+    "\n"
+    "Examples:\n"
+    "  lockstep checkpoint run.checkpoint\n"
+    "  lockstep checkpoint run.checkpoint --json",
     define_checkpoint};
 
 }  // namespace lockstep::host
