@@ -28,8 +28,10 @@ std::string facts_bytes() {
 
 // The one after so many ticks.
 std::string checkpoint_bytes(std::uint64_t ticks, std::size_t size = 500) {
+  Checkpoint head;
+  head.ticks = ticks;
   std::string bytes;
-  append_head({.ticks = ticks}, bytes);
+  append_head(head, bytes);
   return bytes + std::string(size, static_cast<char>(ticks));
 }
 
