@@ -134,7 +134,7 @@ export function Now({ store }: { store: Store }) {
         {running.slice(0, MOST).map((node) => (
           <li key={node} class="running">
             <span aria-hidden="true" class="symbol">▶</span>
-            <span><Name store={store} node={node} /> runs {paceText(moment, node)}<Reason moment={moment} node={node} /></span>
+            <span><Name store={store} node={node} /> runs{paceText(moment, node) && ` ${paceText(moment, node)}`}<Reason moment={moment} node={node} /></span>
             <Progress moment={moment} node={node} />
           </li>
         ))}

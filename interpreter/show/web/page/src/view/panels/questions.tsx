@@ -1,7 +1,6 @@
 // What the run asks, with a button for each answer; and the switch of who attends it.
 import { useEffect, useState } from "preact/hooks";
 import { type Question, questionsOf } from "../../model/questions";
-import { seconds } from "../../model/words";
 import type { Live } from "../../store/live";
 import type { Store } from "../../store/store";
 import { controls } from "./breakpoints";
@@ -21,7 +20,7 @@ function Asked({ store, question, live }: { store: Store; question: Question; li
         {options.map((option) => (
           <button type="button" key={option} disabled={!live || !isNow} onClick={() => void answer(option)}>{option}</button>
         ))}
-        {left !== null && <span class="dim">{`in ${seconds(left)}: ${fallback || "it fails"}`}</span>}
+        {left !== null && <span class="dim">{`in ${Math.ceil(left)} s: ${fallback || "it fails"}`}</span>}
         {store.live && !store.live.control && <span class="dim">to answer here, start the run with --monitor-control</span>}
       </p>
     </div>
