@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/core/clock.h"
 #include "base/core/diagnostics.h"
 #include "base/core/suggest.h"
 #include "base/core/value.h"
@@ -44,14 +45,15 @@ int refuse(const Problem& why) {
   return kExitUsage;
 }
 
-Result<std::vector<Asked>> questions_of(const ReachableRun& run) {
+// `more`: how many there are beside these.
+Result<std::vector<Asked>> questions_of(const ReachableRun& run, std::uint64_t& more) {
   auto text = ask_run(run.socket, std::string(kListQuestions));
   if (!text) return tl::unexpected(text.error());
   std::vector<Asked> found;
   try {
-    std::string list = R"({"questions":)" + *text + "}";
-    JsonReader().read(list, [&](JsonObject object) {
-      object.read({{"questions", [&](JsonValue all) {
+    JsonReader().read(*text, [&](JsonObject object) {
+      object.read({{"questions",
+                    [&](JsonValue all) {
                       all.each_item([&](JsonValue value) {
                         Asked& it = found.emplace_back(Asked{.run = run});
                         value.object().read({{"node", into(it.node)},
@@ -64,7 +66,8 @@ Result<std::vector<Asked>> questions_of(const ReachableRun& run) {
                                                 });
                                               }}});
                       });
-                    }}});
+                    }},
+                   {"more", into(more)}});
     });
   } catch (const JsonError& error) {
     return problem(
@@ -106,11 +109,33 @@ bool is_meant(const Asked& it, const std::string& node) {
 bool is_taken(const Asked& question) {
   constexpr std::chrono::milliseconds kLook{20}, kLongest{2000};
   for (std::chrono::milliseconds waited{0}; waited < kLongest; waited += kLook) {
-    const auto now = questions_of(question.run);
+    std::uint64_t more = 0;
+    const auto now = questions_of(question.run, more);
     if (!now || std::ranges::find(*now, question) == now->end()) return true;
     std::this_thread::sleep_for(kLook);
   }
   return false;
+}
+
+// What counted may have been another answer.
+int confirm(const Asked& question, const std::string& given) {
+  const AnsweredQuestion asked{static_cast<std::uint32_t>(question.node), question.tick};
+  auto text = ask_run(question.run.socket, asked.request());
+  if (!text) return kExitSuccess;  // the run has ended with it
+  std::string answer, who;
+  try {
+    JsonReader().read(*text, [&](JsonObject object) {
+      object.read({{"answer", into(answer), kMayLack}, {"who", into(who), kMayLack}});
+    });
+  } catch (const JsonError& error) {
+    return refuse({error.what()});
+  }
+  if (answer.empty()) {
+    return refuse({fmt::format("{} waits for no answer any more", printable(question.path))});
+  }
+  messages().say(fmt::format("{}: {}\n", printable(question.path), printable(answer)));
+  if (answer == given) return kExitSuccess;
+  return refuse({fmt::format("{} answered before", printable(who))});
 }
 
 int give(const Asked& question, const AnswerOptions& options) {
@@ -127,8 +152,7 @@ int give(const Asked& question, const AnswerOptions& options) {
                      "continues",
                      printable(question.path))});
   }
-  messages().say(fmt::format("{}: {}\n", printable(question.path), printable(options.answer)));
-  return kExitSuccess;
+  return confirm(question, options.answer);
 }
 
 int answer(const AnswerOptions& options) {
@@ -141,9 +165,12 @@ int answer(const AnswerOptions& options) {
   }
   std::vector<Asked> questions;
   for (const ReachableRun& run : runs) {
-    auto found = questions_of(run);
+    std::uint64_t more = 0;
+    auto found = questions_of(run, more);
     if (!found && !options.run.empty()) return refuse(found.error());
-    if (!found) continue;  // it has ended meanwhile
+    if (!found) print_note(found.error().message, found.error().hint);
+    if (more > 0) print_note(fmt::format("run {} has {} more questions", run.name, more));
+    if (!found) continue;
     for (Asked& it : *found) {
       if (is_meant(it, options.node)) questions.push_back(std::move(it));
     }

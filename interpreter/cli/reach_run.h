@@ -1,6 +1,8 @@
 // Runs of this user on this machine that other commands reach through their sockets.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,8 +11,19 @@
 
 namespace lockstep::host {
 
-// The request for the questions that a run asks at this moment. The answer is a JSON array.
+// The request for the questions that a run asks at this moment. The answer is JSON.
 inline constexpr std::string_view kListQuestions = R"({"do":"questions"})";
+
+// The request for the answer that counted, to what a node asked in a tick: {"answer":…,"who":…},
+// or {}.
+struct AnsweredQuestion {
+  std::uint32_t node = 0;
+  std::uint64_t tick = 0;
+
+  std::string request() const;
+};
+// Nothing: the request is another one.
+std::optional<AnsweredQuestion> answered_question(const std::string& request);
 
 struct ReachableRun {
   std::string socket;

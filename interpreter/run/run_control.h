@@ -61,6 +61,7 @@ class RunControl {
   // True while the next tick must not come yet.
   bool is_paused() const { return is_paused_ || !is_attended_; }
   bool is_attended() const { return is_attended_; }
+  bool is_told_to_pause() const { return is_paused_; }
   // Not after the last of some ticks that were ordered: those end with their periods.
   bool pauses_at_once() const { return (is_paused_ && !is_stepping_) || !is_attended_; }
   bool pauses_after_tick() const { return ticks_left_ == 1; }  // the next one

@@ -96,6 +96,8 @@ class Writer {
       : tree_(tree), matters_(entries_of_engine(tree)) {
     for (const std::uint32_t slot : observed) matters_[slot] = true;
     for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
+      const NodeCategory category = tree.leaves[i].type->category;
+      if (category == NodeCategory::Control || category == NodeCategory::Decorator) continue;
       const std::string id(tree.leaves[i].type->id);
       if (!of_type_.contains(id)) ids_.push_back(id);
       of_type_[id].push_back(i);

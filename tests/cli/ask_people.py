@@ -4,6 +4,7 @@ import os
 import pty
 import re
 import select
+import signal
 import subprocess
 import sys
 import tempfile
@@ -98,6 +99,37 @@ def test_another_command_answers(directory):
     assert not [name for name in os.listdir(os.path.join(directory, "lockstep")) if name.endswith(".socket")]
 
 
+def test_a_signal_ends_a_run_that_asks(directory):
+    for options in [], ["--break", "where:before"]:
+        run = Terminal(directory, os.path.join(TREES, "ask.xml"), *options)
+        run.wait_for("for help" if options else r"\(1 to 3\)")
+        run.run.send_signal(signal.SIGINT)
+        assert run.end()[0] == 130
+
+
+def test_what_was_typed_before_a_question_is_no_answer_to_it(directory):
+    run = Terminal(directory, os.path.join(TREES, "ask.xml"))
+    run.wait_for(r"\(1 to 3\)")
+    run.type("3\n1")
+    run.wait_for(r"Really throw gear 7 away[^?]*\?.*\n(.*\n)*.*\(1 to 2\)")
+    run.type("2")
+    run.wait_for(r"sure: no \(by terminal\)")
+    assert run.end()[0] == 0
+
+
+def test_the_first_answer_counts(directory):
+    run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--rate", "2")
+    run.wait_for("where asks")
+    both = [subprocess.Popen([LOCKSTEP, "answer", answer, "--by", answer], env=run.environment, stderr=subprocess.PIPE,
+                             text=True) for answer in ("shelf", "table")]
+    codes = [it.wait(timeout=PATIENCE) for it in both]
+    assert sorted(codes) == [0, 2], codes
+    assert "answered before" in both[codes.index(2)].stderr.read()
+    for it in both:
+        it.stderr.close()
+    assert run.end()[0] == 0
+
+
 def test_a_run_with_a_monitor_is_reached_too(directory):
     run = Terminal(directory, os.path.join(TREES, "ask.xml"), "--monitor", "127.0.0.1:0", "--monitor-linger", "0")
     run.wait_for("where asks")
@@ -127,10 +159,10 @@ def test_attended(directory):
 
 def test_a_command_at_the_prompt_attends(directory):
     run = Terminal(directory, waiting(directory, 1000), "--attended", "0.3")
-    run.wait_for("the run is unattended; c continues it")
-    run.type("c")
+    run.wait_for("Enter continues the run, q ends it")
+    run.type("")
     run.wait_for("continues: attended again")
-    run.wait_for("the run is unattended")
+    run.wait_for("Enter continues the run, q ends it")
     run.type("q")
     code, _ = run.end()
     assert code == 130, code

@@ -27,8 +27,8 @@ constexpr TickRow kAskRows[] = {
    "Retry[attempts=2](Ask[text=Now? timeout=.1])", "", "R[] R[] R[] F[]"},
   {"its time stands still while it is held",
    "ParallelRelative[delta=0](a Ask[text=Now? timeout=.2])", "a=R~0,0,0", "R[a] R[a] F[a] halt[a]"},
-  {"a question about an entry without a value is its fault",
-   "Sequence(Ask[text={n}?] Script[code=n:=1])", "", "X[]=Ask"},
+  {"in a question, an entry without a value is shown as its key",
+   "Sequence(Ask[text={n}? timeout=.1] Script[code=n:=1])", "", "R[] F[]"},
 };
 // clang-format on
 

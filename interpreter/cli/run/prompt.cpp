@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -135,7 +136,10 @@ void Prompt::after_tick(const Moment& moment, const TickReport&) {
 }
 
 void Prompt::standing(const Moment& moment) {
-  Picture picture{.where = where(moment), .why = {}, .entries = entries(moment)};
+  Picture picture{.where = where(moment),
+                  .why = {},
+                  .entries = entries(moment),
+                  .is_only_unattended = !control_.is_attended() && !control_.is_told_to_pause()};
   write_links(summarize(why_.why(moment), shape_), picture.why, false);
   if (is_complete(moment.status(0))) {  // there is nothing to wait for
     if (control_.reached() || !condition_.empty())
@@ -177,7 +181,7 @@ std::string Prompt::entries(const Moment& moment) const {
 // --- in the thread of the person -----------------------------------------------------------------
 
 void Prompt::live() {
-  while (true) {
+  while (!is_over()) {
     auto question = next_question();
     if (!question) {
       pollfd wait{wake_.number(), POLLIN, 0};
@@ -187,7 +191,6 @@ void Prompt::live() {
     std::optional<Picture> picture;
     {
       const Lock lock(mutex_);
-      if (is_over_) return;
       picture = std::exchange(picture_, std::nullopt);
     }
     if (picture) {
@@ -221,12 +224,23 @@ std::optional<OpenQuestion> Prompt::next_question() const {
   return std::nullopt;
 }
 
-// What it asks was shown when it was asked.
+// What was typed before it was shown is no answer to it.
 void Prompt::ask(const OpenQuestion& question) {
-  const std::vector<std::string>& options = shape_.nodes[question.node].question->options;
+  const ShapeNode& node = shape_.nodes[question.node];
+  const std::vector<std::string>& options = node.question->options;
+  const bool has_numbers = std::ranges::none_of(
+      options, [](const std::string& it) { return parse_int(it).has_value(); });
   std::string list;
+  if (answered_ || questions_->now().size() > 1) {
+    list = fmt::format("{}: {}\n", printable(node.path), printable(question.text));
+  }
   for (std::size_t i = 0; i < options.size(); ++i) {
-    list += fmt::format("  {}  {}\n", i + 1, printable(options[i]));
+    list += has_numbers ? fmt::format("  {}  {}\n", i + 1, printable(options[i]))
+                        : fmt::format("  {}\n", printable(options[i]));
+  }
+  if (is_terminal(STDIN_FILENO)) {
+    tcflush(STDIN_FILENO, TCIFLUSH);
+    rest_.clear();
   }
   say(list);
   const auto is_gone = [&] {
@@ -234,7 +248,7 @@ void Prompt::ask(const OpenQuestion& question) {
     return next_question() != question;
   };
   while (true) {
-    say(fmt::format("(1 to {}) ", options.size()));
+    say(has_numbers ? fmt::format("(1 to {}) ", options.size()) : "> ");
     const auto line = read_line(is_gone);
     if (!line) {
       if (is_over() || is_gone()) return;
@@ -243,7 +257,8 @@ void Prompt::ask(const OpenQuestion& question) {
     }
     std::string_view word = *line;
     while (word.ends_with(' ') || word.ends_with('\r')) word.remove_suffix(1);
-    const auto number = parse_int(word);
+    while (word.starts_with(' ')) word.remove_prefix(1);
+    const auto number = has_numbers ? parse_int(word) : std::nullopt;
     auto option = std::ranges::find(options, word);
     if (option == options.end() && number && *number >= 1 &&
         static_cast<std::size_t>(*number) <= options.size()) {
@@ -263,23 +278,29 @@ void Prompt::ask(const OpenQuestion& question) {
 }
 
 void Prompt::ask(const Picture& picture) {
-  say(fmt::format("paused {}\n{}", picture.where, picture.why));
-  if (!control_.state().is_attended.value_or(true)) {
-    say("the run is unattended; c continues it\n");
+  if (picture.is_only_unattended) {
+    say("Enter continues the run, q ends it\n");
+  } else {
+    say(fmt::format("paused {}\n{}", picture.where, picture.why));
   }
   while (true) {
-    if (!is_closed_) say("(c, s, w, p, set, b, d, q, or ? for help) ");
+    if (!is_closed_ && !picture.is_only_unattended) {
+      say("(c, s, w, p, set, b, d, q, or ? for help) ");
+    }
     const auto line = is_closed_ ? std::nullopt : read_line([this] { return !stands_.load(); });
     if (line) {
       control_.give({.what = What::Attend});  // who types is there
+      if (picture.is_only_unattended) return *line == "q" ? give(What::Halt) : void();
       if (!obey(*line, picture)) return;
     } else if (is_over()) {
       return;
     } else if (!stands_) {
       return say("\n");
     } else {
+      const bool is_new = !std::exchange(is_closed_, true);
+      if (picture.is_only_unattended) return;
       // No command can come any more.
-      if (!std::exchange(is_closed_, true)) say("stdin has ended: the run continues\n");
+      if (is_new) say("stdin has ended: the run continues\n");
       return control_.give({.what = What::Resume});
     }
   }

@@ -58,6 +58,7 @@ class Prompt final : public Observer {
   struct Picture {
     std::string where;  // "after tick 31 (0.310 s): 'Main/grasp' failed"
     std::string why, entries;
+    bool is_only_unattended = false;  // else somebody, or a breakpoint, has paused it
   };
 
   void live();

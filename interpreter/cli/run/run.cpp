@@ -298,6 +298,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   RecorderOptions recorder_options() {
     RecorderOptions recorder{.path = options_.record, .run = description_};
+    recorder.run.leaves_out_answers = description_.entries.has_value();
     recorder.compresses = options_.record_compress;
     recorder.rotation = options_.rotation;
     if (options_.record.ends_with(".mcap")) recorder.encoder = mcap_recording(options_.is_real());

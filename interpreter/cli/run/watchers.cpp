@@ -149,19 +149,35 @@ void Watchers::Attendance::before_tick(const Moment&, std::uint64_t, Nanoseconds
   if (std::exchange(is_alone_, false)) note_("continues: attended again");
 }
 
-// From another process of the same user.
-Result<std::string> Watchers::answer_request(const std::string& request) {
-  using What = RunControl::Order::What;
-  if (request == kListQuestions) {
-    Json list = Json::array();
-    for (const OpenQuestion& it : questions_ ? questions_->now() : std::vector<OpenQuestion>()) {
-      list.push_back({{"node", it.node},
+// As many as fit into an answer, and how many more there are.
+std::string Watchers::list_questions() const {
+  constexpr std::size_t kMost = 60'000;  // bytes
+  std::string list;
+  std::size_t more = 0;
+  for (const OpenQuestion& it : questions_ ? questions_->now() : std::vector<OpenQuestion>()) {
+    const Json one = {{"node", it.node},
                       {"path", shape_.nodes[it.node].path},
                       {"text", it.text},
                       {"options", shape_.nodes[it.node].question->options},
-                      {"tick", it.tick}});
+                      {"tick", it.tick}};
+    const std::string text = one.text();
+    if (list.size() + text.size() > kMost) {
+      ++more;
+    } else {
+      list += (list.empty() ? "" : ",") + text;
     }
-    return list.text();
+  }
+  return fmt::format(R"({{"questions":[{}],"more":{}}})", list, more);
+}
+
+// From another process of the same user.
+Result<std::string> Watchers::answer_request(const std::string& request) {
+  using What = RunControl::Order::What;
+  if (request == kListQuestions) return list_questions();
+  if (const auto question = answered_question(request)) {
+    const auto answer =
+        questions_ ? questions_->answer_to(question->node, question->tick) : std::nullopt;
+    return answer ? Json({{"answer", answer->answer}, {"who", answer->who}}).text() : "{}";
   }
   auto order = read_order(shape_, options_.is_real(), request);
   if (!order) return tl::unexpected(order.error());

@@ -68,6 +68,7 @@ class Watchers {
   };
 
   Result<std::string> answer_request(const std::string& request);
+  std::string list_questions() const;
 
   const Shape& shape_;
   const RunCommandOptions& options_;

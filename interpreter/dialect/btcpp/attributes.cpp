@@ -112,6 +112,13 @@ class PortChecker {
     if (parameter.is_template) return literal(parameter, *attribute, port, value);
     port.key = key_of(attribute->value, parameter.name);
     const bool blank_around = without_blanks_around(attribute->value) != attribute->value;
+    if (!port.key.empty() && parameter.constant) {
+      report_.at_value("fixed-parameter"_code, attribute->place,
+                       fmt::format("'{}' of '{}' cannot be a blackboard entry", parameter.name,
+                                   brief(node_.type->id)),
+                       "it is fixed when the tree is loaded: write a value");
+      return false;
+    }
     if (!port.key.empty()) {
       trees_.names_at_run_time |= parameter.is_script || parameter.is_key;
       return !blank_around || check_blanks(parameter, *attribute);

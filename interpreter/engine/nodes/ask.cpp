@@ -55,6 +55,11 @@ std::optional<RuleBreak> rule_of_ask(const ParameterValues& given) {
   if (options == nullptr) return std::nullopt;
   if (options->empty()) return RuleBreak{static_cast<int>(kOptions), "there is no option", ""};
   for (auto it = options->begin(); it != options->end(); ++it) {
+    if (it->empty() || it->find('|') != std::string::npos) {
+      return RuleBreak{static_cast<int>(kOptions), "the option '" + brief(*it) + "' cannot be",
+                       "an option has at least a letter, and no '|', which is between the values "
+                       "in a leaf model"};
+    }
     if (std::find(options->begin(), it, *it) == it) continue;
     return RuleBreak{static_cast<int>(kOptions), "the option '" + brief(*it) + "' is given twice",
                      ""};

@@ -184,6 +184,8 @@ class Machine {
         return load();
       case Operation::LoadCopy:
         return load() && copy_text();
+      case Operation::LoadShown:
+        return load_shown();
       case Operation::Add:
       case Operation::Subtract:
       case Operation::Multiply:
@@ -275,6 +277,12 @@ class Machine {
     const Entry& from = entry();
     if (!from.is_present) return no_entry();
     return push(Operand::of(from.value()));
+  }
+
+  bool load_shown() {
+    std::string& text = text_at(top_);
+    text = entry().has_value() ? to_text(entry().value()) : "{" + name() + "}";
+    return push(Operand::of(&text));
   }
 
   // The text made for the operand at `place`.

@@ -111,7 +111,7 @@ class ExpressionParser {
       join([&] {
         const std::uint32_t entry = use(key);
         result_.uses_[entry].is_read = true;
-        push(Instruction::of(Operation::Load, entry));
+        push(Instruction::of(Operation::LoadShown, entry));
       });
       at = close + 1;
     }

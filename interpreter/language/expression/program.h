@@ -15,6 +15,7 @@ enum class Operation : std::uint8_t {
   Text,
   Load,
   LoadCopy,       // a text is copied: the entry may be assigned before it is used
+  LoadShown,      // the text of its value, as for people; without a value {key}
   LoadToCompare,  // a number and Compare follow: it has that number and the relation, too
   // Replace two operands by their result.
   Add,

@@ -33,6 +33,7 @@ class UseFinder {
         return stack_.push_back({.number = static_cast<double>(it.whole)});
       case Operation::Truth:
       case Operation::Text:
+      case Operation::LoadShown:
         return stack_.push_back({});
       case Operation::Load:
       case Operation::LoadCopy:

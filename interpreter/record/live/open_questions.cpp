@@ -21,11 +21,19 @@ std::vector<OpenQuestion> OpenQuestions::now() const {
   return now_;
 }
 
+std::optional<GivenAnswer> OpenQuestions::answer_to(NodeIndex node, std::uint64_t tick) const {
+  const Lock lock(mutex_);
+  for (const Answered& it : answered_) {
+    if (it.question.node == node && it.question.tick == tick) return it.answer;
+  }
+  return std::nullopt;
+}
+
 void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
   bool is_changed = false;
   for (const NodeIndex node : asking_) {
-    const bool is_answered =
-        std::ranges::find(moment.answers, node, &GivenAnswer::node) != moment.answers.end();
+    const auto answer = std::ranges::find(moment.answers, node, &GivenAnswer::node);
+    const bool is_answered = answer != moment.answers.end();
     const bool asks = moment.status(node) == Status::Running;
     const Lock lock(mutex_);  // nobody holds it for long
     auto it = std::ranges::find(now_, node, &OpenQuestion::node);
@@ -33,7 +41,10 @@ void OpenQuestions::after_tick(const Moment& moment, const TickReport&) {
     if (it == now_.end() && !asks) continue;
     is_changed = true;
     if (it != now_.end()) {
+      constexpr std::size_t kMost = 1000;
       tell_end(moment, *it);
+      if (is_answered) answered_.push_back({*it, *answer});
+      if (answered_.size() > kMost) answered_.pop_front();
       now_.erase(it);
     }
     if (!asks) continue;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,10 @@ class OpenQuestions final : public Observer {
   // In the order in which they were asked. For any thread.
   std::vector<OpenQuestion> now() const;
 
+  // The answer that counted, to the question that this node asked in this tick; none: it has not
+  // come, or that was long ago. For any thread.
+  std::optional<GivenAnswer> answer_to(NodeIndex node, std::uint64_t tick) const;
+
   void after_tick(const Moment& moment, const TickReport& report) override;
   void run_ended(const Moment& moment, const RunEnd& end) override;
 
@@ -46,6 +52,11 @@ class OpenQuestions final : public Observer {
   std::vector<NodeIndex> asking_;  // the nodes that may ask
   mutable Mutex mutex_;
   std::vector<OpenQuestion> now_ LOCKSTEP_GUARDED_BY(mutex_);
+  struct Answered {
+    OpenQuestion question;
+    GivenAnswer answer;
+  };
+  std::deque<Answered> answered_ LOCKSTEP_GUARDED_BY(mutex_);  // the last ones
 };
 
 // Whether a run of the tree may ask something.

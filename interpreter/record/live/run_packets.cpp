@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/core/language.h"
 #include "base/core/version.h"
 #include "base/core/wording.h"
 #include "judge/summary/statistics.h"
@@ -88,8 +89,8 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   TickEnd end{.limits = delta_.limits(moment),
               .rounds = delta_.rounds(moment),
               .factors = delta_.factors(moment),
-              .reasons = delta_.reasons(moment),
-              .answers = moment.answers,
+              .reasons = reasons(moment),
+              .answers = run_.leaves_out_answers ? std::span<const GivenAnswer>() : moment.answers,
               .succeeded = delta_.succeeded(moment),
               .moments = moment.within,
               .faults = report.faults,
@@ -108,6 +109,15 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
   packet.head.tick = report.tick;
   packet.head.time = report.time.count();
   return packet;
+}
+
+std::span<const ReasonChange> RunPackets::reasons(const Moment& moment) {
+  const std::span<const ReasonChange> all = delta_.reasons(moment);
+  if (!run_.leaves_out_answers) return all;
+  reasons_.assign(all.begin(), all.end());
+  std::erase_if(reasons_,
+                [&](const auto& it) { return shape_.nodes[it.node].question != nullptr; });
+  return reasons_;
 }
 
 void RunPackets::keep() {

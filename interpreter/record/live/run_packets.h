@@ -26,6 +26,8 @@ struct RunDescription {
   std::optional<std::vector<std::string>> entries = {};         // of these keys; none: all
   std::string verify = {};                                      // what it shows, of a run of verify
   bool exactly_once = false;
+  // Questions and answers have values of entries, so they are left out with those.
+  bool leaves_out_answers = false;
 };
 
 class RunPackets {
@@ -61,12 +63,15 @@ class RunPackets {
 
   const Shape shape_;
   const RunDescription run_;
+  std::span<const ReasonChange> reasons(const Moment& moment);
+
   RunDelta delta_;
   std::vector<std::uint32_t> slots_;  // of the entries that are shown
   EntryChanges entries_;
   LeafLines lines_;
-  std::string line_end_;      // of the tick, for its room
-  std::uint32_t looked_ = 0;  // the number of the last tick that tick() was called for
+  std::vector<ReasonChange> reasons_;  // those that may be recorded
+  std::string line_end_;               // of the tick, for its room
+  std::uint32_t looked_ = 0;           // the number of the last tick that tick() was called for
   bool is_full_ = false, is_whole_ = false;
   bool has_events_ = false;
 };

@@ -48,6 +48,9 @@ class Events {
     }
     for (const RecordedFault& it : tick.faults)
       add("fault", header_.nodes[it.node].path, it.message);
+    for (const GivenAnswer& it : tick.answers) {
+      add("answer", header_.nodes[it.node].path, fmt::format("{} (by {})", it.answer, it.who));
+    }
     for (const RecordedEntry& it : tick.entries) {
       add("entry", header_.entries[it.entry].key, shown_value(it));
     }

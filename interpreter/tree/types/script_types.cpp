@@ -86,6 +86,7 @@ class TypeMachine {
       case Operation::Whole:
         return push(ValueType::Int);
       case Operation::Text:
+      case Operation::LoadShown:
         return push(ValueType::String);
       case Operation::Load:
       case Operation::LoadCopy:

@@ -31,7 +31,10 @@ export function Search({ store }: { store: Store }) {
     if (event.key === "ArrowDown") setAt(Math.min(at + 1, matches.length - 1));
     else if (event.key === "ArrowUp") setAt(Math.max(at - 1, 0));
     else if (event.key === "Enter" && matches[at] !== undefined) choose(matches[at]);
-    else if (event.key === "Escape") setText("");
+    else if (event.key === "Escape") {
+      if (text === "") (event.target as HTMLElement).blur();
+      setText("");
+    }
     else return;
     event.preventDefault();
   };
