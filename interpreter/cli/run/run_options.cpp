@@ -319,6 +319,7 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
 constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--hang-limit",
                                       "--mock-output",
+                                      "--attended",
                                       "--leaves",
                                       "--stall-fail",
                                       "--overrun",
