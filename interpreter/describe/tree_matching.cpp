@@ -449,6 +449,13 @@ class Matcher {
   std::vector<bool> is_whole_;  // of the old nodes: matched with an equal subtree
 };
 
+// Editors keep what they know of a node in such attributes, and write it anew with each save: _uid.
+bool is_of_editor(const WrittenAttribute& it) {
+  constexpr std::string_view kRemaps = "_autoremap";
+  if (!it.name.starts_with('_')) return false;
+  return it.name != kRemaps || it.value == "false" || it.value == "0";
+}
+
 }  // namespace
 
 std::vector<NodeValue> values_of(const Definition& definition, const DefinitionNode& node) {
@@ -471,8 +478,10 @@ std::vector<NodeValue> values_of(const Definition& definition, const DefinitionN
   }
   for (const WrittenAttribute& it : written) {
     if (std::ranges::find(parameters, it.name, &Parameter::name) != parameters.end()) continue;
+    const bool is_script = is_hook(definition, node, it.name);
+    if (is_of_editor(it) && !is_script) continue;
     std::string shown(it.value);
-    std::string text = is_hook(definition, node, it.name) ? without_blanks(shown) : shown;
+    std::string text = is_script ? without_blanks(shown) : shown;
     values.push_back({it.name, std::move(text), std::move(shown)});
   }
   return values;

@@ -72,6 +72,24 @@ TEST_CASE("diff: layout, comments, order of attributes and written defaults are 
             .empty());
 }
 
+TEST_CASE("diff: what an editor keeps of a node is no change, and what remaps an entry is one") {
+  const TemporaryDirectory directory;
+  const auto file = [&](const char* name, const std::string& attributes) {
+    return directory.file(
+        name, "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><SubTree ID=\"B\"" + attributes +
+                  "/></BehaviorTree><BehaviorTree ID=\"B\"><AlwaysSuccess/>"
+                  "</BehaviorTree></root>");
+  };
+  const std::string plain = file("a.xml", "");
+  const auto code = [&](const std::string& attributes) {
+    return run_lockstep({"diff", "--tree", "A", plain, file("b.xml", attributes)}).code;
+  };
+  CHECK(code(" _uid=\"7\" _fullpath=\"A/B\" _description=\"x\" _collapsed=\"true\"") == 0);
+  CHECK(code(" _autoremap=\"false\"") == 0);
+  CHECK(code(" _autoremap=\"true\"") == 1);
+  CHECK(code(" _skipIf=\"1 == 1\"") == 1);
+}
+
 TEST_CASE("diff: a value, a guard, an argument, a barrier, a property, a kind") {
   CHECK(changes({{"force=\"5\"", "force=\"8\""}}) ==
         "changed  Main/all/grasp  force 5 → 8\n1 changed\n");
