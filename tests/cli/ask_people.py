@@ -127,7 +127,8 @@ def test_the_first_answer_counts(directory):
     assert "answered before" in both[codes.index(2)].stderr.read()
     for it in both:
         it.stderr.close()
-    assert run.end()[0] == 0
+    run.run.send_signal(signal.SIGTERM)
+    assert run.end()[0] == 143
 
 
 def test_a_run_with_a_monitor_is_reached_too(directory):
