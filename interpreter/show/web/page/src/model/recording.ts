@@ -15,6 +15,7 @@ export type LimitChange = [index: number, limit: number | null];
 export type RoundChange = [index: number, number: number, of: number];
 export type FactorChange = [index: number, factor: number];
 export type ReasonChange = [index: number, reason: string];
+export type GivenAnswer = [index: number, answer: string, who: string];
 export type Fault = [index: number, message: string];
 export type EntryValue = [index: number, value: string | null];
 export type LogLine = [who: string, level: string, text: string];
@@ -48,6 +49,7 @@ export interface TickLine {
   rounds?: RoundChange[];
   factors?: FactorChange[];
   reasons?: ReasonChange[];
+  answers?: GivenAnswer[];
   succeeded?: number[];
   moments?: Moment[];
   leaf_progress?: LeafProgress[];
