@@ -127,7 +127,7 @@ TEST_CASE("a socket that a run has left is replaced, nothing else is") {
   CHECK(fs::exists(robot.socket));
   const Outcome nobody = robot.attach();
   CHECK(nobody.code == 2);
-  CHECK(contains(nobody.err, "cannot attach to"));
+  CHECK(contains(nobody.err, "cannot reach the run at"));
   robot.begin();
   while (robot.attach().code != 0) robot.lockstep({"monitor"});
 

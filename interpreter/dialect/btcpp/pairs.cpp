@@ -130,7 +130,6 @@ constexpr NodePair kPairs[] = {
     {.theirs = "WhileDoElse", .ours = "WhileDoElse", .differences = kAsks},
     {.theirs = "Script", .ours = "Script"},
     {.theirs = "WaitUntil", .ours = "WaitUntil"},
-    {.theirs = "Ask", .ours = "Ask"},
     {.theirs = "SyncProgress", .ours = "SyncProgress"},
     {.theirs = "UseResources", .ours = "UseResources"},
     {.theirs = "ScriptCondition", .ours = "Check", .words = kCode},

@@ -78,13 +78,17 @@ std::optional<RuleBreak> rule_of_ask(const ParameterValues& given) {
 struct AskState {
   timed::State times;
   std::uint32_t answer;  // the place of the option that was chosen, and 1; 0: none yet
-  std::uint32_t reason;  // its place in NodeContext::reasons(), and 1
   std::uint32_t since;   // the number of the first tick
 };
 
+void say(NodeContext& context, NodeIndex self, std::string_view text) {
+  std::uint32_t place = 0;  // differs from run to run, so it is no state
+  context.say(self, place, text);
+}
+
 Status give(NodeContext& context, NodeIndex self, std::uint32_t option, std::string reason) {
   const std::string& chosen = context.parameters().texts(self, kOptions)[option];
-  context.say(self, context.state<AskState>(self).reason, reason.append("'" + chosen + "'"));
+  say(context, self, reason.append("'" + chosen + "'"));
   // Only with `answer` is the node one whose parameters may be entries.
   Entry* const entry = context.parameters().are_constant(self)
                            ? nullptr
@@ -98,7 +102,7 @@ Status give(NodeContext& context, NodeIndex self, std::uint32_t option, std::str
 Status end_time(NodeContext& context, NodeIndex self) {
   const std::string* const chosen = context.parameters().text(self, kDefault);
   if (chosen == nullptr) {
-    context.say(self, context.state<AskState>(self).reason, "no answer in time");
+    say(context, self, "no answer in time");
     return Status::Failure;
   }
   const auto options = context.parameters().texts(self, kOptions);
@@ -109,7 +113,7 @@ Status end_time(NodeContext& context, NodeIndex self) {
 Status ask(NodeContext& context, NodeIndex self) {
   const Value* const text = context.scripts().value_of(self, kText);
   if (text == nullptr) return Status::Failure;
-  context.say(self, context.state<AskState>(self).reason, std::get<std::string>(*text));
+  say(context, self, std::get<std::string>(*text));
   return Status::Running;
 }
 
@@ -117,14 +121,15 @@ Status tick_ask(NodeContext& context, NodeIndex self) {
   timed::count(context, self);
   auto& state = context.state<AskState>(self);
   if (context.first_tick(self)) {
-    state.answer = state.reason = 0;
+    state.answer = 0;
     state.since = context.tick_number();
     return ask(context, self);
   }
   if (state.answer != 0) return give(context, self, state.answer - 1, "answered ");
   const bool has_limit = context.parameter(self, timed::kSeconds).number != 0;
   if (has_limit && timed::is_over(context, self)) return end_time(context, self);
-  return context.say_again(self, state.reason) ? Status::Running : ask(context, self);
+  std::uint32_t place = 0;
+  return context.say_again(self, place) ? Status::Running : ask(context, self);
 }
 
 bool answer_ask(NodeContext& context, NodeIndex self, std::uint32_t option, std::uint32_t seen) {
@@ -137,8 +142,7 @@ bool answer_ask(NodeContext& context, NodeIndex self, std::uint32_t option, std:
 
 void fold_ask(NodeContext& context, NodeIndex self) {
   timed::fold(context, self);
-  auto& state = context.state<AskState>(self);
-  state.reason = state.since = 0;
+  context.state<AskState>(self).since = 0;
 }
 
 }  // namespace

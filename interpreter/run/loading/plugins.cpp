@@ -112,11 +112,21 @@ bool load_requested_plugins(const PluginOptions& options, const Project& project
   return good;
 }
 
+// Plugins had leaves with this name before the language had the node.
+static bool gives_way(const NodeType& type) {
+  return type.asks && type.plugin.empty();
+}
+
 Catalog make_catalog(const PluginSet& plugins, const LanguageRules& rules) {
   Catalog catalog;
   for (const NodeKind* kind : built_in_kinds(rules)) catalog.add(&kind->type);
   for (const NodeType* type : plugins.types()) {
-    if (catalog.find(type->id) == nullptr) catalog.add(type);
+    const NodeType* const known = catalog.find(type->id);
+    if (known == nullptr) {
+      catalog.add(type);
+    } else if (gives_way(*known)) {
+      catalog.replace(type);
+    }
   }
   catalog.set_words(plugins.words());
   return catalog;
@@ -125,8 +135,9 @@ Catalog make_catalog(const PluginSet& plugins, const LanguageRules& rules) {
 void warn_of_shadowed(const PluginSet& plugins, const LanguageRules& rules,
                       Diagnostics& diagnostics) {
   for (const NodeType* type : plugins.types()) {
-    const bool is_shadowed = std::ranges::any_of(
-        built_in_kinds(rules), [&](const NodeKind* kind) { return kind->type.id == type->id; });
+    const bool is_shadowed = std::ranges::any_of(built_in_kinds(rules), [&](const NodeKind* kind) {
+      return kind->type.id == type->id && !gives_way(kind->type);
+    });
     if (!is_shadowed) continue;
     diagnostics.warning(
         "hidden-leaf"_code, {},

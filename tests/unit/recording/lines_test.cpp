@@ -231,6 +231,8 @@ std::string sample_header(std::uint64_t first_tick) {
   inner.delta = 0.25;
   ShapeNode& leaf = add("a", 1);
   leaf.is_guard = true;
+  leaf.question = std::make_shared<const NodeQuestion>(
+      NodeQuestion{.options = {"yes", "no"}, .fallback = "no", .timeout = 3, .severity = "info"});
   leaf.condition = "k > 1";
   leaf.reads = {"k"};
   using Texts = decltype(RecordingHeader::arguments);
@@ -254,6 +256,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const RoundChange round{.node = 1, .round = {1, 2}};
   const FactorChange factor{.node = 1, .factor = 0.5};
   const ReasonChange reason{.node = 2, .text = "no object"};
+  const GivenAnswer answer{.node = 2, .answer = "yes", .who = "terminal"};
   const NodeIndex succeeded = 1;
   const Fault fault{.node = 2, .message = "threw"};
   const EntryChange entry{.entry = 0, .text = &value, .is_set = true};
@@ -271,6 +274,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
                                  .rounds = {&round, 1},
                                  .factors = {&factor, 1},
                                  .reasons = {&reason, 1},
+                                 .answers = {&answer, 1},
                                  .succeeded = {&succeeded, 1},
                                  .moments = {.first = {},
                                              .moments = {&moment, 1},

@@ -28,7 +28,7 @@ inline constexpr const NodeKind* kKinds[] = {
     // Leaves
     &lockstep::host::kAlwaysSuccess, &lockstep::host::kAlwaysFailure, &kSleep,
     &lockstep::host::kScript, &kScriptCondition, &kSetBlackboard, &kUnsetBlackboard,
-    &kWasEntryUpdated, &lockstep::host::kWaitUntil, &lockstep::host::kAsk,
+    &kWasEntryUpdated, &lockstep::host::kWaitUntil,
     // Beside the trees
     &lockstep::host::kBarrier, &lockstep::host::kResources};
 
