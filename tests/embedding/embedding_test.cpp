@@ -1124,3 +1124,13 @@ TEST_CASE("a program answers what its tree asks") {
   CHECK(run.get<std::string>("chosen") == "one");
   CHECK_FALSE(run.question(kAsk));
 }
+
+TEST_CASE("a leaf that has the name of a later node of the language stays what it is") {
+  runtime::Project project;
+  project.add_leaf<Step>("Ask", "Was there before");
+  project.load_text(tree("<Ask name=\"mine\" step=\"0.5\"/>"));
+  runtime::Run run(project);
+  CHECK(run.tick(0) == Status::Running);
+  CHECK(run.node(0).progress == 0.5);
+  CHECK(run.tick(1) == Status::Success);
+}
