@@ -9,7 +9,6 @@ namespace BT::lockstep_detail {
 inline const std::set<std::string>& node_ids() {
   static const std::set<std::string> ids{"AlwaysFailure",
                                          "AlwaysSuccess",
-                                         "Ask",
                                          "AsyncFallback",
                                          "AsyncSequence",
                                          "Delay",

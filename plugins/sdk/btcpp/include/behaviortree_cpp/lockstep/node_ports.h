@@ -63,7 +63,6 @@ inline constexpr BuiltinNode kBuiltinNodes[] = {
     {"SetBlackboard", NodeType::ACTION},
     {"UnsetBlackboard", NodeType::ACTION},
     {"WasEntryUpdated", NodeType::CONDITION},
-    {"Ask", NodeType::ACTION},
 };
 inline constexpr BuiltinPort kBuiltinPorts[] = {
     {"Parallel", "success_count", PortDirection::INPUT, "int", "-1",
@@ -180,18 +179,6 @@ inline constexpr BuiltinPort kBuiltinPorts[] = {
      "The name of the entry to remove."},
     {"WasEntryUpdated", "entry", PortDirection::INPUT, "std::string", nullptr,
      "The entry to look at."},
-    {"Ask", "timeout", PortDirection::INPUT, "double", nullptr,
-     "How long to wait at most, without the time during which it is held; without limit when absent."},
-    {"Ask", "text", PortDirection::INPUT, "std::string", nullptr,
-     "The question, such as Take the {part} to {place}?"},
-    {"Ask", "options", PortDirection::INPUT, "std::vector<std::string>", "yes;no",
-     "The answers that a person may choose."},
-    {"Ask", "default", PortDirection::INPUT, "std::string", nullptr,
-     "The answer when the time is over. When absent, that is Failure."},
-    {"Ask", "severity", PortDirection::INPUT, "std::string", "info",
-     "How much it matters, for whoever shows the question."},
-    {"Ask", "answer", PortDirection::OUTPUT, "std::string", nullptr,
-     "The answer. Without it, the first option is Success and each other one is Failure."},
 };
 // clang-format on
 
