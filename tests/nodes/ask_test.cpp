@@ -26,7 +26,8 @@ constexpr TickRow kAskRows[] = {
   {"counts again in a new activation",
    "Retry[attempts=2](Ask[text=Now? timeout=.1])", "", "R[] R[] R[] F[]"},
   {"its time stands still while it is held",
-   "ParallelRelative[delta=0](a Ask[text=Now? timeout=.2])", "a=R~0,0,0", "R[a] R[a] F[a] halt[a]"},
+   "ParallelAbsolute[barriers=.5](a Sequence[memory=true](b Ask[text=Now? timeout=.2]))",
+   "a=R.1R.1R.1R.1R.6RR b=S", "R[a b] R[a] R[a] R[a] R[a] R[a] F[a] halt[a]"},
   {"in a question, an entry without a value is shown as its key",
    "Sequence(Ask[text={n}? timeout=.1] Script[code=n:=1])", "", "R[] F[]"},
 };

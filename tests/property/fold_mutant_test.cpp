@@ -186,6 +186,9 @@ TEST_CASE("a fold that forgets too much or nothing, or what is read, is seen for
   mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Sequence[memory=true]"
                                  "(b Delay[seconds=.4](c)))"),
                   "a+.1 b=S c=RS..."});
+  mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Sequence[memory=true]"
+                                 "(b Ask[text=Now? timeout=.3]))"),
+                  "a=R.1R.1R.1R.1R.6 b=S"});
   for (std::uint64_t seed = 0; seed < kMost && !mutants.are_dead(); ++seed) {
     for (const Trial& trial : {random_trial(seed), random_group_trial(seed)}) {
       const auto tree = tree_of(trial).tree;
