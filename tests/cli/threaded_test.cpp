@@ -115,15 +115,16 @@ TEST_CASE("threaded leaves are held, and a run gives the same bytes every time")
 }
 
 TEST_CASE("an isolated threaded leaf takes the ticks that it takes in this process") {
-  for (const char* nodes :
-       {R"(<Sleeps steps="1" seconds="0"/>)", R"(<Sleeps steps="5" seconds="0"/>)",
-        R"(<Yields times="0"/>)", R"(<Sleeps steps="3" seconds="-1"/>)",
-        R"(<ParallelAbsolute barriers="0.5"><Sleeps name="a" steps="4" seconds="0"/>
+  for (
+      const char* nodes :
+      {R"(<Sleeps steps="1" seconds="0"/>)", R"(<Sleeps steps="5" seconds="0"/>)",
+       R"(<Yields times="0"/>)", R"(<Sleeps steps="3" seconds="-1"/>)",
+       R"(<ParallelAbsolute barriers="0.5"><Sleeps name="a" steps="4" seconds="0"/>
            <Sleeps name="b" steps="2" seconds="0.0499"/></ParallelAbsolute>)",
-        R"(<Sequence memory="true"><ParallelRelative delta="0"><Sleeps name="a" steps="5"
+       R"(<Sequence memory="true"><ParallelRelative delta="0"><Sleeps name="a" steps="5"
            seconds="0.01"/><Sleeps name="b" steps="2" seconds="0"/><Advance step="0.1"/>
            </ParallelRelative><Yields times="3"/></Sequence>)",
-        R"(<ForceSuccess><Retry attempts="2"><Timeout seconds="0.05"><Parallel><Sleeps name="a" steps="9"
+       R"(<ForceSuccess><Retry attempts="2"><Timeout seconds="0.05"><Parallel><Sleeps name="a" steps="9"
            seconds="0.01"/><Yields times="0"/></Parallel></Timeout></Retry></ForceSuccess>)"}) {
     INFO(nodes);
     const Threaded it(nodes);

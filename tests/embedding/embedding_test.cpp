@@ -1106,9 +1106,9 @@ TEST_CASE("a call that takes longer than the budget, or does not return, is repo
 }
 
 TEST_CASE("a program answers what its tree asks") {
-  const runtime::Project project =
-      project_of("<Sequence memory=\"true\"><Script code=\"n := 2\"/>"
-                 "<Ask text=\"Take {n}?\" options=\"all;one\" answer=\"{chosen}\"/></Sequence>");
+  const runtime::Project project = project_of(
+      "<Sequence memory=\"true\"><Script code=\"n := 2\"/>"
+      "<Ask text=\"Take {n}?\" options=\"all;one\" answer=\"{chosen}\"/></Sequence>");
   constexpr std::uint32_t kAsk = 2;
   runtime::Run run(project);
   CHECK_FALSE(run.question(kAsk));
@@ -1116,7 +1116,8 @@ TEST_CASE("a program answers what its tree asks") {
   CHECK(run.tick(0) == Status::Running);
   CHECK(run.question(kAsk) == "Take 2?");
   CHECK_FALSE(run.question(0));
-  CHECK(error_of([&] { run.answer(kAsk, "none"); }) == "'none' is no answer to 'Main/Sequence/Ask'");
+  CHECK(error_of([&] { run.answer(kAsk, "none"); }) ==
+        "'none' is no answer to 'Main/Sequence/Ask'");
   CHECK(error_of([&] { run.answer(0, "one"); }) == "the node asks nothing");
   CHECK(error_of([&] { run.answer(99, "one"); }) == "no such node");
   run.answer(kAsk, "one", "a test");
