@@ -11,6 +11,7 @@
 #include "base/core/diagnostics.h"
 #include "base/core/value.h"
 #include "base/core/wording.h"
+#include "language/document/value_text.h"
 #include "language/expression/expression.h"
 #include "leaves/declared.h"
 #include "leaves/models.h"
@@ -20,22 +21,6 @@ namespace {
 
 constexpr std::size_t kWidth = 98;
 constexpr std::size_t kMostPaths = 4;
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&') {
-      safe += "&amp;";
-    } else if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '"') {
-      safe += "&quot;";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
 
 // A comment cannot have "--" in it.
 std::string comment(std::string_view text, std::string_view indent) {

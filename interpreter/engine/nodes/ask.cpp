@@ -11,18 +11,11 @@
 namespace lockstep::host {
 namespace {
 
-// The time comes first, as in all kinds that count it.
 constexpr unsigned kText = 1, kOptions = 2, kDefault = 3, kAnswer = 5;
 constexpr std::string_view kSeverities[] = {"info", "warning", "critical"};
 
 constexpr Parameter kAskParameters[] = {
-    {.name = "timeout",
-     .type = ValueType::Double,
-     .doc =
-         "How long to wait at most, without the time during which it is held; without limit when "
-         "absent.",
-     .unit = "s",
-     .range = {.min = 0, .max = 1e9, .min_excluded = true}},
+    timed::kLongestWait,
     {.name = "text",
      .type = ValueType::String,
      .doc = "The question, such as Take the {part} to {place}?",
@@ -126,8 +119,7 @@ Status tick_ask(NodeContext& context, NodeIndex self) {
     return ask(context, self);
   }
   if (state.answer != 0) return give(context, self, state.answer - 1, "answered ");
-  const bool has_limit = context.parameter(self, timed::kSeconds).number != 0;
-  if (has_limit && timed::is_over(context, self)) return end_time(context, self);
+  if (timed::has_waited(context, self)) return end_time(context, self);
   std::uint32_t place = 0;
   return context.say_again(self, place) ? Status::Running : ask(context, self);
 }

@@ -20,6 +20,16 @@ constexpr Parameter seconds(std::string_view doc) {
           .range = {.min = 0, .max = 1e9}};
 }
 
+// For what waits for something else. The cell of one that is absent is 0.
+inline constexpr Parameter kLongestWait{
+    .name = "timeout",
+    .type = ValueType::Double,
+    .doc =
+        "How long to wait at most, without the time during which it is held; without limit when "
+        "absent.",
+    .unit = "s",
+    .range = {.min = 0, .max = 1e9, .min_excluded = true}};
+
 inline constexpr std::string_view kClocks[] = {"active", "wall"};
 inline constexpr std::int64_t kWall = 1;
 inline constexpr Parameter kClockParameter{
@@ -88,6 +98,11 @@ Nanoseconds counted(NodeContext& context, NodeIndex self) {
 inline bool is_over(NodeContext& context, NodeIndex self) {
   return context.passed(context.state<State>(self).start) >=
          from_seconds(context.parameter(self, kSeconds).number);
+}
+
+// For a kLongestWait.
+inline bool has_waited(NodeContext& context, NodeIndex self) {
+  return context.parameter(self, kSeconds).number != 0 && is_over(context, self);
 }
 
 // Makes the times of a running node relative to now. If no entry changes what is counted, it is at

@@ -7,15 +7,8 @@ namespace {
 
 constexpr unsigned kWaitsFor = 1;
 
-// The time comes first, as in all kinds that count it.
 constexpr Parameter kWaitUntilParameters[] = {
-    {.name = "timeout",
-     .type = ValueType::Double,
-     .doc =
-         "How long to wait at most, without the time during which it is held; without limit when "
-         "absent.",
-     .unit = "s",
-     .range = {.min = 0, .max = 1e9, .min_excluded = true}},
+    timed::kLongestWait,
     {.name = "code",
      .type = ValueType::String,
      .doc = "The condition that it waits for, such as progress(base) >= 0.5.",
@@ -23,15 +16,12 @@ constexpr Parameter kWaitUntilParameters[] = {
      .is_script = true},
 };
 
-constexpr double kNoTimeout = 0;  // the cell of an absent number
-
 Status tick_wait_until(NodeContext& context, NodeIndex self) {
   timed::count(context, self);
   const auto holds = context.scripts().holds(self, kWaitsFor);
   if (!holds) return Status::Failure;
   if (*holds) return Status::Success;
-  const bool has_limit = context.parameter(self, timed::kSeconds).number != kNoTimeout;
-  return has_limit && timed::is_over(context, self) ? Status::Failure : Status::Running;
+  return timed::has_waited(context, self) ? Status::Failure : Status::Running;
 }
 
 }  // namespace
