@@ -13,7 +13,8 @@ void Ticker::save(SavedRun& into) const {
   into.held_leaves = held_leaves_;
   into.leaves.clear();
   for (const LeafSlot& leaf : leaves_) {
-    into.leaves.push_back({leaf.started(), leaf.failed(), leaf.out_of_range, leaf.went_on});
+    into.leaves.push_back(
+        {leaf.started(), leaf.failed(), leaf.out_of_range, leaf.went_on, leaf.was_cut()});
   }
 }
 
@@ -58,6 +59,7 @@ void Ticker::restore(const SavedRun& from) {
     const SlotState& leaf = from.leaves[i];
     leaves_[i].set_started(leaf.started);
     leaves_[i].mark(LeafSlot::kFailed, leaf.failed);
+    leaves_[i].mark(LeafSlot::kCut, leaf.was_cut);
     leaves_[i].mark(LeafSlot::kHeld, held(tree_.leaves[i].node));
     leaves_[i].out_of_range = leaf.out_of_range;
     leaves_[i].went_on = leaf.went_on;

@@ -15,6 +15,7 @@ namespace lockstep::host {
 // The engine's part of a leaf's state.
 struct SlotState {
   bool started, failed, out_of_range, went_on;
+  bool was_cut = false;  // and has not begun since
 
   friend bool operator==(const SlotState&, const SlotState&) = default;
 };

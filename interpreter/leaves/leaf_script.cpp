@@ -65,6 +65,21 @@ bool take_written(std::string_view text, LeafWord& word) {
   }
 }
 
+// "3 9".
+std::optional<Problem> read_cuts(std::string_view text, std::vector<std::uint64_t>& cuts) {
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    const auto tick = parse_int(text.substr(0, end));
+    if (!tick || *tick <= 0 ||
+        (!cuts.empty() && cuts.back() >= static_cast<std::uint64_t>(*tick))) {
+      return Problem{"'@cuts' are rising numbers of ticks, from 1 on"};
+    }
+    cuts.push_back(static_cast<std::uint64_t>(*tick));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return std::nullopt;
+}
+
 // "@rate 10".
 std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts) {
   const auto blank = line.find(' ');
@@ -80,7 +95,9 @@ std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts)
     if (ticks && *ticks > 0) scripts.ticks = static_cast<std::uint64_t>(*ticks);
     return scripts.ticks ? std::nullopt : std::optional(Problem{"'@ticks' is a whole number"});
   }
-  return Problem{fmt::format("unknown setting '{}'", brief(name)), "there are @rate and @ticks"};
+  if (name == "@cuts") return read_cuts(value, scripts.cuts);
+  return Problem{fmt::format("unknown setting '{}'", brief(name)),
+                 "there are @rate, @ticks and @cuts"};
 }
 
 // `at`: where in the line a problem is.
@@ -189,6 +206,9 @@ std::string to_text(const LeafScripts& scripts) {
   std::string text;
   if (scripts.rate) text += fmt::format("@rate {}\n", *scripts.rate);
   if (scripts.ticks) text += fmt::format("@ticks {}\n", *scripts.ticks);
+  if (!scripts.cuts.empty()) text += "@cuts";
+  for (const std::uint64_t it : scripts.cuts) text += fmt::format(" {}", it);
+  if (!scripts.cuts.empty()) text += '\n';
   for (const auto& [path, words] : scripts.leaves) {
     text += path + " =";
     for (const LeafWord& word : words) text += ' ' + to_text(word);

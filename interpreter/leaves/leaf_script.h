@@ -3,6 +3,7 @@
 // --leaves` plays it. docs/verify.md has the grammar.
 //   @rate 10
 //   @ticks 14
+//   @cuts 3 9
 //   M/p/arm = R0 R0.1 ~0.05 R0.1 S[place=kitchen]
 #pragma once
 
@@ -33,7 +34,8 @@ struct LeafWord {
 
 struct LeafScripts {
   std::optional<double> rate;
-  std::optional<std::uint64_t> ticks;  // of the tree, as many as the scripts are for
+  std::optional<std::uint64_t> ticks;    // of the tree, as many as the scripts are for
+  std::vector<std::uint64_t> cuts = {};  // the process is cut before these ticks, counted from 0
   std::map<std::string, std::vector<LeafWord>, std::less<>> leaves = {};  // by path
   // The leaves that begin with their first word again in each activation. The text has no word for
   // it: scenarios do.

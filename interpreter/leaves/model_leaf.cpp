@@ -11,6 +11,9 @@
 
 namespace lockstep::host {
 
+// What an object reports that has not begun: nobody may ask it, so it is what would do most harm.
+constexpr double kProgressOfNew = 1.0;
+
 struct ModelLeaves::Functions {
   static Self& self(void* leaf) { return *static_cast<Self*>(leaf); }
 
@@ -90,11 +93,12 @@ void ModelLeaves::restore_again(const std::vector<LeafState>& states,
 }
 
 void ModelLeaves::restore_progress(std::uint32_t leaf) {
-  progress_[leaf] = rules_[leaf].levels[states_[leaf].level];
+  const LeafState& state = states_[leaf];
+  progress_[leaf] = state.phase == Phase::Cut ? kProgressOfNew : rules_[leaf].levels[state.level];
   slots_[leaf].error = nullptr;
 }
 
-void ModelLeaves::begin_tick() {
+void ModelLeaves::begin_tick(Before before) {
   for (const std::uint32_t leaf : touched_) {
     marks_[leaf].touched = false;
     marks_[leaf].clear();
@@ -102,6 +106,7 @@ void ModelLeaves::begin_tick() {
   touched_.clear();
   chooses_ = kNobody;
   std::fill(asked_.begin(), asked_.end(), false);
+  if (before == Before::ACut) cut();
   for (const std::uint32_t leaf : drifting_) {
     if (states_[leaf].phase != Phase::Paused) continue;
     const Reach& reach = rules_[leaf].while_held[states_[leaf].level];
@@ -109,6 +114,16 @@ void ModelLeaves::begin_tick() {
     set_level(leaf, reach.first + static_cast<std::int32_t>(answers_.choose(count, leaf)));
     mark(leaf).drifted = true;
     mark(leaf).held_progress = progress_[leaf];
+  }
+}
+
+// New objects, of which the engine calls none before it begins.
+void ModelLeaves::cut() {
+  for (std::uint32_t leaf = 0; leaf < states_.size(); ++leaf) {
+    if (states_[leaf].phase == Phase::Idle) continue;
+    mark(leaf);
+    states_[leaf] = {.phase = Phase::Cut};
+    progress_[leaf] = kProgressOfNew;
   }
 }
 
@@ -130,6 +145,12 @@ void ModelLeaves::fold() {
       state.ticks = std::min(state.ticks, enough);
     }
   }
+  if (models_.cuts.most > 0) {
+    for (std::uint32_t leaf = 0; leaf < states_.size(); ++leaf) {
+      const bool is_over = states_[leaf].phase == Phase::Cut && !slots_[leaf].was_cut();
+      if (is_over) states_[leaf] = {};  // it has its result, or was halted
+    }
+  }
   for (std::size_t i = 0; i < facts_.size(); ++i) {
     if (models_.facts[i].changes == Changes::Freely) facts_[i] = FactState::Unknown;
   }
@@ -142,7 +163,7 @@ void ModelLeaves::tell_broken(std::uint32_t leaf, const char* what) {
 }
 
 void ModelLeaves::start(std::uint32_t leaf) {
-  is(leaf, states_[leaf].phase == Phase::Idle, "start, and it runs");
+  is(leaf, !states_[leaf].runs(), "start, and it runs");
   states_[leaf] = {.phase = Phase::Running};
   chooses_ = leaf;
   stage_ = 0;
@@ -321,7 +342,7 @@ void ModelLeaves::succeed(std::uint32_t leaf) {
 }
 
 void ModelLeaves::halt(std::uint32_t leaf) {
-  is(leaf, states_[leaf].phase != Phase::Idle, "halt, and it does not run");
+  is(leaf, states_[leaf].runs(), "halt, and it does not run");
   states_[leaf] = {};
   mark(leaf).ended = true;
   if (rules_[leaf].may_write_idle) may_write(leaf);

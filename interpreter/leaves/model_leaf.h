@@ -15,13 +15,16 @@
 
 namespace lockstep::host {
 
-enum class Phase : std::uint8_t { Idle, Running, Paused };
+// Cut: it ran when its process was cut, and has not begun again.
+enum class Phase : std::uint8_t { Idle, Running, Paused, Cut };
 
 // The state of a leaf between two ticks; all 0 while it is idle.
 struct LeafState {
   std::uint32_t ticks = 0;  // of this activation, as far as their number matters
   std::uint16_t level = 0;
   Phase phase = Phase::Idle;
+
+  bool runs() const { return phase == Phase::Running || phase == Phase::Paused; }
 
   friend bool operator==(const LeafState&, const LeafState&) = default;
 };
@@ -74,8 +77,10 @@ class ModelLeaves {
   // The same after the first time: back to what was restored last, from one tick behind it.
   void restore_again(const std::vector<LeafState>& states, const std::vector<FactState>& facts);
 
-  // Before each tick of the tree. What is held may drift.
-  void begin_tick();
+  // Before each tick of the tree. What is held may drift; or the process was cut since the last
+  // one.
+  enum class Before : std::uint8_t { ATick, ACut };
+  void begin_tick(Before before = Before::ATick);
   // Within it: from here on, marks say only what is done from here on.
   void clear_marks();
   // Called before a leaf is ticked that has been ticked already; then its marks begin anew.
@@ -133,6 +138,7 @@ class ModelLeaves {
     return expected;
   }
   void tell_broken(std::uint32_t leaf, const char* what);
+  void cut();
   bool ask(std::uint32_t fact);
   Status tick_as_chosen(std::uint32_t leaf);
   void write(std::uint32_t leaf);

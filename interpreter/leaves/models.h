@@ -65,11 +65,18 @@ struct Fact {
   Changes changes;
 };
 
+// A cut of the process: it ends without its last halts, and the next one goes on with the state of
+// the run before the tick (docs/resume.md).
+struct ProcessCuts {
+  std::uint32_t most = 0;  // in a run
+};
+
 struct LeafModels {
   std::vector<LeafModel> leaves;  // of each Tree::leaves
   std::vector<Fact> facts;
   std::optional<double> rate;
   bool tree_ends = true;
+  ProcessCuts cuts = {};
   std::vector<AcceptedFinding> accepted;
   std::vector<bool> entries;  // by slot: those whose values matter
   // The types whose leaves do as their plugin says, each with the statements that count.

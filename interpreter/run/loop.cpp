@@ -156,6 +156,7 @@ class Loop {
     const Nanoseconds late = is_due ? now - deadlines_.at(deadline_) : Nanoseconds(0);
     if (wake_up_ != nullptr) wakes_ = wake_up_->wakes();
     Ticker& ticker = run_.ticker();
+    if (cuts_ < options_.cuts.size() && options_.cuts[cuts_] == end_.ticks) cut(ticker);
     run_.set_now(now);
     observe([&](Observers& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
@@ -175,6 +176,12 @@ class Loop {
     if (has_ended(end_.status)) return stop(StopReason::Completed);
     if (options_.checkpoints != nullptr) keep();
     return true;
+  }
+
+  void cut(Ticker& ticker) {
+    ++cuts_;
+    const auto leaves = ticker.go_on_after_cut();
+    if (options_.cut) options_.cut(leaves);
   }
 
   std::uint64_t ticks_in_all() const { return options_.before.ticks + end_.ticks; }
@@ -255,6 +262,7 @@ class Loop {
   Pace pace_;
   std::uint64_t deadline_;  // number of the deadline that the next tick waits for
   std::uint64_t skipped_before_ = 0;
+  std::size_t cuts_ = 0;  // that have been
   RunEnd end_;
 };
 

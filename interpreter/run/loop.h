@@ -41,6 +41,10 @@ struct LoopOptions {
   RunControl* control = nullptr;                 // who may pause the run, and more; or nobody
   StallFail* stall_fail = nullptr;               // who ends standstills, or nobody
   CheckpointWriter* checkpoints = nullptr;       // who keeps the run, or nobody
+  // The run goes on before these ticks, which rise, as if its process had been cut; then `cut` is
+  // called. Only with leaves that may begin again without a halt: those of scripts.
+  std::span<const std::uint64_t> cuts = {};
+  std::function<void(std::span<const std::uint32_t> leaves)> cut = {};  // in Tree::leaves
   // Of a run that goes on: what was before. Its time goes on; its ticks are counted anew, but for
   // `max_ticks` and for who keeps it.
   struct Before {

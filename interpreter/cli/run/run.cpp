@@ -33,6 +33,7 @@
 #include "record/part_names.h"
 #include "record/write/recorder.h"
 #include "run/crash_report.h"
+#include "run/cut_text.h"
 #include "run/loop.h"
 #include "run/shape_of.h"
 #include "run/stall_fail.h"
@@ -224,11 +225,16 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     });
     if (!has_begun) view_.close();
     if (has_begun && !kept_->resumed().empty()) {
-      if (recorder_) recorder_->log("lockstep", "info", kept_->resumed());
-      watchers_.log("lockstep", "info", kept_->resumed());
-      view_.print(kept_->resumed());
+      tell(kept_->resumed());
     }
     return has_begun;
+  }
+
+  // What happens to the run as a whole.
+  void tell(const std::string& text) {
+    if (recorder_) recorder_->log("lockstep", "info", text);
+    watchers_.log("lockstep", "info", text);
+    view_.print(text);
   }
 
   bool open_clock(const PluginSet& plugins) {
@@ -361,6 +367,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       loop.property_violated = [this] { return properties_->is_violated(); };
     }
     loop.control = watchers_.control();
+    loop.cut = [this](std::span<const std::uint32_t> leaves) { tell(cut_text(tree_, leaves)); };
     if (kept_) {
       loop.checkpoints = kept_->writer();
       loop.before = kept_->before();
@@ -470,6 +477,7 @@ bool place_helpers(const RunCommandOptions& options) {
 void take_what_is_said(const GivenLeaves& leaves, RunCommandOptions& options) {
   options.load.unknown = MissingNodes::AreMocked;
   if (leaves.rate() && !options.is_rate_given) options.rate = *leaves.rate();
+  options.cuts = leaves.cuts();
   if (options.max_ticks || options.timeout || !leaves.ticks()) return;
   options.max_ticks = leaves.ticks();
   options.tick_limit = "@ticks of " + options.leaves;

@@ -380,7 +380,8 @@ LoopOptions RunCommandOptions::loop() const {
                    .timeout = std::nullopt,
                    .stop_signal = StopSignals::received,
                    .overrun = overrun,
-                   .spin = from_seconds(spin_us / 1e6)};
+                   .spin = from_seconds(spin_us / 1e6),
+                   .cuts = cuts};
   if (timeout) loop.timeout = from_seconds(*timeout);
   // A tree that never completes would fill a disk with its recording in minutes.
   if (!is_real() && !timeout && !max_ticks) loop.max_ticks = kMostVirtualTicks;

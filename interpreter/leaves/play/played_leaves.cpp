@@ -28,6 +28,8 @@ class PlayedLeaf final : public RemoteLeaf {
 
   void start() override {
     if (watch_ != nullptr) watch_->begins(caller_);
+    if (is_held_) pass_held_words();  // until its process was cut
+    is_held_ = false;
     progress_ = 0;
     is_first_ = true;
     began_ = caller_.time->now;
