@@ -26,6 +26,13 @@ class ChanceAnswers final : public Answers {
     if (count > 1) asked.push_back({asker, answer});
     return answer;
   }
+  // A run of many ticks is cut at any of them.
+  bool is_cut(std::uint32_t asker) {
+    constexpr double kOften = 0.15;
+    const bool is_cut = random_.next_double() < kOften;
+    asked.push_back({asker, is_cut ? 1u : 0u});
+    return is_cut;
+  }
   std::vector<LeafAnswer> asked;  // in this tick
 
  private:
@@ -37,6 +44,8 @@ class PlainRun {
   PlainRun(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
            const Deadlines& deadlines, std::uint64_t seed)
       : deadlines_(deadlines),
+        cuts_(models.cuts),
+        cut_asker_(cut_asker(tree, models)),
         board_(tree),
         answers_(seed),
         leaves_(tree, models, board_, answers_),
@@ -51,7 +60,14 @@ class PlainRun {
   Status tick(std::uint64_t number) {
     const Nanoseconds now = deadlines_.at(number);
     answers_.asked.clear();
-    leaves_.begin_tick();
+    const bool is_cut = cut_ < cuts_.most &&
+                        std::ranges::any_of(leaves_.states(), &LeafState::runs) &&
+                        answers_.is_cut(cut_asker_);
+    leaves_.begin_tick(is_cut ? ModelLeaves::Before::ACut : ModelLeaves::Before::ATick);
+    if (is_cut) {
+      ++cut_;
+      ticker_.go_on_after_cut();
+    }
     ticker_.set_now(now);
     moments_.before_tick(ticker_);
     Status status = ticker_.tick_root();
@@ -95,6 +111,9 @@ class PlainRun {
   }
 
   const Deadlines& deadlines_;
+  const ProcessCuts cuts_;
+  const std::uint32_t cut_asker_;
+  std::uint32_t cut_ = 0;  // so often
   Blackboard board_;
   ChanceAnswers answers_;
   ModelLeaves leaves_;

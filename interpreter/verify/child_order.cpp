@@ -6,9 +6,10 @@
 namespace lockstep::host {
 namespace {
 
-// The phase of a leaf follows from the activity of its node.
+// The phase of a leaf follows from the activity of its node, but for whether it was cut.
 std::uint64_t key_of(Activity activity, const LeafState& leaf) {
-  return std::uint64_t{static_cast<std::uint8_t>(activity)} << 48u |
+  return std::uint64_t{leaf.phase == Phase::Cut} << 56u |
+         std::uint64_t{static_cast<std::uint8_t>(activity)} << 48u |
          std::uint64_t{leaf.level} << 32u | leaf.ticks;
 }
 

@@ -5,6 +5,7 @@
 #include "base/system/output_file.h"
 #include "judge/measure/property_steps.h"
 #include "record/write/recorder.h"
+#include "run/cut_text.h"
 #include "run/loop.h"
 #include "run/shape_of.h"
 #include "verify/same_tick.h"
@@ -97,6 +98,10 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
   LoopOptions loop;
   loop.rate = options.rate;
   loop.max_ticks = scripts.ticks;
+  loop.cuts = scripts.cuts;
+  loop.cut = [&](std::span<const std::uint32_t> leaves) {
+    recorder.log("lockstep", "info", cut_text(tree, leaves));
+  };
   run_loop(run, clock, loop, observers);
   return recorder.error();
 }
@@ -111,6 +116,7 @@ bool ends(const Tree& tree, const LeafScripts& scripts, PlayedLeaves& played, do
   LoopOptions loop;
   loop.rate = rate;
   loop.max_ticks = kMostTicks;
+  loop.cuts = scripts.cuts;
   return run_loop(run, clock, loop, {}).reason != StopReason::MaxTicks;
 }
 

@@ -1,5 +1,7 @@
 #include "verify/expansion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engine/blackboard.h"
@@ -11,6 +13,11 @@ constexpr std::uint64_t kTicksBetweenCuts = 1000;
 constexpr std::uint64_t kTicksBetweenLooks = 64;            // at what depends on the machine
 constexpr std::uint64_t kNodesOfTick = 1000;                // a tick of more counts as several
 constexpr std::size_t kLeastRound = std::size_t{1} << 20u;  // bytes
+
+std::string passed_text(const Tree& tree, const BarrierWatch::Passed& it) {
+  return fmt::format("'{}' passes {:.6g} while '{}' is before it", tree.path(it.child), it.barrier,
+                     tree.path(it.late));
+}
 
 void sort_edges(Chunk& chunk, std::size_t first) {
   const auto begin = chunk.edges.begin() + static_cast<std::ptrdiff_t>(first);
@@ -183,14 +190,17 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   if (!stepper_.leaves().broken().empty()) {
     tell(News::Kind::Broken, 0, step, into, stepper_.leaves().broken());
   }
+  if (const auto passed = stepper_.passed()) {
+    tell(News::Kind::Passed, passed->node, step, into, passed_text(ticker.tree(), *passed));
+  }
   if (const Fault* fault = ticker.fault()) {
     tell(News::Kind::Fault, fault->node, step, into, fault->message);
-    into.states.back().ends = true;
+    into.states.back().ends |= !stepper_.was_cut();
     return;
   }
   if (status != Status::Running) {
     tell(News::Kind::Result, index_of(status), step, into);
-    into.states.back().ends = true;
+    into.states.back().ends |= !stepper_.was_cut();
     labeller_.add_held(stepper_, end_);
     return;
   }

@@ -26,7 +26,7 @@ struct Step {
 // A thread sees this for the first time: in the order of the states, the first of all threads is
 // among these.
 struct News {
-  enum class Kind : std::uint8_t { Result, Fault, Broken, Violated, EntryValue };
+  enum class Kind : std::uint8_t { Result, Fault, Broken, Passed, Violated, EntryValue };
   Kind kind;
   std::uint32_t which;        // a status, node, property or entry
   std::uint32_t combination;  // of answers
@@ -54,7 +54,7 @@ struct Chunk {
     std::uint64_t transitions = 0, root_ticks = 0;
     std::size_t edges = 0, fresh = 0, news = 0;  // where those of the next state begin
     std::uint32_t equals = 0;                    // a label, if leaves may change places
-    bool ends = false;                           // some tick ends the run
+    bool ends = false;                           // some tick without a cut ends the run
     std::optional<std::uint32_t> end = {};       // a label of all that these hold, if they do
     std::optional<SearchEnd> cut = {};           // why not all of its ticks were made
   };

@@ -27,7 +27,7 @@ std::vector<bool> can_end(const Graph& graph) {
   std::vector<bool> component_can(components.count());
   for (const StateId state : components.in_order(states)) {
     const auto leads_out = [&](const Edge& edge) {
-      return can[edge.to] || component_can[components.of(edge.to)];
+      return !graph.is_cut(state, edge) && (can[edge.to] || component_can[components.of(edge.to)]);
     };
     if (!component_can[components.of(state)]) {
       component_can[components.of(state)] =
@@ -46,7 +46,7 @@ std::vector<bool> reachable_from(const Graph& graph, StateId from) {
     const StateId state = queue.back();
     queue.pop_back();
     for (const Edge& edge : graph.edges_of(state)) {
-      if (reached[edge.to]) continue;
+      if (reached[edge.to] || graph.is_cut(state, edge)) continue;
       reached[edge.to] = true;
       queue.push_back(edge.to);
     }
@@ -87,7 +87,8 @@ std::optional<std::uint64_t> longest_row(const Graph& graph, const LabelFilter& 
 
 std::vector<CycleStep> shortest_path(const Graph& graph, StateId from,
                                      const std::vector<bool>& is_goal) {
-  const ShortestPath path(graph, [](StateId, const Edge&) { return true; });
+  const ShortestPath path(
+      graph, [&](StateId state, const Edge& edge) { return !graph.is_cut(state, edge); });
   return path.find(from,
                    [&](StateId, const Edge& edge, std::size_t) { return bool(is_goal[edge.to]); });
 }

@@ -17,7 +17,10 @@ namespace lockstep::host {
 
 struct Graph {
   EdgeRows edges;
-  std::vector<bool> ends;  // of each state: some tick from it ends the run
+  // Of each state: some tick from it ends the run, without a cut before it.
+  std::vector<bool> ends;
+  // Of each state, how often the process was cut until then; empty: no process is cut.
+  std::vector<std::uint8_t> cuts = {};
   LabelTable labels;
   LabelShape shape;
   // Of each state that was looked at, if something may change places: see read_equals.
@@ -28,11 +31,14 @@ struct Graph {
   // States that were looked at: their edges are known. Others may do anything.
   std::size_t expanded() const { return edges.states(); }
   std::size_t memory() const {
-    return edges.memory() + labels.memory() + equals.size() * sizeof equals[0];
+    return edges.memory() + labels.memory() + equals.size() * sizeof equals[0] + cuts.size();
   }
   EdgeRow edges_of(StateId state) const {
     if (time_limit != nullptr) time_limit->look();
     return state < expanded() ? edges[state] : EdgeRow();
+  }
+  bool is_cut(StateId from, const Edge& edge) const {
+    return !cuts.empty() && cuts[from] != cuts[edge.to];
   }
   bool has(const Edge& edge, std::size_t bit) const { return labels.has(edge.label, bit); }
   void read(const Edge& edge, Label& into) const {
@@ -69,10 +75,10 @@ struct CycleStep {
 using EdgeFilter = std::function<bool(const Edge&)>;
 
 // Says of each state whether some path leads from it to an end, or to a state that was not looked
-// at.
+// at. A cut helps no run.
 std::vector<bool> can_end(const Graph& graph);
 
-// The states to which some path leads from this one, which is one of them.
+// The states to which some path without a cut leads from this one, which is one of them.
 std::vector<bool> reachable_from(const Graph& graph, StateId from);
 
 // Whether some cycle has an edge like this.
@@ -83,7 +89,7 @@ bool recurs(const Graph& graph, const EdgeFilter& is_wanted);
 using LabelFilter = std::function<bool(std::uint32_t label)>;
 std::optional<std::uint64_t> longest_row(const Graph& graph, const LabelFilter& is_wanted);
 
-// From `from` the shortest path to a state for which `is_goal`, over the edges of the graph.
+// From `from` the shortest path without a cut to a state for which `is_goal`.
 std::vector<CycleStep> shortest_path(const Graph& graph, StateId from,
                                      const std::vector<bool>& is_goal);
 

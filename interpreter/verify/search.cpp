@@ -21,6 +21,7 @@ class Searcher {
            double rate, const SearchLimits& limits)
       : tree_(tree),
         limits_(limits),
+        counts_cuts_(models.cuts.most > 0),
         workers_(std::max(1u, limits.jobs)),
         result_(tree),
         room_{limits, monotonic_now()} {
@@ -145,6 +146,7 @@ class Searcher {
   StateId add(std::span<const std::byte> state) {
     const auto [id, is_new] = result_.store.add(state);
     if (is_new) result_.graph.ends.push_back(false);
+    if (is_new && counts_cuts_) result_.graph.cuts.push_back(StateCode::cuts_of(state));
     return id;
   }
 
@@ -176,6 +178,9 @@ class Searcher {
         break;
       case News::Kind::Broken:
         if (!result_.broken) result_.broken.emplace(news.text, here);
+        break;
+      case News::Kind::Passed:
+        result_.passed.try_emplace(news.which, news.text, here);
         break;
       case News::Kind::Violated:
         result_.violated.try_emplace(news.which, here);
@@ -233,6 +238,7 @@ class Searcher {
 
   const Tree& tree_;
   const SearchLimits& limits_;
+  const bool counts_cuts_;
   WorkerThreads workers_;
   Expanders expanders_;
   std::vector<Chunk> chunks_;  // of a round

@@ -43,6 +43,8 @@ struct SearchResult {
   std::array<std::optional<Occurrence>, kStatuses.size()> results = {};  // the first of each
   std::map<NodeIndex, std::pair<std::string, Occurrence>> faults = {};   // the first of each node
   std::optional<std::pair<std::string, Occurrence>> broken = {};         // contract of the leaves
+  // Barriers that were passed before all had reached them; likewise.
+  std::map<NodeIndex, std::pair<std::string, Occurrence>> passed = {};
   std::map<std::size_t, Occurrence> violated = {};  // properties, by their place
 
   // All states were looked at, as far as the store can tell.

@@ -9,6 +9,9 @@
 
 namespace lockstep::host {
 
+// No leaf has so many.
+constexpr std::uint16_t kLevelOfCut = 0xffff;
+
 // A value is its alternative and its bytes.
 class StateCode::Writer {
  public:
@@ -50,11 +53,11 @@ class StateCode::Writer {
       std::uint64_t more = 0;
       for (; at < all.size(); ++at) {
         if (all[at].phase == Phase::Idle) continue;
-        if (all[at].ticks != leaf.ticks || all[at].level != leaf.level) break;
+        if (all[at].ticks != leaf.ticks || level_of(all[at]) != level_of(leaf)) break;
         ++more;
       }
       put_number(to_, std::uint64_t{leaf.ticks} << 1u | (more > 0 ? 1u : 0u));
-      put_number(to_, leaf.level);
+      put_number(to_, level_of(leaf));
       if (more > 0) put_number(to_, more);
     }
   }
@@ -79,6 +82,10 @@ class StateCode::Writer {
   template <class T>
   void item(const T& value) {
     plain(value);
+  }
+
+  static std::uint16_t level_of(const LeafState& leaf) {
+    return leaf.phase == Phase::Cut ? kLevelOfCut : leaf.level;
   }
 
   // How many in front are the same.
@@ -166,7 +173,11 @@ std::vector<bool> drifting(const LeafModels& models) {
 
 StateCode::StateCode(const Tree& tree, const LeafModels& models, const SavedRun& fresh,
                      std::vector<bool> watched, const Symmetry& symmetry)
-    : tree_(tree), fresh_(fresh), holds_(tree, drifting(models), watched), order_(tree, symmetry) {
+    : tree_(tree),
+      fresh_(fresh),
+      holds_(tree, drifting(models), watched),
+      counts_cuts_(models.cuts.most > 0),
+      order_(tree, symmetry) {
   for (std::uint32_t slot = 0; slot < models.entries.size(); ++slot) {
     if (models.entries[slot]) entries_.push_back(slot);
   }
@@ -235,6 +246,7 @@ void StateCode::encode(const Ticker& ticker, ModelLeaves& leaves,
   writer.bytes(leaves.facts().data(), leaves.facts().size());
   writer.bytes(properties.data(), properties.size());
   add_entries(ticker, into);
+  if (counts_cuts_) writer.plain(cuts_);
 }
 
 void StateCode::add_entries(const Ticker& ticker, StateBytes& to) const {
@@ -273,6 +285,7 @@ void StateCode::read(ByteReader& reader, KeptState& state) const {
     }
     state.leaves[i] = like;
     state.leaves[i].phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
+    if (like.level == kLevelOfCut) state.leaves[i] = {.phase = Phase::Cut};
   }
 }
 
@@ -302,8 +315,10 @@ void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
   run.run.activity = kept_.activity;
   run.run.bytes = kept_.words;
   leaves = kept_.leaves;
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-    run.leaves[i].started = leaves[i].phase != Phase::Idle;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    run.leaves[i].started = leaves[i].runs();
+    run.leaves[i].was_cut = leaves[i].phase == Phase::Cut;
+  }
   reader.bytes(facts.data(), facts.size());
   reader.bytes(properties.data(), properties.size());
   for (const std::uint32_t slot : entries_) {
@@ -318,6 +333,7 @@ void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
       entry.type = reader.plain<ValueType>();
     }
   }
+  if (counts_cuts_) cuts_ = reader.plain<std::uint8_t>();
 }
 
 }  // namespace lockstep::host

@@ -38,6 +38,14 @@ class StateCode {
   enum class Children : std::uint8_t { Sorted, AsTheyAre };
   void encode(const Ticker& ticker, ModelLeaves& leaves, std::span<const std::byte> properties,
               Children children, StateBytes& into);
+  // How often the process was cut in the run that is encoded, or was decoded.
+  std::uint8_t cuts() const { return cuts_; }
+  void set_cuts(std::uint8_t cuts) { cuts_ = cuts; }
+  // The same of an encoded one.
+  static std::uint8_t cuts_of(std::span<const std::byte> state) {
+    return std::to_integer<std::uint8_t>(state.back());
+  }
+  static void set_cuts_of(StateBytes& state, std::uint8_t cuts) { state.back() = std::byte{cuts}; }
   // Adds the entries only, of any run.
   void add_entries(const Ticker& ticker, StateBytes& to) const;
   // The node that was in each place before it was encoded; empty if none has moved.
@@ -60,6 +68,8 @@ class StateCode {
   const SavedRun& fresh_;
   std::vector<std::uint32_t> entries_;  // the slots that are in the state
   const ReadHolds holds_;
+  const bool counts_cuts_;
+  std::uint8_t cuts_ = 0;
   std::vector<NodeIndex> watched_;
   std::vector<Activity> seen_;    // of those, before the fold
   std::vector<ReadValues> read_;  // before the fold, where entries say something else

@@ -1,5 +1,6 @@
 #include "verify/stepper.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -17,13 +18,17 @@ SavedRun saved(const Ticker& ticker) {
 
 }  // namespace
 
+// Behind the leaves and the facts.
+std::uint32_t cut_asker(const Tree& tree, const LeafModels& models) {
+  return static_cast<std::uint32_t>(tree.leaves.size() + models.facts.size());
+}
+
 Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
                  double rate, const Symmetry& symmetry, bool rising_answers,
                  std::uint64_t few_root_ticks, std::uint64_t few_ticks)
     : deadlines_(rate),
       board_(tree),
-      answers_(tree, rising_answers ? symmetry : kNoSymmetry,
-               tree.leaves.size() + models.facts.size()),
+      answers_(tree, rising_answers ? symmetry : kNoSymmetry, cut_asker(tree, models) + 1),
       leaves_(tree, models, board_, answers_),
       ticker_(tree, leaves_.slots(), board_),
       watch_(tree, properties),
@@ -31,6 +36,8 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_(fresh_),
       code_(tree, models, fresh_, nodes_of(properties, tree), symmetry),
       parameters_(tree, fresh_),
+      cuts_(models.cuts),
+      cut_asker_(cut_asker(tree, models)),
       from_leaves_(leaves_.states()),
       from_facts_(leaves_.facts()),
       property_bytes_(watch_.state_size()),
@@ -40,6 +47,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       has_gone_round_(tree.nodes.size() + properties.size()) {
   ticker_.set_deadlines(deadlines_);
   ticker_.keep_moments();
+  if (cuts_.most > 0) barriers_.emplace(tree, leaves_);
   answers_.set_is_known([this](std::uint32_t asker) {
     return points_.add(ticker_, leaves_, answers_, code_, asker, root_ticks_);
   });
@@ -51,6 +59,7 @@ StateBytes Stepper::first_state() {
                   std::vector<FactState>(from_facts_.size(), FactState::Unknown));
   code_.before_fold(ticker_);
   watch_.begin(property_bytes_.data());
+  code_.set_cuts(0);
   StateBytes state;
   code_.encode(ticker_, leaves_, property_bytes_, StateCode::Children::AsTheyAre, state);
   return state;
@@ -60,6 +69,7 @@ void Stepper::load(std::span<const std::byte> state, bool is_first) {
   code_.decode(state, from_, from_leaves_, from_facts_, from_properties_, from_read_);
   parameters_.give(from_, from_read_, ticker_);
   leaves_.restore(from_leaves_, from_facts_);
+  from_cuts_ = code_.cuts();
   time_ = deadlines_.at(is_first ? 0 : 1);
   answers_.begin_state(from_.run, from_leaves_);
   rounds_.begin_state();
@@ -74,14 +84,20 @@ Status Stepper::tick(std::uint64_t most) {
   answers_.look_at_points(points_.are_looked_at());
   root_ticks_ = 0;
   rounds_.begin_tick(answers_.same_as_before());
-  leaves_.begin_tick();
+  was_cut_ = is_cut_here();
+  code_.set_cuts(static_cast<std::uint8_t>(from_cuts_ + (was_cut_ ? 1 : 0)));
+  leaves_.begin_tick(was_cut_ ? ModelLeaves::Before::ACut : ModelLeaves::Before::ATick);
+  if (was_cut_) ticker_.go_on_after_cut();
   is_known_ = is_going_round_ = is_short_ = is_cut_ = false;
   if (!watch_.empty()) {
     property_bytes_ = from_properties_;
     ticker_.set_now(time_);
     watch_.before_tick(ticker_);
   }
+  if (barriers_) begin_watching();
   const Status status = tick_again(ticker_.tick_root(time_), most);
+  // Within a tick of several rounds, somebody may come and go on.
+  if (barriers_ && root_ticks_ == 1) barriers_->after_tick(ticker_);
   rounds_.count(root_ticks_);
   is_known_ = is_known_ || answers_.is_known();
   if (is_short_) {
@@ -92,6 +108,19 @@ Status Stepper::tick(std::uint64_t most) {
                       is_over ? PropertyWatch::End::OfRun : PropertyWatch::End::OfTick);
   }
   return status;
+}
+
+void Stepper::begin_watching() {
+  barriers_->clear();
+  if (barriers_->empty()) return;
+  ticker_.set_now(time_);
+  barriers_->before_tick(ticker_);
+}
+
+// A cut while no leaf runs changes nothing.
+bool Stepper::is_cut_here() {
+  return from_cuts_ < cuts_.most && std::ranges::any_of(from_leaves_, &LeafState::runs) &&
+         answers_.choose(2, cut_asker_) == 1;
 }
 
 Status Stepper::tick_again(Status status, std::uint64_t most) {

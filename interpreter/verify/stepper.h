@@ -9,6 +9,7 @@
 
 #include "base/core/deadlines.h"
 #include "leaves/model_leaf.h"
+#include "verify/barrier_watch.h"
 #include "verify/property_watch.h"
 #include "verify/read_parameters.h"
 #include "verify/rounds.h"
@@ -18,6 +19,9 @@
 #include "verify/tick_points.h"
 
 namespace lockstep::host {
+
+// Asks whether the process is cut before a tick; 1: it is.
+std::uint32_t cut_asker(const Tree& tree, const LeafModels& models);
 
 class Stepper {
  public:
@@ -67,17 +71,25 @@ class Stepper {
   // The state that was loaded.
   const SavedRun& before() const { return from_; }
   // Whether the leaf ran in it, or was held.
-  bool ran(std::uint32_t leaf) const { return from_leaves_[leaf].phase != Phase::Idle; }
+  bool ran(std::uint32_t leaf) const { return from_leaves_[leaf].runs(); }
+  // Whether the process was cut before the last tick. That is the first of its answers.
+  bool was_cut() const { return was_cut_; }
   Ticker& ticker() { return ticker_; }
   const Ticker& ticker() const { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
   // The properties that the tick, or the end in it, has violated, by their place.
   std::span<const std::size_t> violated() const { return watch_.violated(); }
+  // A barrier that was passed in the tick before all had reached it. Looked at with cuts only.
+  std::optional<BarrierWatch::Passed> passed() const {
+    return barriers_ ? barriers_->passed() : std::nullopt;
+  }
   // After `tick`: whether a property still waits for something.
   bool owes(std::size_t property) const { return watch_.owes(property_bytes_.data(), property); }
 
  private:
   Status tick_again(Status status, std::uint64_t most);
+  bool is_cut_here();
+  void begin_watching();
   bool look_at_round(NodeIndex asks);
   void make_round_state(NodeIndex asks);
   Status go_round(Status status);
@@ -92,6 +104,11 @@ class Stepper {
   SavedRun fresh_, from_;
   StateCode code_;
   ReadParameters parameters_;
+  std::optional<BarrierWatch> barriers_;  // of a search with cuts
+  const ProcessCuts cuts_;
+  const std::uint32_t cut_asker_;
+  bool was_cut_ = false;
+  std::uint8_t from_cuts_ = 0;
   std::vector<LeafState> from_leaves_;
   std::vector<FactState> from_facts_;
   std::vector<ReadValues> from_read_;

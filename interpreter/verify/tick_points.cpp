@@ -48,7 +48,7 @@ void TickPoints::begin_state(const std::vector<LeafState>& leaves) {
   ran_.clear();
   has_run_.assign(leaves.size(), 0);
   for (std::uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
-    if (leaves[leaf].phase == Phase::Idle) continue;
+    if (!leaves[leaf].runs()) continue;
     has_run_[leaf] = 1;
     if (models_.leaves[leaf].ends) ran_.push_back(leaf);
   }
@@ -64,6 +64,7 @@ bool TickPoints::add(const Ticker& ticker, const ModelLeaves& leaves, const Tick
   put(root_ticks);
   put(run.asked_by);
   put(run.interrupted);
+  put(code.cuts());
   const std::uint32_t chooses = leaves.chooses();
   put(chooses);
   if (chooses != ModelLeaves::kNobody) {

@@ -214,7 +214,10 @@ LeafScripts Tracer::scripts(const TracedRun& run) {
     leaves.clear_marks();
   });
   stepper_.set_before_leaf_again([&](std::uint32_t leaf) { add_word(scripts, leaf); });
-  play(run, [&](Stepper&, Status, std::size_t) { add_words(scripts); });
+  play(run, [&](Stepper& stepper, Status, std::size_t tick) {
+    if (stepper.was_cut()) scripts.cuts.push_back(tick);
+    add_words(scripts);
+  });
   stepper_.set_before_tick_again(nullptr);
   stepper_.set_before_leaf_again(nullptr);
   return scripts;

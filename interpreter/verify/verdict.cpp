@@ -11,6 +11,7 @@
 #include "judge/measure/stall.h"
 #include "judge/measure/wait_chain.h"
 #include "judge/summary/standstill_text.h"
+#include "run/cut_text.h"
 #include "run/live_moments.h"
 #include "verify/fair_cycle.h"
 #include "verify/fixed_conditions.h"
@@ -53,6 +54,7 @@ class VerdictMaker {
     look_at_violations();
     say_coverage();
     say_holds();
+    note_cuts();
     accept();
     assume();
     return std::move(verdict_);
@@ -133,24 +135,78 @@ class VerdictMaker {
     auto can = answer("can always end", [&] { return can_end(graph_); });
     if (!can) return;
     can_end_ = *std::move(can);
-    const auto doomed = std::find(can_end_.begin(), can_end_.end(), false);
-    if (doomed == can_end_.end()) {
-      if (found_.is_complete()) say_good("can always end", "yes");
-      return;
+    StateId trapped = 0;
+    while (trapped < graph_.states() && (can_end_[trapped] || cuts_before(trapped) > 0)) ++trapped;
+    if (trapped < graph_.states()) {
+      Finding trap = trap_at(found_.path_to(trapped), "trap");
+      say("can always end", "NO: " + trap.message);
+      verdict_.findings.push_back(std::move(trap));
+    } else if (found_.is_complete()) {
+      say_good("can always end", "yes");
     }
-    const auto state = static_cast<StateId>(doomed - can_end_.begin());
-    Finding trap{.name = "trap", .message = {}};
-    const std::size_t ticks = found_.depth_of(state);
+    if (models_.cuts.most > 0) look_for_traps_after_cuts();
+  }
+
+  std::uint8_t cuts_before(StateId state) const {
+    return graph_.cuts.empty() ? std::uint8_t{0} : graph_.cuts[state];
+  }
+
+  void look_for_traps_after_cuts() {
+    const char* const name = "can always end after a cut";
+    const auto path = answer(name, [&] { return path_to_trap_after_cut(); });
+    if (!path) return;
+    if (!path->empty()) {
+      Finding trap = trap_at(*path, "trap-after-cut");
+      say(name, "NO: " + trap.message);
+      verdict_.findings.push_back(std::move(trap));
+    } else if (found_.is_complete()) {
+      say_good(name, verdict_.findings.empty() ? "yes" : "as without one");
+    }
+  }
+
+  // To a state to which no run comes with fewer cuts, from one that could end; empty: there is
+  // none.
+  std::vector<StateId> path_to_trap_after_cut() const {
+    for (StateId from = 0; from < graph_.expanded(); ++from) {
+      if (!can_end_[from]) continue;
+      for (const Edge& edge : graph_.edges_of(from)) {
+        const StateId to = edge.to;
+        if (can_end_[to] || cuts_before(to) == 0 || is_known_with_fewer_cuts(to)) continue;
+        std::vector<StateId> path = found_.path_to(from);
+        path.push_back(to);
+        return path;
+      }
+    }
+    return {};
+  }
+
+  bool is_known_with_fewer_cuts(StateId state) const {
+    if (found_.store.keeps_hashes()) return !verdict_.findings.empty();
+    const auto bytes = found_.store[state];
+    StateBytes fewer(bytes.begin(), bytes.end());
+    while (StateCode::cuts_of(fewer) > 0) {
+      StateCode::set_cuts_of(fewer, static_cast<std::uint8_t>(StateCode::cuts_of(fewer) - 1));
+      if (found_.store.find(fewer, hash_of(fewer)) != kNoState) return true;
+    }
+    return false;
+  }
+
+  // At the end of the path, which is the first state of it that cannot end.
+  Finding trap_at(const std::vector<StateId>& path, std::string name) {
+    Finding trap{.name = std::move(name), .message = {}};
+    const StateId state = path.back();
+    const std::size_t ticks = path.size() - 1;
     const std::vector<bool> reached = reachable_from(graph_, state);
     const EdgeFilter inside = [&](const Edge& edge) { return bool(reached[edge.to]); };
     const auto cycle = in_time([&] {
       auto fair = fair_cycle(cycles_, inside);
       return fair.empty() || !reached[fair.front().from] ? any_cycle(cycles_, inside) : fair;
     });
-    add_lasso(state, cycle.value_or(std::vector<CycleStep>()), trap);
+    add_lasso(path, cycle.value_or(std::vector<CycleStep>()), trap, tracer_.begin());
     trap.message = ticks == 0
                        ? "it can never end"
-                       : fmt::format("after {} it can no longer end", counted(ticks, "tick"));
+                       : fmt::format("after {}{} it can no longer end", counted(ticks, "tick"),
+                                     cuts_before(state) > 0 ? " and a cut" : "");
     trap.more = why_it_stands(trap);
     if (!found_.store.keeps_hashes()) {
       const auto place = [&](NodeIndex node) { return at(node); };
@@ -163,20 +219,19 @@ class VerdictMaker {
           "if it is meant to run indefinitely, declare that in the leaf model: <tree "
           "ends=\"no\"/>");
     }
-    say("can always end", "NO: " + trap.message);
-    verdict_.findings.push_back(std::move(trap));
+    return trap;
   }
 
   // The ticks to a state, from it to the cycle, and two rounds of that.
   void add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding) {
-    add_lasso(from, cycle, finding, tracer_.begin());
+    add_lasso(found_.path_to(from), cycle, finding, tracer_.begin());
   }
-  void add_lasso(StateId from, const std::vector<CycleStep>& cycle, Finding& finding,
-                 TracedPath traced) {
-    tracer_.go(traced, found_.path_to(from));
+  void add_lasso(const std::vector<StateId>& path, const std::vector<CycleStep>& cycle,
+                 Finding& finding, TracedPath traced) {
+    tracer_.go(traced, path);
     finding.decided = traced.run.size();
     if (!cycle.empty()) {
-      tracer_.go(traced, way_to_cycle(from, cycle));
+      tracer_.go(traced, way_to_cycle(path.back(), cycle));
       finding.repeats = traced.run.size();
       tracer_.go_round(traced, tracer_.steps_of(cycle));
       const std::size_t round = traced.run.size() - *finding.repeats;
@@ -261,9 +316,13 @@ class VerdictMaker {
   void look_for_cycles() {
     if (!models_.tree_ends) return;
     const EdgeFilter alive = [&](const Edge& edge) { return bool(can_end_[edge.to]); };
+    const EdgeFilter alive_without_cuts = [&](const Edge& edge) {
+      return alive(edge) && cuts_before(edge.to) == 0;
+    };
     const auto answered = answer("always ends", [&] {
       if (can_end_.empty()) throw OutOfTime();  // it was not even known what can end
-      return fair_cycle(cycles_, alive);
+      auto cycle = fair_cycle(cycles_, alive_without_cuts);
+      return cycle.empty() && models_.cuts.most > 0 ? fair_cycle(cycles_, alive) : cycle;
     });
     if (!answered) return;
     const std::vector<CycleStep>& cycle = *answered;
@@ -365,7 +424,8 @@ class VerdictMaker {
       Finding finding{.name = "starvation/" + tree_.path(child), .message = {}};
       finding.node = child;
       const StateId start = endless->cycle.front().from;
-      add_lasso(start, endless->cycle, finding, trail_for(child, endless->child, start));
+      add_lasso(found_.path_to(start), endless->cycle, finding,
+                trail_for(child, endless->child, start));
       finding.message = fmt::format("{} may be held indefinitely by '{}'", at(child),
                                     tree_.labels[held_[i].holder].name);
       finding.more = why_it_stands(finding);
@@ -477,6 +537,16 @@ class VerdictMaker {
                       found_.broken->first,
            .run = run_to(found_.broken->second)});
     }
+    for (const auto& [node, passed] : found_.passed) {
+      verdict_.findings.push_back(
+          {.name = "barrier-passed/" + tree_.path(node),
+           .message =
+               fmt::format("a barrier of {} is passed before all have reached it, which is a "
+                           "bug in lockstep: {}",
+                           at(node), passed.first),
+           .node = node,
+           .run = run_to(passed.second)});
+    }
     for (std::size_t i = 0; i < properties_.size(); ++i) look_at_property(i);
   }
 
@@ -550,6 +620,23 @@ class VerdictMaker {
     if (!never.empty()) say("never the current barrier of " + name, some_of(never));
   }
 
+  // --- cuts --------------------------------------------------------------------------------------
+
+  void note_cuts() {
+    if (models_.cuts.most == 0) return;
+    for (Finding& finding : verdict_.findings) {
+      tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
+        if (!stepper.was_cut()) return;
+        finding.cuts.push_back(tick);
+        std::vector<std::uint32_t> leaves;
+        for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
+          if (stepper.ran(leaf)) leaves.push_back(leaf);
+        }
+        finding.more.push_back(fmt::format("before tick {}, {}", tick, cut_text(tree_, leaves)));
+      });
+    }
+  }
+
   // --- the words of a verdict --------------------------------------------------------------------
 
   void accept() {
@@ -571,6 +658,11 @@ class VerdictMaker {
   void assume() {
     auto& assumed = verdict_.assumed;
     assumed.push_back(fmt::format("ticks come at {} Hz", options_.rate));
+    if (models_.cuts.most > 0) {
+      assumed.push_back(fmt::format("the process is cut at most {} in a run, and loses no tick",
+                                    counted(models_.cuts.most, "time")));
+      assumed.push_back("each leaf that ran at a cut starts again");
+    }
     std::size_t held = 0, by_parts = 0;
     std::set<std::uint32_t> parts;
     bool ends = false;

@@ -18,6 +18,7 @@ struct Finding {
   TracedRun run = {};                       // that shows it; empty: there is none to show
   std::size_t decided = 0;                  // of a trap: after so many ticks of it
   std::optional<std::size_t> repeats = {};  // from this tick of it, counted from 0, for ever
+  std::vector<std::size_t> cuts = {};       // the process is cut before these ticks of it
   std::string accepted = {};                // why it is as it should be
 
   std::size_t round() const { return (run.size() - *repeats) / 2; }  // ticks, of the two it has

@@ -51,6 +51,54 @@ std::string root_of(const Case& it) {
 
 }  // namespace
 
+TEST_CASE("a finding with a cut comes again with run --leaves, which cuts the run there") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "t.xml", std::string(kHead) +
+                   R"(<BehaviorTree ID="T"><Fallback memory="true"><Timeout seconds="0.3">
+                      <Advance name="a" step="0.05"/></Timeout><AlwaysRunning/></Fallback>
+                      </BehaviorTree></root>)");
+  const std::string leaves = directory.file(
+      "t.leaves.xml",
+      R"(<leaves lockstep="1"><leaf path="*" result="success" ticks="3"/></leaves>)");
+  const std::string stem = directory.path("t.trap-after-cut"), again = directory.path("again");
+  const std::string scenarios = directory.path("t.test.xml");
+  const Outcome verified = run_lockstep({"verify", tree, "--leaves", leaves, "--cuts", "--out",
+                                         directory.path("."), "--save", scenarios});
+  INFO(verified.out << verified.err);
+  REQUIRE(verified.code == 1);
+  CHECK(contains(verified.out, "finding trap-after-cut: "));
+  CHECK(
+      contains(verified.out, "; the process is cut at most 1 time in a run, and loses no tick; "));
+  CHECK(contains(verified.err,
+                 "note: --save leaves out trap-after-cut: a scenario cannot hold a cut"));
+  CHECK_FALSE(std::filesystem::exists(scenarios));
+  CHECK(contains(read_file(stem + ".leaves"), "\n@cuts "));
+  const Outcome played = run_lockstep({"run", tree, "--leaves", stem + ".leaves", "--clock",
+                                       "virtual", "--view", "none", "--record", again});
+  constexpr auto kCut =
+      "cut: the process ends here and is resumed; 'T/Fallback/Timeout/a' starts again";
+  CHECK(contains(played.err, kCut));
+  CHECK(contains(read_file(again), kCut));
+  CHECK(contains(read_file(stem + ".jsonl"), kCut));
+  CHECK(run_lockstep({"log", "diff", stem + ".jsonl", again}).code == 0);
+
+  const Outcome json = run_lockstep(
+      {"verify", tree, "--leaves", leaves, "--cuts", "1", "--out", directory.path("."), "--json"});
+  CHECK(contains(json.out, "\"cuts\": 1"));
+  CHECK(contains(json.out, "\"cut_before\": ["));
+  CHECK(contains(run_lockstep({"verify", tree, "--leaves", leaves, "--cuts", "0", "--out",
+                               directory.path(".")})
+                     .out,
+                 "finding never-ticked/T/Fallback/AlwaysRunning: "));
+  const std::string other = directory.file(
+      "other.xml",
+      std::string(kHead) +
+          R"(<BehaviorTree ID="T"><Advance name="a" step="0.05"/></BehaviorTree></root>)");
+  CHECK(contains(run_lockstep({"verify", other, "--cuts", "2"}).out,
+                 "\nverified for all behaviors that are assumed, with at most 2 cuts\n"));
+}
+
 TEST_CASE("what verify has found comes again with run --leaves") {
   for (const Case& it : kCases) {
     INFO(it.claim);

@@ -81,6 +81,17 @@ std::string leaf_file(const TemporaryDirectory& directory, const std::string& ro
   return directory.file("rows.leaves.xml", "<leaves lockstep=\"1\">" + rows + "</leaves>");
 }
 
+// The line of the results, and the names of the findings.
+std::string result_lines(const std::string& out) {
+  std::istringstream text(out);
+  std::string lines;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("  results ")) lines += line.substr(line.find_last_of("  ") + 1) + '\n';
+    if (line.starts_with("finding ")) lines += line.substr(0, line.find(':')) + '\n';
+  }
+  return lines;
+}
+
 }  // namespace
 
 // The lines of a verdict that say what holds, and not how it was found or which run shows it.
@@ -117,6 +128,11 @@ TEST_CASE("each example tree is verified as docs/verify.md says, with and withou
     CHECK(contains(it.out, "\n  " + row[2] + " states, "));
     CHECK(it.code == (word == "verified" ? 0 : 1));
     CHECK(contains(it.out, word == "verified" ? "\nverified" : "\nfinding " + word + ": "));
+    arguments.back() = "--cuts";
+    const Outcome cut = run_lockstep(arguments);
+    INFO(cut.out << cut.err);
+    CHECK(cut.code == it.code);
+    CHECK(result_lines(cut.out) == result_lines(it.out));
   }
   for (const auto& file : fs::recursive_directory_iterator(LOCKSTEP_SOURCE_DIR "/trees")) {
     if (file.path().extension() != ".xml") continue;

@@ -149,12 +149,14 @@ TEST_CASE("scripts of leaves are read as they are written") {
                                {.status = Status::Success, .written = {{"place", "a b|[1;2]=%"}}}};
   scripts.leaves["M/c"] = {
       {.status = Status::Failure}, {.status = Status::Skipped}, {.kind = LeafWord::Kind::Fault}};
+  scripts.cuts = {3, 9};
   const std::string text = to_text(scripts);
   INFO(text);
   const auto read = parse_leaf_scripts(text);
   REQUIRE(read);
   CHECK(read->rate == scripts.rate);
   CHECK(read->ticks == scripts.ticks);
+  CHECK(read->cuts == scripts.cuts);
   CHECK(read->leaves == scripts.leaves);
   CHECK_FALSE(is_leaf_file(text));
   CHECK(is_leaf_file("\n <leaves/>"));
@@ -173,6 +175,8 @@ TEST_CASE("a mistake in a script has its line") {
       {"@rats 3", "1:1", "unknown setting '@rats'"},
       {"@ticks 0", "1:1", "'@ticks' is a whole number"},
       {"@rate no", "1:1", "'@rate' is a number from 0.001 to 100000"},
+      {"@cuts 3 2", "1:1", "'@cuts' are rising numbers of ticks, from 1 on"},
+      {"@cuts 0", "1:1", "'@cuts' are rising numbers of ticks, from 1 on"},
   };
   for (const Row& row : kRows) {
     INFO(row.text);

@@ -29,7 +29,7 @@ std::vector<Property> properties_of(const Tree& tree, std::string_view rows,
 }
 
 LeafModels models_of(const Tree& tree, std::string_view rows,
-                     const std::vector<Property>& properties) {
+                     const std::vector<Property>& properties, const ProcessCuts& cuts) {
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems;
   const auto file = file_of(rows, diagnostics);
@@ -37,16 +37,18 @@ LeafModels models_of(const Tree& tree, std::string_view rows,
       make_models(tree, file.get(), diagnostics, problems, observed_by(tree, properties, problems));
   if (diagnostics.has_errors()) throw std::invalid_argument(diagnostics.all()[0].message);
   if (!problems.empty()) throw std::invalid_argument(problems[0].message);
+  models.cuts = cuts;
   return models;
 }
 
 }  // namespace
 
 Verified::Verified(std::string_view text, std::string_view rows, const SearchLimits& limits,
-                   double of_rate, std::vector<std::string> texts, const LanguageRules& rules)
+                   double of_rate, std::vector<std::string> texts, const LanguageRules& rules,
+                   const ProcessCuts& cuts)
     : tree(tree_from_text(text, rules)),
       properties(properties_of(tree, rows, texts)),
-      models(models_of(tree, rows, properties)),
+      models(models_of(tree, rows, properties, cuts)),
       rate(of_rate),
       found(search(tree, models, properties, rate, limits)),
       verdict(make_verdict(tree, models, properties, found, {.rate = rate})) {}

@@ -14,7 +14,7 @@ struct Verified {
   // `rows`: those of a leaf file. Throws std::invalid_argument for mistakes in either.
   Verified(std::string_view tree, std::string_view rows = "", const SearchLimits& limits = {},
            double rate = 10, std::vector<std::string> properties = {},
-           const LanguageRules& rules = kLockstepRules);
+           const LanguageRules& rules = kLockstepRules, const ProcessCuts& cuts = {});
 
   const Finding* finding(std::string_view name) const;
   // "" if nothing is said.

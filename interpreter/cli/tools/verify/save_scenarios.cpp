@@ -107,6 +107,10 @@ bool save_scenarios(const std::string& path, const VerifyReport& report, const V
   for (const Finding& finding : report.verdict.findings) {
     const auto files = report.files.find(finding.name);
     if (files == report.files.end()) continue;
+    if (!files->second.scripts.cuts.empty()) {
+      print_note(fmt::format("--save leaves out {}: a scenario cannot hold a cut", finding.name));
+      continue;
+    }
     RecordedWords words = read_recorded_words(files->second.recording, of.tree);
     if (!words.outcome.error.empty()) {
       print_error("--save: " + words.outcome.error);

@@ -31,6 +31,8 @@ namespace {
 // Of --time: the rest is for the questions about what was found. Runs by chance are beyond it.
 constexpr double kTimeOfSearch = 0.85, kTimeOfChance = 0.03;
 
+constexpr std::uint64_t kMostCuts = 100;
+
 struct VerifyOptions {
   LoadCommandOptions load;
   std::string tree, leaves;
@@ -45,6 +47,7 @@ struct VerifyOptions {
   std::string format = "text";
   std::vector<std::string> only;
   bool symmetry = true, compact = false;
+  std::uint32_t cuts = 0;
   std::string out = ".";
   std::string save;  // a file of scenarios; "": none
   PropertyOptions properties;
@@ -136,8 +139,9 @@ class VerifyCommand {
     properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const Observed observed = observed_by(runnable.tree, properties_, problems);
-    const LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems,
-                                          observed, Declared::Counts, given_outputs());
+    LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems, observed,
+                                    Declared::Counts, given_outputs());
+    models.cuts.most = options_.cuts;
     places.report(problems, diagnostics_);
     if (diagnostics_.has_errors()) return refuse();
     print_diagnostics(diagnostics_, Severity::Warning);
@@ -189,8 +193,8 @@ class VerifyCommand {
     Verdict verdict = make_verdict(runnable.tree, models, properties_, found, options);
     if (verdict.is_cut && found.is_complete()) found.end = SearchEnd::Time;
     if (!options_.only.empty()) verdict.keep_only(options_.only);
-    VerifyReport report{found, verdict, options_.tree, options_.leaves,
-                        runnable.tree.leaves.size()};
+    VerifyReport report{
+        found, verdict, options_.tree, options_.leaves, runnable.tree.leaves.size(), options_.cuts};
     Tracer tracer(runnable.tree, models, properties_, rate, found);
     ChanceLimits chance = usual_chance(found);
     chance.stop_signal = StopSignals::received;
@@ -323,6 +327,13 @@ std::function<int()> define_verify(CLI::App& app) {
   app.add_option("--depth", options->depth, "Search only the first N ticks")
       ->type_name("N")
       ->transform(whole_number(1, 1'000'000'000));
+  app.add_option("--cuts", options->cuts,
+                 "Cut the process before any tick, at most N times in a run: it is resumed as with "
+                 "`run --resume` (N: 1 when it is left out)")
+      ->type_name("N")
+      ->expected(0, 1)
+      ->default_str("1")
+      ->transform(whole_number(0, kMostCuts));
   app.add_option("--values", options->values, "Stop when an entry has had more than N values")
       ->type_name("N")
       ->transform(whole_number(1))

@@ -51,7 +51,10 @@ std::string conclusion(const VerifyReport& report) {
   const std::size_t count = count_findings(report.verdict);
   if (count > 0) return fmt::format("not verified: {}", counted(count, "finding"));
   const SearchResult& found = report.found;
-  if (found.is_proof()) return "verified for all behaviors that are assumed";
+  if (found.is_proof()) {
+    return "verified for all behaviors that are assumed" +
+           (report.cuts == 0 ? "" : fmt::format(", with at most {}", counted(report.cuts, "cut")));
+  }
   if (found.is_complete()) {
     return fmt::format(
         "not proven: nothing found in {}; one was missed with a probability below {}",
@@ -105,6 +108,7 @@ std::string to_json(const VerifyReport& report) {
   if (report.found.store.keeps_hashes()) {
     json["missed_with_probability_below"] = report.found.store.probability_of_loss();
   }
+  if (report.cuts > 0) json["cuts"] = report.cuts;
   json["states"] = report.found.store.size();
   json["transitions"] = report.found.transitions;
   json["bytes"] = report.found.memory();
@@ -124,6 +128,7 @@ std::string to_json(const VerifyReport& report) {
     finding["why"] = Json(it.more);
     if (!it.accepted.empty()) finding["accepted"] = it.accepted;
     if (it.repeats) finding["repeats_from"] = *it.repeats;
+    if (!it.cuts.empty()) finding["cut_before"] = Json(it.cuts);
     if (const auto files = report.files.find(it.name); files != report.files.end()) {
       finding["recording"] = files->second.recording;
       finding["leaves"] = files->second.leaves;

@@ -14,6 +14,7 @@ struct VerifyReport {
   const Verdict& verdict;
   std::string tree, leaves;  // files; "": there is no leaf file
   std::size_t leaf_count = 0;
+  std::uint32_t cuts = 0;                            // at most, in a run
   std::map<std::string, CounterExample> files = {};  // of findings, by their names
   std::string internal_error = {};  // a run contradicts the search: nothing of it is told as true
 };
