@@ -16,6 +16,7 @@ constexpr std::size_t kEnd = static_cast<std::size_t>(-1);
 struct Edge {
   std::size_t to;
   std::uint32_t worked, ended;
+  bool is_cut;  // the process was cut before it
 };
 
 // Fair runs that never end, in some of the edges: in the end each is in one component, where what
@@ -116,9 +117,11 @@ class Judge {
   }
 
   Judgment make() {
-    add(tree_.save(), 0, "", 0);
+    add({tree_.save(), 0, "", 0, 0});
     for (std::size_t state = 0; state < states_.size() && said_.is_conclusive(); ++state) {
-      look_at(state);
+      edges_.emplace_back();
+      look_at(state, false);
+      if (states_[state].cuts < limits_.cuts) look_at(state, true);
       said_.is_too_large |= states_.size() > limits_.states || ticks_ > limits_.ticks;
     }
     said_.states = states_.size();
@@ -132,22 +135,24 @@ class Judge {
     std::size_t from;
     std::string said;  // in the tick from there
     std::uint32_t ticks;
+    int cuts;
   };
 
-  std::size_t add(std::string bytes, std::size_t from, const std::string& said,
-                  std::uint32_t ticks) {
-    const auto [it, is_new] = numbers_.try_emplace(std::move(bytes), states_.size());
-    if (is_new) states_.push_back({it->first, from, said, ticks});
+  std::size_t add(State state) {
+    const auto [it, is_new] =
+        numbers_.try_emplace(std::to_string(state.cuts) + state.bytes, states_.size());
+    if (is_new) states_.push_back(std::move(state));
     return it->second;
   }
 
-  void look_at(std::size_t state) {
-    edges_.emplace_back();
+  void look_at(std::size_t state, bool is_cut) {
     leaves_.first_answers();
     do {
       const std::string bytes = states_[state].bytes;
       tree_.restore(bytes);
+      if (is_cut && !tree_.cut()) return;
       leaves_.begin_tick();
+      is_cut_ = is_cut;
       ++ticks_;
       const std::optional<Status> status = tree_.tick();
       if (!leaves_.broken().empty()) said_.broken = leaves_.broken();
@@ -155,14 +160,17 @@ class Judge {
       look_at_tick(state);
       std::size_t to = kEnd;
       if (*status == Status::Running) {
-        to = add(tree_.save(), state, leaves_.said(), states_[state].ticks + 1);
+        to = add({tree_.save(), state, said(), states_[state].ticks + 1,
+                  states_[state].cuts + (is_cut ? 1 : 0)});
       } else if (auto& first = said_.results[index_of(*status)]; !first) {
         first = states_[state].ticks + 1;
         said_.runs_to_results[index_of(*status)] = run_to(state, true);
       }
-      edges_.back().push_back({to, leaves_.worked(), leaves_.ended()});
+      edges_.back().push_back({to, leaves_.worked(), leaves_.ended(), is_cut});
     } while (ticks_ <= limits_.ticks && leaves_.next_answers());
   }
+
+  std::string said() const { return (is_cut_ ? "cut: " : "") + leaves_.said(); }
 
   void look_at_tick(std::size_t state) {
     ReferenceMoment after;
@@ -210,16 +218,17 @@ class Judge {
       is_more = false;
       for (std::size_t state = edges_.size(); state-- > 0;) {
         if (can_end[state]) continue;
-        can_end[state] = std::ranges::any_of(
-            edges_[state], [&](const Edge& it) { return it.to == kEnd || can_end[it.to]; });
+        can_end[state] = std::ranges::any_of(edges_[state], [&](const Edge& it) {
+          return !it.is_cut && (it.to == kEnd || can_end[it.to]);
+        });
         is_more |= can_end[state];
       }
     }
-    const auto lost = std::ranges::find(can_end, false);
-    if (lost != can_end.end()) {
-      const auto state = static_cast<std::size_t>(lost - can_end.begin());
-      said_.lost = states_[state].ticks;
-      said_.run_to_lost = run_to(state, false);
+    for (std::size_t state = 0; state < can_end.size(); ++state) {
+      auto& lost = states_[state].cuts == 0 ? said_.lost : said_.lost_by_cuts;
+      if (can_end[state] || lost) continue;
+      lost = states_[state].ticks;
+      if (said_.run_to_lost.empty()) said_.run_to_lost = run_to(state, false);
     }
     const auto cycle = FairRuns(edges_).find([&](std::size_t from, const Edge& edge) {
       return can_end[from] && edge.to != kEnd && can_end[edge.to];
@@ -231,7 +240,7 @@ class Judge {
   // A line for each tick to a state, and if wanted for the last one, too.
   std::string run_to(std::size_t state, bool with_last) const {
     std::vector<std::string> lines;
-    if (with_last) lines.push_back(leaves_.said());
+    if (with_last) lines.push_back(said());
     for (; state != 0; state = states_[state].from) lines.push_back(states_[state].said);
     std::string run;
     for (auto it = lines.rbegin(); it != lines.rend(); ++it) run += "    " + *it + '\n';
@@ -246,6 +255,7 @@ class Judge {
   std::vector<State> states_;
   std::vector<std::vector<Edge>> edges_;
   std::size_t ticks_ = 0;
+  bool is_cut_ = false;  // before the last tick
   Judgment said_;
 };
 

@@ -22,6 +22,8 @@ class JudgedTree {
   virtual ~JudgedTree() = default;
   virtual std::string save() = 0;
   virtual void restore(const std::string& state) = 0;
+  // Its process is cut. False: nothing ran that could notice.
+  virtual bool cut() { return false; }
   // One period. Nothing after a fault.
   virtual std::optional<Status> tick() = 0;
   // Of the last tick. Nodes are numbered in pre-order.
@@ -50,7 +52,8 @@ struct Judgment {
 
   using First = std::optional<std::uint32_t>;  // the ticks of a shortest run to it
   std::array<First, kStatuses.size()> results = {};
-  First lost = {};          // no run goes on to an end
+  First lost = {};          // no run without a cut goes on to an end
+  First lost_by_cuts = {};  // the same of a run that was cut
   bool is_endless = false;  // a run goes on for ever, fairly, and could end in each tick
   std::vector<bool> ticked = {}, succeeded = {}, failed = {};  // of each node
   std::vector<First> violated = {};                            // of each property
@@ -66,6 +69,7 @@ struct Judgment {
 
 struct JudgeLimits {
   std::size_t states = 1500, ticks = 12'000;
+  int cuts = 0;  // of the process, at most, in a run
 };
 
 Judgment judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<NeverBoth>& properties,

@@ -55,8 +55,6 @@ class Judged : public JudgedTree {
 
  protected:
   Interpreter reference_;
-
- private:
   JudgedLeaves& leaves_;
 };
 
@@ -66,6 +64,10 @@ class JudgedPlan final : public Judged<Reference> {
       : Judged(plan, leaves), nodes_(count_nodes(plan)) {
     leaves.set_write(
         [this](const std::string& entry, double value) { reference_.write(entry, value); });
+  }
+  bool cut() override {
+    reference_.cut();
+    return leaves_.cut();
   }
   std::optional<Status> tick() override {
     const Status status = reference_.tick(Reference::kRestored + kPeriod);
@@ -126,6 +128,7 @@ class Claims {
     compare_results(found);
     const Finding* trap = finding(verdict, "trap");
     same("the tree can no longer end", depth_of(trap), judgment_.lost, judgment_.run_to_lost);
+    compare_cuts(finding(verdict, "trap-after-cut"));
     same("the tree may go on for ever", finding(verdict, "cycle") != nullptr, judgment_.is_endless,
          judgment_.run_to_cycle);
     compare_ticked(verdict);
@@ -167,6 +170,14 @@ class Claims {
     if (!wrong_.empty()) return;
     wrong_ = fmt::format("{}: verify says {}, the judge {}", what, claimed, is);
     if (!run.empty()) wrong_ += "; in this run:\n" + run;
+  }
+
+  // Where it cannot end without a cut either, the judge does not tell the states apart as verify
+  // does.
+  void compare_cuts(const Finding* trap) {
+    if (judgment_.lost) return;
+    same("the tree can no longer end after a cut", depth_of(trap), judgment_.lost_by_cuts,
+         judgment_.run_to_lost);
   }
 
   void compare_results(const SearchResult& found) {
@@ -211,24 +222,25 @@ struct Outcome {
   std::size_t states = 0;
 };
 
-Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed) {
+Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed, int cuts) {
   if (!trial.is_btcpp() && has_lonely_members(trial.plan)) return {};
   const Tree tree = trial.is_btcpp() ? law::tree_of(trial.document) : tree_from_text(trial.text());
   Diagnostics diagnostics;
   std::vector<NodeProblem> problems;
   const auto file = read_leaf_file(
       "t.leaves.xml", "<leaves lockstep=\"1\">" + trial.rows() + "</leaves>", diagnostics);
-  const LeafModels models = make_models(tree, file.get(), diagnostics, problems);
+  LeafModels models = make_models(tree, file.get(), diagnostics, problems);
   INFO((diagnostics.has_errors() ? diagnostics.all()[0].message : ""));
   REQUIRE_FALSE(diagnostics.has_errors());
   if (!problems.empty()) return {};
+  models.cuts.most = static_cast<std::uint32_t>(cuts);
 
   JudgedLeaves leaves(trial.rules(), trial.facts);
   const std::unique_ptr<JudgedTree> judged =
       trial.is_btcpp() ? std::unique_ptr<JudgedTree>(new JudgedDocument(trial.document, leaves))
                        : std::unique_ptr<JudgedTree>(new JudgedPlan(trial.plan, leaves));
   const auto both = properties_of(seed, judged->nodes(), trial.is_btcpp());
-  const Judgment judgment = judge(*judged, leaves, both, {});
+  const Judgment judgment = judge(*judged, leaves, both, {.cuts = cuts});
   if (!judgment.is_conclusive()) return {};
 
   std::vector<Property> properties;
@@ -250,6 +262,9 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed) {
         fmt::format("verify has {} states, the judge {}", found.store.size(), judgment.states);
     return outcome;
   }
+  for (const auto& [node, passed] : found.passed) {
+    if (outcome.wrong.empty()) outcome.wrong = "a barrier is passed: " + passed.first;
+  }
   const Verdict verdict = make_verdict(tree, models, properties, found, {.rate = 10});
   if (outcome.wrong.empty())
     outcome.wrong = Claims(tree, judgment).compare(found, verdict, properties, trial.is_btcpp());
@@ -257,35 +272,37 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed) {
 }
 
 // The smallest one that is still wrong.
-std::string report(JudgedTrial trial, std::uint64_t seed) {
+std::string report(JudgedTrial trial, std::uint64_t seed, int cuts) {
   for (bool is_smaller = true; is_smaller;) {
     is_smaller = false;
     for (JudgedTrial& it : smaller(trial)) {
-      if (try_trial(it, seed).wrong.empty()) continue;
+      if (try_trial(it, seed, cuts).wrong.empty()) continue;
       trial = std::move(it);
       is_smaller = true;
       break;
     }
   }
   return fmt::format("seed {0}; again: ./dev judge 2 {0}\n  tree: {1}\n  leaves: {2}\n  {3}", seed,
-                     trial.text(), trial.rows(), try_trial(trial, seed).wrong);
+                     trial.text(), trial.rows(), try_trial(trial, seed, cuts).wrong);
 }
 
-void judge_all(JudgedTrial (*make)(std::uint64_t)) {
+// `cuts`: of the process, in a run.
+void judge_all(JudgedTrial (*make)(std::uint64_t), int cuts = 0, std::uint64_t usual = kTrees) {
   const char* const count = std::getenv("LOCKSTEP_JUDGED_TREES");
   const char* const first = std::getenv("LOCKSTEP_JUDGED_SEED");
-  const std::uint64_t trees = count == nullptr ? kTrees : std::stoull(count) / 2;
+  const std::uint64_t trees = count == nullptr ? usual : std::stoull(count) / 2;
   const std::uint64_t begin = first == nullptr ? 0 : std::stoull(first);
   std::uint64_t conclusive = 0, states = 0;
   for (std::uint64_t seed = begin; seed < begin + trees; ++seed) {
     const JudgedTrial trial = make(seed);
-    const Outcome outcome = try_trial(trial, seed);
+    const Outcome outcome = try_trial(trial, seed, cuts);
     conclusive += outcome.is_conclusive ? 1 : 0;
     states += outcome.states;
-    if (!outcome.wrong.empty()) FAIL_CHECK(report(trial, seed));
+    if (!outcome.wrong.empty()) FAIL_CHECK(report(trial, seed, cuts));
   }
   INFO(conclusive << " of " << trees << " trees, " << states << " states");
-  CHECK(conclusive >= trees * 9 / 10);  // or most are too large for the judge, or have faults
+  // Or most are too large for the judge, or have faults.
+  CHECK(conclusive >= trees * (cuts == 0 ? 9 : 8) / 10);
   if (count != nullptr) {
     WARN(conclusive << " of " << trees << " trees, " << states << " states");
   }
@@ -295,6 +312,10 @@ void judge_all(JudgedTrial (*make)(std::uint64_t)) {
 
 TEST_CASE("verify says of small trees what a judge finds by trying everything") {
   judge_all(judged_trial);
+}
+
+TEST_CASE("verify --cuts says of small trees what a judge finds by trying everything") {
+  judge_all(judged_trial, 1, 1000);
 }
 
 TEST_CASE("verify says of small trees for BehaviorTree.CPP what a judge finds") {

@@ -197,6 +197,15 @@ void JudgedLeaves::resume(std::uint32_t leaf) {
   leaves_[leaf].phase = Phase::Running;
 }
 
+bool JudgedLeaves::cut() {
+  bool any = false;
+  for (Leaf& it : leaves_) {
+    any = any || it.phase != Phase::Idle;
+    it = {};
+  }
+  return any;
+}
+
 double JudgedLeaves::progress(std::uint32_t leaf) const {
   const int parts = rules_[leaf].parts;
   return parts == 0 ? 0 : static_cast<double>(leaves_[leaf].level) / parts;

@@ -51,6 +51,8 @@ class JudgedLeaves final : public LeafBehavior {
   void pause(std::uint32_t leaf) override;
   void resume(std::uint32_t leaf) override;
   double progress(std::uint32_t leaf) const override;
+  // They are new ones. False: none ran.
+  bool cut();
 
   // Gives an entry a value.
   using Write = std::function<void(const std::string& entry, double value)>;

@@ -84,18 +84,29 @@ class BehavingLeaf : public ReferenceNode {
       : ReferenceNode(tree, its_plan), behavior_(*world.behavior), place_(place) {}
 
   Status on_tick(bool first) override {
-    if (first) behavior_.start(place_);
+    const bool begins_again = std::exchange(was_cut_, false);
+    if (first || begins_again) behavior_.start(place_);
     status = Status::Running;
-    if (paused) behavior_.resume(place_);
+    if (paused && !begins_again) behavior_.resume(place_);
     return behavior_.tick(place_);
   }
-  double on_progress() override { return behavior_.progress(place_); }
-  void on_halt() override { behavior_.halt(place_); }
-  void on_pause() override { behavior_.pause(place_); }
+  double on_progress() override { return was_cut_ ? 0 : behavior_.progress(place_); }
+  void on_halt() override {
+    if (!std::exchange(was_cut_, false)) behavior_.halt(place_);
+  }
+  void on_pause() override {
+    if (!was_cut_) behavior_.pause(place_);
+  }
+  void on_cut() override { was_cut_ = runs(); }
+  void keep(KeptState& state) override {
+    ReferenceNode::keep(state);
+    state(was_cut_);
+  }
 
  private:
   LeafBehavior& behavior_;
   const std::uint32_t place_;
+  bool was_cut_ = false;  // "is started as for the first time" in its next tick
 };
 
 class Constant : public ReferenceNode {
@@ -884,6 +895,10 @@ const std::optional<std::size_t>& Reference::fault() const {
 
 const std::map<std::string, long>& Reference::cases() const {
   return world_->cases;
+}
+
+void Reference::cut() {
+  for (ReferenceNode* node : nodes_) node->on_cut();
 }
 
 void Reference::write(const std::string& entry, const std::variant<double, std::string>& value) {

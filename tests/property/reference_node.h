@@ -65,6 +65,7 @@ class ReferenceNode {
   // to it asked, and by `between`.
   virtual double taken(double between);
   virtual void on_pause() {}
+  virtual void on_cut() {}
   // What the next ticks read of it.
   virtual void keep(KeptState& state);
 
