@@ -65,19 +65,13 @@ bool take_written(std::string_view text, LeafWord& word) {
   }
 }
 
-// "3 9".
-std::optional<Problem> read_cuts(std::string_view text, std::vector<std::uint64_t>& cuts) {
-  while (!text.empty()) {
-    const auto end = std::min(text.find(' '), text.size());
-    const auto tick = parse_int(text.substr(0, end));
-    if (!tick || *tick <= 0 ||
-        (!cuts.empty() && cuts.back() >= static_cast<std::uint64_t>(*tick))) {
-      return Problem{"'@cuts' are rising numbers of ticks, from 1 on"};
-    }
-    cuts.push_back(static_cast<std::uint64_t>(*tick));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return std::nullopt;
+// "3"
+bool read_cut(std::string_view text, std::vector<std::uint64_t>& cuts) {
+  const auto tick = parse_int(text);
+  const auto last = cuts.empty() ? 0 : static_cast<std::int64_t>(cuts.back());
+  if (!tick || *tick <= last) return false;
+  cuts.push_back(static_cast<std::uint64_t>(*tick));
+  return true;
 }
 
 // "@rate 10".
@@ -95,9 +89,12 @@ std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts)
     if (ticks && *ticks > 0) scripts.ticks = static_cast<std::uint64_t>(*ticks);
     return scripts.ticks ? std::nullopt : std::optional(Problem{"'@ticks' is a whole number"});
   }
-  if (name == "@cuts") return read_cuts(value, scripts.cuts);
+  if (name == "@cut") {
+    if (read_cut(value, scripts.cuts)) return std::nullopt;
+    return Problem{"'@cut' is the number of a tick, from 1 on, and behind the '@cut' before it"};
+  }
   return Problem{fmt::format("unknown setting '{}'", brief(name)),
-                 "there are @rate, @ticks and @cuts"};
+                 "there are @rate, @ticks and @cut"};
 }
 
 // `at`: where in the line a problem is.
@@ -206,9 +203,7 @@ std::string to_text(const LeafScripts& scripts) {
   std::string text;
   if (scripts.rate) text += fmt::format("@rate {}\n", *scripts.rate);
   if (scripts.ticks) text += fmt::format("@ticks {}\n", *scripts.ticks);
-  if (!scripts.cuts.empty()) text += "@cuts";
-  for (const std::uint64_t it : scripts.cuts) text += fmt::format(" {}", it);
-  if (!scripts.cuts.empty()) text += '\n';
+  for (const std::uint64_t it : scripts.cuts) text += fmt::format("@cut {}\n", it);
   for (const auto& [path, words] : scripts.leaves) {
     text += path + " =";
     for (const LeafWord& word : words) text += ' ' + to_text(word);

@@ -3,7 +3,7 @@
 // --leaves` plays it. docs/verify.md has the grammar.
 //   @rate 10
 //   @ticks 14
-//   @cuts 3 9
+//   @cut 3
 //   M/p/arm = R0 R0.1 ~0.05 R0.1 S[place=kitchen]
 #pragma once
 

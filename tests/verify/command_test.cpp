@@ -73,7 +73,7 @@ TEST_CASE("a finding with a cut comes again with run --leaves, which cuts the ru
   CHECK(contains(verified.err,
                  "note: --save leaves out trap-after-cut: a scenario cannot hold a cut"));
   CHECK_FALSE(std::filesystem::exists(scenarios));
-  CHECK(contains(read_file(stem + ".leaves"), "\n@cuts "));
+  CHECK(contains(read_file(stem + ".leaves"), "\n@cut "));
   const Outcome played = run_lockstep({"run", tree, "--leaves", stem + ".leaves", "--clock",
                                        "virtual", "--view", "none", "--record", again});
   constexpr auto kCut =

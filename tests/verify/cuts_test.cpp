@@ -62,7 +62,7 @@ TEST_CASE("a resume from which the run cannot end is a finding with its cut") {
   CHECK(std::ranges::count(trap.more, "before tick " + std::to_string(trap.cuts[0]) +
                                           ", cut: the process ends here and is resumed; "
                                           "'Test/Fallback/Timeout/a' starts again") == 1);
-  CHECK(it.script("trap-after-cut").find("@cuts " + std::to_string(trap.cuts[0])) == 0);
+  CHECK(it.script("trap-after-cut").find("@cut " + std::to_string(trap.cuts[0])) == 0);
 }
 
 TEST_CASE("a trap without a cut stays one, though a cut leads out of it") {

@@ -175,8 +175,10 @@ TEST_CASE("a mistake in a script has its line") {
       {"@rats 3", "1:1", "unknown setting '@rats'"},
       {"@ticks 0", "1:1", "'@ticks' is a whole number"},
       {"@rate no", "1:1", "'@rate' is a number from 0.001 to 100000"},
-      {"@cuts 3 2", "1:1", "'@cuts' are rising numbers of ticks, from 1 on"},
-      {"@cuts 0", "1:1", "'@cuts' are rising numbers of ticks, from 1 on"},
+      {"@cut 3\n@cut 3", "2:1",
+       "'@cut' is the number of a tick, from 1 on, and behind the '@cut' before it"},
+      {"@cut 0", "1:1",
+       "'@cut' is the number of a tick, from 1 on, and behind the '@cut' before it"},
   };
   for (const Row& row : kRows) {
     INFO(row.text);
