@@ -13,11 +13,13 @@
 #include "base/core/wording.h"
 #include "base/terminal/outlet.h"
 #include "cli/check_formats.h"
+#include "cli/check_mends.h"
 #include "cli/checks.h"
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
+#include "language/document/file.h"
 #include "verify/check/advice.h"
 
 namespace lockstep::host {
@@ -29,19 +31,15 @@ struct CheckOptions {
   std::string format = "text";
   bool strict = false;
   bool together = false;
+  bool fix = false;
 };
 
-using CheckWriter = std::string (*)(std::span<const Diagnostic>);
+using CheckWriter = std::string (*)(std::span<const MendableMessage>);
 
 // Null: text, for people.
 CheckWriter writer_of(const std::string& format) {
   if (format == "json") return as_json;
   return format == "github" ? as_github : nullptr;
-}
-
-std::vector<Diagnostic> sorted(Diagnostics diagnostics) {
-  diagnostics.sort();
-  return diagnostics.all();
 }
 
 // For people. `written` is the exit code of what went to stdout so far.
@@ -177,52 +175,120 @@ class Told {
   std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>> told_;
 };
 
-int check(const CheckOptions& options) {
-  keep_stdout_for_results();
-  const CheckWriter write = writer_of(options.format);
-  LoadCommandOptions load = options.load;
-  if (!options.strict) load.unknown = MissingNodes::AreNoted;
-  load.may_lack_main = true;
-  Diagnostics in_folders;
-  const Checked checked = find_files(options, in_folders);
-  const Neighbors neighbors = neighbors_of(checked.files);
-  load.library = checked.library;
-  if (load.library == nullptr) load.elsewhere = neighbors.trees();
-  std::vector<Diagnostic> all;
-  Told told;
-  int worst = in_folders.has_errors() ? kExitInvalidTree : kExitSuccess, written = kExitSuccess;
-  if (write == nullptr) {
-    print_diagnostics(in_folders, Severity::Note);
-  } else {
-    std::ranges::move(sorted(std::move(in_folders)), std::back_inserter(all));
-  }
-  for (const std::string& tree : checked.files) {
-    Diagnostics diagnostics;
-    if (const std::string other = other_command(tree); !other.empty()) {
-      diagnostics.note("wrong-root"_code, {tree}, "is not a tree file", other + " reads it");
-      print_diagnostics(diagnostics, Severity::Note);
-      continue;
-    }
+// The files, each with what it takes from the others.
+struct CheckedFiles {
+  Checked checked;
+  Neighbors neighbors;
+
+  LoadCommandOptions options_for(const std::string& tree, const CheckOptions& options) const {
+    LoadCommandOptions load = options.load;
+    if (!options.strict) load.unknown = MissingNodes::AreNoted;
+    load.may_lack_main = true;
+    load.library = checked.library;
+    if (load.library == nullptr) load.elsewhere = neighbors.trees();
     load.is_part = neighbors.is_part(tree);
-    auto loaded = load_given(tree, load, diagnostics);
+    return load;
+  }
+};
+
+CheckedFiles files_of(const CheckOptions& options, Diagnostics& diagnostics) {
+  Checked checked = find_files(options, diagnostics);
+  Neighbors neighbors = neighbors_of(checked.files);
+  return {std::move(checked), std::move(neighbors)};
+}
+
+int mend_files(const CheckOptions& options) {
+  Diagnostics told_later;
+  const CheckedFiles files = files_of(options, told_later);
+  int worst = kExitSuccess;
+  for (const std::string& tree : files.checked.files) {
+    if (!other_command(tree).empty()) continue;
+    worst = first_failure(worst, mend_file(tree, files.options_for(tree, options)));
+  }
+  return worst;
+}
+
+class Checking {
+ public:
+  explicit Checking(const CheckOptions& options)
+      : options_(options), write_(writer_of(options.format)) {}
+
+  int run() {
+    Diagnostics in_folders;
+    const CheckedFiles files = files_of(options_, in_folders);
+    if (in_folders.has_errors()) worst_ = kExitInvalidTree;
+    tell(in_folders, std::make_shared<PluginSet>(), {});
+    for (const std::string& tree : files.checked.files) {
+      Diagnostics diagnostics;
+      if (const std::string other = other_command(tree); !other.empty()) {
+        diagnostics.note("wrong-root"_code, {tree}, "is not a tree file", other + " reads it");
+        print_diagnostics(diagnostics, Severity::Note);
+      } else {
+        check(tree, files.options_for(tree, options_));
+      }
+    }
+    if (write_ != nullptr) written_ = write_results(write_(all_));
+    return first_failure(written_, worst_);
+  }
+
+ private:
+  struct Given {
+    std::string name;
+    std::optional<std::string> text = {};
+  };
+
+  // Stdin can be read only once, and its edits are of its text.
+  Given read_once(const std::string& tree) const {
+    if (write_ == nullptr || tree != "-") return {tree};
+    auto text = read_stdin(Document::kMaxBytes);
+    return text ? Given{"stdin", std::move(*text)} : Given{tree};
+  }
+
+  void check(const std::string& tree, LoadCommandOptions load) {
+    Diagnostics diagnostics;
+    const auto plugins = std::make_shared<PluginSet>();
+    Given given = read_once(tree);
+    load.text = given.text;
+    auto loaded = load_given(given.name, load, diagnostics, plugins);
     if (loaded) {
       add_advice(*loaded->project, std::move(loaded->definition), AdviceEffort::Certain,
                  diagnostics);
     }
     int code = loaded ? kExitSuccess : exit_code_of(loaded.error());
     const bool doubtful = diagnostics.count(Severity::Warning) > 0;
-    if (code == kExitSuccess && options.strict && doubtful) code = kExitInvalidTree;
-    if (worst == kExitSuccess) worst = code;
+    if (code == kExitSuccess && options_.strict && doubtful) code = kExitInvalidTree;
+    if (worst_ == kExitSuccess) worst_ = code;
     const bool has_errors = diagnostics.has_errors();
-    if (load.library != nullptr) diagnostics = told.only_new(diagnostics);
-    if (write == nullptr) {
-      print_checked(tree, diagnostics, has_errors, code, written);
-    } else {
-      std::ranges::move(sorted(std::move(diagnostics)), std::back_inserter(all));
-    }
+    if (load.library != nullptr) diagnostics = told_.only_new(diagnostics);
+    if (write_ == nullptr) return print_checked(tree, diagnostics, has_errors, code, written_);
+    tell(diagnostics, plugins, std::move(given));
   }
-  if (write != nullptr) written = write_results(write(all));
-  return first_failure(written, worst);
+
+  void tell(Diagnostics& diagnostics, std::shared_ptr<const PluginSet> plugins, Given given) {
+    if (write_ == nullptr) return print_diagnostics(diagnostics, Severity::Note);
+    diagnostics.sort();
+    MessageMends mends(std::move(plugins));
+    if (given.text) mends.set_text(given.name, std::move(*given.text));
+    std::ranges::move(mends.of(diagnostics.all()), std::back_inserter(all_));
+  }
+
+  const CheckOptions& options_;
+  const CheckWriter write_;
+  std::vector<MendableMessage> all_;
+  Told told_;
+  int worst_ = kExitSuccess, written_ = kExitSuccess;
+};
+
+int check(const CheckOptions& options) {
+  keep_stdout_for_results();
+  if (!options.fix) return Checking(options).run();
+  if (std::ranges::count(options.trees, "-") != 0) {
+    print_error("--fix changes files, and stdin is none",
+                "--format json has the edits of each message");
+    return kExitUsage;
+  }
+  const int mended = mend_files(options);
+  return first_failure(mended, Checking(options).run());
 }
 
 std::function<int()> define_check(CLI::App& app) {
@@ -234,6 +300,8 @@ std::function<int()> define_check(CLI::App& app) {
                "Treat warnings as errors, and nodes that no plugin has: exit code 3");
   app.add_flag("--together", options->together,
                "Let SubTrees find their trees in the other given files, as they do in a folder");
+  app.add_flag("--fix", options->fix,
+               "First change the files where a message has a mend that is certain");
   app.add_option("--format", options->format,
                  "text, or on stdout: json (an array of messages) or github (annotations of a "
                  "workflow)")
@@ -250,12 +318,15 @@ std::function<int()> define_check(CLI::App& app) {
 
 extern const Command kCheckCommand{
     "check", "Check tree files and report errors and warnings, without running them",
-    "Messages go to stderr as file:line:column; in another format they go to stdout.\n"
+    "Messages go to stderr as file:line:column; in another format they go to stdout. In json, "
+    "each\n"
+    "has edits that mend it, the best first: patches of the file, in bytes.\n"
     "Exit code: 0 no errors, 3 invalid tree, or a warning with --strict, 4 plugin refused,\n"
     "2 usage, 6 a plugin crashed or hung.\n"
     "\n"
     "Examples:\n"
     "  lockstep check trees\n"
+    "  lockstep check --fix tree.xml\n"
     "  lockstep check team.xml truck.xml --together\n"
     "  lockstep check --strict --format github trees/*.xml",
     define_check};

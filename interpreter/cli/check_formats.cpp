@@ -50,25 +50,40 @@ std::string github_line(const Diagnostic& message) {
                      escaped(whole_text(message), kData));
 }
 
+Json json_of(const Mend& mend) {
+  Json patches = Json::array();
+  for (const Patch& it : mend.edit.patches())
+    patches.push_back(Json{{"begin", it.begin}, {"end", it.end}, {"text", it.text}});
+  return {{"title", mend.title}, {"certain", mend.is_certain}, {"patches", std::move(patches)}};
+}
+
 }  // namespace
 
-std::string as_json(std::span<const Diagnostic> messages) {
+std::string as_json(std::span<const MendableMessage> messages) {
   Json all = Json::array();
-  for (const Diagnostic& it : messages) {
-    all.push_back({{"severity", to_string(it.severity)},
-                   {"code", it.code.text()},
-                   {"file", it.location.file},
-                   {"line", it.location.line},
-                   {"column", it.location.column},
-                   {"message", it.message},
-                   {"hint", it.hint}});
+  for (const auto& [it, place, mends] : messages) {
+    Json message{{"severity", to_string(it.severity)},
+                 {"code", it.code.text()},
+                 {"file", it.location.file},
+                 {"line", it.location.line},
+                 {"column", it.location.column}};
+    if (place) {
+      message.add("begin", place->begin);
+      message.add("end", place->end);
+    }
+    message.add("message", it.message);
+    message.add("hint", it.hint);
+    Json edits = Json::array();
+    for (const Mend& mend : mends) edits.push_back(json_of(mend));
+    message.add("edits", std::move(edits));
+    all.push_back(std::move(message));
   }
   return all.printable(2) + "\n";
 }
 
-std::string as_github(std::span<const Diagnostic> messages) {
+std::string as_github(std::span<const MendableMessage> messages) {
   std::string lines;
-  for (const Diagnostic& it : messages) lines += github_line(it);
+  for (const MendableMessage& it : messages) lines += github_line(it.message);
   return lines;
 }
 

@@ -34,6 +34,71 @@ TEST_CASE("check --format json is an array on stdout") {
   CHECK(messages[0]["hint"] == "did you mean 'Advance'?");
 }
 
+TEST_CASE("check --format json has the bytes of each message, and the edits that mend it") {
+  const TemporaryDirectory directory;
+  std::string text =
+      "\xEF\xBB\xBF" + tree_text("<Sequnce memory=\"true\"><Wait seconds=\"1\"/></Sequnce>");
+  const std::string tree = directory.file("tree.xml", text);
+  for (const std::string& given : {tree, std::string("-")}) {
+    const Outcome outcome =
+        run({.arguments = {"check", "--format", "json", given}, .input = given == "-" ? text : ""});
+    const auto messages = parse_json(outcome.out);
+    REQUIRE(messages.size() == 1);
+    const std::size_t begin = messages[0]["begin"], end = messages[0]["end"];
+    CHECK(text.substr(begin, end - begin) == "<Sequnce");
+    const auto& edit = messages[0]["edits"][0];
+    CHECK(edit["title"] == "Replace 'Sequnce' by 'Sequence'");
+    CHECK(edit["certain"] == true);
+    std::string mended = text;
+    for (std::size_t i = edit["patches"].size(); i-- > 0;) {
+      const auto& patch = edit["patches"][i];
+      const std::size_t from = patch["begin"], to = patch["end"];
+      mended.replace(from, to - from, patch["text"].get<std::string>());
+    }
+    CHECK(contains(mended, "<Sequence memory=\"true\"><Wait seconds=\"1\"/></Sequence>"));
+  }
+}
+
+TEST_CASE("check --fix mends what can be meant in one way only, and names each mend") {
+  const TemporaryDirectory directory;
+  const std::string text =
+      tree_text("<Sequnce memroy=\"true\"><Wait secnds=\"1\"/><Wait/></Sequnce>");
+  const std::string tree = directory.file("tree.xml", text);
+  const Outcome outcome = run_lockstep({"check", "--fix", tree});
+  CHECK(outcome.code == 3);
+  CHECK(read_file(tree) ==
+        tree_text("<Sequence memory=\"true\"><Wait seconds=\"1\"/><Wait/></Sequence>"));
+  for (const char* what :
+       {"Replace 'Sequnce' by 'Sequence' [unknown-node]",
+        "Replace 'memroy' by 'memory' [unknown-port]",
+        "Replace 'secnds' by 'seconds' [unknown-port]", "'Wait' needs the parameter 'seconds'"}) {
+    INFO(what);
+    CHECK(contains(outcome.err, what));
+  }
+  // What is left needs a decision; a second call changes nothing.
+  const std::string mended = read_file(tree);
+  const Outcome again = run_lockstep({"check", "--fix", "--format", "json", tree});
+  CHECK(again.code == 3);
+  CHECK(again.err.empty());
+  CHECK(parse_json(again.out).size() == 1);
+  CHECK(read_file(tree) == mended);
+  CHECK(run_lockstep({"check", "--fix", "-"}).code == 2);
+}
+
+TEST_CASE("check --fix does not choose between words that are as near") {
+  const TemporaryDirectory directory;
+  const std::string text =
+      "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><BehaviorTree ID=\"Main\"><SubTree "
+      "ID=\"Carx\"/>"
+      "</BehaviorTree><BehaviorTree ID=\"Cart\"><Wait seconds=\"1\"/></BehaviorTree>"
+      "<BehaviorTree ID=\"Cars\"><Wait seconds=\"1\"/></BehaviorTree></root>";
+  const std::string tree = directory.file("tree.xml", text);
+  const Outcome outcome = run_lockstep({"check", "--fix", tree});
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "did you mean 'Cart' or 'Cars'?"));
+  CHECK(read_file(tree) == text);
+}
+
 namespace {
 
 // In lines of their own.

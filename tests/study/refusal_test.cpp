@@ -52,7 +52,7 @@ const std::vector<Refusal> kRefusals{
     {2, {"--runs", "1", "--grid", "rate=0"}, "'0' is not a number from 0.001"},
     {2, {"--runs", "1", "--measure", "speed"}, "unknown measure 'speed'"},
     {2, {"--runs", "1", "--measure", "predictability:a1@2"}, "expected a number from 0 to 1"},
-    {2, {"--runs", "1", "--measure", "predictability:a9@0.5"}, "did you mean 'a1'?"},
+    {2, {"--runs", "1", "--measure", "predictability:a9@0.5"}, "did you mean 'a1' or 'a2' or 'a3'?"},
     {2, {"--until-ci", "5%"}, "--runs is required"},
     {2, {"--runs", "9", "--until-ci", "0"}, "--until-ci 0: expected a width above 0"},
     {2, {"--runs", "9", "--until-ci", "narrow"}, "such as 5%, of the median"},

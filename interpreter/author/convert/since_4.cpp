@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "author/convert/blackboard_check.h"
-#include "author/edit/text_edit.h"
 #include "base/core/identifier.h"
 #include "base/core/wording.h"
 #include "dialect/btcpp/version_3.h"
 #include "dialect/btcpp/words.h"
 #include "language/document/scanner.h"
+#include "language/document/text_edit.h"
 #include "language/document/value_text.h"
 #include "tree/check/node_check.h"
 

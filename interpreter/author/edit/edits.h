@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "author/edit/text_edit.h"
 #include "base/core/problem.h"
 #include "language/document/document.h"
+#include "language/document/text_edit.h"
 
 namespace lockstep::host {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "author/edit/text_edit.h"
 #include "language/document/scanner.h"
+#include "language/document/text_edit.h"
 
 namespace lockstep::host {
 

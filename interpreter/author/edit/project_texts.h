@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "author/edit/text_edit.h"
 #include "base/core/problem.h"
 #include "language/document/document.h"
 #include "language/document/project.h"
+#include "language/document/text_edit.h"
 #include "tree/catalog.h"
 
 namespace lockstep::host {

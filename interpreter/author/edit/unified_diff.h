@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "author/edit/text_edit.h"
+#include "language/document/text_edit.h"
 
 namespace lockstep::host {
 

@@ -5,9 +5,9 @@
 
 #include <cstddef>
 
-#include "author/edit/text_edit.h"
 #include "base/core/problem.h"
 #include "language/document/document.h"
+#include "language/document/text_edit.h"
 
 namespace lockstep::host {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "author/edit/text_edit.h"
 #include "author/format/format.h"
 #include "language/document/scanner.h"
+#include "language/document/text_edit.h"
 
 namespace lockstep::host {
 

@@ -4,37 +4,14 @@
 
 #include <algorithm>
 
-#include "language/document/cursor.h"
+#include "language/document/byte_order_mark.h"
 
 namespace lockstep::host {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 int severity_number(Severity severity) {
   constexpr int kNumbers[] = {1, 2, 3};  // error, warning, information
   return kNumbers[static_cast<std::size_t>(severity)];
-}
-
-// The end of what begins at `begin`, at least one character of the line.
-std::size_t end_of(std::string_view text, std::size_t begin) {
-  const std::string_view rest = text.substr(begin);
-  const std::string_view line = rest.substr(0, std::min(rest.find_first_of("\r\n"), rest.size()));
-  if (line.empty()) return begin;
-  const char before = begin == 0 ? ' ' : text[begin - 1];
-  if (before == '"' || before == '\'') {
-    const auto quote = line.find(before);
-    if (quote != line.npos && quote > 0) return begin + quote;
-  }
-  const std::size_t sign = line.starts_with("</") ? 2 : line.starts_with('<') ? 1 : 0;
-  Cursor cursor(line);
-  cursor.go_to(sign);
-  const std::size_t name = cursor.take_name().size();
-  if (sign + name > 0) return begin + sign + name;
-  std::size_t length = 1;
-  while (length < line.size() && (static_cast<unsigned char>(line[length]) & 0xC0u) == 0x80)
-    ++length;
-  return begin + length;
 }
 
 class Converter {
@@ -72,7 +49,7 @@ class Converter {
     std::string uri = is_main ? analysis_.uri : workspace_.uri_of(path);
     const auto open = workspace_.files().find(uri);
     const bool has_mark =
-        open != workspace_.files().end() && open->second.bytes().starts_with(kByteOrderMark);
+        open != workspace_.files().end() && !byte_order_mark(open->second.bytes()).empty();
     return texts_
         .emplace(path, Text{std::move(uri), source, Positions(source->text()),
                             LineIndex(source->text()), has_mark})
@@ -114,16 +91,6 @@ class Converter {
 };
 
 }  // namespace
-
-ByteRange range_of(std::string_view text, const LineIndex& lines, const SourceLocation& place) {
-  if (place.line == 0) return {0, 0};
-  const std::string_view line = lines.line(place.line);
-  if (line.data() == nullptr) return {text.size(), text.size()};
-  const auto start = static_cast<std::size_t>(line.data() - text.data());
-  const std::size_t begin =
-      std::min<std::size_t>(start + (place.column == 0 ? 0 : place.column - 1), text.size());
-  return {begin, end_of(text, begin)};
-}
 
 DiagnosticsByUri diagnostics_of(const Analysis& analysis, const Workspace& workspace,
                                 bool has_related_information) {

@@ -9,18 +9,13 @@
 #include <vector>
 
 #include "base/json/json.h"
+#include "language/document/byte_range.h"
 
 namespace lockstep::host {
 
 struct Position {
   std::uint64_t line = 0, character = 0;
   friend auto operator<=>(const Position&, const Position&) = default;
-};
-
-struct ByteRange {
-  std::size_t begin = 0, end = 0;
-  bool has(std::size_t byte) const { return byte >= begin && byte <= end; }
-  friend auto operator<=>(const ByteRange&, const ByteRange&) = default;
 };
 
 class Positions {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "base/core/wording.h"
 
@@ -13,6 +14,8 @@ namespace {
 constexpr std::size_t kLongestWord = 256;
 constexpr std::size_t kMostEdits = 8;
 constexpr std::size_t kMostCandidates = 10'000;
+constexpr std::size_t kMostAsNear = 3;
+constexpr std::size_t kMostBytes = 200;  // of words that are as near
 // The largest table of distances for one word: less than a millisecond. All names of a large robot
 // take a fifth of it.
 constexpr std::size_t kMostCells = 100'000;
@@ -72,28 +75,40 @@ std::size_t difference(std::size_t a, std::size_t b) {
   return a > b ? a - b : b - a;
 }
 
-}  // namespace
-
-std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
+std::vector<std::string_view> nearest_ones(std::string_view word,
+                                           std::span<const std::string_view> candidates) {
   if (word.size() > kLongestWord) return {};
   if (word.size() < 2) return {};  // near to every other letter
   std::size_t limit = std::min((word.size() + 2) / 3, kMostEdits);
-  std::string_view best;
+  std::vector<std::string_view> best;
   EditDistance distance(word);
   for (const auto candidate : candidates.first(std::min(candidates.size(), kMostCandidates))) {
     if (distance.cells() > kMostCells) break;
     if (candidate.empty() || difference(candidate.size(), word.size()) > limit) continue;
     const auto edits = distance.to(candidate, limit);
-    if (edits > limit || (edits == limit && !best.empty())) continue;
-    best = candidate;
+    if (edits > limit) continue;
+    if (edits < limit) best.clear();
     limit = edits;
+    if (best.size() < kMostAsNear && std::ranges::find(best, candidate) == best.end())
+      best.push_back(candidate);
   }
   return best;
 }
 
+}  // namespace
+
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
+  const auto best = nearest_ones(word, candidates);
+  return best.empty() ? std::string_view() : best.front();
+}
+
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
-  const auto candidate = nearest(word, candidates);
-  return candidate.empty() ? std::string() : fmt::format("did you mean '{}'?", brief(candidate));
+  std::string words;
+  for (const auto candidate : nearest_ones(word, candidates)) {
+    if (!words.empty() && words.size() + candidate.size() > kMostBytes) break;
+    words += fmt::format("{}'{}'", words.empty() ? "" : " or ", brief(candidate));
+  }
+  return words.empty() ? words : fmt::format("did you mean {}?", words);
 }
 
 std::string suggest(std::string_view word, std::span<const std::string_view> candidates,

@@ -15,7 +15,9 @@ namespace lockstep::host {
 // compared.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
-// "did you mean 'x'?" or, when nothing is near, "".
+// "did you mean 'x'?", of several that are as near "did you mean 'x' or 'y'?"; when nothing is
+// near,
+// "".
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
 
 // "did you mean 'x'?" or, when nothing is near, "<what>: 'a', 'b' and 3 more"; "" without

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "author/edit/file_text.h"
 #include "author/edit/unified_diff.h"
 #include "author/format/format.h"
 #include "base/core/wording.h"
@@ -13,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "language/document/byte_order_mark.h"
 #include "language/document/file.h"
 
 namespace lockstep::host {

@@ -5,19 +5,19 @@
 #include <algorithm>
 
 #include "base/core/utf8.h"
+#include "language/document/byte_order_mark.h"
 #include "language/document/references.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kExcerptBytes = 200;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
 Source::Source(std::string path, std::string text, Place first)
     : path_(std::move(path)), text_(std::move(text)), first_(first) {
-  if (text_.starts_with(kByteOrderMark)) text_.erase(0, kByteOrderMark.size());
+  text_.erase(0, byte_order_mark(text_).size());
 }
 
 const LineIndex& Source::lines() const {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "language/document/byte_range.h"
+
 namespace lockstep::host {
 
 // Views and bytes are of the text. Values are as they are written, with references and arguments.
@@ -62,6 +64,12 @@ struct TolerantTree {
     return static_cast<std::size_t>(part.data() - text.data());
   }
 };
+
+// The bytes of a part of the text.
+inline ByteRange range_of(const TolerantTree& tree, std::string_view part) {
+  const std::size_t begin = tree.offset_of(part);
+  return {begin, begin + part.size()};
+}
 
 TolerantTree read_tolerantly(std::string_view text);
 

@@ -35,6 +35,7 @@ TEST_CASE("the nearest word is one that a typing error could have come from") {
 TEST_CASE("of words equally near the first is suggested") {
   constexpr std::array<std::string_view, 2> kWords = {"cart", "cars"};
   CHECK(nearest("carx", kWords) == "cart");
+  CHECK(did_you_mean("carx", kWords) == "did you mean 'cart' or 'cars'?");
 }
 
 TEST_CASE("a suggestion is a question, or no text at all") {

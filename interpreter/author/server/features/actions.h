@@ -1,5 +1,4 @@
-// Quick fixes, which are the nearest known word for every "did you mean" and parameters that are
-// missing, and refactorings.
+// Quick fixes, which are what mends messages, and refactorings.
 #pragma once
 
 #include "author/server/features/feature.h"

@@ -10,6 +10,7 @@
 
 #include "author/server/features/feature.h"
 #include "base/core/node_type.h"
+#include "tree/mend/element_type.h"
 
 namespace lockstep::host {
 
@@ -72,10 +73,6 @@ class Names {
 // The same question about its file, then about each open one in whose project the text is.
 std::vector<Question> projects_with(const Question& question, const std::string& identity);
 
-// The type of a node, also of <Action ID="…"/>; null: it is none, or unknown.
-const NodeType* type_of(const TolerantTree& tree, const TolerantElement& element,
-                        const Catalog& catalog);
-const Parameter* parameter_of(const NodeType* type, std::string_view attribute);
 // The BehaviorTree around an element, or null.
 const TolerantElement* tree_around(const TolerantTree& tree, const TolerantElement& element);
 const LanguageRules& rules_of(const Question& question);

@@ -6,7 +6,6 @@
 
 #include "author/edit/edits.h"
 #include "author/edit/element_text.h"
-#include "author/edit/file_text.h"
 #include "author/edit/subtree_edits.h"
 #include "author/server/features/actions.h"
 #include "author/server/features/names.h"
@@ -15,6 +14,7 @@
 #include "author/server/features/workspace_edit.h"
 #include "base/core/pre_order.h"
 #include "base/core/wording.h"
+#include "language/document/byte_order_mark.h"
 #include "language/document/value_text.h"
 #include "tree/check/node_check.h"
 

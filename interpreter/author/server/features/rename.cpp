@@ -8,12 +8,12 @@
 #include <tuple>
 #include <vector>
 
-#include "author/edit/file_text.h"
 #include "author/edit/renames.h"
 #include "author/server/features/names.h"
 #include "author/server/features/trial.h"
 #include "author/server/features/workspace_edit.h"
 #include "base/core/wording.h"
+#include "language/document/byte_order_mark.h"
 
 namespace lockstep::host {
 namespace {

@@ -33,10 +33,4 @@ struct SelectedElements {
 };
 SelectedElements selected_elements(const TolerantTree& tree, ByteRange selection);
 
-// The bytes of a part of the text.
-inline ByteRange range_of(const TolerantTree& tree, std::string_view part) {
-  const std::size_t begin = tree.offset_of(part);
-  return {begin, begin + part.size()};
-}
-
 }  // namespace lockstep::host

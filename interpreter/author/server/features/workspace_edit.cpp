@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "author/edit/file_text.h"
+#include "language/document/byte_order_mark.h"
 
 namespace lockstep::host {
 namespace {

@@ -1,4 +1,4 @@
-#include "author/edit/text_edit.h"
+#include "language/document/text_edit.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-// The text of a file that is edited.
+// The text of a file, as it is on the disk.
 #pragma once
 
 #include <string_view>
