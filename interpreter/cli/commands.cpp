@@ -31,15 +31,16 @@ extern const Command kRunCommand, kCheckCommand, kShowCommand, kDiffCommand, kNo
     kSchemaCommand, kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand,
     kMonitorCommand, kCheckpointCommand, kAnswerCommand, kAttendCommand, kVerifyCommand,
     kTestCommand, kNewCommand, kFmtCommand, kLspCommand, kCompletionCommand, kManualCommand,
-    kDoctorCommand, kDocsCommand, kExamplesCommand;
+    kDoctorCommand, kDocsCommand, kExamplesCommand, kMcpCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kNewCommand,     &kRunCommand,    &kCheckCommand,    &kVerifyCommand,     &kTestCommand,
-      &kShowCommand,    &kDiffCommand,   &kNodesCommand,    &kSchemaCommand,     &kFmtCommand,
-      &kConvertCommand, &kPluginCommand, &kLogCommand,      &kReplayCommand,     &kStudyCommand,
-      &kMonitorCommand, &kAnswerCommand, &kAttendCommand,   &kCheckpointCommand, &kLspCommand,
-      &kDoctorCommand,  &kDocsCommand,   &kExamplesCommand, &kCompletionCommand, &kManualCommand};
+      &kNewCommand,     &kRunCommand,    &kCheckCommand,  &kVerifyCommand,     &kTestCommand,
+      &kShowCommand,    &kDiffCommand,   &kNodesCommand,  &kSchemaCommand,     &kFmtCommand,
+      &kConvertCommand, &kPluginCommand, &kLogCommand,    &kReplayCommand,     &kStudyCommand,
+      &kMonitorCommand, &kAnswerCommand, &kAttendCommand, &kCheckpointCommand, &kLspCommand,
+      &kMcpCommand,     &kDoctorCommand, &kDocsCommand,   &kExamplesCommand,   &kCompletionCommand,
+      &kManualCommand};
   return kAll;
 }
 

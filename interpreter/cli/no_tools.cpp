@@ -10,8 +10,8 @@ extern const Command kShowCommand = absent("show"), kDiffCommand = absent("diff"
                      kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
                      kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
                      kNewCommand = absent("new"), kFmtCommand = absent("fmt"),
-                     kLspCommand = absent("lsp"), kCompletionCommand = absent("completion"),
-                     kManualCommand = absent("manual"), kDocsCommand = absent("docs"),
-                     kExamplesCommand = absent("examples");
+                     kLspCommand = absent("lsp"), kMcpCommand = absent("mcp"),
+                     kCompletionCommand = absent("completion"), kManualCommand = absent("manual"),
+                     kDocsCommand = absent("docs"), kExamplesCommand = absent("examples");
 
 }  // namespace lockstep::host

@@ -139,6 +139,7 @@ TEST_CASE("help fits into 80 columns where there is no terminal") {
                                                   {"convert"},
                                                   {"fmt"},
                                                   {"lsp"},
+                                                  {"mcp"},
                                                   {"plugin"},
                                                   {"plugin", "check"},
                                                   {"log"},

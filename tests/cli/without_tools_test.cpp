@@ -32,6 +32,7 @@ TEST_CASE("a program without tools says what it leaves out, and how to get it") 
                                             {"fmt", kDoor},
                                             {"convert", kDoor, "--to", "btcpp"},
                                             {"lsp"},
+                                            {"mcp"},
                                             {"completion", "bash"},
                                             {"manual", "pages"},
                                             {"plugin", "check"},

@@ -41,6 +41,7 @@ DONE = [
     "docs/index.md",
     "docs/language.md",
     "docs/language_server.md",
+    "docs/mcp.md",
     "docs/late_progress.md",
     "docs/messages.md",
     "docs/monitor.md",

@@ -47,8 +47,8 @@ void Connection::read_some() {
 void Connection::accept(std::string body) {
   try {
     Message message = read_message(reader_, std::move(body));
-    if (message.method == "$/cancelRequest") {
-      const RequestId id = cancelled_id(reader_, message);
+    if (message.method == protocol_.cancel) {
+      const RequestId id = cancelled_id(reader_, message, protocol_.cancelled);
       const bool waits =
           std::ranges::any_of(messages_, [&](const Message& it) { return it.id == id; });
       if (waits) {
@@ -71,7 +71,7 @@ Message Connection::take() {
 }
 
 void Connection::send(const std::string& message) {
-  if (!write_all(output_, framed(message))) is_over_ = true;
+  if (!write_all(output_, framed(message, protocol_.framing))) is_over_ = true;
 }
 
 }  // namespace lockstep::host

@@ -1,4 +1,4 @@
-// The messages between the editor and the server, over two descriptors.
+// The messages between a client, as an editor, and the server, over two descriptors.
 #pragma once
 
 #include <deque>
@@ -10,9 +10,18 @@
 
 namespace lockstep::host {
 
+// What a protocol on top of JSON-RPC says.
+struct RpcProtocol {
+  Framing framing;
+  std::string_view cancel;     // the notification that takes back a request
+  std::string_view cancelled;  // its field with the id of that
+};
+inline constexpr RpcProtocol kLanguageServerProtocol{Framing::Headers, "$/cancelRequest", "id"};
+
 class Connection {
  public:
-  Connection(int input, int output) : input_(input), output_(output) {}
+  Connection(int input, int output, const RpcProtocol& protocol)
+      : input_(input), output_(output), protocol_(protocol), frames_(protocol.framing) {}
 
   // Waits for a message, or until `other` can be read, or not at all if there is something to do.
   enum class Wait : bool { No, Yes };
@@ -34,6 +43,7 @@ class Connection {
   void accept(std::string body);
 
   int input_, output_;
+  const RpcProtocol& protocol_;
   FrameReader frames_;
   JsonReader reader_;
   std::deque<Message> messages_;

@@ -16,7 +16,7 @@ namespace lockstep::host {
 Server::Server(Settings settings, int input, int output)
     : own_(std::move(settings)),
       settings_(std::make_shared<const Settings>(own_)),
-      connection_(input, output) {}
+      connection_(input, output, kLanguageServerProtocol) {}
 
 Server::Answer Server::answer_of(std::string_view method) {
   if (method == "initialize") return &Server::initialize;
@@ -146,7 +146,8 @@ Json Server::shutdown(Message&) {
 
 // One that waits for an analysis; else it is over already.
 void Server::cancel(Message& message) {
-  const RequestId id = cancelled_id(connection_.reader(), message);
+  const RequestId id =
+      cancelled_id(connection_.reader(), message, kLanguageServerProtocol.cancelled);
   if (std::erase_if(waiting_, [&](const Message& it) { return it.id == id; }) == 0) return;
   connection_.send(refusal(id, RpcError::RequestCancelled, "the request was canceled"));
 }

@@ -26,6 +26,38 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 Result<std::optional<std::string>> FrameReader::next() {
+  return framing_ == Framing::Lines ? next_line() : next_with_header();
+}
+
+void FrameReader::drop(std::size_t bytes) {
+  begin_ += bytes;
+  scanned_ = 0;
+  if (begin_ == bytes_.size()) {
+    bytes_.clear();
+    begin_ = 0;
+  } else if (begin_ > bytes_.size() / 2) {
+    bytes_.erase(0, begin_);
+    begin_ = 0;
+  }
+}
+
+Result<std::optional<std::string>> FrameReader::next_line() {
+  while (true) {
+    const std::string_view rest = std::string_view(bytes_).substr(begin_);
+    const auto end = rest.find('\n', scanned_);
+    scanned_ = rest.size();
+    if (end == rest.npos) {
+      if (rest.size() <= kMaxBytes) return std::nullopt;
+      return problem(fmt::format("a message has more than {} bytes", kMaxBytes));
+    }
+    std::string line(trimmed(rest.substr(0, end)));
+    drop(end + 1);
+    if (line.ends_with('\r')) line.pop_back();
+    if (!line.empty()) return line;
+  }
+}
+
+Result<std::optional<std::string>> FrameReader::next_with_header() {
   const std::string_view rest = std::string_view(bytes_).substr(begin_);
   const auto end = rest.substr(0, kMaxHeader).find(kEndOfHeader);
   if (end == rest.npos) {
@@ -37,14 +69,7 @@ Result<std::optional<std::string>> FrameReader::next() {
   const std::size_t whole = end + kEndOfHeader.size() + *length;
   if (rest.size() < whole) return std::nullopt;
   std::string message(rest.substr(whole - *length, *length));
-  begin_ += whole;
-  if (begin_ == bytes_.size()) {
-    bytes_.clear();
-    begin_ = 0;
-  } else if (begin_ > bytes_.size() / 2) {
-    bytes_.erase(0, begin_);
-    begin_ = 0;
-  }
+  drop(whole);
   return message;
 }
 
@@ -70,7 +95,8 @@ Result<std::size_t> FrameReader::read_length(std::string_view header) const {
   return *length;
 }
 
-std::string framed(std::string_view message) {
+std::string framed(std::string_view message, Framing framing) {
+  if (framing == Framing::Lines) return fmt::format("{}\n", message);
   return fmt::format("Content-Length: {}\r\n\r\n{}", message.size(), message);
 }
 

@@ -12,13 +12,13 @@ RequestId id_in(JsonValue value) {
   throw JsonError("'id' is neither a whole number nor a text");
 }
 
+}  // namespace
+
 Json json_of(const RequestId& id) {
   if (const auto* number = std::get_if<std::int64_t>(&id)) return *number;
   if (const auto* text = std::get_if<std::string>(&id)) return *text;
   return {};
 }
-
-}  // namespace
 
 Message read_message(JsonReader& reader, std::string body) {
   Message message;
@@ -44,10 +44,10 @@ void read_params(JsonReader& reader, Message& message, const std::function<void(
   });
 }
 
-RequestId cancelled_id(JsonReader& reader, Message& message) {
+RequestId cancelled_id(JsonReader& reader, Message& message, std::string_view field) {
   RequestId id;
   read_params(reader, message, [&](JsonObject params) {
-    params.read({{"id", [&](JsonValue value) { id = id_in(value); }}});
+    params.read({{field, [&](JsonValue value) { id = id_in(value); }}});
   });
   return id;
 }

@@ -41,8 +41,10 @@ Message read_message(JsonReader& reader, std::string body);
 // if they are no object, a JsonError is thrown.
 void read_params(JsonReader& reader, Message& message, const std::function<void(JsonObject)>& use);
 
-// The id that a $/cancelRequest names.
-RequestId cancelled_id(JsonReader& reader, Message& message);
+// The id that a notification names in this field.
+RequestId cancelled_id(JsonReader& reader, Message& message, std::string_view field);
+// As JSON.
+Json json_of(const RequestId& id);
 
 std::string answer(const RequestId& id, Json result);
 std::string refusal(const RequestId& id, RpcError error, std::string_view message);
