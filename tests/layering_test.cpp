@@ -57,6 +57,7 @@ const std::vector<Layer> kThirdParty{
     {"zlib.h", {"interpreter/show/web/gzip.cpp", "interpreter/record/use/mcap_file.cpp"}},
     {"zstd.h", {"interpreter/base/compression/"}},
     {"kainjow/", {"interpreter/author/scaffold/render.cpp"}},
+    {"sodium.h", {"interpreter/cli/tools/ticket/"}},
     {"lockstep/",
      {"interpreter/engine/leaf_call.h", "interpreter/leaves/", "interpreter/run/loading/",
       "interpreter/cli/", "interpreter/embedding/"}},

@@ -84,6 +84,9 @@ constexpr Part kLibraries[] = {
 #ifdef LOCKSTEP_ZMQ
     {LOCKSTEP_ZMQ, "`run --groot2`", "libzmq5"},
 #endif
+#ifdef LOCKSTEP_SODIUM
+    {LOCKSTEP_SODIUM, "tickets of `verify`", "libsodium23"},
+#endif
 };
 
 void look_at(const Part& part, bool is_there, Symptoms& symptoms) {

@@ -6,10 +6,10 @@
 #include <ctime>
 
 #include "base/core/crc32c.h"
-#include "base/core/version.h"
 #include "base/core/wording.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/load/tree_identity.h"
 #include "engine/tree.h"
 #include "run/checkpoint/run_bytes.h"
 
@@ -42,25 +42,12 @@ std::string value_text(const std::string& value) {
 
 }  // namespace
 
-CheckpointFacts KeptRun::identity_of(const RunCommandOptions& options, const Loaded& loaded) {
+CheckpointFacts KeptRun::facts_of(const RunCommandOptions& options, const Loaded& loaded) {
   CheckpointFacts facts;
+  facts.identity = identity_of(loaded, text_mark, [](const std::string& path) { return path; });
   const auto add = [&](std::string name, std::string value) {
     facts.identity.emplace_back(std::move(name), std::move(value));
   };
-  add("the version of lockstep", kVersion);
-  add("the main tree", std::string(loaded.definition.id));
-  for (const auto& source : loaded.project->sources.all()) {
-    add(fmt::format("the text of '{}'", source->path()), text_mark(source->text()));
-  }
-  for (const auto& [name, value] : values_of(loaded.project->arguments)) {
-    add(fmt::format("the argument '{}'", name), value);
-  }
-  for (const auto& [name, value] : loaded.values) {
-    add(fmt::format("the start value of '{}'", name), value);
-  }
-  for (const PluginSet::Info& plugin : loaded.plugins->list()) {
-    add(fmt::format("the version of the plugin '{}'", plugin.name), plugin.version);
-  }
   add("--rate", fmt::format("{}", options.rate));
   add("--tick", options.exactly_once ? "exactly-once" : "once");
   add("--on-fault", options.on_fault == FaultPolicy::Stop ? "stop" : "fail");

@@ -15,7 +15,7 @@ namespace lockstep::host {
 class KeptRun {
  public:
   // What makes the tree: before the documents are gone.
-  static CheckpointFacts identity_of(const RunCommandOptions& options, const Loaded& loaded);
+  static CheckpointFacts facts_of(const RunCommandOptions& options, const Loaded& loaded);
 
   // Opens the file, and reads it with --resume. A failure is an exit code, and reported. Nothing
   // is kept without --checkpoint.

@@ -19,6 +19,7 @@
 #include "cli/run/kept_run.h"
 #include "cli/run/mcap_recording.h"
 #include "cli/run/progress_notes.h"
+#include "cli/run/required_ticket.h"
 #include "cli/run/run_options.h"
 #include "cli/run/run_watch.h"
 #include "cli/run/service_notice.h"
@@ -541,6 +542,10 @@ int run(RunCommandOptions options) {
   if (loaded) add_advice_of_run(*loaded->project, loaded->definition, diagnostics);
   print_diagnostics(diagnostics, Severity::Warning);
   if (!loaded) return exit_code_of(loaded.error());
+  if (!options.ticket.empty()) {
+    if (const int refused = require_ticket(options, *loaded); refused != kExitSuccess)
+      return refused;
+  }
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
   StopSignals::install(last_words);
   if (!place_helpers(options)) return kExitUsage;
@@ -556,7 +561,7 @@ int run(RunCommandOptions options) {
     return kExitUsage;
   }
   if (!options.leaves.empty()) leaves.take_over(loaded->definition);
-  CheckpointFacts identity = KeptRun::identity_of(options, *loaded);
+  CheckpointFacts identity = KeptRun::facts_of(options, *loaded);
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!options.leaves.empty() && !leaves.give(runnable.tree)) return kExitUsage;

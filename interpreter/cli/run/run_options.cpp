@@ -169,6 +169,13 @@ void define_property_options(CLI::App& app, RunCommandOptions& options) {
   add_choice<bool>(
       app, "--on-violation", options.ends_on_violation, {{"warn", false}, {"end", true}},
       "When the run violates a property: warn, or also end the run, with exit code 10");
+  app.add_option("--require-ticket", options.ticket,
+                 "Run only the tree that this ticket of `lockstep verify --ticket` is for")
+      ->type_name("FILE");
+  app.add_option("--trusted", options.trusted_keys,
+                 "The ticket must be signed with one of these public keys of Ed25519, in PEM")
+      ->type_name("FILE")
+      ->needs("--require-ticket");
 }
 
 void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
@@ -335,6 +342,8 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--condition-wait",
                                       "--condition-age",
                                       "--property-file",
+                                      "--require-ticket",
+                                      "--trusted",
                                       "--record-compress",
                                       "--record-rotate",
                                       "--record-keep",

@@ -40,6 +40,8 @@ struct RunCommandOptions {
 
   PropertyOptions properties;
   bool ends_on_violation = false;
+  std::string ticket;        // of the tree; "": none is required
+  std::string trusted_keys;  // a file; "": the ticket need not be signed
 
   std::string record;
   bool record_compress = false;

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
+#include <stdexcept>
 #include <thread>
 
 #include "base/core/wording.h"
@@ -15,6 +17,7 @@
 #include "cli/load/load_options.h"
 #include "cli/load/tree_argument.h"
 #include "cli/properties.h"
+#include "cli/tools/ticket/ticket.h"
 #include "cli/tools/verify/save_scenarios.h"
 #include "cli/tools/verify/verify_report.h"
 #include "language/document/file.h"
@@ -49,7 +52,8 @@ struct VerifyOptions {
   bool symmetry = true, compact = false;
   std::uint32_t cuts = 0;
   std::string out = ".";
-  std::string save;  // a file of scenarios; "": none
+  std::string save;          // a file of scenarios; "": none
+  std::string ticket, sign;  // files; "": none
   PropertyOptions properties;
 };
 
@@ -103,7 +107,7 @@ class Places {
 };
 
 // Null: none is named. Nothing: it cannot be used, which is reported.
-std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path,
+std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path, std::string& as_text,
                                                      Diagnostics& diagnostics) {
   if (path.empty()) return nullptr;
   constexpr std::size_t kMost = std::size_t{16} << 20u;
@@ -112,9 +116,19 @@ std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path,
     diagnostics.error("unreadable-file"_code, {path}, text.error().message, text.error().hint);
     return std::nullopt;
   }
+  as_text = *text;
   auto file = read_leaf_file(path, std::move(*text), diagnostics);
   if (file == nullptr) return std::nullopt;
   return file;
+}
+
+// "2026-11-29T12:00:00Z"
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts;
+  gmtime_r(&now, &parts);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
 class VerifyCommand {
@@ -125,11 +139,12 @@ class VerifyCommand {
     auto loaded = load();
     if (!loaded) return code_;
     const Places places(*loaded);
+    if (!options_.ticket.empty()) identity_ = ticket_identity(*loaded);
     played_.take_over(loaded->definition);
     paces_ = paces(loaded->definition);
     ignore_pace(loaded->definition);
     const Runnable runnable = make_runnable(std::move(*loaded));
-    const auto file = read_leaves(options_.leaves, diagnostics_);
+    const auto file = read_leaves(options_.leaves, leaves_, diagnostics_);
     if (!file) return refuse();
     auto properties = all_properties(runnable.properties, options_.properties, [&] {
       return names_with_facts(runnable.tree,
@@ -220,7 +235,32 @@ class VerifyCommand {
       return kExitInternal;
     }
     if (!has_files) return kExitUsage;
-    return first_failure(failed, exit_code(found, verdict));
+    const int code = exit_code(found, verdict);
+    const bool is_wanted = !options_.ticket.empty();
+    if (is_wanted && (code == kExitSuccess || code == kExitLimit) && !give_ticket(report, rate))
+      return kExitUsage;
+    return first_failure(failed, code);
+  }
+
+  bool give_ticket(const VerifyReport& report, double rate) const {
+    Ticket ticket{.made = utc_now(),
+                  .identity = identity_,
+                  .rate = rate,
+                  .conclusion = conclusion(report),
+                  .is_proof = report.found.is_proof(),
+                  .leaves = leaves_,
+                  .properties = {},
+                  .assumptions = report.verdict.assumed,
+                  .key = {},
+                  .signature = {}};
+    for (const Property& it : properties_)
+      ticket.properties.push_back(it.has_name() ? fmt::format("{}: {}", it.name(), it.text())
+                                                : it.text());
+    auto done = sign_ticket(ticket, options_.sign);
+    if (done) done = write_ticket(options_.ticket, ticket);
+    if (done) return true;
+    print_error("--ticket: " + done.error().message, done.error().hint);
+    return false;
   }
 
   std::string written(const VerifyReport& report) const {
@@ -294,12 +334,24 @@ class VerifyCommand {
   PlayedLeaves played_;
   bool paces_ = false;  // nodes of the tree do
   std::vector<Property> properties_;
+  TreeIdentity identity_;  // for the ticket
+  std::string leaves_;     // the text of the leaf model
   int code_ = kExitSuccess;
 };
 
 int verify(const VerifyOptions& options) {
   keep_stdout_for_results();
-  return VerifyCommand(options).run();
+  if (!options.ticket.empty() && !options.only.empty()) {
+    print_error("--ticket and --only: a ticket is for all questions", "leave out --only");
+    return kExitUsage;
+  }
+  try {
+    return VerifyCommand(options).run();
+  } catch (const std::runtime_error& error) {
+    if (options.ticket.empty()) throw;
+    print_error(fmt::format("--ticket: {}", error.what()));  // there is no libsodium
+    return kExitUsage;
+  }
 }
 
 std::function<int()> define_verify(CLI::App& app) {
@@ -352,6 +404,13 @@ std::function<int()> define_verify(CLI::App& app) {
                  "is missing")
       ->type_name("FILE.test.xml");
   add_property_options(app, options->properties);
+  app.add_option("--ticket", options->ticket,
+                 "Without findings, write a ticket for `lockstep run --require-ticket`")
+      ->type_name("FILE");
+  app.add_option("--sign", options->sign,
+                 "Sign the ticket with this private key of Ed25519, in PEM")
+      ->type_name("KEY")
+      ->needs("--ticket");
   app.add_option("--only", options->only,
                  "Report only these findings: a name such as 'trap', in which * stands for any "
                  "part; may be repeated")

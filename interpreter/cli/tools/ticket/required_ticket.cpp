@@ -1,0 +1,75 @@
+#include "cli/run/required_ticket.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "base/terminal/outlet.h"
+#include "cli/console.h"
+#include "cli/exit_code.h"
+#include "cli/tools/ticket/ticket.h"
+#include "run/checkpoint/checkpoint.h"
+
+namespace lockstep::host {
+namespace {
+
+int refuse_ticket(const Problem& why) {
+  print_error("--require-ticket: " + why.message, why.hint);
+  return kExitInvalidTree;
+}
+
+std::string shown(const std::string& value) {
+  return value.empty() ? "nothing" : printable(value);
+}
+
+// What does not differ is not printed.
+int refuse_other_tree(const std::vector<Difference>& all) {
+  std::string more;
+  for (const Difference& it : all)
+    more += fmt::format("  {}: {} was proved, {} is given\n", printable(it.name), shown(it.kept),
+                        shown(it.now));
+  print_error("--require-ticket: this is not the tree that was proved",
+              "prove this one: lockstep verify --ticket");
+  messages().say(more);
+  return kExitInvalidTree;
+}
+
+void print_ticket(const Ticket& ticket) {
+  std::string text = fmt::format("ticket of {}: {}, at {} ticks per second\n",
+                                 printable(ticket.made), printable(ticket.conclusion), ticket.rate);
+  for (const std::string& it : ticket.properties)
+    text += fmt::format("  proved: {}\n", printable(it));
+  if (!ticket.is_proof) text += "  not proved: the search had a limit\n";
+  for (const std::string& it : ticket.assumptions)
+    text += fmt::format("  not proved, but assumed: {}\n", printable(it));
+  messages().say(text);
+}
+
+int check_ticket(RunCommandOptions& options, const Loaded& loaded) {
+  const auto ticket = read_ticket(options.ticket);
+  if (!ticket) return refuse_ticket(ticket.error());
+  if (const auto good = check_signature(*ticket, options.trusted_keys); !good)
+    return refuse_ticket(good.error());
+  CheckpointFacts kept{ticket->identity, {}, {}}, now{ticket_identity(loaded), {}, {}};
+  if (const auto all = differences(kept, now); !all.empty()) return refuse_other_tree(all);
+  if (!options.is_rate_given) options.rate = ticket->rate;
+  if (options.rate != ticket->rate) {
+    return refuse_other_tree(
+        {{"--rate", fmt::format("{}", ticket->rate), fmt::format("{}", options.rate)}});
+  }
+  print_ticket(*ticket);
+  return kExitSuccess;
+}
+
+}  // namespace
+
+int require_ticket(RunCommandOptions& options, const Loaded& loaded) {
+  try {
+    return check_ticket(options, loaded);
+  } catch (const std::runtime_error& error) {  // there is no libsodium
+    print_error(fmt::format("--require-ticket: {}", error.what()));
+    return kExitUsage;
+  }
+}
+
+}  // namespace lockstep::host
