@@ -18,6 +18,7 @@
 #include "cli/load/tree_argument.h"
 #include "cli/properties.h"
 #include "cli/tools/ticket/ticket.h"
+#include "cli/tools/verify/fmea.h"
 #include "cli/tools/verify/save_scenarios.h"
 #include "cli/tools/verify/verify_report.h"
 #include "language/document/file.h"
@@ -54,6 +55,7 @@ struct VerifyOptions {
   std::string out = ".";
   std::string save;          // a file of scenarios; "": none
   std::string ticket, sign;  // files; "": none
+  bool fmea = false, pairs = false;
   PropertyOptions properties;
 };
 
@@ -196,6 +198,7 @@ class VerifyCommand {
   int verify(const Runnable& runnable, const LeafModels& models, const Places& places) {
     const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
     StopSignals::install();
+    if (options_.fmea) return write_fmea(runnable, models, rate);
     VerdictOptions options{
         .rate = rate, .place = [&](NodeIndex node) { return places.text(node); }, .paces = paces_};
     SearchResult found = [&] {
@@ -240,6 +243,17 @@ class VerifyCommand {
     if (is_wanted && (code == kExitSuccess || code == kExitLimit) && !give_ticket(report, rate))
       return kExitUsage;
     return first_failure(failed, code);
+  }
+
+  int write_fmea(const Runnable& runnable, const LeafModels& models, double rate) const {
+    SearchLine line;
+    const std::vector<FailureRow> rows =
+        failure_table(runnable.tree, models, properties_,
+                      {.rate = rate, .pairs = options_.pairs, .limits = limits(line)});
+    const FmeaReport report{runnable.tree, properties_, rows, rate};
+    const int failed = write_results(to_text(report, options_.json ? "json" : options_.format));
+    const int signal = StopSignals::received();
+    return signal != 0 ? kExitSignal + signal : failed;
   }
 
   bool give_ticket(const VerifyReport& report, double rate) const {
@@ -341,6 +355,15 @@ class VerifyCommand {
 
 int verify(const VerifyOptions& options) {
   keep_stdout_for_results();
+  const bool is_of_fmea = options.format == "md" || options.format == "csv";
+  if (is_of_fmea && !options.fmea) {
+    print_error(fmt::format("--format {} is for --fmea", options.format));
+    return kExitUsage;
+  }
+  if (options.fmea && (options.format == "junit" || !options.ticket.empty())) {
+    print_error("--fmea prints a table: as text, md, csv or json, and without a ticket");
+    return kExitUsage;
+  }
   if (!options.ticket.empty() && !options.only.empty()) {
     print_error("--ticket and --only: a ticket is for all questions", "leave out --only");
     return kExitUsage;
@@ -415,8 +438,15 @@ std::function<int()> define_verify(CLI::App& app) {
                  "Report only these findings: a name such as 'trap', in which * stands for any "
                  "part; may be repeated")
       ->type_name("FINDING");
-  app.add_option("--format", options->format, "text, json or junit (a test for each question)")
-      ->check(one_of({"text", "json", "junit"},
+  app.add_flag(
+      "--fmea", options->fmea,
+      "In place of a verdict, print a table of failure modes and effects: what the tree does "
+      "when one leaf fails");
+  app.add_flag("--pairs", options->pairs, "With --fmea: also each two failures of different leaves")
+      ->needs("--fmea");
+  app.add_option("--format", options->format,
+                 "text, json or junit (a test for each question); of --fmea also md and csv")
+      ->check(one_of({"text", "json", "junit", "md", "csv"},
                      {"sarif", "junit is for a workflow, and json for other programs"}))
       ->capture_default_str();
   app.add_flag("--compact", options->compact,
