@@ -415,6 +415,7 @@ class Compiler {
 
   std::uint32_t add_leaf(const DefinitionNode& from) {
     const auto index = static_cast<std::uint32_t>(tree_.leaves.size());
+    if (from.type->can_be_restored) tree_.kept_leaves.push_back(index);
     tree_.leaves.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
                             .type = from.type,
                             .first_port = add_ports(from),

@@ -1,39 +1,80 @@
-// A run that goes on in a new process: the engine is as it was, but the leaves are new objects.
+#include "engine/cut.h"
+
 #include <algorithm>
 
 #include "engine/held_leaves.h"
+#include "engine/pace.h"
 #include "engine/ticker.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
 
-std::vector<std::uint32_t> Ticker::go_on_after_cut(Status result) {
-  after_cut_ = result;
+void Ticker::save_leaves(LeafBytes& into) {
+  if (tree_.kept_leaves.empty()) return;
+  into.resize(leaves_.size());
+  leaf_room_.resize(LOCKSTEP_MOST_KEPT);
+  for (const std::uint32_t place : tree_.kept_leaves) {
+    const NodeIndex node = tree_.leaves[place].node;
+    into[place].clear();
+    if (status(node) == Status::Running) save_leaf(*this, node, leaf_room_, into[place]);
+  }
+}
+
+std::vector<CutLeaf> Ticker::cut_leaves() const {
+  std::vector<CutLeaf> cut;
+  NodeIndex end = 0;  // of the last one: what is below a node of a plugin begins with it
+  for (std::uint32_t place = 0; place < leaves_.size(); ++place) {
+    const NodeIndex node = tree_.leaves[place].node;
+    if (node < end || status(node) != Status::Running || leaves_[place].failed()) continue;
+    cut.push_back({.place = place});
+    end = nodes_[node].end;
+  }
+  return cut;
+}
+
+void Ticker::ask_after_cut(CutLeaf& leaf, std::string_view bytes, lockstep_cut cut) {
+  const NodeIndex node = tree_.leaves[leaf.place].node;
+  cut.struct_size = sizeof cut;
+  cut.held = activity(node) == Activity::Paused;
+  leaf.does = ask_leaf_after_cut(*this, node, bytes, cut);
+  leaf.is_asked = true;
+}
+
+void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
   held_leaves_.reset();
   state_.tolerated.clear();
   state_.out_of_range.clear();
-  std::vector<std::uint32_t> cut;
-  for (std::uint32_t place = 0; place < leaves_.size(); ++place) {
-    LeafSlot& leaf = leaves_[place];
-    const NodeIndex node = tree_.leaves[place].node;
+  after_cut_.assign(leaves_.size(), AfterCut::BeginsAgain);
+  for (LeafSlot& leaf : leaves_) {
     leaf.set_started(false);
     leaf.out_of_range = leaf.went_on = false;
-    if (status(node) != Status::Running || leaf.failed()) continue;
-    leaf.mark(LeafSlot::kCut, true);
-    cut.push_back(place);
+  }
+  for (const CutLeaf& it : cut) {
+    LeafSlot& leaf = leaves_[it.place];
+    const NodeIndex node = tree_.leaves[it.place].node;
+    after_cut_[it.place] = it.does;
+    leaf.mark(LeafSlot::kCut, it.does != AfterCut::GoesOn);
+    leaf.set_started(it.does == AfterCut::GoesOn);
+    if (it.does == AfterCut::GoesOn) {
+      if (tree_.leaves[it.place].obeys()) state<LeafPace>(node) = {.told = 1, .taken = 1};
+      if (activity(node) == Activity::Paused) watch_held(node);
+      continue;
+    }
     for (NodeIndex at = node + 1; at < nodes_[node].end; ++at) {
       const NodeKind& kind = *nodes_[at].kind;
       if (state_.activity[at] != Activity::Idle && kind.forget != nullptr) kind.forget(*this, at);
       state_.activity[at] = Activity::Idle;
     }
   }
-  return cut;
 }
 
 Status NodeContext::begin_after_cut(NodeIndex node) {
   leaf(node).mark(LeafSlot::kCut | LeafSlot::kHeld, false);
-  if (after_cut_ == Status::Running) state_.activity[node] = Activity::Idle;
-  return after_cut_;
+  switch (after_cut_[nodes_[node].params]) {
+    case AfterCut::Failure: return Status::Failure;
+    case AfterCut::Success: return Status::Success;
+    default: state_.activity[node] = Activity::Idle; return Status::Running;
+  }
 }
 
 }  // namespace lockstep::host

@@ -16,6 +16,7 @@
 
 #include "base/system/fork_guard.h"
 #include "engine/bound_parameters.h"
+#include "engine/cut.h"
 #include "engine/leaf_slot.h"
 #include "engine/leaf_watch.h"
 #include "engine/moments.h"
@@ -240,7 +241,7 @@ class NodeContext : public RunView {
   HeldLeaves& held_leaves_;
   Readings& readings_;
   const FaultPolicy policy_;
-  Status after_cut_ = Status::Running;  // what leaves do that were cut: Running: begin again
+  std::vector<AfterCut> after_cut_;  // of each leaf, for those that were cut
   LeafWatch* const watch_;
   LeafWatch* timer_ = nullptr;  // the same while it times each call, else null
   // The mark of the ticking thread, while a leaf is called with nothing around it but this mark and

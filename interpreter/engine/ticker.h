@@ -99,11 +99,18 @@ class Ticker : public NodeContext {
   // the same tree.
   void save(SavedRun& into) const;
   void restore(const SavedRun& from);
-  // After `restore` in a new process, with leaves that have not begun. Those that ran give `result`
-  // in their next tick; Running: they begin again in it, and until then their progress is 0. One
-  // that was held stays held. What ran below a node of a plugin begins with it. Nothing is reported
-  // again. Returns the places of these leaves in Tree::leaves.
-  std::vector<std::uint32_t> go_on_after_cut(Status result = Status::Running);
+  // What the leaves keep in themselves, of those that can (NodeType::can_be_restored). A leaf that
+  // fails in this has a fault. The first call allocates, and what grows.
+  void save_leaves(LeafBytes& into);
+  // After `restore` in a new process, with leaves that have not begun: those that ran. What ran
+  // below a node of a plugin begins with it.
+  std::vector<CutLeaf> cut_leaves() const;
+  // Asks one of them, with the bytes that it kept. `cut` says what it is told, but `held`.
+  void ask_after_cut(CutLeaf& leaf, std::string_view bytes, lockstep_cut cut);
+  // Then the run goes on, with what these do. One that begins again, or has a result, does so in
+  // its next tick, and until then its progress is 0. One that was held stays held. Nothing is
+  // reported again.
+  void go_on_after_cut(std::span<const CutLeaf> cut);
   // Between two ticks: brings the state of the run to the one form that stands for all from which
   // the tree goes on in the same way, so that two of these can be compared as bytes. Time and the
   // number of the tick begin at 0 again, and nothing counts as ticked. What the leaves keep in
@@ -120,6 +127,7 @@ class Ticker : public NodeContext {
   void forget_below_ended();
 
   std::vector<GivenAnswer> answers_;  // of one tick
+  std::vector<char> leaf_room_;       // where a leaf writes what it keeps
   bool is_plain_;                     // a tick is that of the root, and nothing else
 };
 

@@ -46,6 +46,8 @@ struct LeafNode {
   std::uint32_t children = 0;     // how many
   std::uint32_t followers = 0;    // actions of plugins next to it in pre-order, up to another node
   bool is_slowed = false;         // a node above it has pace="true", and it obeys
+
+  bool obeys() const { return is_slowed && type->can_be_slowed; }
 };
 
 // A built-in node with a parameter from an entry. Its kind in Tree::nodes reads the entries and
@@ -115,7 +117,8 @@ struct Tree {
   std::vector<Cell> cells;
   std::vector<double> numbers;
   std::vector<LeafNode> leaves;
-  std::vector<NodeIndex> children;  // of the control nodes of plugins
+  std::vector<std::uint32_t> kept_leaves;  // in `leaves`: those that may go on after a cut
+  std::vector<NodeIndex> children;         // of the control nodes of plugins
   std::vector<BoundNode> bound;
   std::vector<Script> scripts;
   std::vector<BoundReading> readings;  // before each tick

@@ -21,10 +21,39 @@ struct AdvancePorts : lockstep::Ports {
   Output<double> actual{this, "actual", "its progress after each tick, neither late nor in steps"};
 };
 
-class Advance : public lockstep::ProgressAction<AdvancePorts> {
+struct AdvanceState {
+  double progress = 0;
+};
+
+class Advance : public lockstep::ProgressAction<AdvancePorts>,
+                public lockstep::Kept<AdvanceState> {
  public:
-  void start() override {
-    progress_ = 0;
+  void start() override { begin(); }
+  lockstep::AfterCut after_cut(const lockstep::Cut&) override {
+    begin();
+    set_progress(kept.progress);
+    return lockstep::AfterCut::GoesOn;
+  }
+
+  Status tick() override {
+    if (report_.is_late()) report_.sample(now(), kept.progress);
+    double change = is_noisy_ ? step.get() + drawn() : step.get();
+    if (obey_.is_told()) [[unlikely]]
+      change *= obey_.factor(now());
+    kept.progress = std::clamp(kept.progress + change, 0.0, 1.0);
+    actual.set(kept.progress);
+    set_progress(kept.progress);
+    return kept.progress >= kDone ? Status::Success : Status::Running;
+  }
+
+  void pause() override { report_.sample(now(), kept.progress); }
+  double set_pace(double factor) override { return obey_.set(factor, now()); }
+  double progress() const override {
+    return report_.of_ticks(report_.is_late() ? now() : 0, kept.progress);
+  }
+
+ private:
+  void begin() {
     report_.start(report);
     obey_.start(obey);
     is_constant_ = noise_per.view() == "run";
@@ -35,24 +64,6 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
     is_noisy_ = !noise.is_constant() || noise.get() != 0;
   }
 
-  Status tick() override {
-    if (report_.is_late()) report_.sample(now(), progress_);
-    double change = is_noisy_ ? step.get() + drawn() : step.get();
-    if (obey_.is_told()) [[unlikely]]
-      change *= obey_.factor(now());
-    progress_ = std::clamp(progress_ + change, 0.0, 1.0);
-    actual.set(progress_);
-    set_progress(progress_);
-    return progress_ >= kDone ? Status::Success : Status::Running;
-  }
-
-  void pause() override { report_.sample(now(), progress_); }
-  double set_pace(double factor) override { return obey_.set(factor, now()); }
-  double progress() const override {
-    return report_.of_ticks(report_.is_late() ? now() : 0, progress_);
-  }
-
- private:
   double drawn() {
     const double half_width = noise.get();
     return is_constant_ ? half_width * *of_run_ : uniform(-half_width, half_width);
@@ -61,7 +72,6 @@ class Advance : public lockstep::ProgressAction<AdvancePorts> {
 
   Report report_;
   Obey obey_;
-  double progress_ = 0;
   bool is_constant_ = false;
   bool is_noisy_ = true;          // false: it never is, so that no number is drawn
   std::optional<double> of_run_;  // in [-1, 1)

@@ -118,7 +118,7 @@ MEMBER_AT(lockstep_host, get_object, 216);
 MEMBER_AT(lockstep_host, set_object, 224);
 MEMBER_AT(lockstep_host, set_empty_port, 232);
 
-SIZE_IS(lockstep_leaf_type, 184);
+SIZE_IS(lockstep_leaf_type, 200);
 MEMBER_AT(lockstep_leaf_type, struct_size, 0);
 MEMBER_AT(lockstep_leaf_type, kind, 4);
 MEMBER_AT(lockstep_leaf_type, id, 8);
@@ -144,6 +144,15 @@ MEMBER_AT(lockstep_leaf_type, more_ports, 152);
 MEMBER_AT(lockstep_leaf_type, describe, 160);
 MEMBER_AT(lockstep_leaf_type, data, 168);
 MEMBER_AT(lockstep_leaf_type, set_pace, 176);
+MEMBER_AT(lockstep_leaf_type, save, 184);
+MEMBER_AT(lockstep_leaf_type, restore, 192);
+
+SIZE_IS(lockstep_cut, 24);
+MEMBER_AT(lockstep_cut, struct_size, 0);
+MEMBER_AT(lockstep_cut, power, 4);
+MEMBER_AT(lockstep_cut, held, 5);
+MEMBER_AT(lockstep_cut, gap, 8);
+MEMBER_AT(lockstep_cut, lost_ticks, 16);
 
 SIZE_IS(lockstep_fixed, 16);
 MEMBER_AT(lockstep_fixed, port, 0);

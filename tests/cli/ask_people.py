@@ -70,7 +70,8 @@ def test_answers_in_the_terminal(directory):
     run.wait_for("'nowhere' is no answer")
     run.type("3")
     run.wait_for(r"Main/Sequence/where: bin \(by terminal\)")
-    run.wait_for("Really throw gear 7 away")
+    run.wait_for(r"Really throw gear 7 away")
+    run.wait_for(r"\(1 to 2\) ")  # what was typed before is no answer
     run.type("no")
     run.wait_for(r"sure: no \(by terminal\)")
     code, out = run.end()

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "support/paths.h"
 #include "support/program.h"
@@ -123,6 +124,51 @@ TEST_CASE("a run that a kill ends goes on to the results that it would have had"
       CHECK_FALSE(holds(read_file(run.log()), "before it begins"));
       CHECK_FALSE(holds(read_file(run.log()), "is halted") !=
                   (text.find("Timeout") != std::string::npos));
+      ++cuts;
+    }
+    CHECK(cuts >= 6);
+  }
+}
+
+// The trees with leaves that go on.
+std::vector<std::string> moving_trees() {
+  std::vector<std::string> trees = kTrees;
+  for (std::string& text : trees) {
+    for (auto at = text.find("<Step "); at != text.npos; at = text.find("<Step ", at + 1)) {
+      text.replace(at, 6, "<Move ");
+    }
+  }
+  return trees;
+}
+
+// What each leaf says, without the lines that only a cut makes: in the tick that is lost it may have said
+// the same.
+std::map<std::string, std::vector<std::string>> moves(const CutRun& run) {
+  std::map<std::string, std::vector<std::string>> of;
+  for (const std::string& line : run.said()) {
+    auto& list = of[line.substr(0, line.find(' '))];
+    const bool is_of_cut =
+        line.ends_with("goes on after the cut") || line.ends_with("is still held");
+    if (!is_of_cut && (list.empty() || list.back() != line)) list.push_back(line);
+  }
+  return of;
+}
+
+TEST_CASE("leaves that keep their state go on where they were, held or not, and begin once") {
+  for (const std::string& text : moving_trees()) {
+    INFO(text);
+    CutRun run(text);
+    REQUIRE(run.go().code == 0);
+    const auto expected = moves(run);
+    int cuts = 0;
+    for (int tick = 0; tick < 25; ++tick) {
+      INFO("cut at tick " << tick);
+      run.forget();
+      if (run.cut(tick).code == 0) break;
+      const Outcome outcome = run.resume();
+      INFO(outcome.err << read_file(run.log()));
+      CHECK(outcome.code == 0);
+      CHECK(moves(run) == expected);
       ++cuts;
     }
     CHECK(cuts >= 6);

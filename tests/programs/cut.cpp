@@ -1,12 +1,15 @@
-// A leaf that says in the file LOG what happens to it, and ends its process in the middle of a tick
+// Leaves that say in the file LOG what happens to them, and end their process in the middle of a tick
 // at the time CUT_AT of the run.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <lockstep/leaf.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -48,7 +51,7 @@ class Step : public lockstep::ProgressAction<StepPorts> {
     return share();
   }
 
- private:
+ protected:
   double share() const { return static_cast<double>(done_) / static_cast<double>(ticks.get()); }
   void say(const char* what) const {
     const char* const log = std::getenv("LOG");
@@ -63,6 +66,29 @@ class Step : public lockstep::ProgressAction<StepPorts> {
   std::int64_t done_ = -1;
 };
 
+// A Step that goes on after a cut, over the two functions.
+class Move : public Step {
+ public:
+  std::size_t save(void* bytes, std::size_t room) const override {
+    const std::string text = std::to_string(done_);
+    std::memcpy(bytes, text.data(), std::min(text.size(), room));
+    return text.size();
+  }
+  lockstep::AfterCut restore(std::string_view bytes, const lockstep::Cut& cut) override {
+    const char* const what = std::getenv("AFTER_CUT");
+    const std::string word = what == nullptr ? "go on" : what;
+    if (word == "begin") return lockstep::AfterCut::BeginsAgain;
+    if (word == "fail") return lockstep::AfterCut::CannotGoOn;
+    if (word == "throw") throw std::runtime_error("the arm is gone");
+    if (cut.power || !(cut.gap >= 0) || cut.lost_ticks != 1) say("has another cut");
+    done_ = std::stoll(std::string(bytes));
+    set_progress(share());
+    say(cut.held ? "is still held" : "goes on after the cut");
+    return lockstep::AfterCut::GoesOn;
+  }
+};
+
 }  // namespace
 
-LOCKSTEP_PLUGIN("cut", "1.0", "Ends its process", lockstep::leaf<Step>("Step", "Counts ticks."));
+LOCKSTEP_PLUGIN("cut", "1.0", "Ends its process", lockstep::leaf<Step>("Step", "Counts ticks."),
+                lockstep::leaf<Move>("Move", "Counts ticks, also over a cut."));

@@ -78,17 +78,18 @@ class Walk {
   void check_as_bytes(int from, const ScriptedRun::Saved& saved, const std::vector<Seen>& seen,
                       const Again& another) {
     std::string bytes;
-    append_bytes(saved.engine, bytes);
+    append_bytes(saved.engine, {}, bytes);
     const auto run = another();
     ScriptedRun::Saved read{.engine = {}, .leaves = saved.leaves, .tree_tick = saved.tree_tick};
-    REQUIRE(read_bytes(bytes, run->tree(), read.engine));
+    LeafBytes leaves;
+    REQUIRE(read_bytes(bytes, run->tree(), read.engine, leaves));
     std::string again;
-    append_bytes(read.engine, again);
+    append_bytes(read.engine, leaves, again);
     REQUIRE(again == bytes);
-    CHECK_FALSE(read_bytes(bytes + '\0', run->tree(), read.engine));
+    CHECK_FALSE(read_bytes(bytes + '\0', run->tree(), read.engine, leaves));
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 20) {
       SavedRun none;
-      CHECK_FALSE(read_bytes(std::string_view(bytes).substr(0, size), run->tree(), none));
+      CHECK_FALSE(read_bytes(std::string_view(bytes).substr(0, size), run->tree(), none, leaves));
     }
     run->go_on_as(read);
     Walk walk(*run, period_, before_);
@@ -134,8 +135,10 @@ void check_cut(const Trial& trial, int from) {
   run.ticker().save(saved);
   ScriptedRun again(*tree, leaves_text(trial.plan));
   again.ticker().restore(saved);
-  for (const std::uint32_t place : again.ticker().go_on_after_cut()) {
-    const NodeIndex node = tree->leaves[place].node;
+  const auto cut = again.ticker().cut_leaves();
+  again.ticker().go_on_after_cut(cut);
+  for (const CutLeaf& leaf : cut) {
+    const NodeIndex node = tree->leaves[leaf.place].node;
     REQUIRE(again.ticker().activity(node) == run.ticker().activity(node));
     REQUIRE(again.ticker().progress(node) == 0);
   }
@@ -176,11 +179,14 @@ TEST_CASE("after a cut, a leaf that was held stays held, and others may have a r
   run.ticker().save(saved);
   ScriptedRun again("ParallelAbsolute[barriers=0.5](a b)", "a+.5 b+.1");
   again.ticker().restore(saved);
-  CHECK(again.ticker().go_on_after_cut().size() == 2);
+  auto cut = again.ticker().cut_leaves();
+  REQUIRE(cut.size() == 2);
+  again.ticker().go_on_after_cut(cut);
   CHECK(again.ticker().held(1));
   ScriptedRun failed("ParallelAbsolute[barriers=0.5](a b)", "a+.5 b+.1");
   failed.ticker().restore(saved);
-  failed.ticker().go_on_after_cut(Status::Failure);
+  for (CutLeaf& leaf : cut) leaf.does = AfterCut::Failure;
+  failed.ticker().go_on_after_cut(cut);
   CHECK(failed.tick(from_seconds(0.3)) == Status::Failure);
   CHECK(failed.events.empty());
 }

@@ -41,6 +41,8 @@ enum class PluginFunction : std::uint8_t {
   FromBytes,
   Reads,
   SetPace,
+  Save,
+  Restore,
   End,  // of a thread or the process: destructors of static objects, and what atexit was given
 };
 

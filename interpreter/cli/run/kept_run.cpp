@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 
 #include "base/core/crc32c.h"
 #include "base/core/wording.h"
+#include "base/system/boot_id.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/tree_identity.h"
@@ -38,6 +40,55 @@ std::string nodes_mark(const Tree& tree) {
 
 std::string value_text(const std::string& value) {
   return value.empty() ? "nothing" : "'" + printable(value) + "'";
+}
+
+lockstep_cut cut_of(const Checkpoint& from, const RunCommandOptions& options, Nanoseconds period) {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  const Nanoseconds gap = std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec) - from.written;
+  const bool power = from.boot != boot_id();
+  const Nanoseconds sync = power ? CheckpointWriter::longest_sync(options.sync()) : Nanoseconds(0);
+  const std::uint64_t ticks = (CheckpointWriter::pause_of(period) + sync) / period + 2;
+  return {.struct_size = sizeof(lockstep_cut),
+          .power = power,
+          .held = false,
+          .gap = std::max(to_seconds(gap), 0.0),
+          .lost_ticks = options.is_real() ? ticks : power ? UINT64_MAX : 1};
+}
+
+// "starts again", of one leaf, or of several.
+std::string_view what_it_does(const CutLeaf& leaf, bool is_one) {
+  switch (leaf.does) {
+    case AfterCut::BeginsAgain: return is_one ? "starts again" : "start again";
+    case AfterCut::GoesOn: return is_one ? "continues" : "continue";
+    case AfterCut::Success: return is_one ? "counts as succeeded" : "count as succeeded";
+    case AfterCut::Failure: break;
+  }
+  if (leaf.is_asked) return "cannot continue";
+  return is_one ? "counts as failed" : "count as failed";
+}
+
+// "; 'Main/left' continues at 0.42; 'Main/right' starts again".
+std::string what_they_do(const std::vector<CutLeaf>& cut, Ticker& ticker) {
+  std::map<std::string_view, std::vector<std::string>> paths;  // by what one of them does
+  std::map<std::string_view, std::string_view> of_several;
+  std::string text;
+  for (const CutLeaf& leaf : cut) {
+    const NodeIndex node = ticker.tree().leaves[leaf.place].node;
+    const std::string path = ticker.tree().path(node);
+    if (leaf.does == AfterCut::GoesOn) {
+      text += fmt::format("; '{}' {} at {:.2g}", path, what_it_does(leaf, true),
+                          ticker.progress(node));
+    } else {
+      of_several[what_it_does(leaf, true)] = what_it_does(leaf, false);
+      paths[what_it_does(leaf, true)].push_back(path);
+    }
+  }
+  for (const auto& [what, of] : paths) {
+    const std::vector<std::string_view> names(of.begin(), of.end());
+    text += fmt::format("; {} {}", listed(names), of.size() == 1 ? what : of_several[what]);
+  }
+  return text;
 }
 
 }  // namespace
@@ -121,7 +172,7 @@ int KeptRun::refuse(const KeptCheckpoint& kept) {
                 hint + ", or give a larger --resume-limit");
     return kExitLeafFault;
   }
-  if (!read_bytes(kept.checkpoint.run, tree_, saved_)) {
+  if (!read_bytes(kept.checkpoint.run, tree_, saved_, leaves_)) {
     print_error(begin + "is damaged: its state is not one of this tree", hint);
     return kExitInvalidTree;
   }
@@ -132,7 +183,7 @@ bool KeptRun::begin(Run& run, std::function<void(const std::string& error)> on_e
   if (run.fault() != nullptr) return true;
   if (from_) go_on(run);
   writer_.emplace(std::move(file_),
-                  CheckpointOptions{.sync = from_seconds(options_.checkpoint_sync_ms / 1e3),
+                  CheckpointOptions{.sync = options_.sync(),
                                     .period = run.period(),
                                     .real_time = options_.is_real(),
                                     .on_error = std::move(on_error)});
@@ -150,28 +201,18 @@ LoopOptions::Before KeptRun::before() const {
 
 void KeptRun::go_on(Run& run) {
   const InEngine scope(run.blackboard().lock.get());
-  run.ticker().restore(saved_);
-  const auto cut = run.ticker().go_on_after_cut(options_.on_resume);
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  const Nanoseconds gap =
-      std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec) - from_->written;
-  resumed_ = "resumed after " + duration_text(gap);
-  if (cut.empty()) return;
-  std::vector<std::string> paths;
-  for (const std::uint32_t leaf : cut) paths.push_back(tree_.path(tree_.leaves[leaf].node));
-  const std::vector<std::string_view> names(paths.begin(), paths.end());
-  resumed_ +=
-      fmt::format("; {} {}", printable(listed(names)), what_cut_leaves_do(names.size() == 1));
-}
-
-// "starts again", of one leaf, or of several.
-std::string_view KeptRun::what_cut_leaves_do(bool is_one) const {
-  if (options_.on_resume == Status::Running) return is_one ? "starts again" : "start again";
-  if (options_.on_resume == Status::Success) {
-    return is_one ? "counts as succeeded" : "count as succeeded";
+  Ticker& ticker = run.ticker();
+  ticker.restore(saved_);
+  const lockstep_cut told = cut_of(*from_, options_, run.period());
+  std::vector<CutLeaf> cut = ticker.cut_leaves();
+  for (CutLeaf& leaf : cut) {
+    leaf.does = options_.on_resume;
+    const bool has_kept = leaf.place < leaves_.size() && !leaves_[leaf.place].empty();
+    if (has_kept) ticker.ask_after_cut(leaf, leaves_[leaf.place], told);
   }
-  return is_one ? "counts as failed" : "count as failed";
+  ticker.go_on_after_cut(cut);
+  resumed_ = fmt::format("resumed after {}{}", duration_text(from_seconds(told.gap)),
+                         printable(what_they_do(cut, ticker)));
 }
 
 std::string KeptRun::error() const {

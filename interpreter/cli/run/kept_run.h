@@ -32,7 +32,7 @@ class KeptRun {
     if (writer_) writer_->end();
   }
 
-  // "resumed after 35 s; 'Main/left' starts again"; "": it has begun.
+  // "resumed after 35 s; 'Main/left' continues at 0.42; 'Main/right' starts again"; "": it has begun.
   const std::string& resumed() const { return resumed_; }
   // Why nothing is kept any more, and since when; "": all is.
   std::string error() const;
@@ -43,7 +43,6 @@ class KeptRun {
   int read();
   int refuse(const KeptCheckpoint& kept);
   void go_on(Run& run);
-  std::string_view what_cut_leaves_do(bool is_one) const;
 
   const RunCommandOptions& options_;
   CheckpointFacts facts_;
@@ -51,6 +50,7 @@ class KeptRun {
   std::unique_ptr<CheckpointFile> file_;  // until the writer has it
   std::optional<Checkpoint> from_;        // what the run goes on from
   SavedRun saved_;                        // its state
+  LeafBytes leaves_;                      // what its leaves kept
   std::string resumed_;
   std::optional<CheckpointWriter> writer_;
 };

@@ -266,11 +266,12 @@ void define_checkpoint_options(CLI::App& app, RunCommandOptions& options) {
                "Continue the run of --checkpoint that a kill, a crash or a power cut ended; if "
                "there is none, start a new run")
       ->needs("--checkpoint");
-  add_choice<Status>(
-      app, "--on-resume", options.on_resume,
-      {{"restart", Status::Running}, {"failure", Status::Failure}, {"success", Status::Success}},
-      "With --resume: leaves that ran at the cut start again, or count as Failure or "
-      "as Success in their next tick");
+  add_choice<AfterCut>(app, "--on-resume", options.on_resume,
+                       {{"restart", AfterCut::BeginsAgain},
+                        {"failure", AfterCut::Failure},
+                        {"success", AfterCut::Success}},
+                       "With --resume: leaves that ran at the cut and cannot continue start again, "
+                       "or count as Failure or as Success in their next tick");
   app.add_option("--resume-limit", options.resume_limit,
                  "End with exit code 5 instead of resuming more often than N times in a row "
                  "without a leaf that completes")

@@ -50,7 +50,7 @@ struct RunCommandOptions {
   std::string checkpoint;  // "": the run is not kept
   double checkpoint_sync_ms = 100;
   bool resumes = false;                // where the checkpoint is of a run that has not ended
-  Status on_resume = Status::Running;  // of leaves that ran at the cut; Running: they begin again
+  AfterCut on_resume = AfterCut::BeginsAgain;  // of leaves that ran at the cut
   std::uint64_t resume_limit = 3;      // in a row
   // Where the run pauses, for who types.
   std::vector<std::string> breaks, break_conditions;
@@ -71,6 +71,7 @@ struct RunCommandOptions {
   std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
   bool groot2_control = false;        // it may pause the run
 
+  Nanoseconds sync() const { return from_seconds(checkpoint_sync_ms / 1e3); }
   bool is_real() const { return clock != "virtual"; }  // time passes by itself
   bool has_plugin_clock() const { return is_real() && clock != "wall"; }
   // None on the virtual clock and with --tick-budget 0.

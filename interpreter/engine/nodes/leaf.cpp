@@ -352,6 +352,41 @@ std::optional<double> look_at_progress(NodeContext& context, NodeIndex node) {
   return reported >= 0.0 && reported <= 1.0 ? std::optional(reported) : std::nullopt;
 }
 
+void save_leaf(NodeContext& context, NodeIndex node, std::span<char> room, std::string& into) {
+  LeafSlot& leaf = context.leaf(node);
+  if (leaf.is_out()) return;
+  std::size_t size = 0;
+  guarded(context, node, PluginFunction::Save, [&](const LeafSlot& it) {
+    size = it.type->save(it.self, room.data(), room.size());
+  });
+  if (take_error(context, node, leaf) || is_out(context, leaf)) return;
+  if (size <= room.size()) {
+    into.assign(room.data(), size);
+  } else {
+    context.set_fault(node, "keeps " + std::to_string(size) + " bytes for a checkpoint, at most " +
+                                std::to_string(room.size()) + " are kept");
+  }
+}
+
+AfterCut ask_leaf_after_cut(NodeContext& context, NodeIndex node, std::string_view bytes,
+                            const lockstep_cut& cut) {
+  LeafSlot& leaf = context.leaf(node);
+  lockstep_after_cut answer = LOCKSTEP_BEGINS_AGAIN;
+  guarded(context, node, PluginFunction::Restore, [&](const LeafSlot& it) {
+    answer = it.type->restore(it.self, bytes.data(), bytes.size(), &cut);
+  });
+  if (take_error(context, node, leaf) || is_out(context, leaf)) return AfterCut::BeginsAgain;
+  switch (answer) {
+    case LOCKSTEP_BEGINS_AGAIN: return AfterCut::BeginsAgain;
+    case LOCKSTEP_GOES_ON: return AfterCut::GoesOn;
+    case LOCKSTEP_CANNOT_GO_ON: return AfterCut::Failure;
+    default: break;
+  }
+  context.set_fault(node, "returned " + std::to_string(answer) +
+                              " from restore, expected a lockstep_after_cut of lockstep/leaf.h");
+  return AfterCut::BeginsAgain;
+}
+
 extern const NodeKind kObeyingAction;
 
 const NodeKind kPluginAction{

@@ -307,6 +307,8 @@ const NodeType* PlayedLeaves::add_type(const NodeType& from) {
     type.leaf.behavior = type.node.leaf->behavior;
   }
   type.leaf.set_pace = nullptr;       // what it does is given
+  type.leaf.save = nullptr;
+  type.leaf.restore = nullptr;
   type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
   if (!type.node.has_progress) type.leaf.progress = nullptr;
   type.node.mock = nullptr;

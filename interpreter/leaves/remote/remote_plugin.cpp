@@ -72,6 +72,8 @@ const lockstep_leaf_type& proxy_leaf_type() {
     type.resume = call<&RemoteLeaf::resume>;
     type.progress = call<&RemoteLeaf::progress>;
     type.set_pace = call<&RemoteLeaf::set_pace, double>;
+    type.save = call<&RemoteLeaf::save, void*, std::size_t>;
+    type.restore = call<&RemoteLeaf::restore, const void*, std::size_t, const lockstep_cut*>;
     return type;
   }();
   return kType;

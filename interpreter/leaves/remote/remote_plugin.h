@@ -30,6 +30,11 @@ class RemoteLeaf : public ProcessLeaf {
   virtual void resume() = 0;
   virtual double progress() = 0;
   virtual double set_pace(double /*factor*/) { return 1; }
+  virtual std::size_t save(void* /*bytes*/, std::size_t /*room*/) { return 0; }
+  virtual lockstep_after_cut restore(const void* /*bytes*/, std::size_t /*size*/,
+                                     const lockstep_cut* /*cut*/) {
+    return LOCKSTEP_BEGINS_AGAIN;
+  }
   // The last call.
   virtual void end() = 0;
 

@@ -32,6 +32,7 @@ struct Checkpoint {
   std::uint64_t ticks = 0;    // so many are done
   Nanoseconds time{0};        // of the last one, since the run began
   Nanoseconds written{0};     // since 1970
+  std::string boot;           // boot_id()
   std::string note;
   std::string run;  // append_bytes()
 };

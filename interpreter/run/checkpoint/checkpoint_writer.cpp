@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "base/system/boot_id.h"
 #include "base/system/own_thread.h"
 #include "engine/tree.h"
 #include "run/checkpoint/run_bytes.h"
@@ -27,6 +28,15 @@ bool is_action(const Tree& tree, NodeIndex node) {
 
 }  // namespace
 
+Nanoseconds CheckpointWriter::pause_of(Nanoseconds period) {
+  constexpr Nanoseconds kOften = std::chrono::milliseconds(1), kSeldom = kOften * 10;
+  return std::clamp(period / 2, kOften, kSeldom);
+}
+
+Nanoseconds CheckpointWriter::longest_sync(Nanoseconds sync) {
+  return std::max(sync, kSyncOfTime);
+}
+
 CheckpointWriter::CheckpointWriter(std::unique_ptr<CheckpointFile> file, CheckpointOptions options)
     : options_(std::move(options)), file_(std::move(file)) {}
 
@@ -34,16 +44,16 @@ CheckpointWriter::~CheckpointWriter() {
   stop();
 }
 
-bool CheckpointWriter::begin(const Ticker& ticker, const CheckpointFacts& facts,
+bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts,
                              std::uint64_t ticks, std::uint32_t resumes) {
   head_.ticks = ticks;
   kept_.store(ticks, std::memory_order_release);
   head_.resumes = resumes;
+  head_.boot = boot_id();
   running_.reserve(ticker.tree().nodes.size());
   note_results(ticker);
   Snapshot first;
-  fill(first, ticker);
-  if (!lost_.empty()) return false;
+  if (!fill(first, ticker)) return false;
   std::string bytes;
   append_facts(facts, bytes);
   if (!file_->begin(std::move(bytes), first.bytes)) return false;
@@ -74,17 +84,21 @@ void CheckpointWriter::note_results(const Ticker& ticker) {
   }
 }
 
-void CheckpointWriter::fill(Snapshot& snapshot, const Ticker& ticker) {
+// False: the run has no state that can be kept.
+bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
+  ticker.save_leaves(leaves_);
+  if (ticker.faulted()) return false;
   ticker.save(saved_);
   if (const auto entry = entry_with_object(saved_, ticker.tree())) [[unlikely]] {
-    return lose(fmt::format("the entry '{}' holds an object, which no checkpoint has", *entry));
+    lose(fmt::format("the entry '{}' holds an object, which no checkpoint has", *entry));
+    return false;
   }
   head_.time = ticker.now();
   head_.written = wall_time();
   snapshot.bytes.clear();
   append_head(head_, snapshot.bytes);
   const std::size_t head = snapshot.bytes.size();
-  const std::size_t passing = append_bytes(saved_, snapshot.bytes);
+  const std::size_t passing = append_bytes(saved_, leaves_, snapshot.bytes);
   const std::string_view lasting = std::string_view(snapshot.bytes).substr(head + passing);
   if (lasting != lasting_) {
     lasting_ = lasting;
@@ -93,15 +107,15 @@ void CheckpointWriter::fill(Snapshot& snapshot, const Ticker& ticker) {
   snapshot.ticks = head_.ticks;
   snapshot.number = ++number_;
   snapshot.changes = changes_;
+  return true;
 }
 
-void CheckpointWriter::after_tick(const Ticker& ticker, std::uint64_t ticks) {
+void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks) {
   if (!lost_.empty()) return;
   if (failed_.load(std::memory_order_acquire)) return lose(file_->error());
   head_.ticks = ticks;
   note_results(ticker);
-  fill(snapshots_.back(), ticker);
-  if (!lost_.empty()) return;
+  if (!fill(snapshots_.back(), ticker)) return;
   snapshots_.publish();
   if (options_.real_time) return;
   flush();
@@ -158,9 +172,7 @@ void CheckpointWriter::flush() {
 
 // Rung only where time stands still: else it looks twice a tick, but not too often.
 void CheckpointWriter::write_until_stopped() {
-  constexpr Nanoseconds kOften = std::chrono::milliseconds(1), kSeldom = kOften * 10;
-  const Nanoseconds pause =
-      options_.real_time ? std::clamp(options_.period / 2, kOften, kSeldom) : kSyncOfTime;
+  const Nanoseconds pause = options_.real_time ? pause_of(options_.period) : kSyncOfTime;
   std::uint64_t synced = 0, written = 0;  // changes
   Nanoseconds synced_at = monotonic_now();
   while (true) {
@@ -177,7 +189,7 @@ void CheckpointWriter::write_until_stopped() {
     }
     const Nanoseconds since = monotonic_now() - synced_at;
     if (stops ||
-        since >= (written != synced ? options_.sync : std::max(options_.sync, kSyncOfTime))) {
+        since >= (written != synced ? options_.sync : longest_sync(options_.sync))) {
       is_good = is_good && file_->sync();
       synced = written;
       synced_at = monotonic_now();

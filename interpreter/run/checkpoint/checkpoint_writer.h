@@ -30,6 +30,12 @@ struct CheckpointOptions {
 
 class CheckpointWriter {
  public:
+  // Where time passes by itself: so long after a tick its state is written at the latest, with the
+  // time of the write.
+  static Nanoseconds pause_of(Nanoseconds period);
+  // So long after that it is synced, where nothing but time changes.
+  static Nanoseconds longest_sync(Nanoseconds sync);
+
   CheckpointWriter(std::unique_ptr<CheckpointFile> file, CheckpointOptions options);
   // Leaves the run unfinished.
   ~CheckpointWriter();
@@ -38,10 +44,10 @@ class CheckpointWriter {
 
   // Before the first tick, of a run that has `ticks` ticks behind it, and was resumed so often in a
   // row. Returns once it is synced. False: error() says why.
-  bool begin(const Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
+  bool begin(Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
              std::uint32_t resumes);
   // After a tick, so many in all.
-  void after_tick(const Ticker& ticker, std::uint64_t ticks);
+  void after_tick(Ticker& ticker, std::uint64_t ticks);
   // The run has ended in order.
   void end();
 
@@ -58,7 +64,7 @@ class CheckpointWriter {
     std::uint64_t changes = 0;  // so often something but time has changed before it
   };
   void note_results(const Ticker& ticker);
-  void fill(Snapshot& snapshot, const Ticker& ticker);
+  bool fill(Snapshot& snapshot, Ticker& ticker);
   void lose(const std::string& why);
   void flush();
   void write_until_stopped();
@@ -70,6 +76,7 @@ class CheckpointWriter {
 
   Checkpoint head_;  // of the next snapshot, without the run
   SavedRun saved_;
+  LeafBytes leaves_;
   std::string lasting_;  // of the last snapshot: what not only time changes
   std::uint64_t changes_ = 0, number_ = 0;
   std::vector<NodeIndex> running_;  // actions, before the tick; while there were resumes

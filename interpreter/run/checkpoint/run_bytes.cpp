@@ -181,20 +181,22 @@ bool fits(const std::vector<Entry>& entries, const Tree& tree) {
 
 }  // namespace
 
-std::size_t append_bytes(const SavedRun& run, std::string& to) {
+std::size_t append_bytes(const SavedRun& run, const LeafBytes& leaves, std::string& to) {
   ByteWriter writer(to);
   const std::size_t begin = to.size();
   passing(writer, run.run);
   const std::size_t size = to.size() - begin;
   lasting(writer, run);
+  writer(leaves);
   return size;
 }
 
-bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into) {
+bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into, LeafBytes& leaves) {
   ByteReader reader(bytes);
   passing(reader, into.run);
   lasting(reader, into);
-  if (!reader.is_whole() || !fits(into.run, tree) || !fits(into.parameters, tree) ||
+  reader(leaves);
+  if ((!leaves.empty() && leaves.size() != tree.leaves.size()) || !reader.is_whole() || !fits(into.run, tree) || !fits(into.parameters, tree) ||
       !fits(into.held_leaves, tree.nodes.size()) || !fits(into.entries, tree) ||
       into.named.size() != tree.boards.size() || into.leaves.size() != tree.leaves.size()) {
     return false;

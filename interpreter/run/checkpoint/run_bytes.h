@@ -8,17 +8,20 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/cut.h"
 #include "engine/saved_run.h"
 
 namespace lockstep::host {
 
 struct Tree;
 
-// Appends them. Returns the size of their beginning, in which time alone changes something.
-std::size_t append_bytes(const SavedRun& run, std::string& to);
+// Appends them, with what the leaves keep. Returns the size of their beginning, in which time alone
+// changes something.
+std::size_t append_bytes(const SavedRun& run, const LeafBytes& leaves, std::string& to);
 
-// False: they are not those of a run of such a tree. Then `into` means nothing.
-[[nodiscard]] bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into);
+// False: they are not those of a run of such a tree. Then `into` and `leaves` mean nothing.
+[[nodiscard]] bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into,
+                              LeafBytes& leaves);
 
 // Of each node, for who does not have the tree. Empty: these are no such bytes.
 std::vector<Activity> activities_in(std::string_view bytes);

@@ -30,7 +30,7 @@ import sys
 import threading
 import traceback
 
-__all__ = ["Action", "Condition", "Failed", "Fixed", "InOut", "Output", "Port", "Refused", "Skipped", "Waiting", "say",
+__all__ = ["Action", "Condition", "Cut", "Failed", "Fixed", "InOut", "Output", "Port", "Refused", "Skipped", "Waiting", "say",
            "serve"]
 
 PROTOCOL = 1
@@ -62,6 +62,14 @@ class Waiting(str):
     def __new__(cls, *text):
         _one_text(Waiting, text)
         return super().__new__(cls, *text)
+
+
+class Cut:
+    """How the process of the run ended before this one: whether the machine was off (power), whether the leaf got no
+    ticks then (held), how many seconds ago (gap), and how many ticks the run may have forgotten (lost_ticks)."""
+
+    def __init__(self, power, held, gap, lost_ticks):
+        self.power, self.held, self.gap, self.lost_ticks = power, held, gap, lost_ticks
 
 
 class Port:
@@ -109,7 +117,7 @@ def _plain(value):
 
 # What a leaf has in addition to its ports.
 _TAKEN = {"behavior", "clock", "describe", "halt", "log", "more_ports", "name", "now", "path", "pause",
-          "period", "progress", "random", "real_time", "resume", "set_pace", "start", "tick"}
+          "period", "progress", "random", "real_time", "restore", "resume", "save", "set_pace", "start", "tick"}
 
 
 class _Attribute:
@@ -214,13 +222,19 @@ class _Leaf:
         return hasattr(cls, "pause") or hasattr(cls, "resume")
 
     @classmethod
+    def _is_kept(cls):
+        if hasattr(cls, "save") != hasattr(cls, "restore"):
+            raise TypeError(f"{cls.__name__} has one of save and restore: a leaf that goes on after a cut has both")
+        return hasattr(cls, "save")
+
+    @classmethod
     def _fact(cls):
         fact = {"id": cls.__name__, "kind": cls._kind, "doc": " ".join((cls.__doc__ or "").split()),
                 "ports": [port.fact for port in cls._ports.values()]}
         if cls.more_ports:
             fact["more_ports"] = [cls.more_ports] if isinstance(cls.more_ports, str) else list(cls.more_ports)
         flags = {"progress": hasattr(cls, "progress"), "set_pace": hasattr(cls, "set_pace"), "real_time": cls.real_time,
-                 "pause": cls._pauses(), "answers_pause": cls._pauses()}
+                 "restore": cls._is_kept(), "pause": cls._pauses(), "answers_pause": cls._pauses()}
         said = {"behavior": {word: str(value) for word, value in cls.behavior.items()}} if cls.behavior else {}
         return fact | {name: True for name, is_set in flags.items() if is_set} | said
 
@@ -290,10 +304,43 @@ class _Server:
 
     def start(self, leaf, request):
         self.broken.discard(leaf._number)
-        leaf._values, leaf._set, leaf._has_started, leaf._has_ports = {}, {}, False, True
-        self.update(leaf, request)
+        self.begin(leaf, request)
         self.call(leaf, "start")
         leaf._has_started = True
+
+    def begin(self, leaf, request):
+        leaf._values, leaf._set, leaf._has_started, leaf._has_ports = {}, {}, False, True
+        leaf._kept = None
+        self.update(leaf, request)
+
+    def restore(self, leaf, request):
+        self.broken.discard(leaf._number)
+        self.begin(leaf, request)
+        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks")})
+        try:
+            goes_on = leaf.restore(json.loads(request["kept"]), cut)
+        except Failed:
+            return say(leaf=leaf._number, done=True, after_cut="cannot go on")
+        if goes_on not in (None, True, False):
+            raise ValueError(f"restore returned {goes_on!r}, expected True (it goes on) or False (it begins again)")
+        leaf._has_started = goes_on is not False
+        answer = {"after_cut": "goes on", **self.progress(leaf)} if leaf._has_started else {}
+        say(leaf=leaf._number, done=True, **answer)
+
+    @staticmethod
+    def progress(leaf):
+        return {"progress": _progress(leaf)} if hasattr(leaf, "progress") else {}
+
+    @staticmethod
+    def kept(leaf):
+        "What is to be kept of it, if that has changed."
+        if not hasattr(leaf, "save"):
+            return {}
+        kept = json.dumps(leaf.save(), separators=(",", ":"), allow_nan=False)
+        if kept == leaf._kept:
+            return {}
+        leaf._kept = kept
+        return {"kept": kept}
 
     def tick(self, leaf, request):
         self.update(leaf, request)
@@ -307,8 +354,9 @@ class _Server:
         answer = {"leaf": leaf._number, "status": _status(leaf, result)}
         if reason:
             answer["reason"] = reason.encode("utf-8", "replace").decode()  # a name of a file may be no UTF-8
-        if hasattr(leaf, "progress"):
-            answer["progress"] = _progress(leaf)
+        answer |= self.progress(leaf)
+        if answer["status"] == "running":
+            answer |= self.kept(leaf)
         if leaf._set:
             answer["set"], leaf._set = leaf._set, {}
         say(**answer)
@@ -322,7 +370,7 @@ class _Server:
         if leaf._number not in self.broken:
             self.call(leaf, "pause")
         if leaf._pauses():
-            say(leaf=leaf._number, done=True)
+            say(leaf=leaf._number, done=True, **self.kept(leaf))
 
     def resume(self, leaf, request):
         self.call(leaf, "resume")

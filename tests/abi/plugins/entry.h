@@ -168,6 +168,8 @@ static const lockstep_leaf_type the_leaf_type = {LEAF_SIZE,
                                                  LEAF_MORE_PORTS,
                                                  LEAF_DESCRIBE,
                                                  LEAF_DATA,
+                                                 NULL,
+                                                 NULL,
                                                  NULL};
 MAYBE_UNUSED static const lockstep_leaf_type* const the_leaf_types[] = {&the_leaf_type,
                                                                         &the_leaf_type};

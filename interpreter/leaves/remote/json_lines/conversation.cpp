@@ -34,7 +34,7 @@ std::string command_by_hand(const std::string& path, const std::string& leafhost
 }  // namespace
 
 const char* name_of(Conversation::Asked asked) {
-  constexpr const char* kNames[] = {"nothing", "create", "tick", "pause", "halt"};
+  constexpr const char* kNames[] = {"nothing", "create", "restore", "tick", "pause", "halt"};
   return kNames[static_cast<std::size_t>(asked)];
 }
 
@@ -263,10 +263,21 @@ double Conversation::least_pace(std::uint32_t leaf) {
   return leaves_[leaf - 1].least_pace;
 }
 
+std::string Conversation::kept(std::uint32_t leaf) {
+  const Lock lock(mutex_);
+  return leaves_[leaf - 1].kept;
+}
+
+void Conversation::keep(std::uint32_t leaf, std::string_view text) {
+  const Lock lock(mutex_);
+  leaves_[leaf - 1].kept = text;
+}
+
 void Conversation::forget(std::uint32_t number) {
   const Lock lock(mutex_);
   Leaf& leaf = leaves_[number - 1];
   leaf.progress = 0;
+  leaf.kept.clear();
   leaf.news.status = 0;
   leaf.news.set.clear();
 }
@@ -409,7 +420,8 @@ std::string Conversation::take_reply() {
   if (reply_.what == Reply::What::Error) {
     take_error(*leaf);
   } else if (reply_.what == Reply::What::Progress) {
-    leaf->progress = *reply_.progress;
+    leaf->progress = reply_.progress.value_or(leaf->progress);
+    if (reply_.kept) leaf->kept = *std::move(reply_.kept);
   } else if (reply_.what == Reply::What::Pace) {
     leaf->least_pace = std::clamp(reply_.pace, 0.0, 1.0);
   } else {
@@ -453,12 +465,17 @@ std::string Conversation::take_answer(Leaf& leaf) {
   }
   const bool is_halted = std::exchange(leaf.owes_tick, false);  // meanwhile
   if (is_halted && !leaf.is_condition) return {};
+  if (reply_.kept) leaf.kept = *std::move(reply_.kept);
   if (owed == Asked::Pause) {
     --leaf.pauses;
     return {};
   }
   if (!is_halted) leaf.asked = Asked::Nothing;
-  if (!is_status) return {};
+  leaf.news.after_cut = reply_.after_cut;
+  if (!is_status) {
+    if (reply_.progress) leaf.progress = *reply_.progress;
+    return {};
+  }
   leaf.news.status = reply_.status;
   leaf.news.reason = reply_.reason;
   leaf.news.answered = monotonic_now();

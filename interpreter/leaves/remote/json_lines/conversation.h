@@ -24,7 +24,7 @@ namespace lockstep::host {
 
 class Conversation {
  public:
-  enum class Asked : std::uint8_t { Nothing, Create, Tick, Pause, Halt };
+  enum class Asked : std::uint8_t { Nothing, Create, Restore, Tick, Pause, Halt };
 
   explicit Conversation(const IsolationOptions& options) : options_(options) {}
   // Starts the program and returns its first line.
@@ -53,6 +53,7 @@ class Conversation {
     std::string set = {};        // the line that has "set", or ""
     std::string error = {};
     std::string reason = {};  // of the status
+    lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;  // of an answer to restore
     bool is_asked = false;    // it owes an answer
     Nanoseconds since{0};     // when it was asked
     Nanoseconds answered{0};  // when the answer to tick came
@@ -63,6 +64,9 @@ class Conversation {
   double progress(std::uint32_t leaf);
   // The pace below which it does not go, as it has said; else 0.
   double least_pace(std::uint32_t leaf);
+  // What it keeps for a checkpoint, as it was last sent.
+  std::string kept(std::uint32_t leaf);
+  void keep(std::uint32_t leaf, std::string_view text);
   // A new activation: what it has said before does not count.
   void forget(std::uint32_t leaf);
   // The time in which the leaf was held does not count as its own.
@@ -115,6 +119,7 @@ class Conversation {
     News news = {};
     double progress = 0;
     double least_pace = 0;
+    std::string kept = {};
 
     bool owes(Asked what) const { return what == Asked::Pause ? pauses > 0 : asked == what; }
     bool owes_anything() const { return asked != Asked::Nothing || pauses > 0; }

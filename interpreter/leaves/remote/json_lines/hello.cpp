@@ -31,7 +31,7 @@ struct Hello::Reader {
     leaf.start_unreset = nullptr;
     std::string kind = "action";
     std::vector<std::string> more_ports;
-    bool progress = false, set_pace = false, pause = false, answers_pause = false,
+    bool progress = false, set_pace = false, restore = false, pause = false, answers_pause = false,
          real_time = false;
     bool has_ticks = false;  // more than one
     value.object().read(
@@ -40,6 +40,7 @@ struct Hello::Reader {
          {"doc", into_text(leaf.doc), kMayLack},
          {"progress", into_flag(progress), kMayLack},
          {"set_pace", into_flag(set_pace), kMayLack},
+         {"restore", into_flag(restore), kMayLack},
          {"pause", into_flag(pause), kMayLack},
          {"answers_pause", into_flag(answers_pause), kMayLack},
          {"real_time", into_flag(real_time), kMayLack},
@@ -71,6 +72,10 @@ struct Hello::Reader {
     }
     if (!progress) leaf.progress = nullptr;
     if (!set_pace) leaf.set_pace = nullptr;
+    if (!restore) {
+      leaf.save = nullptr;
+      leaf.restore = nullptr;
+    }
     Hold its = hold;
     if (hold == Hold::AsItSays) its = pause || answers_pause ? Hold::Message : Hold::None;
     if (its == Hold::Message && answers_pause) its = Hold::Answered;

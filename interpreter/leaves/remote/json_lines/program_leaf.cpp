@@ -302,6 +302,38 @@ double ProgramLeaf::set_pace(double factor) {
   return std::max(factor, conversation_.least_pace(number_));
 }
 
+std::size_t ProgramLeaf::save(void* bytes, std::size_t room) {
+  const std::string kept = conversation_.kept(number_);
+  if (kept.size() <= room) std::ranges::copy(kept, static_cast<char*>(bytes));
+  return kept.size();
+}
+
+// Before the first tick, so it may take its time.
+lockstep_after_cut ProgramLeaf::restore(const void* bytes, std::size_t size,
+                                        const lockstep_cut* cut) {
+  start();
+  if (fail_if_gone()) return LOCKSTEP_BEGINS_AGAIN;
+  const std::string_view kept(static_cast<const char*>(bytes), size);
+  conversation_.keep(number_, kept);  // until it sends another one
+  sent_.clear();
+  request_.clear();
+  request_.begin("restore", number_)
+      .field("now", now())
+      .field("kept", kept)
+      .flag("power", cut->power)
+      .flag("held", cut->held)
+      .field("gap", cut->gap)
+      .field("lost_ticks", cut->lost_ticks)
+      .ports(caller_, sent_)
+      .end();
+  send(Asked::Restore);
+  if (!await(Asked::Restore)) return LOCKSTEP_BEGINS_AGAIN;
+  const auto news = conversation_.take(number_);
+  if (!news.error.empty()) fail(news.error);
+  has_begun_ = news.after_cut == LOCKSTEP_GOES_ON;
+  return news.after_cut;
+}
+
 double ProgramLeaf::progress() {
   return conversation_.progress(number_);
 }

@@ -35,6 +35,8 @@ class ProgramLeaf : public RemoteLeaf {
   void resume() override;
   double progress() override;
   double set_pace(double factor) override;
+  std::size_t save(void* bytes, std::size_t room) override;
+  lockstep_after_cut restore(const void* bytes, std::size_t size, const lockstep_cut* cut) override;
   void end() override;
   std::string trouble() override;
 

@@ -23,6 +23,14 @@ lockstep_log_level level_of(std::string_view word) {
   throw JsonError(fmt::format("the level is '{}', expected debug, info or warning", brief(word)));
 }
 
+lockstep_after_cut after_cut_of(std::string_view word) {
+  if (word == "begins again") return LOCKSTEP_BEGINS_AGAIN;
+  if (word == "goes on") return LOCKSTEP_GOES_ON;
+  if (word == "cannot go on") return LOCKSTEP_CANNOT_GO_ON;
+  throw JsonError(fmt::format(
+      "after_cut is '{}', expected 'begins again', 'goes on' or 'cannot go on'", brief(word)));
+}
+
 void read_fields(JsonObject object, Reply& reply) {
   int kinds = 0;
   const auto is = [&](Reply::What what) {
@@ -38,6 +46,9 @@ void read_fields(JsonObject object, Reply& reply) {
                 kMayLack},
                {"progress", [&](JsonValue it) { reply.progress = it.number(); }, kMayLack},
                {"reason", into(reply.reason), kMayLack},
+               {"kept", [&](JsonValue it) { reply.kept = it.text(); }, kMayLack},
+               {"after_cut",
+                [&](JsonValue it) { reply.after_cut = after_cut_of(it.text()); }, kMayLack},
                {"pace",
                 [&](JsonValue it) {
                   reply.pace = it.number();
@@ -70,10 +81,10 @@ void read_fields(JsonObject object, Reply& reply) {
                   is(Reply::What::Error);
                 },
                 kMayLack}});
-  if (kinds == 0 && reply.progress) is(Reply::What::Progress);
+  if (kinds == 0 && (reply.progress || reply.kept)) is(Reply::What::Progress);
   if (kinds != 1) {
     throw JsonError(
-        "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' alone");
+        "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' or 'kept' alone");
   }
   if (reply.sets_ports && reply.what != Reply::What::Status) {
     throw JsonError("'set' belongs to a 'status'");
@@ -86,6 +97,8 @@ std::string read_reply(JsonReader& reader, std::string& line, Reply& reply) {
   reply.leaf = 0;
   reply.progress.reset();
   reply.reason.clear();
+  reply.kept.reset();
+  reply.after_cut = LOCKSTEP_BEGINS_AGAIN;
   reply.sets_ports = false;
   reply.level = LOCKSTEP_LOG_INFO;
   try {

@@ -13,8 +13,8 @@ namespace lockstep::host {
 struct Reply {
   enum class What : std::uint8_t {
     Status,    // the answer to tick
-    Done,      // the answer to create and halt
-    Progress,  // unasked
+    Done,      // the answer to create, restore, pause and halt
+    Progress,  // unasked; or only what it keeps
     Pace,      // likewise
     Log,
     Error,
@@ -27,6 +27,8 @@ struct Reply {
   bool sets_ports = false;  // the line also has "set"
   std::string text;         // of Log and Error
   std::string reason;       // of Status
+  std::optional<std::string> kept;                         // for a checkpoint; not of Log and Error
+  lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;    // of Done
   lockstep_log_level level = LOCKSTEP_LOG_INFO;
 };
 

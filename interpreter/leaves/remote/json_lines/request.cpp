@@ -38,6 +38,12 @@ Request& Request::field(std::string_view name, std::string_view text) {
   return *this;
 }
 
+Request& Request::flag(std::string_view name, bool is_set) {
+  this->name(name);
+  text_ += is_set ? "true" : "false";
+  return *this;
+}
+
 Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent) {
   const bool is_all = sent.size() != caller.ports.size();
   sent.resize(caller.ports.size());

@@ -19,6 +19,7 @@ class Request {
   Request& field(std::string_view name, double number);
   Request& field(std::string_view name, std::uint64_t number);
   Request& field(std::string_view name, std::string_view text);
+  Request& flag(std::string_view name, bool is_set);
   // "ports": those whose values are not the ones of `sent`, which is brought up to date; all, where
   // it is empty.
   Request& ports(const lockstep_caller& caller, std::vector<Value>& sent);

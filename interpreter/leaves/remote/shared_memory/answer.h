@@ -19,6 +19,7 @@ struct Answer {
   std::string_view error = {};   // "" = none
   std::string_view thrown = {};  // as describe_exception() has it
   std::string_view reason = {};  // of a leaf; "" = none
+  std::string_view kept = {};    // of a leaf: what it saves
 };
 
 inline void write_answer(const Answer& answer, MessageWriter& message) {
@@ -28,6 +29,7 @@ inline void write_answer(const Answer& answer, MessageWriter& message) {
   message.put_text(answer.error);
   message.put_text(answer.thrown);
   message.put_text(answer.reason);
+  message.put_text(answer.kept);
 }
 
 // Returns false if the message is invalid.
@@ -38,6 +40,7 @@ inline bool read_answer(MessageReader& message, Answer& answer) {
   answer.error = message.text();
   answer.thrown = message.text();
   answer.reason = message.text();
+  answer.kept = message.text();
   return message.good() && answer.outcome <= Outcome::TooLarge;
 }
 

@@ -34,7 +34,7 @@ std::uint8_t optional_functions(const lockstep_leaf_type& leaf) {
       (leaf.start != nullptr ? 1 : 0) | (leaf.halt != nullptr ? 2 : 0) |
       (leaf.pause != nullptr ? 4 : 0) | (leaf.resume != nullptr ? 8 : 0) |
       (leaf.progress != nullptr ? 16 : 0) | (leaf.start_unreset != nullptr ? 32 : 0) |
-      (leaf.set_pace != nullptr ? 64 : 0));
+      (leaf.set_pace != nullptr ? 64 : 0) | (leaf.restore != nullptr ? 128 : 0));
 }
 
 void keep_functions(lockstep_leaf_type& leaf, std::uint8_t present) {
@@ -45,6 +45,10 @@ void keep_functions(lockstep_leaf_type& leaf, std::uint8_t present) {
   if ((present & 16) == 0) leaf.progress = nullptr;
   if ((present & 32) == 0) leaf.start_unreset = nullptr;
   if ((present & 64) == 0) leaf.set_pace = nullptr;
+  if ((present & 128) == 0) {
+    leaf.save = nullptr;
+    leaf.restore = nullptr;
+  }
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ class IsolatedRun final : public RemoteRun {
   std::unique_ptr<Session> session_;
   const lockstep_caller& caller_;
   RemoteEntries entries_;
+  std::span<char> kept_ = {};      // where a leaf that saves writes
   std::uint32_t last_number_ = 0;  // of a leaf; 0 is the run itself
   std::uint32_t leaves_ = 0;
 };
@@ -112,6 +113,20 @@ class IsolatedRun::Leaf final : public RemoteLeaf {
   double set_pace(double factor) override {
     run_.begin_call(PluginFunction::SetPace, number_, caller_).put(factor);
     return std::bit_cast<double>(run_.call(caller_, ports_));
+  }
+  std::size_t save(void* bytes, std::size_t room) override {
+    if (run_.session_->is_gone()) return 0;
+    run_.kept_ = {static_cast<char*>(bytes), room};
+    const std::uint64_t size = call(PluginFunction::Save);
+    run_.kept_ = {};
+    return size;
+  }
+  lockstep_after_cut restore(const void* bytes, std::size_t size,
+                             const lockstep_cut* cut) override {
+    MessageWriter& request = run_.begin_call(PluginFunction::Restore, number_, caller_);
+    request.put(*cut);
+    request.put_text({static_cast<const char*>(bytes), size});
+    return static_cast<lockstep_after_cut>(run_.call(caller_, ports_));
   }
   void end() override {
     if (run_.session_->is_gone()) return;
@@ -227,6 +242,7 @@ std::uint64_t IsolatedRun::take_answer(const lockstep_caller& caller, Nanosecond
   }
   if (!refused.empty()) fail(caller, refused);
   if (!answer.error.empty()) take_error(caller, Shortened::as_it_is(answer.error));
+  std::ranges::copy(answer.kept.substr(0, kept_.size()), kept_.begin());
   if (!answer.reason.empty()) take_reason(caller, Shortened::as_it_is(answer.reason));
   if (answer.outcome == Outcome::Threw) throw PluginException(answer.thrown);
   return answer.result;

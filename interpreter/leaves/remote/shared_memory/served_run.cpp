@@ -186,10 +186,24 @@ std::uint64_t ServedRun::call_leaf(Object& object, PluginFunction function) {
     case PluginFunction::SetPace:
       return std::bit_cast<std::uint64_t>(type.set_pace == nullptr ? 1.0
                                                                    : type.set_pace(self, factor_));
+    case PluginFunction::Save:
+      return save(type, self);
+    case PluginFunction::Restore:
+      if (type.restore == nullptr) break;
+      return static_cast<std::uint64_t>(
+          type.restore(self, restored_.data(), restored_.size(), &cut_));
     default:
       break;
   }
   return 0;
+}
+
+std::uint64_t ServedRun::save(const lockstep_leaf_type& type, void* self) {
+  if (type.save == nullptr) return 0;
+  kept_.resize(LOCKSTEP_MOST_KEPT);
+  const std::size_t size = type.save(self, kept_.data(), kept_.size());
+  kept_.resize(std::min(size, kept_.size()));
+  return size;
 }
 
 std::uint64_t ServedRun::create(Object& object) {
@@ -219,11 +233,13 @@ void ServedRun::write_entries(MessageWriter& answer) const {
 void ServedRun::perform(Object& object, PluginFunction function, MessageWriter& message) {
   Answer answer;
   written_.clear();
+  kept_.clear();
   const Nanoseconds began = is_measured_ ? monotonic_now() : Nanoseconds(0);
   const std::string thrown = call(object, function, answer.result);
   if (is_measured_) answer.took = monotonic_now() - began;
   if (!thrown.empty()) answer.outcome = Outcome::Threw;
   answer.thrown = thrown;
+  answer.kept = kept_;
   if (object.slot.error != nullptr) answer.error = object.slot.error;
   if (object.caller->rest != nullptr) answer.reason = object.caller->rest->reason.text();
   write_answer(answer, message);
@@ -266,6 +282,10 @@ bool ServedRun::answer(PluginFunction function, MessageReader& request, MessageW
                          : function == PluginFunction::Create  ? create_leaf(number, request)
                                                                : find(number);
   factor_ = function == PluginFunction::SetPace ? request.get<double>() : 1.0;
+  if (function == PluginFunction::Restore) {
+    cut_ = request.get<lockstep_cut>();
+    restored_ = request.text();
+  }
   if (object == nullptr || !read_entries(request)) return false;
   perform(*object, function, answer);
   return true;

@@ -55,10 +55,14 @@ class ServedRun {
   std::uint64_t create(Object& object);
   std::uint64_t call_run(Object& object, PluginFunction function);
   std::uint64_t call_leaf(Object& object, PluginFunction function);
+  std::uint64_t save(const lockstep_leaf_type& type, void* self);
   void write_entries(MessageWriter& answer) const;
   void perform(Object& object, PluginFunction function, MessageWriter& answer);
   void give_turns(Nanoseconds now, std::uint32_t turns);
   double factor_ = 1;         // of the call, if it tells a pace
+  lockstep_cut cut_{};        // of the call, if it restores
+  std::string restored_;      // likewise
+  std::string kept_;          // what the call saves
   bool is_measured_ = false;  // there was much to carry, once
 
   const Descriptors& descriptors_;

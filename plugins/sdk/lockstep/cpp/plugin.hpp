@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstring>
+#include <string_view>
 #include <type_traits>
 
 #include "control.hpp"
@@ -32,6 +34,31 @@ struct LeafAccess {
     return action.kept_progress();
   }
 };
+
+template <class T>
+inline constexpr bool kHasKept = std::is_base_of_v<KeptBase, T>;
+
+// The State of a Kept<State>.
+struct KeptAccess {
+  template <class T>
+  static auto& of(T& leaf) {
+    static_assert(std::is_convertible_v<T*, const KeptBase*>, "write: public lockstep::Kept<State>");
+    return leaf.Kept<typename T::KeptState>::kept;
+  }
+  template <class T>
+  static void reset(T& leaf) {
+    if constexpr (kHasKept<T>) of(leaf) = {};
+  }
+  template <class T>
+  static AfterCut after_cut(T& leaf, const Cut& cut) {
+    return static_cast<Kept<typename T::KeptState>&>(leaf).after_cut(cut);
+  }
+};
+
+template <class T>
+inline constexpr bool kOverridesSave =
+    !std::is_same_v<decltype(&T::save),
+                    std::size_t (ActionFunctions::*)(void*, std::size_t) const>;
 
 template <class T>
 inline constexpr bool kOverridesPace =
@@ -68,10 +95,12 @@ struct LeafFunctions {
     });
   }
   static void start(void* leaf) {
+    KeptAccess::reset(*static_cast<T*>(leaf));
     LeafAccess::before_start(*static_cast<T*>(leaf));
     call(leaf, &T::start);
   }
   static void start_unreset(void* leaf) {
+    KeptAccess::reset(*static_cast<T*>(leaf));
     LeafAccess::before_start(*static_cast<T*>(leaf));
     call(leaf, &T::start_unreset);
   }
@@ -88,6 +117,32 @@ struct LeafFunctions {
       LeafAccess::before_pace(object, factor);
       return kOverridesPace<T> ? object.set_pace(factor) : factor;
     });
+  }
+  static std::size_t save(void* leaf, void* bytes, std::size_t room) {
+    const T& object = *static_cast<T*>(leaf);
+    if constexpr (kHasKept<T>) {
+      static_assert(!kOverridesSave<T>, "a leaf with a Kept<State> does not override save()");
+      std::memcpy(bytes, &KeptAccess::of(object), sizeof(typename T::KeptState));
+      return sizeof(typename T::KeptState);
+    } else {
+      return guarded(LeafAccess::caller(object), std::size_t{0},
+                     [&] { return object.save(bytes, room); });
+    }
+  }
+  static lockstep_after_cut restore(void* leaf, const void* bytes, std::size_t size,
+                                    const lockstep_cut* cut) {
+    T& object = *static_cast<T*>(leaf);
+    const auto answer = guarded(LeafAccess::caller(object), AfterCut::BeginsAgain, [&] {
+      LeafAccess::before_start(object);
+      if constexpr (kHasKept<T>) {
+        if (size != sizeof(typename T::KeptState)) return AfterCut::BeginsAgain;
+        std::memcpy(&KeptAccess::of(object), bytes, size);
+        return KeptAccess::after_cut(object, *cut);
+      } else {
+        return object.restore({static_cast<const char*>(bytes), size}, *cut);
+      }
+    });
+    return static_cast<lockstep_after_cut>(answer);
   }
   static const void* get_extension(void* leaf, const char* id) {
     const bool is_known = std::string_view(id) == LOCKSTEP_KEPT_PROGRESS;
@@ -121,7 +176,7 @@ constexpr void add_optional_functions(lockstep_leaf_type& type) {
   using Nothing = void (ActionFunctions::*)();
   using NoProgress = double (ActionFunctions::*)() const;
   constexpr bool kKeepsProgress = LeafAccess::keeps_progress<T>();
-  if constexpr (kKeepsProgress || is_overridden<decltype(&T::start), Nothing>) {
+  if constexpr (kKeepsProgress || kHasKept<T> || is_overridden<decltype(&T::start), Nothing>) {
     type.start = &Functions::start;
   }
   if constexpr (is_overridden<decltype(&T::start_unreset), Nothing>) {
@@ -135,6 +190,10 @@ constexpr void add_optional_functions(lockstep_leaf_type& type) {
   }
   if constexpr (T::kPaces || kOverridesPace<T>) {
     type.set_pace = &Functions::set_pace;
+  }
+  if constexpr (kHasKept<T> || kOverridesSave<T>) {
+    type.save = &Functions::save;
+    type.restore = &Functions::restore;
   }
   if constexpr (kKeepsProgress) type.get_extension = &Functions::get_extension;
 }

@@ -1,6 +1,7 @@
 // The functions of the contract for all nodes of a plugin.
 #pragma once
 
+#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -89,6 +90,25 @@ struct Leaf {
     Leaf& leaf = *static_cast<Leaf*>(self);
     return lockstep::detail::guarded(leaf.caller(), 1.0,
                                      [&] { return leaf.hooks().pace(*leaf.node, factor); });
+  }
+  static std::size_t save(void* self, void* bytes, std::size_t room) {
+    const Leaf& leaf = *static_cast<const Leaf*>(self);
+    return lockstep::detail::guarded(leaf.caller(), std::size_t{0}, [&] {
+      const std::string kept = leaf.hooks().save(*leaf.node);
+      if (kept.size() <= room) std::memcpy(bytes, kept.data(), kept.size());
+      return kept.size();
+    });
+  }
+  // One that goes on is RUNNING, so that its next tick is no first one.
+  static lockstep_after_cut restore(void* self, const void* bytes, std::size_t size,
+                                    const lockstep_cut* /*cut*/) {
+    Leaf& leaf = *static_cast<Leaf*>(self);
+    return lockstep::detail::guarded(leaf.caller(), LOCKSTEP_BEGINS_AGAIN + 0, [&] {
+      const std::string kept(static_cast<const char*>(bytes), size);
+      if (!leaf.hooks().restore(*leaf.node, kept)) return LOCKSTEP_BEGINS_AGAIN + 0;
+      leaf.node->setStatus(NodeStatus::RUNNING);
+      return LOCKSTEP_GOES_ON + 0;
+    });
   }
   static double progress(void* self) {
     const Leaf& leaf = *static_cast<const Leaf*>(self);

@@ -162,6 +162,10 @@ class PluginTable {
     if (manifest.lockstep_hooks.resume != nullptr) type.resume = Leaf::resume;
     if (manifest.lockstep_hooks.progress != nullptr) type.progress = Leaf::progress;
     if (manifest.lockstep_hooks.pace != nullptr) type.set_pace = Leaf::set_pace;
+    if (manifest.lockstep_hooks.save != nullptr) {
+      type.save = Leaf::save;
+      type.restore = Leaf::restore;
+    }
     type.flags = LOCKSTEP_HALTS_CHILDREN | LOCKSTEP_WAKES;
     if (manifest.type == NodeType::CONDITION) type.flags |= LOCKSTEP_MAY_RUN;
     if (manifest.lockstep_hooks.is_at_once) type.flags |= LOCKSTEP_AT_ONCE;

@@ -37,6 +37,8 @@ struct ClassHooks {
   void (*pause)(TreeNode&) = nullptr;
   void (*resume)(TreeNode&) = nullptr;
   double (*pace)(TreeNode&, double factor) = nullptr;
+  std::string (*save)(const TreeNode&) = nullptr;                // these: both or none
+  bool (*restore)(TreeNode&, const std::string& kept) = nullptr;
   void (*reason)(const TreeNode&, const lockstep_reason&, const lockstep_caller*) = nullptr;
 };
 
@@ -61,6 +63,20 @@ inline constexpr bool has_on_pace = false;
 template <class T>
 inline constexpr bool has_on_pace<
     T, std::enable_if_t<std::is_convertible_v<decltype(std::declval<T&>().onPace(1.0)), double>>> =
+    true;
+
+template <class T, class = void>
+inline constexpr bool has_on_save = false;
+template <class T>
+inline constexpr bool has_on_save<
+    T, std::enable_if_t<
+           std::is_convertible_v<decltype(std::declval<const T&>().onSave()), std::string>>> = true;
+template <class T, class = void>
+inline constexpr bool has_on_restored = false;
+template <class T>
+inline constexpr bool has_on_restored<
+    T, std::enable_if_t<std::is_convertible_v<
+           decltype(std::declval<T&>().onRestored(std::declval<const std::string&>())), bool>>> =
     true;
 
 template <class T, class = void>
@@ -112,6 +128,17 @@ ClassHooks hooks_of() {
   if constexpr (has_on_pace<T>) {
     hooks.pace = [](TreeNode& node, double factor) -> double {
       return as_class<T>(node).onPace(factor);
+    };
+  }
+  static_assert(has_on_save<T> == has_on_restored<T>,
+                "a node that goes on after a cut has std::string onSave() const and bool "
+                "onRestored(const std::string&)");
+  if constexpr (has_on_save<T>) {
+    hooks.save = [](const TreeNode& node) -> std::string {
+      return as_class<const T>(node).onSave();
+    };
+    hooks.restore = [](TreeNode& node, const std::string& kept) -> bool {
+      return as_class<T>(node).onRestored(kept);
     };
   }
   if constexpr (has_reason<T>) {
