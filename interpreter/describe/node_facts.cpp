@@ -43,6 +43,17 @@ std::span<const CommonAttribute> script_attributes() {
   return kScripts;
 }
 
+std::span<const CommonAttribute> action_attributes() {
+  static constexpr CommonAttribute kAction[] = {
+      {"on_resume",
+       "restart, failure or success: what the action does that ran when its process was cut, and "
+       "that cannot continue. Default: as `run --on-resume` has it."},
+      {"commit",
+       "true: the action runs until a checkpoint with its Success is on the disk. Default: "
+       "false."}};
+  return kAction;
+}
+
 std::span<const CommonAttribute> subtree_attributes() {
   static constexpr CommonAttribute kSubTree[] = {
       {"ID", "The BehaviorTree to insert here; required."},

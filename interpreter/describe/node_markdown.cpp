@@ -66,6 +66,8 @@ std::string nodes_as_markdown(NodeTypes types) {
       "Every node may have these attributes:\n\n"
       "| Attribute | |\n|---|---|\n";
   text += table_rows(common_attributes()) + table_rows(script_attributes());
+  text += "\nAn action of a plugin may also have these:\n\n| Attribute | |\n|---|---|\n";
+  text += table_rows(action_attributes());
   for (const NodeGroup& group : node_groups()) {
     std::string entries;
     for (const NodeType* type : types) {

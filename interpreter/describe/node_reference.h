@@ -50,5 +50,10 @@ std::span<const CommonAttribute> common_attributes();
 // The attributes that every node has too: the scripts around its ticks, in the order of Hook.
 std::span<const CommonAttribute> script_attributes();
 std::span<const CommonAttribute> subtree_attributes();
+// The attributes that an action of a plugin has too.
+std::span<const CommonAttribute> action_attributes();
+inline bool has_action_attributes(const NodeType& type) {
+  return type.category == NodeCategory::Action && (type.leaf != nullptr || type.mock != nullptr);
+}
 
 }  // namespace lockstep::host

@@ -91,7 +91,10 @@ std::string nodes_as_text(NodeTypes types) {
   std::vector<Row> common;
   for (const CommonAttribute& it : common_attributes()) common.push_back({it.name, "", it.doc});
   for (const CommonAttribute& it : script_attributes()) common.push_back({it.name, "", it.doc});
-  return text + "Attributes of every node\n\n" + table(common, 2);
+  std::vector<Row> of_actions;
+  for (const CommonAttribute& it : action_attributes()) of_actions.push_back({it.name, "", it.doc});
+  return text + "Attributes of every node\n\n" + table(common, 2) +
+         "\nAttributes of actions of plugins\n\n" + table(of_actions, 2);
 }
 
 std::string node_as_text(const NodeType& type) {

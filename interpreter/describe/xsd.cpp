@@ -226,10 +226,14 @@ std::string script_group() {
   return text + "  </xs:attributeGroup>\n";
 }
 
+bool has_parameter(std::span<const Parameter> parameters, std::string_view name) {
+  return std::ranges::find(parameters, name, &Parameter::name) != parameters.end();
+}
+
 // The scripts around the ticks of a node. A parameter of such a name comes first.
 std::string scripts_of(std::span<const Parameter> parameters) {
   const auto is_taken = [&](const CommonAttribute& it) {
-    return std::ranges::find(parameters, it.name, &Parameter::name) != parameters.end();
+    return has_parameter(parameters, it.name);
   };
   if (std::ranges::none_of(script_attributes(), is_taken)) {
     return "      <xs:attributeGroup ref=\"scripts\"/>\n";
@@ -306,6 +310,11 @@ std::string node(const NodeType& type) {
   }
   std::string text = element(type.id, type.doc, children(type.arity), type.parameters);
   for (const Parameter& parameter : type.parameters) text += attribute(parameter);
+  if (has_action_attributes(type)) {
+    for (const CommonAttribute& it : action_attributes()) {
+      if (!has_parameter(type.parameters, it.name)) text += script_attribute(it);
+    }
+  }
   if (!type.more_parameters.empty()) text += kAnyAttribute;
   return text + std::string(kElementEnd);
 }

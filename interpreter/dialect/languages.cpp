@@ -24,6 +24,8 @@ constinit const LanguageRules kLockstepRules{
     .root_may_lack_it = false,
     .hooks = {"failure_if", "success_if", "skip_if", "while", "on_success", "on_failure", "on_end",
               "on_halt"},
+    .on_resume = "on_resume",
+    .commit = "commit",
     .kinds = kBuiltInKinds,
     .reader = &kReader,
     .lenient_xml = false,

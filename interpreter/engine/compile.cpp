@@ -89,7 +89,7 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
       };
     };
     for (const NodeKind* leaf :
-         {&kPluginAction, kPluginAction.obeying, &kPluginCondition, &kPluginControl, &kMockAction,
+         {&kPluginAction, kPluginAction.obeying, kPluginAction.committing, &kPluginCondition, &kPluginControl, &kMockAction,
           &kMockCondition, &kMockControl, &kMockDecorator}) {
       add(leaf);
     }
@@ -172,6 +172,7 @@ class Compiler {
   // A node that paces, and a leaf or a time that obeys below one, has another kind.
   const NodeKind* kind_at(const DefinitionNode& from, NodeIndex self) {
     const NodeKind* plain = kind(*from.type);
+    if (from.at_cut.commits && plain->committing != nullptr) return plain->committing;
     if (pacing_.empty()) return plain;
     if (plain->paced != nullptr && pacing_.contains(self)) return plain->paced;
     if (plain->obeying == nullptr || !from.is_slowed) return plain;
@@ -419,7 +420,8 @@ class Compiler {
     tree_.leaves.push_back({.node = static_cast<NodeIndex>(tree_.nodes.size()),
                             .type = from.type,
                             .first_port = add_ports(from),
-                            .is_slowed = from.is_slowed});
+                            .is_slowed = from.is_slowed,
+                            .at_cut = from.at_cut});
     return index;
   }
 

@@ -16,8 +16,14 @@ void Ticker::save_leaves(LeafBytes& into) {
   for (const std::uint32_t place : tree_.kept_leaves) {
     const NodeIndex node = tree_.leaves[place].node;
     into[place].clear();
-    if (status(node) == Status::Running) save_leaf(*this, node, leaf_room_, into[place]);
+    if (status(node) == Status::Running && !has_to_commit(place)) save_leaf(*this, node, leaf_room_, into[place]);
   }
+}
+
+// Nothing is left for it to do but to wait.
+bool Ticker::has_to_commit(std::uint32_t place) const {
+  const LeafNode& leaf = tree_.leaves[place];
+  return leaf.at_cut.commits && state<CommitState>(leaf.node).has_succeeded != 0;
 }
 
 std::vector<CutLeaf> Ticker::cut_leaves() const {
@@ -26,6 +32,7 @@ std::vector<CutLeaf> Ticker::cut_leaves() const {
   for (std::uint32_t place = 0; place < leaves_.size(); ++place) {
     const NodeIndex node = tree_.leaves[place].node;
     if (node < end || status(node) != Status::Running || leaves_[place].failed()) continue;
+    if (has_to_commit(place)) continue;
     cut.push_back({.place = place});
     end = nodes_[node].end;
   }
@@ -56,7 +63,8 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
     leaf.mark(LeafSlot::kCut, it.does != AfterCut::GoesOn);
     leaf.set_started(it.does == AfterCut::GoesOn);
     if (it.does == AfterCut::GoesOn) {
-      if (tree_.leaves[it.place].obeys()) state<LeafPace>(node) = {.told = 1, .taken = 1};
+      const LeafNode& its = tree_.leaves[it.place];
+      if (its.obeys() || its.at_cut.commits) state<LeafPace>(node) = {.told = 1, .taken = 1};
       if (activity(node) == Activity::Paused) watch_held(node);
       continue;
     }

@@ -8,13 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/after_cut.h"
+#include "engine/pace.h"
 #include "lockstep/leaf.h"
 #include "trace/node_state.h"
 
 namespace lockstep::host {
-
-// What a leaf does that ran at the cut. The results are those of its next tick, without a call.
-enum class AfterCut : std::uint8_t { BeginsAgain, GoesOn, Failure, Success };
 
 struct CutLeaf {
   std::uint32_t place;  // in Tree::leaves
@@ -25,6 +24,13 @@ struct CutLeaf {
 // The bytes that leaves keep of themselves, beside a SavedRun: of each of Tree::leaves. Empty: none
 // of them keeps any.
 using LeafBytes = std::vector<std::string>;
+
+// What an action with commit="true" keeps.
+struct CommitState {
+  LeafPace pace;
+  std::uint32_t succeeded_at;  // in this tick
+  std::uint32_t has_succeeded;  // its activation has ended, and it runs until a checkpoint has that
+};
 
 class NodeContext;
 

@@ -150,6 +150,10 @@ class NodeContext : public RunView {
   void note_out_of_range(NodeIndex node, double reported);
   // The first tick of a leaf that was cut. Running: it begins, as an idle one; else its result.
   Status begin_after_cut(NodeIndex node);
+  // The tick is that of a checkpoint on the disk, or no run is kept.
+  bool is_durable(std::uint32_t tick) const { return tick <= durable_; }
+  // An action with commit="true" has succeeded in this tick.
+  void note_commit() { last_commit_ = state_.tick_number; }
   // A leaf that is held from now on: whether it goes on is looked at before each tick.
   void watch_held(NodeIndex node);
 
@@ -242,6 +246,7 @@ class NodeContext : public RunView {
   Readings& readings_;
   const FaultPolicy policy_;
   std::vector<AfterCut> after_cut_;  // of each leaf, for those that were cut
+  std::uint32_t durable_ = 0xffffffff, last_commit_ = 0;
   LeafWatch* const watch_;
   LeafWatch* timer_ = nullptr;  // the same while it times each call, else null
   // The mark of the ticking thread, while a leaf is called with nothing around it but this mark and

@@ -61,6 +61,7 @@ struct NodeKind {
   // The kind in its place, or null: of a node with pace="true" or a member of such a barrier; and
   // of a leaf or a time that obeys, below one of those.
   const NodeKind* paced = nullptr;
+  const NodeKind* committing = nullptr;  // of an action of a plugin with commit="true"
   const NodeKind* obeying = nullptr;
   // Of such a leaf that runs: how fast it is, of what it is alone. May be null.
   double (*taken_up)(NodeContext& context, NodeIndex self) = nullptr;

@@ -117,7 +117,14 @@ class Ticker : public NodeContext {
   // themselves, and what is reported of a run, stay as they are.
   void fold();
 
+  // In a run that is kept: the last tick of which a checkpoint is on the disk, by the number of
+  // RunState. Before each tick; until then, actions with commit="true" wait for nothing.
+  void set_durable(std::uint32_t tick) { durable_ = tick; }
+  // The last tick in which one of these has succeeded; 0: there was none.
+  std::uint32_t last_commit() const { return last_commit_; }
+
  private:
+  bool has_to_commit(std::uint32_t place) const;
   void make_room_for_progress();
   void begin_tick();
   Status tick_root_beside();

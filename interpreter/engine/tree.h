@@ -13,6 +13,7 @@
 
 #include "base/blackboard/board.h"
 #include "base/blackboard/entry.h"
+#include "base/core/after_cut.h"
 #include "base/core/hook.h"
 #include "base/core/language.h"
 #include "engine/node.h"
@@ -46,6 +47,7 @@ struct LeafNode {
   std::uint32_t children = 0;     // how many
   std::uint32_t followers = 0;    // actions of plugins next to it in pre-order, up to another node
   bool is_slowed = false;         // a node above it has pace="true", and it obeys
+  LeafAtCut at_cut = {};
 
   bool obeys() const { return is_slowed && type->can_be_slowed; }
 };

@@ -160,6 +160,7 @@ class Loop {
     run_.set_now(now);
     observe([&](Observers& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
+    if (options_.checkpoints != nullptr) ticker.set_durable(options_.checkpoints->durable());
     end_.status = run_.tick();
     if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
     if (is_real_) note_worst(clock_.now() - start_ - now);

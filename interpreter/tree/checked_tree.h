@@ -49,6 +49,7 @@ struct CheckedNode {
   std::uint32_t first = 0;              // in CheckedTrees::ports; of a SubTree, in subtrees
   std::uint32_t written = Port::kNone;  // its first in CheckedTrees::written
   std::uint32_t scripts = Port::kNone;  // its first in CheckedTrees::scripts
+  LeafAtCut at_cut = {};
 };
 
 // A SubTree binds a key of its tree to this: an outer entry, or a start value.

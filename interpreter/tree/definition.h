@@ -17,6 +17,7 @@
 
 #include "base/blackboard/board.h"
 #include "base/blackboard/entry.h"
+#include "base/core/after_cut.h"
 #include "base/core/hook.h"
 #include "base/core/language.h"
 #include "base/core/node_type.h"
@@ -38,6 +39,7 @@ struct DefinitionNode {
   std::uint32_t written = 0xffffffff;  // its first in Definition::written; or none
   std::uint32_t hooks = 0xffffffff;    // in Definition::hooks; or none
   bool is_slowed = false;  // below a node that paces, with a leaf that obeys: tree/pace.h
+  LeafAtCut at_cut = {};
 };
 
 // An attribute as written, with arguments substituted. Attributes that only name the node are left

@@ -488,7 +488,19 @@ class Converter {
     const auto hook = hook_named(attribute.name, conversion_.from);
     if (hook) return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
     if (is_script(attribute.name)) return convert_script(token, attribute, attribute.name);
+    if (convert_at_cut(token, attribute)) return;
     keep(token, attribute);
+  }
+
+  bool convert_at_cut(const XmlToken& token, const Attribute& attribute) {
+    if (attribute.name == conversion_.from.on_resume) {
+      replace(token, conversion_.to.on_resume, attribute.value);
+    } else if (attribute.name == conversion_.from.commit) {
+      replace(token, conversion_.to.commit, attribute.value);
+    } else {
+      return false;
+    }
+    return true;
   }
 
   // Of a built-in node.
@@ -550,6 +562,7 @@ class Converter {
     if (const auto hook = hook_named(name, conversion_.from)) {
       return convert_script(token, attribute, attribute_of(*hook, conversion_.to));
     }
+    if (convert_at_cut(token, attribute)) return;
     if (hook_named(name, conversion_.to)) {
       return cannot(attribute.place, fmt::format("a port called '{}'", name),
                     "there it is a script of the node");

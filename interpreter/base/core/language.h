@@ -21,6 +21,7 @@ struct LanguageRules {
   std::string_view root_attribute;  // by which the root of a file says that it is in this language
   bool root_may_lack_it;            // so a root that says nothing is in it, too
   std::array<std::string_view, kHooks> hooks;  // the attributes of these scripts
+  std::string_view on_resume, commit;          // attributes of actions: LeafAtCut
   std::span<const NodeKind* const> kinds;      // built in, in the order of their documentation
   const LanguageReader* reader;
 
@@ -56,6 +57,10 @@ constexpr std::optional<Hook> hook_named(std::string_view attribute, const Langu
     if (rules.hooks[hook] == attribute) return static_cast<Hook>(hook);
   }
   return std::nullopt;
+}
+
+constexpr bool is_of_actions(std::string_view attribute, const LanguageRules& rules) {
+  return attribute == rules.on_resume || attribute == rules.commit;
 }
 
 // The version of what trees mean: docs/nodes-and-attributes.md lists them. Recordings name it.

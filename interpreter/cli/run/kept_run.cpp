@@ -206,7 +206,8 @@ void KeptRun::go_on(Run& run) {
   const lockstep_cut told = cut_of(*from_, options_, run.period());
   std::vector<CutLeaf> cut = ticker.cut_leaves();
   for (CutLeaf& leaf : cut) {
-    leaf.does = options_.on_resume;
+    const LeafAtCut& at_cut = tree_.leaves[leaf.place].at_cut;
+    leaf.does = at_cut.is_given ? at_cut.otherwise : options_.on_resume;
     const bool has_kept = leaf.place < leaves_.size() && !leaves_[leaf.place].empty();
     if (has_kept) ticker.ask_after_cut(leaf, leaves_[leaf.place], told);
   }

@@ -20,8 +20,8 @@ namespace {
 
 // Those that are not ports.
 const auto kOwn = [] {
-  std::array<std::string_view, kHooks + 1> names{"_autoremap"};
-  std::ranges::copy(kRules.hooks, names.begin() + 1);
+  std::array<std::string_view, kHooks + 3> names{"_autoremap", kRules.on_resume, kRules.commit};
+  std::ranges::copy(kRules.hooks, names.begin() + 3);
   return names;
 }();
 
@@ -231,6 +231,7 @@ void read_attributes(const NodeElement& element, const Reporter& report, Checked
   trees.names_at_run_time |= node.type->opens_entries;
   trees.shares_entries |= node.type->opens_entries;
   check_hooks(element, report, node, trees);
+  check_at_cut(element, report, node, kRules);
 }
 
 namespace {

@@ -96,6 +96,8 @@ std::optional<Found> find_word(std::string_view tag, std::string_view name) {
   if (const auto hook = hook_named(name, kRules)) {
     return Found{{name, attribute_of(*hook, kLockstepRules)}, {}};
   }
+  if (name == kRules.on_resume) return Found{{name, kLockstepRules.on_resume}, {}};
+  if (name == kRules.commit) return Found{{name, kLockstepRules.commit}, {}};
   const bool is_mark = std::ranges::find(kMarks, name) != std::end(kMarks);
   return is_mark ? std::optional(Found{{name, ""}, "a mark of an editor"}) : std::nullopt;
 }

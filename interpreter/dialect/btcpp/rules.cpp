@@ -19,6 +19,8 @@ constinit const LanguageRules kRules{.name = "btcpp4",
                                      .root_may_lack_it = true,  // before version 4
                                      .hooks = {"_failureIf", "_successIf", "_skipIf", "_while",
                                                "_onSuccess", "_onFailure", "_post", "_onHalted"},
+                                     .on_resume = "_onResume",
+                                     .commit = "_commit",
                                      .kinds = kKinds,
                                      .reader = &kReader,
                                      .lenient_xml = true,

@@ -8,6 +8,7 @@
 
 #include "base/core/plugin_exception.h"
 #include "base/core/progress.h"
+#include "engine/cut.h"
 #include "engine/leaf_call.h"
 #include "engine/node_kind.h"
 #include "engine/nodes/fold.h"
@@ -225,6 +226,27 @@ Status tick_leaf(NodeContext& context, NodeIndex self) {
   return meaning_of<kKind>(context, self, leaf, result, is_out_now);
 }
 
+// It ends in the tick after the checkpoint with its success is on the disk.
+Status tick_committing(NodeContext& context, NodeIndex self) {
+  auto& state = context.state<CommitState>(self);
+  if (context.first_tick(self)) state.has_succeeded = 0;
+  if (state.has_succeeded != 0) {
+    return context.is_durable(state.succeeded_at) ? Status::Success : Status::Running;
+  }
+  const Status result = tick_leaf<Kind::Action, true>(context, self);
+  const std::uint32_t now = context.run_state().tick_number;
+  if (result != Status::Success || context.is_durable(now)) return result;
+  state.succeeded_at = now;
+  state.has_succeeded = 1;
+  context.leaf(self).set_started(false);
+  context.note_commit();
+  return Status::Running;
+}
+
+bool has_to_commit(NodeContext& context, NodeIndex self) {
+  return context.state<CommitState>(self).has_succeeded != 0;
+}
+
 Status tick_control(NodeContext& context, NodeIndex self) {
   const Status status = tick_leaf<Kind::Control, false>(context, self);
   if (status != Status::Running) context.halt_running_children(self);
@@ -280,6 +302,14 @@ double progress_of_leaf(NodeContext& context, NodeIndex self) {
   if (leaf.error == nullptr && reported >= 0.0 && reported <= 1.0) [[likely]]
     return reported;
   return corrected(context, self, leaf, reported);
+}
+
+void pause_committing(NodeContext& context, NodeIndex self) {
+  if (!has_to_commit(context, self)) pause_leaf(context, self);
+}
+
+double progress_of_committing(NodeContext& context, NodeIndex self) {
+  return has_to_commit(context, self) ? 1.0 : progress_of_leaf(context, self);
 }
 
 double progress_of_children(NodeContext& context, NodeIndex self) {
@@ -387,7 +417,7 @@ AfterCut ask_leaf_after_cut(NodeContext& context, NodeIndex node, std::string_vi
   return AfterCut::BeginsAgain;
 }
 
-extern const NodeKind kObeyingAction;
+extern const NodeKind kObeyingAction, kCommittingAction;
 
 const NodeKind kPluginAction{
     .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
@@ -396,6 +426,7 @@ const NodeKind kPluginAction{
     .halt = halt_leaf<Kind::Action>,
     .pause = pause_leaf,
     .unreset = unreset_leaf,
+    .committing = &kCommittingAction,
     .obeying = &kObeyingAction};
 
 const NodeKind kObeyingAction{
@@ -409,6 +440,19 @@ const NodeKind kObeyingAction{
     .unreset = unreset_leaf,
     .taken_up = [](NodeContext& context, NodeIndex self) {
       return context.state<LeafPace>(self).taken;
+    }};
+
+const NodeKind kCommittingAction{
+    .type = {.id = "Action", .category = NodeCategory::Action, .doc = "", .arity = {0, 0}},
+    .tick = tick_committing,
+    .progress = progress_of_committing,
+    .state_size = sizeof(CommitState),
+    .halt = halt_leaf<Kind::Action>,
+    .pause = pause_committing,
+    .fold = fold::dead_when_idle,
+    .unreset = unreset_leaf,
+    .taken_up = [](NodeContext& context, NodeIndex self) {
+      return context.state<CommitState>(self).pace.taken;
     }};
 
 const NodeKind kPluginCondition{

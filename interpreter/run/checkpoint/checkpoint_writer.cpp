@@ -57,6 +57,7 @@ bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts,
   std::string bytes;
   append_facts(facts, bytes);
   if (!file_->begin(std::move(bytes), first.bytes)) return false;
+  durable_.store(first.tick, std::memory_order_release);
   snapshots_.for_each([&](Snapshot& it) { it.bytes.reserve(2 * first.bytes.size()); });
   thread_ = own_thread([this] {
     try {
@@ -107,6 +108,8 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   snapshot.ticks = head_.ticks;
   snapshot.number = ++number_;
   snapshot.changes = changes_;
+  snapshot.tick = ticker.tick_number();
+  snapshot.commit = ticker.last_commit();
   return true;
 }
 
@@ -125,6 +128,7 @@ void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks) {
 // Once: a run that goes on must not be resumed from an old state.
 void CheckpointWriter::lose(const std::string& why) {
   lost_ = why.empty() ? "out of memory" : why;
+  durable_.store(UINT32_MAX, std::memory_order_release);
   if (!thread_.joinable()) return;
   stop();
   file_->write_last(last_bytes(Checkpoint::Kind::Lost, lost_));
@@ -182,18 +186,19 @@ void CheckpointWriter::write_until_stopped() {
     if (snapshots_.take()) {
       is_good = file_->write(snapshots_.front().bytes);
       written = snapshots_.front().changes;
-      if (is_good) {
-        kept_.store(snapshots_.front().ticks, std::memory_order_release);
-        written_.store(snapshots_.front().number, std::memory_order_release);
-      }
+      if (is_good) kept_.store(snapshots_.front().ticks, std::memory_order_release);
     }
     const Nanoseconds since = monotonic_now() - synced_at;
-    if (stops ||
+    if (stops || snapshots_.front().commit > durable() ||
         since >= (written != synced ? options_.sync : longest_sync(options_.sync))) {
       is_good = is_good && file_->sync();
       synced = written;
       synced_at = monotonic_now();
+      if (is_good && snapshots_.front().number != 0) {
+        durable_.store(snapshots_.front().tick, std::memory_order_release);
+      }
     }
+    if (is_good) written_.store(snapshots_.front().number, std::memory_order_release);
     if (!is_good) failed_.store(true, std::memory_order_release);
     if (!options_.real_time) done_.ring();
     if (stops || !is_good) return;

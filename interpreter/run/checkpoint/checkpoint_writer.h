@@ -53,6 +53,9 @@ class CheckpointWriter {
 
   // "" if there is no error.
   std::string error() const;
+  // The last tick of which a checkpoint is on the disk, by the number of RunState; all, where
+  // nothing is kept any more.
+  std::uint32_t durable() const { return durable_.load(std::memory_order_acquire); }
   // How many ticks were kept before it.
   std::uint64_t kept() const { return kept_.load(std::memory_order_acquire); }
 
@@ -62,6 +65,8 @@ class CheckpointWriter {
     std::uint64_t number = 0;  // from 1 on
     std::uint64_t ticks = 0;
     std::uint64_t changes = 0;  // so often something but time has changed before it
+    std::uint32_t tick = 0;     // by the number of RunState
+    std::uint32_t commit = 0;   // the last one in which an action waits for the disk
   };
   void note_results(const Ticker& ticker);
   bool fill(Snapshot& snapshot, Ticker& ticker);
@@ -85,6 +90,7 @@ class CheckpointWriter {
   TripleBuffer<Snapshot> snapshots_{Snapshot()};
   std::atomic<std::uint64_t> written_{0};  // a number
   std::atomic<std::uint64_t> kept_{0};     // ticks
+  std::atomic<std::uint32_t> durable_{0};
   std::atomic<bool> failed_{false}, stopping_{false};
   Bell work_, done_;
   std::thread thread_;

@@ -20,16 +20,18 @@ std::vector<std::uint32_t> add_defaults(const NodeType& type, std::vector<Value>
 
 void look_up_names(const NodeType& type, const LanguageRules& rules, AttributeLayout& layout) {
   layout.name = AttributeLayout::kNone;
-  layout.has_unknown = layout.has_hooks = false;
+  layout.has_unknown = layout.has_hooks = layout.has_at_cut = false;
   for (std::uint32_t i = 0; i < layout.names.size(); ++i) {
     const std::string_view name = layout.names[i];
     if (name == "name") layout.name = i;
     // Nodes that are declared beside the trees are never ticked.
     const bool is_hook = type.category != NodeCategory::Group && hook_named(name, rules);
     layout.has_hooks |= is_hook;
+    const bool is_at_cut = type.category == NodeCategory::Action && is_of_actions(name, rules);
+    layout.has_at_cut |= is_at_cut;
     const bool names_type = layout.is_explicit && name == "ID";
     layout.has_unknown |=
-        !is_common_attribute(name) && !names_type && !is_hook &&
+        !is_common_attribute(name) && !names_type && !is_hook && !is_at_cut &&
         std::ranges::find(type.parameters, name, &Parameter::name) == type.parameters.end();
   }
 }

@@ -39,6 +39,7 @@ struct AttributeLayout {
   std::uint32_t name = kNone;  // the attribute that names the node
   bool has_unknown = false;    // an attribute that the type does not have
   bool has_hooks = false;      // an attribute with a script around ticks
+  bool has_at_cut = false;     // one of LeafAtCut
   std::vector<Given> given;    // in the order of the parameters
   // One for each parameter; complete where the parameter is not in `given`.
   std::vector<CheckedPort> ports;

@@ -75,6 +75,7 @@ class AttributeChecker {
     if (layout_.has_unknown) find_unknown();
     check_parameters();
     if (layout_.has_hooks) check_hooks(element_, report_, node_, trees_);
+    if (layout_.has_at_cut) check_at_cut(element_, report_, node_, rules_);
   }
 
  private:
@@ -230,7 +231,10 @@ class AttributeChecker {
   // Nodes that are declared beside the trees are never ticked.
   bool has_hooks() const { return node_.type->category != NodeCategory::Group; }
   bool is_hook(std::string_view name) const {
-    return has_hooks() && hook_named(name, rules_).has_value();
+    return (has_hooks() && hook_named(name, rules_).has_value()) || is_at_cut(name);
+  }
+  bool is_at_cut(std::string_view name) const {
+    return node_.type->category == NodeCategory::Action && is_of_actions(name, rules_);
   }
 
   std::vector<std::string_view> names() const {
@@ -238,6 +242,7 @@ class AttributeChecker {
     for (const Parameter& it : node_.type->parameters) names.push_back(it.name);
     if (!has_hooks()) return names;
     names.insert(names.end(), rules_.hooks.begin(), rules_.hooks.end());
+    if (is_at_cut(rules_.commit)) names.insert(names.end(), {rules_.on_resume, rules_.commit});
     return names;
   }
 

@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/core/parameter_value.h"
+#include "base/core/wording.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -83,6 +86,38 @@ void check_hooks(const NodeElement& element, const Reporter& report, CheckedNode
   if (trees.scripts.size() == first) return;
   trees.scripts.back().is_last = true;
   node.scripts = first;
+}
+
+// A port of such a name comes first.
+void check_at_cut(const NodeElement& element, const Reporter& report, CheckedNode& node,
+                  const LanguageRules& rules) {
+  const NodeType& type = *node.type;
+  for (const Attribute& attribute : element.attributes) {
+    if (!is_of_actions(attribute.name, rules) || type.category != NodeCategory::Action ||
+        std::ranges::find(type.parameters, attribute.name, &Parameter::name) !=
+            type.parameters.end()) {
+      continue;
+    }
+    if (type.leaf == nullptr && type.mock == nullptr) {
+      report.at("unknown-attribute"_code, attribute.place,
+                fmt::format("'{}' is for actions of plugins", attribute.name),
+                "what built-in nodes do is kept in the checkpoint: leave it out");
+    } else if (attribute.name == rules.commit) {
+      const auto commits = parse_value(ValueType::Bool, attribute.value);
+      if (commits) {
+        node.at_cut.commits = *commits == Value(true);
+        continue;
+      }
+      report.at_value("bad-value"_code, attribute.place,
+                      fmt::format("'{}' is not true or false", brief(attribute.value)));
+    } else if (const auto does = after_cut_named(attribute.value)) {
+      node.at_cut.otherwise = *does;
+      node.at_cut.is_given = true;
+    } else {
+      report.at_value("bad-value"_code, attribute.place,
+                      fmt::format("'{}' is not restart, failure or success", brief(attribute.value)));
+    }
+  }
 }
 
 }  // namespace lockstep::host

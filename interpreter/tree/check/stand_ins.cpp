@@ -200,7 +200,8 @@ class Builder {
     }
     for (const Attribute& attribute : document.attributes(node)) {
       const bool is_own = attribute.name == "name" || attribute.name == "ID" ||
-                          hook_named(attribute.name, *project_.rules).has_value();
+                          hook_named(attribute.name, *project_.rules).has_value() ||
+                          is_of_actions(attribute.name, *project_.rules);
       if (is_own || !may_be_port(attribute.name)) continue;
       use.attributes.try_emplace(attribute.name, UsedAttribute{attribute.place, attribute.value});
       const ModelPort* port = model == nullptr ? nullptr : model->port(attribute.name);

@@ -71,7 +71,8 @@ class Expander {
                                  .first = 0,
                                  .name = checked.name,
                                  .place = checked.place,
-                                 .written = checked.written});
+                                 .written = checked.written,
+                                 .at_cut = checked.at_cut});
     if (checked.scripts != Port::kNone) {
       definition_.nodes[place].hooks = bind_hooks(checked.scripts, scope);
     }

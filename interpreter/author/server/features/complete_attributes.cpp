@@ -32,6 +32,10 @@ class AttributeItems {
       return add("name", "required", "What members call it.", 0);
     if (type->category == NodeCategory::SubTree) add_sub_tree();
     for (const CommonAttribute& it : common_attributes()) add(it.name, "", it.doc, 2);
+    if (has_action_attributes(*type)) {
+      add(at_.rules.on_resume, "restart, failure or success", action_attributes()[0].doc, 3);
+      add(at_.rules.commit, "bool", action_attributes()[1].doc, 3);
+    }
     const auto scripts = script_attributes();
     for (std::size_t hook = 0; hook < kHooks; ++hook)
       add(at_.rules.hooks[hook], "script", scripts[hook].doc, 3);

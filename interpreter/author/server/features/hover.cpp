@@ -60,6 +60,10 @@ class Hover {
     if (type_ == nullptr) return {};
     for (const CommonAttribute& it : common_attributes())
       if (it.name == name) return fmt::format("{}\n\n{}", name, it.doc);
+    if (has_action_attributes(*type_) && is_of_actions(name, rules_of(question_))) {
+      const bool is_commit = name == rules_of(question_).commit;
+      return fmt::format("{}\n\n{}", name, action_attributes()[is_commit ? 1 : 0].doc);
+    }
     if (const auto hook = hook_named(name, rules_of(question_)))
       return fmt::format("{}\n\n{}", name,
                          script_attributes()[static_cast<std::size_t>(*hook)].doc);

@@ -84,6 +84,8 @@ ManualFile tree_page(std::string_view date) {
   page.subsection("Attributes of every node");
   add_attributes(page, common_attributes());
   add_attributes(page, script_attributes());
+  page.subsection("Attributes of an action of a plugin");
+  add_attributes(page, action_attributes());
   page.subsection("Attributes of a SubTree");
   add_attributes(page, subtree_attributes());
   add_nodes(page);
