@@ -89,8 +89,8 @@ const NodeKind* hooked_kind_of(const NodeKind* kind) {
       };
     };
     for (const NodeKind* leaf :
-         {&kPluginAction, kPluginAction.obeying, kPluginAction.committing, &kPluginCondition, &kPluginControl, &kMockAction,
-          &kMockCondition, &kMockControl, &kMockDecorator}) {
+         {&kPluginAction, kPluginAction.obeying, kPluginAction.committing, &kPluginCondition,
+          &kPluginControl, &kMockAction, &kMockCondition, &kMockControl, &kMockDecorator}) {
       add(leaf);
     }
     for (const LanguageRules* each : languages()) {

@@ -16,14 +16,15 @@ void Ticker::save_leaves(LeafBytes& into) {
   for (const std::uint32_t place : tree_.kept_leaves) {
     const NodeIndex node = tree_.leaves[place].node;
     into[place].clear();
-    if (status(node) == Status::Running && !has_to_commit(place)) save_leaf(*this, node, leaf_room_, into[place]);
+    if (status(node) == Status::Running && !has_to_commit(place))
+      save_leaf(*this, node, leaf_room_, into[place]);
   }
 }
 
 // Nothing is left for it to do but to wait.
 bool Ticker::has_to_commit(std::uint32_t place) const {
   const LeafNode& leaf = tree_.leaves[place];
-  return leaf.at_cut.commits && state<CommitState>(leaf.node).has_succeeded != 0;
+  return leaf.at_cut.commits && RunView::state<CommitState>(leaf.node).has_succeeded != 0;
 }
 
 std::vector<CutLeaf> Ticker::cut_leaves() const {
@@ -79,9 +80,13 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
 Status NodeContext::begin_after_cut(NodeIndex node) {
   leaf(node).mark(LeafSlot::kCut | LeafSlot::kHeld, false);
   switch (after_cut_[nodes_[node].params]) {
-    case AfterCut::Failure: return Status::Failure;
-    case AfterCut::Success: return Status::Success;
-    default: state_.activity[node] = Activity::Idle; return Status::Running;
+    case AfterCut::Failure:
+      return Status::Failure;
+    case AfterCut::Success:
+      return Status::Success;
+    default:
+      state_.activity[node] = Activity::Idle;
+      return Status::Running;
   }
 }
 

@@ -28,7 +28,7 @@ using LeafBytes = std::vector<std::string>;
 // What an action with commit="true" keeps.
 struct CommitState {
   LeafPace pace;
-  std::uint32_t succeeded_at;  // in this tick
+  std::uint32_t succeeded_at;   // in this tick
   std::uint32_t has_succeeded;  // its activation has ended, and it runs until a checkpoint has that
 };
 

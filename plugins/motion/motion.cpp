@@ -25,8 +25,7 @@ struct AdvanceState {
   double progress = 0;
 };
 
-class Advance : public lockstep::ProgressAction<AdvancePorts>,
-                public lockstep::Kept<AdvanceState> {
+class Advance : public lockstep::ProgressAction<AdvancePorts>, public lockstep::Kept<AdvanceState> {
  public:
   void start() override { begin(); }
   lockstep::AfterCut after_cut(const lockstep::Cut&) override {

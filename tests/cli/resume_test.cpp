@@ -141,8 +141,8 @@ std::vector<std::string> moving_trees() {
   return trees;
 }
 
-// What each leaf says, without the lines that only a cut makes: in the tick that is lost it may have said
-// the same.
+// What each leaf says, without the lines that only a cut makes: in the tick that is lost it may
+// have said the same.
 std::map<std::string, std::vector<std::string>> moves(const CutRun& run) {
   std::map<std::string, std::vector<std::string>> of;
   for (const std::string& line : run.said()) {

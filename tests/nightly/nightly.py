@@ -24,6 +24,7 @@ sys.path.insert(0, str(SOURCE / "tests/results"))
 import results  # noqa: E402
 
 TREES, SMALL_TREES, SOAK_MINUTES, MUTANTS = 200_000, 500_000, 60, 60
+CUT_RUNS, CUT_RUNS_ON_THE_WALL_CLOCK = 20_000, 2_000
 HEAD = """\
 # Nightly
 
@@ -73,6 +74,12 @@ def random_trees(command, count):
     return lambda _: iter([("all", ("./dev", command, str(count), str(int(time.time()) // 86400 * count)))])
 
 
+def cut_runs(_):
+    command = ("python3", "tests/reliability/cuts.py", "build/release/lockstep", "build/release/plugins")
+    yield "virtual clock", (*command, str(CUT_RUNS))
+    yield "wall clock", (*command, str(CUT_RUNS_ON_THE_WALL_CLOCK), "--wall")
+
+
 def checkout_of_btcpp():
     return pathlib.Path(os.environ.get("BTCPP_CHECKOUT", SOURCE.parent / "BehaviorTree.CPP"))
 
@@ -100,6 +107,7 @@ STEPS = {
               lambda _: iter([("all", ("./dev", "test-btcpp", str(checkout_of_btcpp())))]), btcpp_is_missing),
     "ros2": ("leaves against real servers of ROS 2", one("./dev", "test-ros2"), ros2_is_missing),
     "python": ("the Python module with Python 3.9", one("./dev", "test-python"), is_here),
+    "cuts": (f"{CUT_RUNS + CUT_RUNS_ON_THE_WALL_CLOCK:,} runs of random trees that are killed and continue", cut_runs, is_here),
     "soak": (f"random faults at 1 kHz for {SOAK_MINUTES} minutes", one("./dev", "soak", str(SOAK_MINUTES)), is_here),
     "bench": ("the benchmarks, which neither pass nor fail", one("./dev", "bench"), is_here),
 }

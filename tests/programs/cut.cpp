@@ -1,5 +1,5 @@
-// Leaves that say in the file LOG what happens to them, and end their process in the middle of a tick
-// at the time CUT_AT of the run.
+// Leaves that say in the file LOG what happens to them, and end their process in the middle of a
+// tick at the time CUT_AT of the run.
 #include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>

@@ -24,8 +24,7 @@ const char* name_of(PluginFunction function) {
       "none",          "load",        "describe", "init",     "create_run", "create",   "start",
       "start_unreset", "tick",        "halt",     "pause",    "resume",     "progress", "run",
       "destroy",       "destroy_run", "deinit",   "retain",   "release",    "to_text",  "from_text",
-      "to_bytes",      "from_bytes",  "reads",    "set_pace", "save",
-      "restore", "end"};
+      "to_bytes",      "from_bytes",  "reads",    "set_pace", "save",       "restore",  "end"};
   static_assert(kNames.size() == static_cast<std::size_t>(PluginFunction::End) + 1);
   return kNames[static_cast<std::size_t>(function)];
 }

@@ -45,7 +45,8 @@ std::string value_text(const std::string& value) {
 lockstep_cut cut_of(const Checkpoint& from, const RunCommandOptions& options, Nanoseconds period) {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);
-  const Nanoseconds gap = std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec) - from.written;
+  const Nanoseconds gap =
+      std::chrono::seconds(now.tv_sec) + Nanoseconds(now.tv_nsec) - from.written;
   const bool power = from.boot != boot_id();
   const Nanoseconds sync = power ? CheckpointWriter::longest_sync(options.sync()) : Nanoseconds(0);
   const std::uint64_t ticks = (CheckpointWriter::pause_of(period) + sync) / period + 2;
@@ -53,16 +54,22 @@ lockstep_cut cut_of(const Checkpoint& from, const RunCommandOptions& options, Na
           .power = power,
           .held = false,
           .gap = std::max(to_seconds(gap), 0.0),
-          .lost_ticks = options.is_real() ? ticks : power ? UINT64_MAX : 1};
+          .lost_ticks = options.is_real() ? ticks
+                        : power           ? UINT64_MAX
+                                          : 1};
 }
 
 // "starts again", of one leaf, or of several.
 std::string_view what_it_does(const CutLeaf& leaf, bool is_one) {
   switch (leaf.does) {
-    case AfterCut::BeginsAgain: return is_one ? "starts again" : "start again";
-    case AfterCut::GoesOn: return is_one ? "continues" : "continue";
-    case AfterCut::Success: return is_one ? "counts as succeeded" : "count as succeeded";
-    case AfterCut::Failure: break;
+    case AfterCut::BeginsAgain:
+      return is_one ? "starts again" : "start again";
+    case AfterCut::GoesOn:
+      return is_one ? "continues" : "continue";
+    case AfterCut::Success:
+      return is_one ? "counts as succeeded" : "count as succeeded";
+    case AfterCut::Failure:
+      break;
   }
   if (leaf.is_asked) return "cannot continue";
   return is_one ? "counts as failed" : "count as failed";
@@ -77,8 +84,8 @@ std::string what_they_do(const std::vector<CutLeaf>& cut, Ticker& ticker) {
     const NodeIndex node = ticker.tree().leaves[leaf.place].node;
     const std::string path = ticker.tree().path(node);
     if (leaf.does == AfterCut::GoesOn) {
-      text += fmt::format("; '{}' {} at {:.2g}", path, what_it_does(leaf, true),
-                          ticker.progress(node));
+      text +=
+          fmt::format("; '{}' {} at {:.2g}", path, what_it_does(leaf, true), ticker.progress(node));
     } else {
       of_several[what_it_does(leaf, true)] = what_it_does(leaf, false);
       paths[what_it_does(leaf, true)].push_back(path);
@@ -182,11 +189,10 @@ int KeptRun::refuse(const KeptCheckpoint& kept) {
 bool KeptRun::begin(Run& run, std::function<void(const std::string& error)> on_error) {
   if (run.fault() != nullptr) return true;
   if (from_) go_on(run);
-  writer_.emplace(std::move(file_),
-                  CheckpointOptions{.sync = options_.sync(),
-                                    .period = run.period(),
-                                    .real_time = options_.is_real(),
-                                    .on_error = std::move(on_error)});
+  writer_.emplace(std::move(file_), CheckpointOptions{.sync = options_.sync(),
+                                                      .period = run.period(),
+                                                      .real_time = options_.is_real(),
+                                                      .on_error = std::move(on_error)});
   const InEngine scope(run.blackboard().lock.get());
   const bool is_good =
       writer_->begin(run.ticker(), facts_, before().ticks, from_ ? from_->resumes + 1 : 0);

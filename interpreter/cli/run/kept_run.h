@@ -32,7 +32,8 @@ class KeptRun {
     if (writer_) writer_->end();
   }
 
-  // "resumed after 35 s; 'Main/left' continues at 0.42; 'Main/right' starts again"; "": it has begun.
+  // "resumed after 35 s; 'Main/left' continues at 0.42; 'Main/right' starts again"; "": it has
+  // begun.
   const std::string& resumed() const { return resumed_; }
   // Why nothing is kept any more, and since when; "": all is.
   std::string error() const;

@@ -386,9 +386,8 @@ void save_leaf(NodeContext& context, NodeIndex node, std::span<char> room, std::
   LeafSlot& leaf = context.leaf(node);
   if (leaf.is_out()) return;
   std::size_t size = 0;
-  guarded(context, node, PluginFunction::Save, [&](const LeafSlot& it) {
-    size = it.type->save(it.self, room.data(), room.size());
-  });
+  guarded(context, node, PluginFunction::Save,
+          [&](const LeafSlot& it) { size = it.type->save(it.self, room.data(), room.size()); });
   if (take_error(context, node, leaf) || is_out(context, leaf)) return;
   if (size <= room.size()) {
     into.assign(room.data(), size);
@@ -407,10 +406,14 @@ AfterCut ask_leaf_after_cut(NodeContext& context, NodeIndex node, std::string_vi
   });
   if (take_error(context, node, leaf) || is_out(context, leaf)) return AfterCut::BeginsAgain;
   switch (answer) {
-    case LOCKSTEP_BEGINS_AGAIN: return AfterCut::BeginsAgain;
-    case LOCKSTEP_GOES_ON: return AfterCut::GoesOn;
-    case LOCKSTEP_CANNOT_GO_ON: return AfterCut::Failure;
-    default: break;
+    case LOCKSTEP_BEGINS_AGAIN:
+      return AfterCut::BeginsAgain;
+    case LOCKSTEP_GOES_ON:
+      return AfterCut::GoesOn;
+    case LOCKSTEP_CANNOT_GO_ON:
+      return AfterCut::Failure;
+    default:
+      break;
   }
   context.set_fault(node, "returned " + std::to_string(answer) +
                               " from restore, expected a lockstep_after_cut of lockstep/leaf.h");

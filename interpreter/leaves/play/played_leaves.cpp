@@ -306,7 +306,7 @@ const NodeType* PlayedLeaves::add_type(const NodeType& from) {
     type.leaf.behavior_count = type.node.leaf->behavior_count;
     type.leaf.behavior = type.node.leaf->behavior;
   }
-  type.leaf.set_pace = nullptr;       // what it does is given
+  type.leaf.set_pace = nullptr;  // what it does is given
   type.leaf.save = nullptr;
   type.leaf.restore = nullptr;
   type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify

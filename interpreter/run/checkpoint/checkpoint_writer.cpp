@@ -44,8 +44,8 @@ CheckpointWriter::~CheckpointWriter() {
   stop();
 }
 
-bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts,
-                             std::uint64_t ticks, std::uint32_t resumes) {
+bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
+                             std::uint32_t resumes) {
   head_.ticks = ticks;
   kept_.store(ticks, std::memory_order_release);
   head_.resumes = resumes;

@@ -196,7 +196,8 @@ bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into, LeafBy
   passing(reader, into.run);
   lasting(reader, into);
   reader(leaves);
-  if ((!leaves.empty() && leaves.size() != tree.leaves.size()) || !reader.is_whole() || !fits(into.run, tree) || !fits(into.parameters, tree) ||
+  if ((!leaves.empty() && leaves.size() != tree.leaves.size()) || !reader.is_whole() ||
+      !fits(into.run, tree) || !fits(into.parameters, tree) ||
       !fits(into.held_leaves, tree.nodes.size()) || !fits(into.entries, tree) ||
       into.named.size() != tree.boards.size() || into.leaves.size() != tree.leaves.size()) {
     return false;

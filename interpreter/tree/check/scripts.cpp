@@ -114,8 +114,9 @@ void check_at_cut(const NodeElement& element, const Reporter& report, CheckedNod
       node.at_cut.otherwise = *does;
       node.at_cut.is_given = true;
     } else {
-      report.at_value("bad-value"_code, attribute.place,
-                      fmt::format("'{}' is not restart, failure or success", brief(attribute.value)));
+      report.at_value(
+          "bad-value"_code, attribute.place,
+          fmt::format("'{}' is not restart, failure or success", brief(attribute.value)));
     }
   }
 }

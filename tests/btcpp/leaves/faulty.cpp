@@ -74,6 +74,11 @@ class Reach : public StatefulActionNode {
   void onPaused() { std::cout << name() << " holds at " << at_ << std::endl; }
   double onPace(double factor) { return factor; }
   void onResumed() { std::cout << name() << " goes on" << std::endl; }
+  std::string onSave() const { return std::to_string(at_); }
+  bool onRestored(const std::string& kept) {
+    at_ = std::stod(kept);
+    return true;
+  }
 
  private:
   double at_ = 0;

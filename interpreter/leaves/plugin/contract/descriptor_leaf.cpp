@@ -72,10 +72,10 @@ std::optional<Problem> check_leaf(const lockstep_leaf_type& leaf) {
                    "set lockstep_leaf_type::ports"};
   }
   if ((leaf.save == nullptr) != (leaf.restore == nullptr)) {
-    return Problem{fmt::format("('{}') has {} without {}", leaf.id,
-                               leaf.save != nullptr ? "save" : "restore",
-                               leaf.save != nullptr ? "restore" : "save"),
-                   "a leaf type has both or none"};
+    return Problem{
+        fmt::format("('{}') has {} without {}", leaf.id, leaf.save != nullptr ? "save" : "restore",
+                    leaf.save != nullptr ? "restore" : "save"),
+        "a leaf type has both or none"};
   }
   if ((leaf.more_ports == nullptr) != (leaf.describe == nullptr)) {
     return Problem{fmt::format("('{}') has {} without {}", leaf.id,

@@ -52,11 +52,11 @@ class Conversation {
     lockstep_status status = 0;  // 0: no answer to tick
     std::string set = {};        // the line that has "set", or ""
     std::string error = {};
-    std::string reason = {};  // of the status
+    std::string reason = {};                               // of the status
     lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;  // of an answer to restore
-    bool is_asked = false;    // it owes an answer
-    Nanoseconds since{0};     // when it was asked
-    Nanoseconds answered{0};  // when the answer to tick came
+    bool is_asked = false;                                 // it owes an answer
+    Nanoseconds since{0};                                  // when it was asked
+    Nanoseconds answered{0};                               // when the answer to tick came
   };
   News take(std::uint32_t leaf);
   // Takes only the error of the news; the rest stays for the next tick.

@@ -37,54 +37,55 @@ void read_fields(JsonObject object, Reply& reply) {
     reply.what = what;
     ++kinds;
   };
-  object.read({{"leaf", into(reply.leaf), kMayLack},
-               {"status",
-                [&](JsonValue it) {
-                  reply.status = status_of(it.text());
-                  is(Reply::What::Status);
-                },
-                kMayLack},
-               {"progress", [&](JsonValue it) { reply.progress = it.number(); }, kMayLack},
-               {"reason", into(reply.reason), kMayLack},
-               {"kept", [&](JsonValue it) { reply.kept = it.text(); }, kMayLack},
-               {"after_cut",
-                [&](JsonValue it) { reply.after_cut = after_cut_of(it.text()); }, kMayLack},
-               {"pace",
-                [&](JsonValue it) {
-                  reply.pace = it.number();
-                  is(Reply::What::Pace);
-                },
-                kMayLack},
-               {"set",
-                [&](JsonValue it) {
-                  reply.sets_ports = true;
-                  it.skip();
-                },
-                kMayLack},
-               {"done",
-                [&](JsonValue it) {
-                  it.skip();
-                  is(Reply::What::Done);
-                },
-                kMayLack},
-               {"log",
-                [&](JsonValue it) {
-                  reply.text = it.text();
-                  is(Reply::What::Log);
-                },
-                kMayLack},
-               {"level", [&](JsonValue it) { reply.level = level_of(it.text()); }, kMayLack},
-               {"error",
-                [&](JsonValue it) {
-                  reply.text = it.text();
-                  if (reply.text.empty()) reply.text = "unknown error";
-                  is(Reply::What::Error);
-                },
-                kMayLack}});
+  object.read(
+      {{"leaf", into(reply.leaf), kMayLack},
+       {"status",
+        [&](JsonValue it) {
+          reply.status = status_of(it.text());
+          is(Reply::What::Status);
+        },
+        kMayLack},
+       {"progress", [&](JsonValue it) { reply.progress = it.number(); }, kMayLack},
+       {"reason", into(reply.reason), kMayLack},
+       {"kept", [&](JsonValue it) { reply.kept = it.text(); }, kMayLack},
+       {"after_cut", [&](JsonValue it) { reply.after_cut = after_cut_of(it.text()); }, kMayLack},
+       {"pace",
+        [&](JsonValue it) {
+          reply.pace = it.number();
+          is(Reply::What::Pace);
+        },
+        kMayLack},
+       {"set",
+        [&](JsonValue it) {
+          reply.sets_ports = true;
+          it.skip();
+        },
+        kMayLack},
+       {"done",
+        [&](JsonValue it) {
+          it.skip();
+          is(Reply::What::Done);
+        },
+        kMayLack},
+       {"log",
+        [&](JsonValue it) {
+          reply.text = it.text();
+          is(Reply::What::Log);
+        },
+        kMayLack},
+       {"level", [&](JsonValue it) { reply.level = level_of(it.text()); }, kMayLack},
+       {"error",
+        [&](JsonValue it) {
+          reply.text = it.text();
+          if (reply.text.empty()) reply.text = "unknown error";
+          is(Reply::What::Error);
+        },
+        kMayLack}});
   if (kinds == 0 && (reply.progress || reply.kept)) is(Reply::What::Progress);
   if (kinds != 1) {
     throw JsonError(
-        "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' or 'kept' alone");
+        "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' or 'kept' "
+        "alone");
   }
   if (reply.sets_ports && reply.what != Reply::What::Status) {
     throw JsonError("'set' belongs to a 'status'");

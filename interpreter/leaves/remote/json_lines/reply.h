@@ -23,12 +23,12 @@ struct Reply {
   std::uint64_t leaf = 0;  // 0: the program itself
   lockstep_status status = 0;
   std::optional<double> progress;
-  double pace = 0;          // of Pace
-  bool sets_ports = false;  // the line also has "set"
-  std::string text;         // of Log and Error
-  std::string reason;       // of Status
-  std::optional<std::string> kept;                         // for a checkpoint; not of Log and Error
-  lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;    // of Done
+  double pace = 0;                                       // of Pace
+  bool sets_ports = false;                               // the line also has "set"
+  std::string text;                                      // of Log and Error
+  std::string reason;                                    // of Status
+  std::optional<std::string> kept;                       // for a checkpoint; not of Log and Error
+  lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;  // of Done
   lockstep_log_level level = LOCKSTEP_LOG_INFO;
 };
 

@@ -42,7 +42,8 @@ inline constexpr bool kHasKept = std::is_base_of_v<KeptBase, T>;
 struct KeptAccess {
   template <class T>
   static auto& of(T& leaf) {
-    static_assert(std::is_convertible_v<T*, const KeptBase*>, "write: public lockstep::Kept<State>");
+    static_assert(std::is_convertible_v<T*, const KeptBase*>,
+                  "write: public lockstep::Kept<State>");
     return leaf.Kept<typename T::KeptState>::kept;
   }
   template <class T>
@@ -57,8 +58,7 @@ struct KeptAccess {
 
 template <class T>
 inline constexpr bool kOverridesSave =
-    !std::is_same_v<decltype(&T::save),
-                    std::size_t (ActionFunctions::*)(void*, std::size_t) const>;
+    !std::is_same_v<decltype(&T::save), std::size_t (ActionFunctions::*)(void*, std::size_t) const>;
 
 template <class T>
 inline constexpr bool kOverridesPace =

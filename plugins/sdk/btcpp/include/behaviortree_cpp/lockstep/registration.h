@@ -37,7 +37,7 @@ struct ClassHooks {
   void (*pause)(TreeNode&) = nullptr;
   void (*resume)(TreeNode&) = nullptr;
   double (*pace)(TreeNode&, double factor) = nullptr;
-  std::string (*save)(const TreeNode&) = nullptr;                // these: both or none
+  std::string (*save)(const TreeNode&) = nullptr;  // these: both or none
   bool (*restore)(TreeNode&, const std::string& kept) = nullptr;
   void (*reason)(const TreeNode&, const lockstep_reason&, const lockstep_caller*) = nullptr;
 };
