@@ -52,7 +52,7 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
   held_leaves_.reset();
   state_.tolerated.clear();
   state_.out_of_range.clear();
-  after_cut_.assign(leaves_.size(), AfterCut::BeginsAgain);
+  after_cut_.assign(leaves_.size(), AfterCut::StartsAgain);
   for (LeafSlot& leaf : leaves_) {
     leaf.set_started(false);
     leaf.out_of_range = leaf.went_on = false;
@@ -61,9 +61,9 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
     LeafSlot& leaf = leaves_[it.place];
     const NodeIndex node = tree_.leaves[it.place].node;
     after_cut_[it.place] = it.does;
-    leaf.mark(LeafSlot::kCut, it.does != AfterCut::GoesOn);
-    leaf.set_started(it.does == AfterCut::GoesOn);
-    if (it.does == AfterCut::GoesOn) {
+    leaf.mark(LeafSlot::kCut, it.does != AfterCut::Continues);
+    leaf.set_started(it.does == AfterCut::Continues);
+    if (it.does == AfterCut::Continues) {
       const LeafNode& its = tree_.leaves[it.place];
       if (its.obeys() || its.at_cut.commits) state<LeafPace>(node) = {.told = 1, .taken = 1};
       if (activity(node) == Activity::Paused) watch_held(node);

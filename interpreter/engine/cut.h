@@ -17,7 +17,7 @@ namespace lockstep::host {
 
 struct CutLeaf {
   std::uint32_t place;  // in Tree::leaves
-  AfterCut does = AfterCut::BeginsAgain;
+  AfterCut does = AfterCut::StartsAgain;
   bool is_asked = false;  // and that was its answer
 };
 

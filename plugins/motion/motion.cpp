@@ -31,7 +31,7 @@ class Advance : public lockstep::ProgressAction<AdvancePorts>, public lockstep::
   lockstep::AfterCut after_cut(const lockstep::Cut&) override {
     begin();
     set_progress(kept.progress);
-    return lockstep::AfterCut::GoesOn;
+    return lockstep::AfterCut::Continues;
   }
 
   Status tick() override {

@@ -77,14 +77,14 @@ class Move : public Step {
   lockstep::AfterCut restore(std::string_view bytes, const lockstep::Cut& cut) override {
     const char* const what = std::getenv("AFTER_CUT");
     const std::string word = what == nullptr ? "go on" : what;
-    if (word == "begin") return lockstep::AfterCut::BeginsAgain;
-    if (word == "fail") return lockstep::AfterCut::CannotGoOn;
+    if (word == "begin") return lockstep::AfterCut::StartsAgain;
+    if (word == "fail") return lockstep::AfterCut::CannotContinue;
     if (word == "throw") throw std::runtime_error("the arm is gone");
     if (cut.power || !(cut.gap >= 0) || cut.lost_ticks != 1) say("has another cut");
     done_ = std::stoll(std::string(bytes));
     set_progress(share());
     say(cut.held ? "is still held" : "goes on after the cut");
-    return lockstep::AfterCut::GoesOn;
+    return lockstep::AfterCut::Continues;
   }
 };
 

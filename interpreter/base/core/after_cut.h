@@ -8,18 +8,18 @@
 namespace lockstep::host {
 
 // What a leaf does that ran at the cut. The results are those of its next tick, without a call.
-enum class AfterCut : std::uint8_t { BeginsAgain, GoesOn, Failure, Success };
+enum class AfterCut : std::uint8_t { StartsAgain, Continues, Failure, Success };
 
 // "restart", "failure" or "success", as elements and options have it. Nothing: another word.
 constexpr std::optional<AfterCut> after_cut_named(std::string_view word) {
-  if (word == "restart") return AfterCut::BeginsAgain;
+  if (word == "restart") return AfterCut::StartsAgain;
   if (word == "failure") return AfterCut::Failure;
   return word == "success" ? std::optional(AfterCut::Success) : std::nullopt;
 }
 
 // What an element says of its leaf.
 struct LeafAtCut {
-  AfterCut otherwise = AfterCut::BeginsAgain;  // what it does if it cannot be asked
+  AfterCut otherwise = AfterCut::StartsAgain;  // what it does if it cannot be asked
   bool is_given = false;                       // `otherwise`; else the run decides
   bool commits = false;  // its success counts only once a checkpoint with it is on the disk
 };

@@ -62,9 +62,9 @@ lockstep_cut cut_of(const Checkpoint& from, const RunCommandOptions& options, Na
 // "starts again", of one leaf, or of several.
 std::string_view what_it_does(const CutLeaf& leaf, bool is_one) {
   switch (leaf.does) {
-    case AfterCut::BeginsAgain:
+    case AfterCut::StartsAgain:
       return is_one ? "starts again" : "start again";
-    case AfterCut::GoesOn:
+    case AfterCut::Continues:
       return is_one ? "continues" : "continue";
     case AfterCut::Success:
       return is_one ? "counts as succeeded" : "count as succeeded";
@@ -83,7 +83,7 @@ std::string what_they_do(const std::vector<CutLeaf>& cut, Ticker& ticker) {
   for (const CutLeaf& leaf : cut) {
     const NodeIndex node = ticker.tree().leaves[leaf.place].node;
     const std::string path = ticker.tree().path(node);
-    if (leaf.does == AfterCut::GoesOn) {
+    if (leaf.does == AfterCut::Continues) {
       text +=
           fmt::format("; '{}' {} at {:.2g}", path, what_it_does(leaf, true), ticker.progress(node));
     } else {

@@ -267,7 +267,7 @@ void define_checkpoint_options(CLI::App& app, RunCommandOptions& options) {
                "there is none, start a new run")
       ->needs("--checkpoint");
   add_choice<AfterCut>(app, "--on-resume", options.on_resume,
-                       {{"restart", AfterCut::BeginsAgain},
+                       {{"restart", AfterCut::StartsAgain},
                         {"failure", AfterCut::Failure},
                         {"success", AfterCut::Success}},
                        "With --resume: leaves that ran at the cut and cannot continue start again, "

@@ -50,7 +50,7 @@ struct RunCommandOptions {
   std::string checkpoint;  // "": the run is not kept
   double checkpoint_sync_ms = 100;
   bool resumes = false;  // where the checkpoint is of a run that has not ended
-  AfterCut on_resume = AfterCut::BeginsAgain;  // of leaves that ran at the cut
+  AfterCut on_resume = AfterCut::StartsAgain;  // of leaves that ran at the cut
   std::uint64_t resume_limit = 3;              // in a row
   // Where the run pauses, for who types.
   std::vector<std::string> breaks, break_conditions;

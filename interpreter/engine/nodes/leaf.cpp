@@ -400,24 +400,24 @@ void save_leaf(NodeContext& context, NodeIndex node, std::span<char> room, std::
 AfterCut ask_leaf_after_cut(NodeContext& context, NodeIndex node, std::string_view bytes,
                             const lockstep_cut& cut) {
   LeafSlot& leaf = context.leaf(node);
-  lockstep_after_cut answer = LOCKSTEP_BEGINS_AGAIN;
+  lockstep_after_cut answer = LOCKSTEP_STARTS_AGAIN;
   guarded(context, node, PluginFunction::Restore, [&](const LeafSlot& it) {
     answer = it.type->restore(it.self, bytes.data(), bytes.size(), &cut);
   });
-  if (take_error(context, node, leaf) || is_out(context, leaf)) return AfterCut::BeginsAgain;
+  if (take_error(context, node, leaf) || is_out(context, leaf)) return AfterCut::StartsAgain;
   switch (answer) {
-    case LOCKSTEP_BEGINS_AGAIN:
-      return AfterCut::BeginsAgain;
-    case LOCKSTEP_GOES_ON:
-      return AfterCut::GoesOn;
-    case LOCKSTEP_CANNOT_GO_ON:
+    case LOCKSTEP_STARTS_AGAIN:
+      return AfterCut::StartsAgain;
+    case LOCKSTEP_CONTINUES:
+      return AfterCut::Continues;
+    case LOCKSTEP_CANNOT_CONTINUE:
       return AfterCut::Failure;
     default:
       break;
   }
   context.set_fault(node, "returned " + std::to_string(answer) +
                               " from restore, expected a lockstep_after_cut of lockstep/leaf.h");
-  return AfterCut::BeginsAgain;
+  return AfterCut::StartsAgain;
 }
 
 extern const NodeKind kObeyingAction, kCommittingAction;

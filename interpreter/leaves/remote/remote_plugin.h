@@ -33,7 +33,7 @@ class RemoteLeaf : public ProcessLeaf {
   virtual std::size_t save(void* /*bytes*/, std::size_t /*room*/) { return 0; }
   virtual lockstep_after_cut restore(const void* /*bytes*/, std::size_t /*size*/,
                                      const lockstep_cut* /*cut*/) {
-    return LOCKSTEP_BEGINS_AGAIN;
+    return LOCKSTEP_STARTS_AGAIN;
   }
   // The last call.
   virtual void end() = 0;

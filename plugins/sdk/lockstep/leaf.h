@@ -58,7 +58,7 @@ typedef int32_t lockstep_direction;
 enum { LOCKSTEP_INPUT = 1, LOCKSTEP_OUTPUT = 2, LOCKSTEP_INOUT = 3 };
 
 /* A cut: the process of the run ended without its last halts, by a kill, a crash or a power
- * failure, and another process goes on with the run. */
+ * failure, and another process continues the run. */
 typedef struct lockstep_cut {
   uint32_t struct_size;
   bool power;          /* the machine was off too, or has restarted */
@@ -71,9 +71,9 @@ typedef struct lockstep_cut {
 /* What a leaf does after a cut. Any other number is a fault of the leaf. */
 typedef int32_t lockstep_after_cut;
 enum {
-  LOCKSTEP_BEGINS_AGAIN = 0, /* start is called before its next tick */
-  LOCKSTEP_GOES_ON = 1,      /* it runs as before the cut: its progress is what it reports now */
-  LOCKSTEP_CANNOT_GO_ON = 2  /* its next tick would be a failure, and is not called */
+  LOCKSTEP_STARTS_AGAIN = 0,   /* start is called before its next tick */
+  LOCKSTEP_CONTINUES = 1,      /* it runs as before the cut: its progress is what it reports now */
+  LOCKSTEP_CANNOT_CONTINUE = 2 /* its next tick would be a failure, and is not called */
 };
 enum { LOCKSTEP_MOST_KEPT = 65536 }; /* bytes of a leaf */
 
@@ -168,7 +168,7 @@ typedef struct lockstep_leaf_type {
   double (*set_pace)(void* leaf, double factor);
 
   /* [run] (optional, both or none) Since 1.5. Of an action in a run that a checkpoint keeps. save
-   * is called after each tick in which the leaf was called and goes on running, held or not. It
+   * is called after each tick in which the leaf is Running, held or not. It
    * writes what another object needs to go on from here, at most `room` bytes (LOCKSTEP_MOST_KEPT),
    * and returns how many: 0 for nothing, more than `room` is an error. Only copy: the tick waits.
    * restore is called before the first tick after a cut, in place of start, on an object that has

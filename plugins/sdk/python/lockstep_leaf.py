@@ -224,7 +224,7 @@ class _Leaf:
     @classmethod
     def _is_kept(cls):
         if hasattr(cls, "save") != hasattr(cls, "restore"):
-            raise TypeError(f"{cls.__name__} has one of save and restore: a leaf that goes on after a cut has both")
+            raise TypeError(f"{cls.__name__} has one of save and restore: a leaf that continues after a cut has both")
         return hasattr(cls, "save")
 
     @classmethod
@@ -320,11 +320,11 @@ class _Server:
         try:
             goes_on = leaf.restore(json.loads(request["kept"]), cut)
         except Failed:
-            return say(leaf=leaf._number, done=True, after_cut="cannot go on")
+            return say(leaf=leaf._number, done=True, after_cut="cannot continue")
         if goes_on not in (None, True, False):
-            raise ValueError(f"restore returned {goes_on!r}, expected True (it goes on) or False (it begins again)")
+            raise ValueError(f"restore returned {goes_on!r}, expected True (it continues) or False (it starts again)")
         leaf._has_started = goes_on is not False
-        answer = {"after_cut": "goes on", **self.progress(leaf)} if leaf._has_started else {}
+        answer = {"after_cut": "continues", **self.progress(leaf)} if leaf._has_started else {}
         say(leaf=leaf._number, done=True, **answer)
 
     @staticmethod

@@ -53,7 +53,7 @@ class Conversation {
     std::string set = {};        // the line that has "set", or ""
     std::string error = {};
     std::string reason = {};                               // of the status
-    lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;  // of an answer to restore
+    lockstep_after_cut after_cut = LOCKSTEP_STARTS_AGAIN;  // of an answer to restore
     bool is_asked = false;                                 // it owes an answer
     Nanoseconds since{0};                                  // when it was asked
     Nanoseconds answered{0};                               // when the answer to tick came

@@ -312,7 +312,7 @@ std::size_t ProgramLeaf::save(void* bytes, std::size_t room) {
 lockstep_after_cut ProgramLeaf::restore(const void* bytes, std::size_t size,
                                         const lockstep_cut* cut) {
   start();
-  if (fail_if_gone()) return LOCKSTEP_BEGINS_AGAIN;
+  if (fail_if_gone()) return LOCKSTEP_STARTS_AGAIN;
   const std::string_view kept(static_cast<const char*>(bytes), size);
   conversation_.keep(number_, kept);  // until it sends another one
   sent_.clear();
@@ -327,10 +327,10 @@ lockstep_after_cut ProgramLeaf::restore(const void* bytes, std::size_t size,
       .ports(caller_, sent_)
       .end();
   send(Asked::Restore);
-  if (!await(Asked::Restore)) return LOCKSTEP_BEGINS_AGAIN;
+  if (!await(Asked::Restore)) return LOCKSTEP_STARTS_AGAIN;
   const auto news = conversation_.take(number_);
   if (!news.error.empty()) fail(news.error);
-  has_begun_ = news.after_cut == LOCKSTEP_GOES_ON;
+  has_begun_ = news.after_cut == LOCKSTEP_CONTINUES;
   return news.after_cut;
 }
 

@@ -24,11 +24,11 @@ lockstep_log_level level_of(std::string_view word) {
 }
 
 lockstep_after_cut after_cut_of(std::string_view word) {
-  if (word == "begins again") return LOCKSTEP_BEGINS_AGAIN;
-  if (word == "goes on") return LOCKSTEP_GOES_ON;
-  if (word == "cannot go on") return LOCKSTEP_CANNOT_GO_ON;
+  if (word == "starts again") return LOCKSTEP_STARTS_AGAIN;
+  if (word == "continues") return LOCKSTEP_CONTINUES;
+  if (word == "cannot continue") return LOCKSTEP_CANNOT_CONTINUE;
   throw JsonError(fmt::format(
-      "after_cut is '{}', expected 'begins again', 'goes on' or 'cannot go on'", brief(word)));
+      "after_cut is '{}', expected 'starts again', 'continues' or 'cannot continue'", brief(word)));
 }
 
 void read_fields(JsonObject object, Reply& reply) {
@@ -99,7 +99,7 @@ std::string read_reply(JsonReader& reader, std::string& line, Reply& reply) {
   reply.progress.reset();
   reply.reason.clear();
   reply.kept.reset();
-  reply.after_cut = LOCKSTEP_BEGINS_AGAIN;
+  reply.after_cut = LOCKSTEP_STARTS_AGAIN;
   reply.sets_ports = false;
   reply.level = LOCKSTEP_LOG_INFO;
   try {

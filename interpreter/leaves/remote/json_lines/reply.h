@@ -28,7 +28,7 @@ struct Reply {
   std::string text;                                      // of Log and Error
   std::string reason;                                    // of Status
   std::optional<std::string> kept;                       // for a checkpoint; not of Log and Error
-  lockstep_after_cut after_cut = LOCKSTEP_BEGINS_AGAIN;  // of Done
+  lockstep_after_cut after_cut = LOCKSTEP_STARTS_AGAIN;  // of Done
   lockstep_log_level level = LOCKSTEP_LOG_INFO;
 };
 

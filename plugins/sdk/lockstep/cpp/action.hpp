@@ -24,14 +24,14 @@ struct ElementAccess;
 
 }  // namespace detail
 
-// How the process of a run was cut, for who goes on in another one: lockstep/leaf.h.
+// How the process of a run was cut, for the process that continues: lockstep/leaf.h.
 using Cut = lockstep_cut;
 
 // What an action does after a cut.
 enum class AfterCut : lockstep_after_cut {
-  BeginsAgain = LOCKSTEP_BEGINS_AGAIN,  // with start(), before its next tick
-  GoesOn = LOCKSTEP_GOES_ON,            // it runs as before
-  CannotGoOn = LOCKSTEP_CANNOT_GO_ON    // it fails, without a tick
+  StartsAgain = LOCKSTEP_STARTS_AGAIN,       // with start(), before its next tick
+  Continues = LOCKSTEP_CONTINUES,            // it runs as before
+  CannotContinue = LOCKSTEP_CANNOT_CONTINUE  // it fails, without a tick
 };
 
 // Common to actions and conditions: the host's services, and what the leaves of a run share.
@@ -105,14 +105,14 @@ class ActionFunctions : public Leaf {
   // tick(). Each activation begins with 1. Undo at its end, and in halt(), what a device was told.
   // Returns what the action takes up: `factor`, its least speed, or 1 where it cannot be slower.
   virtual double set_pace(double /*factor*/) { return 1; }
-  // For an action that goes on after its process was cut: `run --checkpoint FILE --resume`. Derive
-  // from Kept<State> in place of these where plain members are enough.
-  // After each tick in which it runs or is held: writes what another object needs to go on from
-  // here, at most `room` bytes (64 KiB), and returns how many; 0: nothing. Only copy.
+  // For an action that continues after its process was cut: `run --checkpoint FILE --resume`.
+  // Derive from Kept<State> in place of these where plain members are enough. After each tick in
+  // which it runs or is held: writes what another object needs to go on from here, at most `room`
+  // bytes (64 KiB), and returns how many; 0: nothing. Only copy.
   virtual std::size_t save(void* /*bytes*/, std::size_t /*room*/) const { return 0; }
   // In place of start(), on a new object, with the bytes of the last save().
   virtual AfterCut restore(std::string_view /*bytes*/, const Cut& /*cut*/) {
-    return AfterCut::BeginsAgain;
+    return AfterCut::StartsAgain;
   }
 
  protected:
@@ -160,7 +160,7 @@ struct KeptAccess;
 // What an action keeps over a cut of its process, as plain members:
 //   struct Arm { double at = 0; int phase = 0; };
 //   class Move : public lockstep::Action<MovePorts>, public lockstep::Kept<Arm> { … kept.at … };
-// Each activation begins with a new State. After a cut, the action goes on with the State of the
+// Each activation begins with a new State. After a cut, the action continues with the State of the
 // last tick that was kept, if after_cut() agrees.
 template <class State>
 class Kept : public detail::KeptBase {
@@ -176,7 +176,7 @@ class Kept : public detail::KeptBase {
   State kept{};
   // In place of start(), with `kept` as it was: looks whether the robot is still as it was, and
   // takes hold of it. With cut.held, resume() comes before the next tick: stay there until then.
-  virtual AfterCut after_cut(const Cut& /*cut*/) { return AfterCut::GoesOn; }
+  virtual AfterCut after_cut(const Cut& /*cut*/) { return AfterCut::Continues; }
 
  private:
   friend struct detail::KeptAccess;

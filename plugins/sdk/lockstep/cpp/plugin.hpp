@@ -132,10 +132,10 @@ struct LeafFunctions {
   static lockstep_after_cut restore(void* leaf, const void* bytes, std::size_t size,
                                     const lockstep_cut* cut) {
     T& object = *static_cast<T*>(leaf);
-    const auto answer = guarded(LeafAccess::caller(object), AfterCut::BeginsAgain, [&] {
+    const auto answer = guarded(LeafAccess::caller(object), AfterCut::StartsAgain, [&] {
       LeafAccess::before_start(object);
       if constexpr (kHasKept<T>) {
-        if (size != sizeof(typename T::KeptState)) return AfterCut::BeginsAgain;
+        if (size != sizeof(typename T::KeptState)) return AfterCut::StartsAgain;
         std::memcpy(&KeptAccess::of(object), bytes, size);
         return KeptAccess::after_cut(object, *cut);
       } else {

@@ -103,11 +103,11 @@ struct Leaf {
   static lockstep_after_cut restore(void* self, const void* bytes, std::size_t size,
                                     const lockstep_cut* /*cut*/) {
     Leaf& leaf = *static_cast<Leaf*>(self);
-    return lockstep::detail::guarded(leaf.caller(), LOCKSTEP_BEGINS_AGAIN + 0, [&] {
+    return lockstep::detail::guarded(leaf.caller(), LOCKSTEP_STARTS_AGAIN + 0, [&] {
       const std::string kept(static_cast<const char*>(bytes), size);
-      if (!leaf.hooks().restore(*leaf.node, kept)) return LOCKSTEP_BEGINS_AGAIN + 0;
+      if (!leaf.hooks().restore(*leaf.node, kept)) return LOCKSTEP_STARTS_AGAIN + 0;
       leaf.node->setStatus(NodeStatus::RUNNING);
-      return LOCKSTEP_GOES_ON + 0;
+      return LOCKSTEP_CONTINUES + 0;
     });
   }
   static double progress(void* self) {
