@@ -18,6 +18,23 @@ void Ticker::save(SavedRun& into) const {
   }
 }
 
+RunParts Ticker::parts() const {
+  RunParts parts{state_, board_.entries, ports_.names().made(), parameters_.state(), held_leaves_};
+  for (const NodeIndex node : state_.failed_leaves) {
+    const std::uint32_t place = nodes_[node].params;
+    if (leaves_[place].failed()) parts.failed.push_back(place);
+  }
+  return parts;
+}
+
+RunParts parts_of(const SavedRun& run) {
+  RunParts parts{run.run, run.entries, run.named, run.parameters, run.held_leaves};
+  for (std::uint32_t place = 0; place < run.leaves.size(); ++place) {
+    if (run.leaves[place].failed) parts.failed.push_back(place);
+  }
+  return parts;
+}
+
 namespace {
 
 // To assign what is empty takes longer than to look, and nearly all of these are.

@@ -2,6 +2,7 @@
 // taken back to (Ticker::save, Ticker::restore). A search saves many, so each reuses its memory.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/blackboard/entry.h"
@@ -28,5 +29,17 @@ struct SavedRun {
   HeldLeaves held_leaves{0};
   std::vector<SlotState> leaves;
 };
+
+// The same where it is, without a copy: valid as long as nothing changes. The flags of leaves follow
+// from the rest, but which of them have failed.
+struct RunParts {
+  const RunState& run;
+  const std::vector<Entry>& entries;
+  const NamedEntries::Made& named;
+  const BoundParameters::State& parameters;
+  const HeldLeaves& held_leaves;
+  std::vector<std::uint32_t> failed = {};  // in Tree::leaves
+};
+RunParts parts_of(const SavedRun& run);
 
 }  // namespace lockstep::host

@@ -13,6 +13,7 @@
 
 namespace lockstep::host {
 
+struct RunParts;
 struct SavedRun;
 
 class Ticker : public NodeContext {
@@ -98,6 +99,7 @@ class Ticker : public NodeContext {
   // run goes on as it did after `save`. The saved run is one of this ticker, or of another one of
   // the same tree.
   void save(SavedRun& into) const;
+  RunParts parts() const;  // for who only reads it
   void restore(const SavedRun& from);
   // What the leaves keep in themselves, of those that can (NodeType::can_be_restored). A leaf that
   // fails in this has a fault. The first call allocates, and what grows.

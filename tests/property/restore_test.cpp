@@ -78,13 +78,13 @@ class Walk {
   void check_as_bytes(int from, const ScriptedRun::Saved& saved, const std::vector<Seen>& seen,
                       const Again& another) {
     std::string bytes;
-    append_bytes(saved.engine, {}, bytes);
+    append_bytes(parts_of(saved.engine), {}, bytes);
     const auto run = another();
     ScriptedRun::Saved read{.engine = {}, .leaves = saved.leaves, .tree_tick = saved.tree_tick};
     LeafBytes leaves;
     REQUIRE(read_bytes(bytes, run->tree(), read.engine, leaves));
     std::string again;
-    append_bytes(read.engine, leaves, again);
+    append_bytes(parts_of(read.engine), leaves, again);
     REQUIRE(again == bytes);
     CHECK_FALSE(read_bytes(bytes + '\0', run->tree(), read.engine, leaves));
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 20) {

@@ -89,8 +89,8 @@ void CheckpointWriter::note_results(const Ticker& ticker) {
 bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   ticker.save_leaves(leaves_);
   if (ticker.faulted()) return false;
-  ticker.save(saved_);
-  if (const auto entry = entry_with_object(saved_, ticker.tree())) [[unlikely]] {
+  const RunParts parts = ticker.parts();
+  if (const auto entry = entry_with_object(parts, ticker.tree())) [[unlikely]] {
     lose(fmt::format("the entry '{}' holds an object, which no checkpoint has", *entry));
     return false;
   }
@@ -99,7 +99,7 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   snapshot.bytes.clear();
   append_head(head_, snapshot.bytes);
   const std::size_t head = snapshot.bytes.size();
-  const std::size_t passing = append_bytes(saved_, leaves_, snapshot.bytes);
+  const std::size_t passing = append_bytes(parts, leaves_, snapshot.bytes);
   const std::string_view lasting = std::string_view(snapshot.bytes).substr(head + passing);
   if (lasting != lasting_) {
     lasting_ = lasting;

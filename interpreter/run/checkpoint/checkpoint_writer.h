@@ -80,7 +80,6 @@ class CheckpointWriter {
   const std::unique_ptr<CheckpointFile> file_;  // the thread's, while there is one
 
   Checkpoint head_;  // of the next snapshot, without the run
-  SavedRun saved_;
   LeafBytes leaves_;
   std::string lasting_;  // of the last snapshot: what not only time changes
   std::uint64_t changes_ = 0, number_ = 0;

@@ -37,10 +37,6 @@ void fields(auto& it, Is<HeldLeaves> auto& held) {
   HeldLeaves::visit(held, it);
 }
 
-void fields(auto& it, Is<SlotState> auto& leaf) {
-  it(leaf.started, leaf.failed, leaf.out_of_range, leaf.went_on);
-}
-
 void fields(auto& it, Is<BoundParameters::Values> auto& values) {
   it(values.values, values.seen, values.space, values.known);
 }
@@ -109,8 +105,9 @@ void fields(auto& it, Is<RunState> auto& run) {
      run.kept_values);
 }
 
-void lasting(auto& it, Is<SavedRun> auto& run) {
-  it(run.run, run.entries, run.named, run.parameters, run.held_leaves, run.leaves);
+// Of a SavedRun, or of RunParts.
+void lasting(auto& it, auto& run, auto& failed) {
+  it(run.run, run.entries, run.named, run.parameters, run.held_leaves, failed);
 }
 
 namespace {
@@ -179,14 +176,31 @@ bool fits(const std::vector<Entry>& entries, const Tree& tree) {
   });
 }
 
+// A leaf that runs has begun, and what it has reported once is in the lists of the run.
+void give_flags(const Tree& tree, const std::vector<std::uint32_t>& failed, SavedRun& into) {
+  into.leaves.assign(tree.leaves.size(), {});
+  for (std::uint32_t place = 0; place < tree.leaves.size(); ++place) {
+    const Activity activity = into.run.activity[tree.leaves[place].node];
+    into.leaves[place].started = status_of(activity) == Status::Running;
+  }
+  const auto set = [&](bool SlotState::*flag, NodeIndex node) {
+    const auto leaf = std::ranges::lower_bound(tree.leaves, node, {}, &LeafNode::node);
+    if (leaf == tree.leaves.end() || leaf->node != node) return;
+    into.leaves[static_cast<std::size_t>(leaf - tree.leaves.begin())].*flag = true;
+  };
+  for (const std::uint32_t place : failed) into.leaves[place].failed = true;
+  for (const OutOfRange& it : into.run.out_of_range) set(&SlotState::out_of_range, it.node);
+  for (const WentOn& it : into.held_leaves.went_on()) set(&SlotState::went_on, it.node);
+}
+
 }  // namespace
 
-std::size_t append_bytes(const SavedRun& run, const LeafBytes& leaves, std::string& to) {
+std::size_t append_bytes(const RunParts& run, const LeafBytes& leaves, std::string& to) {
   ByteWriter writer(to);
   const std::size_t begin = to.size();
   passing(writer, run.run);
   const std::size_t size = to.size() - begin;
-  lasting(writer, run);
+  lasting(writer, run, run.failed);
   writer(leaves);
   return size;
 }
@@ -194,14 +208,16 @@ std::size_t append_bytes(const SavedRun& run, const LeafBytes& leaves, std::stri
 bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into, LeafBytes& leaves) {
   ByteReader reader(bytes);
   passing(reader, into.run);
-  lasting(reader, into);
+  std::vector<std::uint32_t> failed;
+  lasting(reader, into, failed);
   reader(leaves);
   if ((!leaves.empty() && leaves.size() != tree.leaves.size()) || !reader.is_whole() ||
       !fits(into.run, tree) || !fits(into.parameters, tree) ||
       !fits(into.held_leaves, tree.nodes.size()) || !fits(into.entries, tree) ||
-      into.named.size() != tree.boards.size() || into.leaves.size() != tree.leaves.size()) {
+      into.named.size() != tree.boards.size() || !are_nodes(failed, tree.leaves.size())) {
     return false;
   }
+  give_flags(tree, failed, into);
   for (std::size_t slot = 0; slot < tree.slots.size(); ++slot) {
     into.entries[slot].object = tree.slots[slot].object;
   }
@@ -222,7 +238,7 @@ std::optional<std::string> entry_for_objects(const Tree& tree) {
   return found == tree.slots.end() ? std::nullopt : std::optional(found->name);
 }
 
-std::optional<std::string> entry_with_object(const SavedRun& run, const Tree& tree) {
+std::optional<std::string> entry_with_object(const RunParts& run, const Tree& tree) {
   const auto lost = [](const Entry& it) { return holds_object(it) || is_for_objects(it); };
   for (std::size_t slot = 0; slot < run.entries.size(); ++slot) {
     if (lost(run.entries[slot])) return tree.slots[slot].name;

@@ -17,7 +17,7 @@ struct Tree;
 
 // Appends them, with what the leaves keep. Returns the size of their beginning, in which time alone
 // changes something.
-std::size_t append_bytes(const SavedRun& run, const LeafBytes& leaves, std::string& to);
+std::size_t append_bytes(const RunParts& run, const LeafBytes& leaves, std::string& to);
 
 // False: they are not those of a run of such a tree. Then `into` and `leaves` mean nothing.
 [[nodiscard]] bool read_bytes(std::string_view bytes, const Tree& tree, SavedRun& into,
@@ -28,6 +28,6 @@ std::vector<Activity> activities_in(std::string_view bytes);
 
 // An entry that holds an object of a plugin, or may hold nothing else: objects have no bytes.
 std::optional<std::string> entry_for_objects(const Tree& tree);
-std::optional<std::string> entry_with_object(const SavedRun& run, const Tree& tree);
+std::optional<std::string> entry_with_object(const RunParts& run, const Tree& tree);
 
 }  // namespace lockstep::host
