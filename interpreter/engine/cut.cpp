@@ -48,7 +48,7 @@ void Ticker::ask_after_cut(CutLeaf& leaf, std::string_view bytes, lockstep_cut c
   leaf.is_asked = true;
 }
 
-void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
+void Ticker::go_on_after_cut(std::span<CutLeaf> cut) {
   held_leaves_.reset();
   state_.tolerated.clear();
   state_.out_of_range.clear();
@@ -57,7 +57,7 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
     leaf.set_started(false);
     leaf.out_of_range = leaf.went_on = false;
   }
-  for (const CutLeaf& it : cut) {
+  for (CutLeaf& it : cut) {
     LeafSlot& leaf = leaves_[it.place];
     const NodeIndex node = tree_.leaves[it.place].node;
     after_cut_[it.place] = it.does;
@@ -67,6 +67,7 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
       const LeafNode& its = tree_.leaves[it.place];
       if (its.obeys() || its.at_cut.commits) state<LeafPace>(node) = {.told = 1, .taken = 1};
       if (activity(node) == Activity::Paused) watch_held(node);
+      it.progress = progress(node);
       continue;
     }
     for (NodeIndex at = node + 1; at < nodes_[node].end; ++at) {
@@ -75,6 +76,12 @@ void Ticker::go_on_after_cut(std::span<const CutLeaf> cut) {
       state_.activity[at] = Activity::Idle;
     }
   }
+}
+
+std::vector<CutLeaf> Ticker::go_on_after_cut() {
+  std::vector<CutLeaf> cut = cut_leaves();
+  go_on_after_cut(cut);
+  return cut;
 }
 
 Status NodeContext::begin_after_cut(NodeIndex node) {

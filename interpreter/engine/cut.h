@@ -19,6 +19,7 @@ struct CutLeaf {
   std::uint32_t place;  // in Tree::leaves
   AfterCut does = AfterCut::StartsAgain;
   bool is_asked = false;  // and that was its answer
+  double progress = 0;    // of one that continues
 };
 
 // The bytes that leaves keep of themselves, beside a SavedRun: of each of Tree::leaves. Empty: none

@@ -12,9 +12,12 @@ void Ticker::save(SavedRun& into) const {
   into.parameters = parameters_.state();
   into.held_leaves = held_leaves_;
   into.leaves.clear();
-  for (const LeafSlot& leaf : leaves_) {
-    into.leaves.push_back(
-        {leaf.started(), leaf.failed(), leaf.out_of_range, leaf.went_on, leaf.was_cut()});
+  for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    const LeafSlot& leaf = leaves_[i];
+    into.leaves.push_back({leaf.started(), leaf.failed(), leaf.out_of_range, leaf.went_on});
+    if (!leaf.was_cut()) continue;
+    into.leaves.back().was_cut = true;
+    into.leaves.back().does = after_cut_[i];
   }
 }
 
@@ -77,6 +80,10 @@ void Ticker::restore(const SavedRun& from) {
     leaves_[i].set_started(leaf.started);
     leaves_[i].mark(LeafSlot::kFailed, leaf.failed);
     leaves_[i].mark(LeafSlot::kCut, leaf.was_cut);
+    if (leaf.was_cut) {
+      after_cut_.resize(leaves_.size());
+      after_cut_[i] = leaf.does;
+    }
     leaves_[i].mark(LeafSlot::kHeld, held(tree_.leaves[i].node));
     leaves_[i].out_of_range = leaf.out_of_range;
     leaves_[i].went_on = leaf.went_on;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/blackboard/entry.h"
+#include "base/core/after_cut.h"
 #include "engine/bound_parameters.h"
 #include "engine/held_leaves.h"
 #include "engine/named_entries.h"
@@ -16,7 +17,8 @@ namespace lockstep::host {
 // The engine's part of a leaf's state.
 struct SlotState {
   bool started, failed, out_of_range, went_on;
-  bool was_cut = false;  // and has not begun since
+  bool was_cut = false;  // and has not begun since: what it does then
+  AfterCut does = AfterCut::StartsAgain;
 
   friend bool operator==(const SlotState&, const SlotState&) = default;
 };
@@ -30,8 +32,8 @@ struct SavedRun {
   std::vector<SlotState> leaves;
 };
 
-// The same where it is, without a copy: valid as long as nothing changes. The flags of leaves follow
-// from the rest, but which of them have failed.
+// The same where it is, without a copy: valid as long as nothing changes. The flags of leaves
+// follow from the rest, but which of them have failed.
 struct RunParts {
   const RunState& run;
   const std::vector<Entry>& entries;

@@ -112,7 +112,9 @@ class Ticker : public NodeContext {
   // Then the run goes on, with what these do. One that begins again, or has a result, does so in
   // its next tick, and until then its progress is 0. One that was held stays held. Nothing is
   // reported again.
-  void go_on_after_cut(std::span<const CutLeaf> cut);
+  void go_on_after_cut(std::span<CutLeaf> cut);
+  // The same where all of them start again. Returns these.
+  std::vector<CutLeaf> go_on_after_cut();
   // Between two ticks: brings the state of the run to the one form that stands for all from which
   // the tree goes on in the same way, so that two of these can be compared as bytes. Time and the
   // number of the tick begin at 0 again, and nothing counts as ticked. What the leaves keep in

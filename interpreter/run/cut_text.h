@@ -1,15 +1,17 @@
-// What a run says that is taken to be cut: see LoopOptions::cuts.
+// What is reported of a run that was cut, or that is taken to be cut: see LoopOptions::cuts.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 
+#include "engine/cut.h"
 #include "engine/tree.h"
 
 namespace lockstep::host {
 
-// "cut: the process ends here and is resumed; 'Main/arm' starts again". `leaves`: in Tree::leaves.
-std::string cut_text(const Tree& tree, std::span<const std::uint32_t> leaves);
+// "; 'Main/left' continues at 0.42; 'Main/right' starts again"
+std::string what_leaves_do(std::span<const CutLeaf> cut, const Tree& tree);
+// "cut: the process ends here and is resumed", and that.
+std::string cut_text(std::span<const CutLeaf> cut, const Tree& tree);
 
 }  // namespace lockstep::host

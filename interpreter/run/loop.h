@@ -44,7 +44,7 @@ struct LoopOptions {
   // The run goes on before these ticks, which rise, as if its process had been cut; then `cut` is
   // called. Only with leaves that may begin again without a halt: those of scripts.
   std::span<const std::uint64_t> cuts = {};
-  std::function<void(std::span<const std::uint32_t> leaves)> cut = {};  // in Tree::leaves
+  std::function<void(std::span<const CutLeaf> cut)> cut = {};
   // Of a run that goes on: what was before. Its time goes on; its ticks are counted anew, but for
   // `max_ticks` and for who keeps it.
   struct Before {

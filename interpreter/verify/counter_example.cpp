@@ -99,8 +99,8 @@ std::string record(const Tree& tree, const LeafScripts& scripts, const std::stri
   loop.rate = options.rate;
   loop.max_ticks = scripts.ticks;
   loop.cuts = scripts.cuts;
-  loop.cut = [&](std::span<const std::uint32_t> leaves) {
-    recorder.log("lockstep", "info", cut_text(tree, leaves));
+  loop.cut = [&](std::span<const CutLeaf> cut) {
+    recorder.log("lockstep", "info", cut_text(cut, tree));
   };
   run_loop(run, clock, loop, observers);
   return recorder.error();

@@ -628,11 +628,11 @@ class VerdictMaker {
       tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
         if (!stepper.was_cut()) return;
         finding.cuts.push_back(tick);
-        std::vector<std::uint32_t> leaves;
+        std::vector<CutLeaf> leaves;
         for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
-          if (stepper.ran(leaf)) leaves.push_back(leaf);
+          if (stepper.ran(leaf)) leaves.push_back({.place = leaf});
         }
-        finding.more.push_back(fmt::format("before tick {}, {}", tick, cut_text(tree_, leaves)));
+        finding.more.push_back(fmt::format("before tick {}, {}", tick, cut_text(leaves, tree_)));
       });
     }
   }

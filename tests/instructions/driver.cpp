@@ -2,6 +2,7 @@
 // of each by how many leaves or ticks to divide it, and its name. What counts is what happens in
 // `measured`. See instructions_test.py.
 #include <tinyxml2.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <functional>
@@ -11,6 +12,7 @@
 #include "judge/summary/repeated_halts.h"
 #include "judge/summary/standstills.h"
 #include "judge/summary/statistics.h"
+#include "run/checkpoint/checkpoint_writer.h"
 #include "run/loop.h"
 #include "run/run.h"
 #include "run/shape_of.h"
@@ -129,6 +131,29 @@ void measure_run() {
   std::printf("%d ParallelAbsolute of Advance, with the measures of a run\n", kLeaves * kManyTicks);
 }
 
+// As "Parallel", in a run that a checkpoint keeps. The thread that writes is not counted.
+void measure_kept_run() {
+  const BenchTree tree(
+      fmt::format("<Parallel>{}</Parallel>", BenchTree::repeated("<BenchRunning/>", kLeaves)));
+  const std::string file = fmt::format("{}/lockstep-{}.checkpoint", P_tmpdir, getpid());
+  Run run(tree.tree(), {});
+  CheckpointWriter writer(std::make_unique<CheckpointFile>(file), {.period = from_seconds(3600)});
+  if (!writer.begin(run.ticker(), {}, 0, 0)) return;
+  int time = 0;
+  const auto tick = [&] {
+    run.tick(Nanoseconds(++time));
+    writer.after_tick(run.ticker(), 1);
+  };
+  for (int i = 0; i < 3; ++i) tick();
+  measured([&] {
+    for (int i = 0; i < kTicks; ++i) tick();
+  });
+  std::printf("%d Parallel, kept\n", kLeaves * kTicks);
+  writer.end();
+  std::remove(file.c_str());
+  std::remove((file + ".lock").c_str());
+}
+
 // The same runs as a study makes them, and as a loop that knows two leaves and nothing else.
 void measure_study() {
   constexpr std::uint64_t kRuns = 50;
@@ -171,6 +196,7 @@ int main() {
     if (!measure_ticks(it)) return 1;
   }
   measure_run();
+  measure_kept_run();
   measure_study();
   measure_load("built-in leaf with a name", "AlwaysSuccess");
   measure_load("built-in leaf with a name and a parameter", "Wait seconds='0.5'");

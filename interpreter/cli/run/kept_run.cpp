@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <map>
 
 #include "base/core/crc32c.h"
 #include "base/core/wording.h"
@@ -14,6 +13,7 @@
 #include "cli/load/tree_identity.h"
 #include "engine/tree.h"
 #include "run/checkpoint/run_bytes.h"
+#include "run/cut_text.h"
 
 namespace lockstep::host {
 namespace {
@@ -57,45 +57,6 @@ lockstep_cut cut_of(const Checkpoint& from, const RunCommandOptions& options, Na
           .lost_ticks = options.is_real() ? ticks
                         : power           ? UINT64_MAX
                                           : 1};
-}
-
-// "starts again", of one leaf, or of several.
-std::string_view what_it_does(const CutLeaf& leaf, bool is_one) {
-  switch (leaf.does) {
-    case AfterCut::StartsAgain:
-      return is_one ? "starts again" : "start again";
-    case AfterCut::Continues:
-      return is_one ? "continues" : "continue";
-    case AfterCut::Success:
-      return is_one ? "counts as succeeded" : "count as succeeded";
-    case AfterCut::Failure:
-      break;
-  }
-  if (leaf.is_asked) return "cannot continue";
-  return is_one ? "counts as failed" : "count as failed";
-}
-
-// "; 'Main/left' continues at 0.42; 'Main/right' starts again".
-std::string what_they_do(const std::vector<CutLeaf>& cut, Ticker& ticker) {
-  std::map<std::string_view, std::vector<std::string>> paths;  // by what one of them does
-  std::map<std::string_view, std::string_view> of_several;
-  std::string text;
-  for (const CutLeaf& leaf : cut) {
-    const NodeIndex node = ticker.tree().leaves[leaf.place].node;
-    const std::string path = ticker.tree().path(node);
-    if (leaf.does == AfterCut::Continues) {
-      text +=
-          fmt::format("; '{}' {} at {:.2g}", path, what_it_does(leaf, true), ticker.progress(node));
-    } else {
-      of_several[what_it_does(leaf, true)] = what_it_does(leaf, false);
-      paths[what_it_does(leaf, true)].push_back(path);
-    }
-  }
-  for (const auto& [what, of] : paths) {
-    const std::vector<std::string_view> names(of.begin(), of.end());
-    text += fmt::format("; {} {}", listed(names), of.size() == 1 ? what : of_several[what]);
-  }
-  return text;
 }
 
 }  // namespace
@@ -219,7 +180,7 @@ void KeptRun::go_on(Run& run) {
   }
   ticker.go_on_after_cut(cut);
   resumed_ = fmt::format("resumed after {}{}", duration_text(from_seconds(told.gap)),
-                         printable(what_they_do(cut, ticker)));
+                         what_leaves_do(cut, tree_));
 }
 
 std::string KeptRun::error() const {

@@ -368,7 +368,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       loop.property_violated = [this] { return properties_->is_violated(); };
     }
     loop.control = watchers_.control();
-    loop.cut = [this](std::span<const std::uint32_t> leaves) { tell(cut_text(tree_, leaves)); };
+    loop.cut = [this](std::span<const CutLeaf> cut) { tell(cut_text(cut, tree_)); };
     if (kept_) {
       loop.checkpoints = kept_->writer();
       loop.before = kept_->before();
