@@ -64,4 +64,18 @@ std::vector<std::string> parts_that_exist(const std::string& recording) {
   return parts;
 }
 
+std::string name_of_resumed(const std::string& recording) {
+  std::error_code none;
+  const auto is_taken = [&](const std::string& name) {
+    return std::filesystem::is_regular_file(name, none) || !parts_that_exist(name).empty();
+  };
+  const std::size_t place = place_of_number(recording);
+  std::string name = recording;
+  for (std::uint64_t number = 1; is_taken(name); ++number) {
+    name =
+        fmt::format("{}.resumed-{}{}", recording.substr(0, place), number, recording.substr(place));
+  }
+  return name;
+}
+
 }  // namespace lockstep::host

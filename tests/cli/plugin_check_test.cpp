@@ -41,6 +41,16 @@ TEST_CASE("plugin check: a plugin is found by its name, and asked all that a run
   }
 }
 
+TEST_CASE("plugin check: another object continues where the leaf was when its process was cut") {
+  const Outcome outcome = check_plugin(LOCKSTEP_BINARY_DIR "/tests/cli/cut.so");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 4);
+  CHECK(contains(outcome.out, "ok    'Move' continues after a cut\n"));
+  CHECK(contains(outcome.out,
+                 "wrong 'Forget' continues after a cut: cut after 5 ticks, it is running at "));
+  CHECK(!contains(outcome.out, "'Step' continues after a cut"));
+}
+
 TEST_CASE("plugin check: what breaks the contract is named, with its leaf") {
   const std::pair<const char*, const char*> cases[] = {
       {"status_out_of_range", "wrong 'Probe' returned status "},

@@ -230,11 +230,25 @@ TEST_CASE("what has ended in order does not go on, and a resumed run says so") {
   CHECK(holds(resumed.err, "resumed after "));
   CHECK(holds(resumed.err, "; 'Main/Sequence/Step#2' starts again"));
   CHECK(holds(resumed.out, "resumed after "));
+  CHECK(holds(resumed.err, "; recorded in '" + recording + "'"));
   CHECK(holds(read_file(recording), "resumed after "));
   const Outcome shown = run_lockstep({"checkpoint", run.file()});
   CHECK(shown.code == 0);
   CHECK(holds(shown.out, "ended after "));
   CHECK(run_lockstep({"log", "info", recording}).code == 0);
+}
+
+TEST_CASE("a resumed run leaves the recording of the run before it") {
+  CutRun run(ours("<Step who='a' ticks='9'/>"));
+  const std::string recording = run.directory().path("run.jsonl");
+  REQUIRE(run.cut(4, {"--record", recording}).code == 128 + SIGKILL);
+  const std::string before = read_file(recording);
+  REQUIRE(run.cut(6, {"--record", recording, "--resume"}).code == 128 + SIGKILL);
+  CHECK(run.resume({"--record", recording}).code == 0);
+  CHECK(read_file(recording) == before);
+  for (const std::string name : {"run.resumed-1.jsonl", "run.resumed-2.jsonl"}) {
+    CHECK(run_lockstep({"log", "info", run.directory().path(name)}).code == 0);
+  }
 }
 
 TEST_CASE("a run does not go on with another tree, nor from what is no checkpoint") {

@@ -88,7 +88,18 @@ class Move : public Step {
   }
 };
 
+// What `plugin check` finds: it continues, but from its beginning.
+class Forget : public Move {
+ public:
+  lockstep::AfterCut restore(std::string_view bytes, const lockstep::Cut& cut) override {
+    const auto answer = Move::restore(bytes, cut);
+    done_ = 0;
+    return answer;
+  }
+};
+
 }  // namespace
 
 LOCKSTEP_PLUGIN("cut", "1.0", "Ends its process", lockstep::leaf<Step>("Step", "Counts ticks."),
-                lockstep::leaf<Move>("Move", "Counts ticks, also over a cut."));
+                lockstep::leaf<Move>("Move", "Counts ticks, also over a cut."),
+                lockstep::leaf<Forget>("Forget", "Counts ticks, and forgets them in a cut."));

@@ -181,6 +181,8 @@ void KeptRun::go_on(Run& run) {
   ticker.go_on_after_cut(cut);
   resumed_ = fmt::format("resumed after {}{}", duration_text(from_seconds(told.gap)),
                          what_leaves_do(cut, tree_));
+  if (!options_.record.empty())
+    resumed_ += fmt::format("; recorded in '{}'", printable(options_.record));
 }
 
 std::string KeptRun::error() const {

@@ -26,6 +26,7 @@ class KeptRun {
   // has it; false: it cannot, which is reported. The file stays as it was where a leaf could not be
   // created.
   bool begin(Run& run, std::function<void(const std::string& error)> on_error);
+  bool continues() const { return from_.has_value(); }
   CheckpointWriter* writer() { return writer_ ? &*writer_ : nullptr; }
   LoopOptions::Before before() const;
   void end() {

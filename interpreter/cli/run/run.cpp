@@ -573,6 +573,9 @@ int run(RunCommandOptions options) {
   if (!places) return kExitUsage;
   auto kept = KeptRun::open(options, std::move(identity), runnable.tree);
   if (!kept) return kept.error();
+  if (*kept != nullptr && (*kept)->continues() && !options.record.empty()) {
+    options.record = name_of_resumed(options.record);
+  }
   Diagnostics notes;
   note_leaves_without_progress(runnable.tree, options.tree, notes);
   if (!options.is_real()) {

@@ -15,7 +15,9 @@
 #include "base/core/progress.h"
 #include "base/core/random.h"
 #include "base/core/wording.h"
+#include "engine/cut.h"
 #include "engine/leaf_watch.h"
+#include "engine/saved_run.h"
 #include "leaves/declared.h"
 #include "leaves/plugin/contract/described_types.h"
 #include "lockstep/leaf.h"
@@ -151,6 +153,7 @@ class Examiner {
       }
       const Exercise& pace = exercise_of_pace();
       if (type_.leaf->set_pace != nullptr && !passes(*tree, pace.name, pace.steps)) return;
+      if (type_.can_be_restored && !continues(*tree)) return;
       if (!survives_values(*tree)) return;
       tree = tree_of(child, 2);
       if (!tree ||
@@ -301,6 +304,74 @@ class Examiner {
     const Finding found = play(tree, steps, samples_);
     if (!found.breach.empty()) return note(false, fmt::format("{}: {}", what, found.breach));
     return note(true, found.fault.empty() ? what : fmt::format("{}: {}", what, found.fault));
+  }
+
+  // Another object continues where this one was after some ticks, or says that it cannot.
+  bool continues(const Runnable& it) const {
+    constexpr const char* kWhat = "continues after a cut";
+    using enum Do;
+    report_.about_to(kWhat);
+    for (const std::vector<Do>& before :
+         {std::vector{Tick}, std::vector{Tick, Tick, Tick, Tick, Tick}, std::vector{Tick, Pause}}) {
+      const RunOptions options{.seed = 1, .exactly_once = true, .virtual_time = true};
+      Run run(it.tree, options), again(it.tree, options);
+      fill(run, it.tree, samples_);
+      Nanoseconds now{0};
+      for (const Do step : before) {
+        if (step == Pause) {
+          run.ticker().pause(0);
+        } else {
+          run.tick(now);
+          now += run.period();
+        }
+      }
+      if (run.fault() != nullptr || run.ticker().status(1) != Status::Running) break;
+      const bool has_begun = continue_in(again, run, now);
+      const std::string when = before.back() == Pause
+                                   ? "while it is held"
+                                   : fmt::format("after {}", counted(before.size(), "tick"));
+      if (again.fault() != nullptr) {
+        return note(false, fmt::format("{}: cut {}, {}", kWhat, when, again.fault()->message));
+      }
+      if (!has_begun) continue;
+      for (int tick = 1; tick <= kTicks; ++tick) {
+        const std::string one = told_tick(run, now), other = told_tick(again, now);
+        if (one != other) {
+          return note(
+              false,
+              fmt::format("{}: cut {}, it is {} in tick {} behind that, and without the cut {}",
+                          kWhat, when, other, tick, one));
+        }
+        now += run.period();
+      }
+      run.halt();
+      again.halt();
+    }
+    return note(true, kWhat);
+  }
+
+  // False: the leaf starts again, or cannot continue.
+  static bool continue_in(Run& again, Run& run, Nanoseconds now) {
+    LeafBytes kept;
+    run.ticker().save_leaves(kept);
+    SavedRun saved;
+    run.ticker().save(saved);
+    again.set_now(now);
+    again.ticker().restore(saved);
+    std::vector<CutLeaf> cut = again.ticker().cut_leaves();
+    for (CutLeaf& leaf : cut) {
+      if (!kept[leaf.place].empty()) again.ticker().ask_after_cut(leaf, kept[leaf.place], {});
+    }
+    again.ticker().go_on_after_cut(cut);
+    return std::ranges::all_of(
+        cut, [](const CutLeaf& leaf) { return leaf.does == AfterCut::Continues; });
+  }
+
+  // "running at 0.2"
+  static std::string told_tick(Run& run, Nanoseconds now) {
+    run.tick(now);
+    const Status status = run.ticker().status(1);
+    return fmt::format("{} at {:g}", to_string(status), run.ticker().progress(1));
   }
 
   // Each edge of each port, then many at once, and no value at all.
