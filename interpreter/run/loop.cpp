@@ -74,7 +74,7 @@ class Loop {
       end_.signal = options_.stop_signal();
       return stop(StopReason::Signal);
     }
-    if (options_.recording_failed && options_.recording_failed()) {
+    if (options_.writing_failed && options_.writing_failed()) {
       return stop(StopReason::Recording);
     }
     if (options_.property_violated && options_.property_violated()) {

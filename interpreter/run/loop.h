@@ -36,7 +36,7 @@ struct LoopOptions {
   std::function<int()> stop_signal = {};   // called before each tick: nonzero = stop
   OverrunPolicy overrun = OverrunPolicy::Skip;
   Nanoseconds spin{0};  // on a real clock, the end of a wait that looks at the clock without sleep
-  std::function<bool()> recording_failed = {};   // called before each tick: true = stop
+  std::function<bool()> writing_failed = {};     // called before each tick: true = stop
   std::function<bool()> property_violated = {};  // likewise
   RunControl* control = nullptr;                 // who may pause the run, and more; or nobody
   StallFail* stall_fail = nullptr;               // who ends standstills, or nobody

@@ -135,8 +135,7 @@ void check_cut(const Trial& trial, int from) {
   run.ticker().save(saved);
   ScriptedRun again(*tree, leaves_text(trial.plan));
   again.ticker().restore(saved);
-  const auto cut = again.ticker().cut_leaves();
-  again.ticker().go_on_after_cut(cut);
+  const auto cut = again.ticker().go_on_after_cut();
   for (const CutLeaf& leaf : cut) {
     const NodeIndex node = tree->leaves[leaf.place].node;
     REQUIRE(again.ticker().activity(node) == run.ticker().activity(node));

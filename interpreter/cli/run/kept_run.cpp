@@ -77,10 +77,14 @@ tl::expected<std::unique_ptr<KeptRun>, int> KeptRun::open(const RunCommandOption
                                                           CheckpointFacts facts, const Tree& tree) {
   if (options.checkpoint.empty()) return nullptr;
   if (const auto entry = entry_for_objects(tree)) {
-    print_error(fmt::format("--checkpoint: the entry '{}' holds objects, which no checkpoint has",
-                            printable(*entry)),
-                "run this tree without --checkpoint");
-    return tl::unexpected(kExitInvalidTree);
+    const std::string message = fmt::format(
+        "--checkpoint: the entry '{}' holds objects, which no checkpoint has", printable(*entry));
+    if (options.checkpoint_required) {
+      print_error(message, "run this tree without --checkpoint");
+      return tl::unexpected(kExitInvalidTree);
+    }
+    print_note(message, "nothing is kept: after a cut, the run starts from its beginning");
+    return nullptr;
   }
   facts.identity.emplace_back("the nodes and entries", nodes_mark(tree));
   std::vector<bool> is_leaf(tree.nodes.size());

@@ -33,6 +33,8 @@ class KeptRun {
     if (writer_) writer_->end();
   }
 
+  bool has_failed() const { return writer_ && !writer_->error().empty(); }
+
   // "resumed after 35 s; 'Main/left' continues at 0.42; 'Main/right' starts again"; "": it has
   // begun.
   const std::string& resumed() const { return resumed_; }

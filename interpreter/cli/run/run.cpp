@@ -373,8 +373,12 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       loop.checkpoints = kept_->writer();
       loop.before = kept_->before();
     }
-    if (recorder_ && options_.stop_on_record_error) {
-      loop.recording_failed = [this] { return recorder_->failed(); };
+    const bool records = recorder_ && options_.stop_on_record_error;
+    const bool keeps = kept_ && options_.checkpoint_required;
+    if (records || keeps) {
+      loop.writing_failed = [this, records, keeps] {
+        return (records && recorder_->failed()) || (keeps && kept_->has_failed());
+      };
     }
     return loop;
   }
@@ -600,7 +604,8 @@ extern const Command kRunCommand{
     "run", "Run a tree at a fixed rate until it completes",
     "The summary goes to stdout, everything else to stderr.\n"
     "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"
-    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop, 9 lockstep failed,\n"
+    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop or "
+    "--checkpoint-required, 9 lockstep failed,\n"
     "10 --on-violation end, 124 --timeout or --max-ticks, 128 + N signal N, as 130 for SIGINT "
     "(running leaves are halted in\n"
     "order; a second one ends the program at once), 141 the reader of stdout has gone.\n"

@@ -278,6 +278,10 @@ void define_checkpoint_options(CLI::App& app, RunCommandOptions& options) {
       ->type_name("N")
       ->transform(whole_number(1, 1'000'000))
       ->capture_default_str();
+  app.add_flag("--checkpoint-required", options.checkpoint_required,
+               "End the run with exit code 8 if its state cannot be kept any more, as on a full "
+               "disk, and do not start one that cannot be kept")
+      ->needs("--checkpoint");
   app.add_option("--checkpoint-sync", options.checkpoint_sync_ms,
                  "Write the checkpoint through to the disk at most each MS milliseconds")
       ->type_name("MS")
@@ -355,6 +359,7 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--on-resume",
                                       "--resume-limit",
                                       "--checkpoint-sync",
+                                      "--checkpoint-required",
                                       "--break-if",
                                       "--monitor-socket",
                                       "--monitor-paused",

@@ -49,7 +49,8 @@ struct RunCommandOptions {
   bool stop_on_record_error = false;
   std::string checkpoint;  // "": the run is not kept
   double checkpoint_sync_ms = 100;
-  bool resumes = false;  // where the checkpoint is of a run that has not ended
+  bool checkpoint_required = false;  // the run ends where it cannot be kept
+  bool resumes = false;              // where the checkpoint is of a run that has not ended
   AfterCut on_resume = AfterCut::StartsAgain;  // of leaves that ran at the cut
   std::uint64_t resume_limit = 3;              // in a row
   // Where the run pauses, for who types.

@@ -35,7 +35,7 @@ std::string why(const Summary& summary) {
     case StopReason::Overrun:
       return "a tick missed the next deadline";
     case StopReason::Recording:
-      return "the recording cannot be written";
+      return "the recording or the checkpoint cannot be written";
     case StopReason::Property:
       return "a property is violated";
   }
