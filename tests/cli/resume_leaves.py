@@ -150,11 +150,11 @@ def test_commit(directory):
     assert end_of(mission.run(), "it") == 0.4
     keep = ["--checkpoint", os.path.join(directory, "run.checkpoint")]
     assert end_of(mission.run(*keep), "it") == 0.5
-    for cut_at, times in (0.4, 2), (0.5, 1), (0.6, 1):
+    for cut_at in 0.4, 0.5, 0.6:
         os.unlink(os.path.join(directory, "log"))
         resumed = mission.cut_and_resume(cut_at)
         assert resumed.returncode == 0, resumed.stderr
-        assert mission.log().count("it succeeds") == times, (cut_at, mission.log())
+        assert mission.log().count("it succeeds") == 1, (cut_at, mission.log())
         assert "halted" not in mission.log(), mission.log()
 
 
@@ -178,6 +178,8 @@ def test_a_leaf_that_breaks_in_restore(directory):
     mission = Mission(directory, OURS, "", '<Fallback memory="true"><Move who="a" ticks="9"/><Step who="b"/></Fallback>')
     broken = mission.cut_and_resume(0.4, {"AFTER_CUT": "throw"})
     assert broken.returncode == 5 and "the arm is gone" in broken.stderr, broken.stderr
+    again = mission.run("--checkpoint", os.path.join(directory, "run.checkpoint"), "--resume")  # a fault is no cut
+    assert again.returncode == 0 and "resumed" not in again.stderr, again.stderr
 
 
 with tempfile.TemporaryDirectory() as directory:

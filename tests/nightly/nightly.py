@@ -78,6 +78,7 @@ def cut_runs(_):
     command = ("python3", "tests/reliability/cuts.py", "build/release/lockstep", "build/release/plugins")
     yield "virtual clock", (*command, str(CUT_RUNS))
     yield "wall clock", (*command, str(CUT_RUNS_ON_THE_WALL_CLOCK), "--wall")
+    yield "power failures", ("build/release/tests/torn_writes", "build/release/tests/reliability", "10000")
 
 
 def checkout_of_btcpp():

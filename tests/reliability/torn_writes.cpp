@@ -6,6 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -24,7 +25,7 @@ using namespace lockstep::host;
 // What was done with the files, in order. The writer does it through the functions below, which
 // take the place of libc's.
 struct Step {
-  enum class What : std::uint8_t { Write, Sync, Name } what;
+  enum class What : std::uint8_t { Write, Size, Sync, Name } what;
   int file = -1;
   std::uint64_t place = 0;
   std::string bytes = {};
@@ -37,6 +38,11 @@ extern "C" ssize_t pwrite(int file, const void* bytes, size_t size, off_t place)
   g_steps.push_back({Step::What::Write, file, static_cast<std::uint64_t>(place),
                      std::string(static_cast<const char*>(bytes), size)});
   return syscall(SYS_pwrite64, file, bytes, size, place);
+}
+
+extern "C" int posix_fallocate(int file, off_t place, off_t size) {
+  g_steps.push_back({Step::What::Size, file, static_cast<std::uint64_t>(place + size)});
+  return ftruncate(file, place + size) == 0 ? 0 : EIO;
 }
 
 extern "C" int fdatasync(int file) {
@@ -54,7 +60,9 @@ namespace {
 
 std::string checkpoint_bytes(std::uint64_t number, std::size_t size) {
   std::string bytes;
-  append_head({.ticks = number}, bytes);
+  Checkpoint head;
+  head.ticks = number;
+  append_head(head, bytes);
   return bytes.append(size, static_cast<char>(number));
 }
 
@@ -66,7 +74,9 @@ struct Life {
 
   bool live(const std::string& path, std::mt19937_64& random) {
     CheckpointFile file(path);
-    if (!file.begin("", checkpoint_bytes(1, 500))) return false;
+    std::string facts;
+    append_facts({}, facts);
+    if (!file.begin(facts, checkpoint_bytes(1, 500))) return false;
     last = 1;
     synced.emplace_back(g_steps.size(), last);
     std::size_t size = 500;
@@ -101,17 +111,14 @@ std::string image_after(std::size_t steps, std::mt19937_64& random) {
     if (g_steps[i].what == Step::What::Sync) synced = g_steps[i].file;
     if (g_steps[i].what == Step::What::Name) named = synced;
   }
-  // A descriptor may be used again: the file begins with its first write behind the last one that
-  // had it.
+  // A descriptor may be used again: the file begins where its space is reserved.
   std::size_t begin = 0, safe = 0;
   for (std::size_t i = 0; i < steps; ++i) {
-    const bool is_head =
-        g_steps[i].what == Step::What::Write && g_steps[i].file == named && g_steps[i].place == 0;
-    if (is_head) begin = i;
+    if (g_steps[i].what == Step::What::Size && g_steps[i].file == named) begin = i;
     if (g_steps[i].what == Step::What::Sync && g_steps[i].file == named) safe = i;
   }
   constexpr std::size_t kSector = 512;
-  std::string image;
+  std::string image(g_steps[begin].place, '\0');
   std::vector<std::pair<std::size_t, std::size_t>> loose;  // a step, and a place in its bytes
   for (std::size_t i = begin; i < steps; ++i) {
     const Step& step = g_steps[i];

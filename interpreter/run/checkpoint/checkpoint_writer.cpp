@@ -53,10 +53,14 @@ bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts, std::
   running_.reserve(ticker.tree().nodes.size());
   note_results(ticker);
   Snapshot first;
-  if (!fill(first, ticker)) return false;
+  const bool has_state = fill(first, ticker);
+  if (!has_state && !ticker.faulted()) return false;
   std::string bytes;
   append_facts(facts, bytes);
+  // A leaf that failed when it was asked to continue: the run ends with its fault, in order.
+  if (!has_state) first.bytes = last_bytes(Checkpoint::Kind::Ended, {});
   if (!file_->begin(std::move(bytes), first.bytes)) return false;
+  if (!has_state) return true;
   durable_.store(first.tick, std::memory_order_release);
   snapshots_.for_each([&](Snapshot& it) { it.bytes.reserve(2 * first.bytes.size()); });
   thread_ = own_thread([this] {
@@ -100,14 +104,9 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   append_head(head_, snapshot.bytes);
   const std::size_t head = snapshot.bytes.size();
   const std::size_t passing = append_bytes(parts, leaves_, snapshot.bytes);
-  const std::string_view lasting = std::string_view(snapshot.bytes).substr(head + passing);
-  if (lasting != lasting_) {
-    lasting_ = lasting;
-    ++changes_;
-  }
+  snapshot.lasting = head + passing;
   snapshot.ticks = head_.ticks;
   snapshot.number = ++number_;
-  snapshot.changes = changes_;
   snapshot.tick = ticker.tick_number();
   snapshot.commit = ticker.last_commit();
   return true;
@@ -177,22 +176,26 @@ void CheckpointWriter::flush() {
 // Rung only where time stands still: else it looks twice a tick, but not too often.
 void CheckpointWriter::write_until_stopped() {
   const Nanoseconds pause = options_.real_time ? pause_of(options_.period) : kSyncOfTime;
-  std::uint64_t synced = 0, written = 0;  // changes
+  std::string lasting;     // of the last one that was written
+  bool is_synced = false;  // but for the time
   Nanoseconds synced_at = monotonic_now();
   while (true) {
     const std::uint32_t seen = work_.rung();
     const bool stops = stopping_.load(std::memory_order_acquire);
     bool is_good = true;
     if (snapshots_.take()) {
-      is_good = file_->write(snapshots_.front().bytes);
-      written = snapshots_.front().changes;
+      const Snapshot& it = snapshots_.front();
+      is_good = file_->write(it.bytes);
+      const std::string_view now = std::string_view(it.bytes).substr(it.lasting);
+      is_synced = is_synced && now == lasting;
+      lasting = now;
       if (is_good) kept_.store(snapshots_.front().ticks, std::memory_order_release);
     }
     const Nanoseconds since = monotonic_now() - synced_at;
     if (stops || snapshots_.front().commit > durable() ||
-        since >= (written != synced ? options_.sync : longest_sync(options_.sync))) {
+        since >= (is_synced ? longest_sync(options_.sync) : options_.sync)) {
       is_good = is_good && file_->sync();
-      synced = written;
+      is_synced = true;
       synced_at = monotonic_now();
       if (is_good && snapshots_.front().number != 0) {
         durable_.store(snapshots_.front().tick, std::memory_order_release);

@@ -64,9 +64,9 @@ class CheckpointWriter {
     std::string bytes = {};
     std::uint64_t number = 0;  // from 1 on
     std::uint64_t ticks = 0;
-    std::uint64_t changes = 0;  // so often something but time has changed before it
-    std::uint32_t tick = 0;     // by the number of RunState
-    std::uint32_t commit = 0;   // the last one in which an action waits for the disk
+    std::size_t lasting = 0;   // behind so many bytes: what not time alone changes
+    std::uint32_t tick = 0;    // by the number of RunState
+    std::uint32_t commit = 0;  // the last one in which an action waits for the disk
   };
   void note_results(const Ticker& ticker);
   bool fill(Snapshot& snapshot, Ticker& ticker);
@@ -81,8 +81,7 @@ class CheckpointWriter {
 
   Checkpoint head_;  // of the next snapshot, without the run
   LeafBytes leaves_;
-  std::string lasting_;  // of the last snapshot: what not only time changes
-  std::uint64_t changes_ = 0, number_ = 0;
+  std::uint64_t number_ = 0;
   std::vector<NodeIndex> running_;  // actions, before the tick; while there were resumes
   std::string lost_;                // why nothing is kept any more, as the tick thread knows it
 
