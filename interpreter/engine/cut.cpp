@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/held_leaves.h"
+#include "engine/leaf_call.h"
 #include "engine/pace.h"
 #include "engine/ticker.h"
 #include "engine/tree.h"
@@ -40,11 +41,8 @@ std::vector<CutLeaf> Ticker::cut_leaves() const {
   return cut;
 }
 
-void Ticker::ask_after_cut(CutLeaf& leaf, std::string_view bytes, lockstep_cut cut) {
-  const NodeIndex node = tree_.leaves[leaf.place].node;
-  cut.struct_size = sizeof cut;
-  cut.held = activity(node) == Activity::Paused;
-  leaf.does = ask_leaf_after_cut(*this, node, bytes, cut);
+void Ticker::ask_after_cut(CutLeaf& leaf, std::string_view bytes, const lockstep_cut& cut) {
+  leaf.does = ask_leaf_after_cut(*this, tree_.leaves[leaf.place].node, bytes, cut);
   leaf.is_asked = true;
 }
 

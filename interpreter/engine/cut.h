@@ -10,8 +10,9 @@
 
 #include "base/core/after_cut.h"
 #include "engine/pace.h"
-#include "lockstep/leaf.h"
 #include "trace/node_state.h"
+
+struct lockstep_cut;
 
 namespace lockstep::host {
 

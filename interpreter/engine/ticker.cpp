@@ -103,11 +103,6 @@ bool Ticker::answer(NodeIndex node, Answer given, std::uint32_t seen) {
   return true;
 }
 
-std::span<const GivenAnswer> Ticker::answers() const {
-  const bool are_of_tick = !answers_.empty() && answers_.back().number == state_.tick_number;
-  return are_of_tick ? std::span(answers_) : std::span<const GivenAnswer>();
-}
-
 void Ticker::halt_all() {
   const InEngine scope(board_.lock.get());
   shares_progress_ = false;

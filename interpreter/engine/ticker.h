@@ -62,7 +62,11 @@ class Ticker : public NodeContext {
   };
   bool answer(NodeIndex node, Answer given, std::uint32_t seen);
   // Those that came before the last tick.
-  std::span<const GivenAnswer> answers() const;
+  std::span<const GivenAnswer> answers() const {
+    return answers_.empty() || answers_.back().number != state_.tick_number
+               ? std::span<const GivenAnswer>()
+               : std::span(answers_);
+  }
 
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
   // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
@@ -108,7 +112,7 @@ class Ticker : public NodeContext {
   // below a node of a plugin begins with it.
   std::vector<CutLeaf> cut_leaves() const;
   // Asks one of them, with the bytes that it kept. `cut` says what it is told, but `held`.
-  void ask_after_cut(CutLeaf& leaf, std::string_view bytes, lockstep_cut cut);
+  void ask_after_cut(CutLeaf& leaf, std::string_view bytes, const lockstep_cut& cut);
   // Then the run goes on, with what these do. One that begins again, or has a result, does so in
   // its next tick, and until then its progress is 0. One that was held stays held. Nothing is
   // reported again.

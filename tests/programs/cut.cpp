@@ -89,12 +89,13 @@ class Move : public Step {
 };
 
 // What `plugin check` finds: it continues, but from its beginning.
-class Forget : public Move {
+class Forget : public lockstep::Action<>, public lockstep::Kept<int> {
  public:
-  lockstep::AfterCut restore(std::string_view bytes, const lockstep::Cut& cut) override {
-    const auto answer = Move::restore(bytes, cut);
-    done_ = 0;
-    return answer;
+  Status tick() override { return ++kept < 9 ? Status::Running : Status::Success; }
+  double progress() const override { return kept / 9.0; }
+  lockstep::AfterCut after_cut(const lockstep::Cut&) override {
+    kept = 0;
+    return lockstep::AfterCut::Continues;
   }
 };
 

@@ -400,9 +400,12 @@ void save_leaf(NodeContext& context, NodeIndex node, std::span<char> room, std::
 AfterCut ask_leaf_after_cut(NodeContext& context, NodeIndex node, std::string_view bytes,
                             const lockstep_cut& cut) {
   LeafSlot& leaf = context.leaf(node);
+  lockstep_cut told = cut;
+  told.struct_size = sizeof told;
+  told.held = context.held(node);
   lockstep_after_cut answer = LOCKSTEP_STARTS_AGAIN;
   guarded(context, node, PluginFunction::Restore, [&](const LeafSlot& it) {
-    answer = it.type->restore(it.self, bytes.data(), bytes.size(), &cut);
+    answer = it.type->restore(it.self, bytes.data(), bytes.size(), &told);
   });
   if (take_error(context, node, leaf) || is_out(context, leaf)) return AfterCut::StartsAgain;
   switch (answer) {

@@ -1,5 +1,7 @@
 #include "tree/check/scripts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <optional>
