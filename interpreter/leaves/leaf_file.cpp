@@ -12,6 +12,7 @@
 #include "language/document/document.h"
 #include "language/document/file.h"
 #include "language/document/reporter.h"
+#include "leaves/leaf_script.h"
 #include "leaves/leaf_words.h"
 #include "leaves/word_check.h"
 
@@ -123,11 +124,29 @@ class Reader {
       row.fact = LeafRow::Named{std::string(value), "", it.place};
     } else if (name == "sets") {
       for (const std::string_view part : split(value, ";")) read_set(it, part, row);
+    } else if (name == "on_resume") {
+      read_after_cut(it, row);
     } else if (is_behavior_word(name)) {
       const auto wrong = add_statement(name, value, row);
       if (wrong) report_.at_value("bad-leaf-model"_code, it.place, wrong->message, wrong->hint);
       if (name.starts_with(kOutputWord)) row.outputs.back().place = it.place;
     }
+  }
+
+  void read_after_cut(const Attribute& it, LeafRow& row) {
+    for (const std::string_view part : split(it.value, ";")) {
+      const auto does = part == kContinues ? AfterCut::Continues : after_cut_named(part);
+      if (does) {
+        row.after_cut.push_back(*does);
+        continue;
+      }
+      report_.at_value("bad-leaf-model"_code, it.place,
+                       fmt::format("'{}' is nothing that a leaf does after a cut", brief(part)),
+                       "there are restart, continue, failure and success");
+    }
+    std::ranges::sort(row.after_cut);
+    row.after_cut.erase(std::unique(row.after_cut.begin(), row.after_cut.end()),
+                        row.after_cut.end());
   }
 
   void read_set(const Attribute& it, std::string_view part, LeafRow& row) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/core/after_cut.h"
 #include "base/core/behavior.h"
 #include "base/core/diagnostics.h"
 #include "base/core/place.h"
@@ -28,7 +29,8 @@ struct LeafRow : Behavior {
   std::string of, path;  // one of both: the id of a type, or a pattern for paths
   Place place = {};      // of that attribute
   std::optional<Named> fact = {};
-  std::vector<Named> sets = {};  // a fact, and "true" or "false"
+  std::vector<Named> sets = {};          // a fact, and "true" or "false"
+  std::vector<AfterCut> after_cut = {};  // rising
 };
 
 // A finding that is as it should be.

@@ -65,13 +65,41 @@ bool take_written(std::string_view text, LeafWord& word) {
   }
 }
 
-// "3"
-bool read_cut(std::string_view text, std::vector<std::uint64_t>& cuts) {
-  const auto tick = parse_int(text);
-  const auto last = cuts.empty() ? 0 : static_cast<std::int64_t>(cuts.back());
-  if (!tick || *tick <= last) return false;
-  cuts.push_back(static_cast<std::uint64_t>(*tick));
-  return true;
+constexpr std::pair<AfterCut, std::string_view> kAfterCuts[] = {{AfterCut::Continues, kContinues},
+                                                                {AfterCut::Failure, "failure"},
+                                                                {AfterCut::Success, "success"}};
+
+// "3", or "3 continue M/arm" for a leaf that does something else than to begin again.
+std::optional<Problem> read_cut(std::string_view text, std::vector<ScriptCut>& cuts) {
+  const auto blank = std::min(text.find(' '), text.size());
+  const auto tick = parse_int(text.substr(0, blank));
+  const std::uint64_t last = cuts.empty() ? 0 : cuts.back().tick;
+  if (!tick || *tick <= 0 || static_cast<std::uint64_t>(*tick) < last) {
+    return Problem{"'@cut' is the number of a tick, from 1 on, and not before the one above it"};
+  }
+  const auto at = static_cast<std::uint64_t>(*tick);
+  if (at > last) cuts.push_back({.tick = at});
+  if (blank == text.size()) return std::nullopt;
+  text.remove_prefix(blank + 1);
+  const std::string_view word = text.substr(0, text.find(' '));
+  const auto* const does =
+      std::ranges::find(kAfterCuts, word, &std::pair<AfterCut, std::string_view>::second);
+  if (does == std::end(kAfterCuts) || word.size() == text.size()) {
+    return Problem{"behind the tick of '@cut' comes continue, failure or success, and a path"};
+  }
+  cuts.back().leaves[std::string(text.substr(word.size() + 1))] = does->first;
+  return std::nullopt;
+}
+
+std::string text_of_cut(const ScriptCut& cut) {
+  std::string text = fmt::format("@cut {}\n", cut.tick);
+  for (const auto& [path, does] : cut.leaves) {
+    const auto* const row =
+        std::ranges::find(kAfterCuts, does, &std::pair<AfterCut, std::string_view>::first);
+    if (row != std::end(kAfterCuts))
+      text += fmt::format("@cut {} {} {}\n", cut.tick, row->second, path);
+  }
+  return text;
 }
 
 // "@rate 10".
@@ -89,10 +117,7 @@ std::optional<Problem> read_setting(std::string_view line, LeafScripts& scripts)
     if (ticks && *ticks > 0) scripts.ticks = static_cast<std::uint64_t>(*ticks);
     return scripts.ticks ? std::nullopt : std::optional(Problem{"'@ticks' is a whole number"});
   }
-  if (name == "@cut") {
-    if (read_cut(value, scripts.cuts)) return std::nullopt;
-    return Problem{"'@cut' is the number of a tick, from 1 on, and behind the '@cut' before it"};
-  }
+  if (name == "@cut") return read_cut(value, scripts.cuts);
   return Problem{fmt::format("unknown setting '{}'", brief(name)),
                  "there are @rate, @ticks and @cut"};
 }
@@ -203,7 +228,7 @@ std::string to_text(const LeafScripts& scripts) {
   std::string text;
   if (scripts.rate) text += fmt::format("@rate {}\n", *scripts.rate);
   if (scripts.ticks) text += fmt::format("@ticks {}\n", *scripts.ticks);
-  for (const std::uint64_t it : scripts.cuts) text += fmt::format("@cut {}\n", it);
+  for (const ScriptCut& it : scripts.cuts) text += text_of_cut(it);
   for (const auto& [path, words] : scripts.leaves) {
     text += path + " =";
     for (const LeafWord& word : words) text += ' ' + to_text(word);

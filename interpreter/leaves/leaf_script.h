@@ -4,6 +4,7 @@
 //   @rate 10
 //   @ticks 14
 //   @cut 3
+//   @cut 3 continue M/p/arm
 //   M/p/arm = R0 R0.1 ~0.05 R0.1 S[place=kitchen]
 #pragma once
 
@@ -16,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/after_cut.h"
 #include "base/core/clock.h"
 #include "base/core/problem.h"
 #include "base/core/status.h"
@@ -32,10 +34,26 @@ struct LeafWord {
   friend bool operator==(const LeafWord&, const LeafWord&) = default;
 };
 
+// The process is cut before a tick, and goes on with it.
+struct ScriptCut {
+  std::uint64_t tick = 1;  // counted from 0
+  // The leaves, by path, that do something else then than to begin again.
+  std::map<std::string, AfterCut, std::less<>> leaves = {};
+
+  AfterCut of(std::string_view path) const {
+    const auto it = leaves.find(path);
+    return it == leaves.end() ? AfterCut::StartsAgain : it->second;
+  }
+  friend bool operator==(const ScriptCut&, const ScriptCut&) = default;
+};
+
+// "continue", of one that goes on.
+inline constexpr std::string_view kContinues = "continue";
+
 struct LeafScripts {
   std::optional<double> rate;
-  std::optional<std::uint64_t> ticks;    // of the tree, as many as the scripts are for
-  std::vector<std::uint64_t> cuts = {};  // the process is cut before these ticks, counted from 0
+  std::optional<std::uint64_t> ticks;  // of the tree, as many as the scripts are for
+  std::vector<ScriptCut> cuts = {};    // in the order of their ticks
   std::map<std::string, std::vector<LeafWord>, std::less<>> leaves = {};  // by path
   // The leaves that begin with their first word again in each activation. The text has no word for
   // it: scenarios do.

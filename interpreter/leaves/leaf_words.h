@@ -47,6 +47,9 @@ inline constexpr Word kLeaf[] = {
     {"fact", "[A-Za-z_][A-Za-z0-9_]*", "Its result is this fact."},
     {"sets", "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
      "Facts that its success makes true or false."},
+    {"on_resume", "(restart|continue|failure|success)(;(restart|continue|failure|success))*",
+     "What it may do when it ran at a cut of the process: start again, continue, or return a "
+     "result."},
     {"writes", "success|start|tick|any",
      "When it writes its outputs: with its success, at its start, in each tick, or any (the "
      "default): in any of its ticks or not."},

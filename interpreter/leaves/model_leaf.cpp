@@ -98,7 +98,7 @@ void ModelLeaves::restore_progress(std::uint32_t leaf) {
   slots_[leaf].error = nullptr;
 }
 
-void ModelLeaves::begin_tick(Before before) {
+void ModelLeaves::begin_tick() {
   for (const std::uint32_t leaf : touched_) {
     marks_[leaf].touched = false;
     marks_[leaf].clear();
@@ -106,7 +106,9 @@ void ModelLeaves::begin_tick(Before before) {
   touched_.clear();
   chooses_ = kNobody;
   std::fill(asked_.begin(), asked_.end(), false);
-  if (before == Before::ACut) cut();
+}
+
+void ModelLeaves::drift() {
   for (const std::uint32_t leaf : drifting_) {
     if (states_[leaf].phase != Phase::Paused) continue;
     const Reach& reach = rules_[leaf].while_held[states_[leaf].level];
@@ -117,14 +119,12 @@ void ModelLeaves::begin_tick(Before before) {
   }
 }
 
-// New objects, of which the engine calls none before it begins.
-void ModelLeaves::cut() {
-  for (std::uint32_t leaf = 0; leaf < states_.size(); ++leaf) {
-    if (states_[leaf].phase == Phase::Idle) continue;
-    mark(leaf);
-    states_[leaf] = {.phase = Phase::Cut};
-    progress_[leaf] = kProgressOfNew;
-  }
+// It is a new object. The engine calls nothing of it before it begins, unless it goes on as it was.
+void ModelLeaves::cut(const CutLeaf& leaf) {
+  if (leaf.does == AfterCut::Continues) return;
+  mark(leaf.place);
+  states_[leaf.place] = LeafState::cut(leaf.does);
+  progress_[leaf.place] = kProgressOfNew;
 }
 
 void ModelLeaves::clear_marks() {

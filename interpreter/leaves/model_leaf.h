@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "engine/blackboard.h"
+#include "engine/cut.h"
 #include "engine/leaf_slot.h"
 #include "leaves/answers.h"
 #include "leaves/models.h"
 
 namespace lockstep::host {
 
-// Cut: it ran when its process was cut, and has not begun again.
+// Cut: it ran when its process was cut, and has not got a tick since; `level` is what it does then.
 enum class Phase : std::uint8_t { Idle, Running, Paused, Cut };
 
 // The state of a leaf between two ticks; all 0 while it is idle.
@@ -24,7 +25,12 @@ struct LeafState {
   std::uint16_t level = 0;
   Phase phase = Phase::Idle;
 
+  static LeafState cut(AfterCut does) {
+    return {.level = static_cast<std::uint16_t>(does), .phase = Phase::Cut};
+  }
+  AfterCut after_cut() const { return static_cast<AfterCut>(level); }
   bool runs() const { return phase == Phase::Running || phase == Phase::Paused; }
+  bool notices_cut() const { return phase != Phase::Idle; }
 
   friend bool operator==(const LeafState&, const LeafState&) = default;
 };
@@ -77,10 +83,13 @@ class ModelLeaves {
   // The same after the first time: back to what was restored last, from one tick behind it.
   void restore_again(const std::vector<LeafState>& states, const std::vector<FactState>& facts);
 
-  // Before each tick of the tree. What is held may drift; or the process was cut since the last
-  // one.
-  enum class Before : std::uint8_t { ATick, ACut };
-  void begin_tick(Before before = Before::ATick);
+  // Before each tick of the tree; then `cut`, if its process was cut since the last one, and
+  // `drift`.
+  void begin_tick();
+  // Of a leaf that ran.
+  void cut(const CutLeaf& leaf);
+  // What is held may go on.
+  void drift();
   // Within it: from here on, marks say only what is done from here on.
   void clear_marks();
   // Called before a leaf is ticked that has been ticked already; then its marks begin anew.
@@ -138,7 +147,6 @@ class ModelLeaves {
     return expected;
   }
   void tell_broken(std::uint32_t leaf, const char* what);
-  void cut();
   bool ask(std::uint32_t fact);
   Status tick_as_chosen(std::uint32_t leaf);
   void write(std::uint32_t leaf);

@@ -194,6 +194,7 @@ class ModelMaker {
     LeafModel& model = models_.leaves[leaf];
     if (row.fact) model.fact = fact(*row.fact);
     for (const LeafRow::Named& it : row.sets) add_set(model, it);
+    if (!row.after_cut.empty()) model.after_cut = row.after_cut;
   }
 
   void apply(const Behavior& row, Place place, std::size_t leaf) {
@@ -554,6 +555,26 @@ std::vector<bool> entries_of_engine(const Tree& tree) {
     }
   }
   return used;
+}
+
+void allow_cuts(const ProcessCuts& cuts, const Tree& tree, LeafModels& models) {
+  models.cuts = cuts;
+  if (cuts.most == 0) {
+    for (LeafModel& it : models.leaves) it.after_cut.clear();  // leaves may be equal without it
+    return;
+  }
+  for (std::size_t i = 0; i < models.leaves.size(); ++i) {
+    std::vector<AfterCut>& may = models.leaves[i].after_cut;
+    if (!may.empty()) continue;
+    const LeafAtCut& says = tree.leaves[i].at_cut;
+    const AfterCut otherwise = says.is_given ? says.otherwise : cuts.otherwise;
+    if (!tree.leaves[i].type->can_be_restored) {
+      may = {otherwise};
+      continue;
+    }
+    may = {AfterCut::StartsAgain, AfterCut::Continues, AfterCut::Failure};
+    if (otherwise == AfterCut::Success) may.push_back(otherwise);
+  }
 }
 
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,

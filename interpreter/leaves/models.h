@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/after_cut.h"
 #include "engine/tree.h"
 #include "leaves/leaf_file.h"
 
@@ -55,6 +56,7 @@ struct LeafModel {
   };
   std::vector<Output> outputs;
   Writes writes = Writes::InAnyTick;
+  std::vector<AfterCut> after_cut;  // that it may do; empty: see allow_cuts
 
   bool drifts() const { return least_drift != 0 || most_drift != 0; }
   friend bool operator==(const LeafModel&, const LeafModel&) = default;
@@ -68,7 +70,8 @@ struct Fact {
 // A cut of the process: it ends without its last halts, and the next one goes on with the state of
 // the run before the tick (docs/resume.md).
 struct ProcessCuts {
-  std::uint32_t most = 0;  // in a run
+  std::uint32_t most = 0;                      // in a run
+  AfterCut otherwise = AfterCut::StartsAgain;  // of leaves of which nothing is said
 };
 
 struct LeafModels {
@@ -116,6 +119,10 @@ using GivenOutputs = std::map<std::string, std::string, std::less<>>;
 LeafModels make_models(const Tree& tree, const LeafFile* file, Diagnostics& diagnostics,
                        std::vector<NodeProblem>& problems, const Observed& observed = {},
                        Declared declared = Declared::Counts, const GivenOutputs& outputs = {});
+
+// The process may be cut. What a leaf then does follows from its element and its type, unless a row
+// of the leaf file says it.
+void allow_cuts(const ProcessCuts& cuts, const Tree& tree, LeafModels& models);
 
 // The entries that the engine itself reads or writes: in scripts, parameters and built-in nodes.
 std::vector<bool> entries_of_engine(const Tree& tree);

@@ -156,7 +156,7 @@ class Loop {
     const Nanoseconds late = is_due ? now - deadlines_.at(deadline_) : Nanoseconds(0);
     if (wake_up_ != nullptr) wakes_ = wake_up_->wakes();
     Ticker& ticker = run_.ticker();
-    if (cuts_ < options_.cuts.size() && options_.cuts[cuts_] == end_.ticks) cut(ticker);
+    if (cuts_ < options_.cuts.size() && options_.cuts[cuts_].tick == end_.ticks) cut(ticker);
     run_.set_now(now);
     observe([&](Observers& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
@@ -180,8 +180,11 @@ class Loop {
   }
 
   void cut(Ticker& ticker) {
-    ++cuts_;
-    const auto leaves = ticker.go_on_after_cut();
+    const ScriptCut& how = options_.cuts[cuts_++];
+    std::vector<CutLeaf> leaves = ticker.cut_leaves();
+    const Tree& tree = ticker.tree();
+    for (CutLeaf& it : leaves) it.does = how.of(tree.path(tree.leaves[it.place].node));
+    ticker.go_on_after_cut(leaves);
     if (options_.cut) options_.cut(leaves);
   }
 

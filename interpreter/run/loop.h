@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/core/clock.h"
+#include "leaves/leaf_script.h"
 #include "run/run.h"
 #include "trace/observer.h"
 
@@ -43,8 +44,8 @@ struct LoopOptions {
   CheckpointWriter* checkpoints = nullptr;       // who keeps the run, or nobody
   // The run goes on before these ticks, which rise, as if its process had been cut; then `cut` is
   // called. Only with leaves that may begin again without a halt: those of scripts.
-  std::span<const std::uint64_t> cuts = {};
-  std::function<void(std::span<const CutLeaf> cut)> cut = {};
+  std::span<const ScriptCut> cuts = {};
+  std::function<void(std::span<const CutLeaf> leaves)> cut = {};
   // Of a run that goes on: what was before. Its time goes on; its ticks are counted anew, but for
   // `max_ticks` and for who keeps it.
   struct Before {

@@ -44,6 +44,7 @@ class PlainRun {
   PlainRun(const Tree& tree, const LeafModels& models, std::span<const Property> properties,
            const Deadlines& deadlines, std::uint64_t seed)
       : deadlines_(deadlines),
+        models_(models),
         cuts_(models.cuts),
         cut_asker_(cut_asker(tree, models)),
         board_(tree),
@@ -61,13 +62,14 @@ class PlainRun {
     const Nanoseconds now = deadlines_.at(number);
     answers_.asked.clear();
     const bool is_cut = cut_ < cuts_.most &&
-                        std::ranges::any_of(leaves_.states(), &LeafState::runs) &&
+                        std::ranges::any_of(leaves_.states(), &LeafState::notices_cut) &&
                         answers_.is_cut(cut_asker_);
-    leaves_.begin_tick(is_cut ? ModelLeaves::Before::ACut : ModelLeaves::Before::ATick);
+    leaves_.begin_tick();
     if (is_cut) {
       ++cut_;
-      ticker_.go_on_after_cut();
+      after_cut(ticker_, models_, answers_, leaves_);
     }
+    leaves_.drift();
     ticker_.set_now(now);
     moments_.before_tick(ticker_);
     Status status = ticker_.tick_root();
@@ -111,6 +113,7 @@ class PlainRun {
   }
 
   const Deadlines& deadlines_;
+  const LeafModels& models_;
   const ProcessCuts cuts_;
   const std::uint32_t cut_asker_;
   std::uint32_t cut_ = 0;  // so often

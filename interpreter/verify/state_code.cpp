@@ -9,8 +9,8 @@
 
 namespace lockstep::host {
 
-// No leaf has so many.
-constexpr std::uint16_t kLevelOfCut = 0xffff;
+// No leaf has so many. Behind it, what one does that was cut.
+constexpr std::uint32_t kLevelOfCut = 0x10000;
 
 // A value is its alternative and its bytes.
 class StateCode::Writer {
@@ -84,8 +84,9 @@ class StateCode::Writer {
     plain(value);
   }
 
-  static std::uint16_t level_of(const LeafState& leaf) {
-    return leaf.phase == Phase::Cut ? kLevelOfCut : leaf.level;
+  static std::uint32_t level_of(const LeafState& leaf) {
+    const std::uint32_t of_cut = leaf.phase == Phase::Cut ? kLevelOfCut : 0;
+    return of_cut + leaf.level;
   }
 
   // How many in front are the same.
@@ -271,6 +272,7 @@ void StateCode::read(ByteReader& reader, KeptState& state) const {
   reader.runs(reinterpret_cast<std::byte*>(state.words.data()),
               state.words.size() * sizeof(std::uint64_t));
   LeafState like;
+  bool was_cut = false;
   std::uint64_t more = 0;  // like that
   for (std::size_t i = 0; i < state.leaves.size(); ++i) {
     const Activity activity = state.activity[tree_.leaves[i].node];
@@ -280,12 +282,14 @@ void StateCode::read(ByteReader& reader, KeptState& state) const {
     } else {
       const std::uint64_t head = reader.number();
       like.ticks = static_cast<std::uint32_t>(head >> 1u);
-      like.level = static_cast<std::uint16_t>(reader.number());
+      const std::uint64_t level = reader.number();
+      was_cut = level >= kLevelOfCut;
+      like.level = static_cast<std::uint16_t>(level % kLevelOfCut);
       if ((head & 1u) != 0) more = reader.number();
     }
     state.leaves[i] = like;
     state.leaves[i].phase = activity == Activity::Paused ? Phase::Paused : Phase::Running;
-    if (like.level == kLevelOfCut) state.leaves[i] = {.phase = Phase::Cut};
+    if (was_cut) state.leaves[i] = LeafState::cut(like.after_cut());
   }
 }
 
@@ -318,6 +322,7 @@ void StateCode::decode(std::span<const std::byte> from, SavedRun& run,
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     run.leaves[i].started = leaves[i].runs();
     run.leaves[i].was_cut = leaves[i].phase == Phase::Cut;
+    if (run.leaves[i].was_cut) run.leaves[i].does = leaves[i].after_cut();
   }
   reader.bytes(facts.data(), facts.size());
   reader.bytes(properties.data(), properties.size());

@@ -18,6 +18,21 @@ SavedRun saved(const Ticker& ticker) {
 
 }  // namespace
 
+std::vector<CutLeaf> after_cut(Ticker& ticker, const LeafModels& models, Answers& answers,
+                               ModelLeaves& leaves) {
+  std::vector<CutLeaf> cut = ticker.cut_leaves();
+  for (CutLeaf& it : cut) {
+    std::vector<AfterCut> may = models.leaves[it.place].after_cut;
+    // One that has not got a tick since the last cut has kept nothing to go on with.
+    if (!leaves.states()[it.place].runs()) std::erase(may, AfterCut::Continues);
+    if (may.empty()) may.push_back(AfterCut::StartsAgain);
+    it.does = may[answers.choose(static_cast<std::uint32_t>(may.size()), it.place)];
+    leaves.cut(it);  // so that what is asked next knows of it
+  }
+  ticker.go_on_after_cut(cut);
+  return cut;
+}
+
 // Behind the leaves and the facts.
 std::uint32_t cut_asker(const Tree& tree, const LeafModels& models) {
   return static_cast<std::uint32_t>(tree.leaves.size() + models.facts.size());
@@ -36,6 +51,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
       from_(fresh_),
       code_(tree, models, fresh_, nodes_of(properties, tree), symmetry),
       parameters_(tree, fresh_),
+      models_(models),
       cuts_(models.cuts),
       cut_asker_(cut_asker(tree, models)),
       from_leaves_(leaves_.states()),
@@ -84,10 +100,11 @@ Status Stepper::tick(std::uint64_t most) {
   answers_.look_at_points(points_.are_looked_at());
   root_ticks_ = 0;
   rounds_.begin_tick(answers_.same_as_before());
+  code_.set_cuts(from_cuts_);
+  leaves_.begin_tick();
   was_cut_ = is_cut_here();
-  code_.set_cuts(static_cast<std::uint8_t>(from_cuts_ + (was_cut_ ? 1 : 0)));
-  leaves_.begin_tick(was_cut_ ? ModelLeaves::Before::ACut : ModelLeaves::Before::ATick);
-  if (was_cut_) ticker_.go_on_after_cut();
+  if (was_cut_) cut();
+  leaves_.drift();
   is_known_ = is_going_round_ = is_short_ = is_cut_ = false;
   if (!watch_.empty()) {
     property_bytes_ = from_properties_;
@@ -119,8 +136,13 @@ void Stepper::begin_watching() {
 
 // A cut while no leaf runs changes nothing.
 bool Stepper::is_cut_here() {
-  return from_cuts_ < cuts_.most && std::ranges::any_of(from_leaves_, &LeafState::runs) &&
+  return from_cuts_ < cuts_.most && std::ranges::any_of(from_leaves_, &LeafState::notices_cut) &&
          answers_.choose(2, cut_asker_) == 1;
+}
+
+void Stepper::cut() {
+  code_.set_cuts(static_cast<std::uint8_t>(from_cuts_ + 1));
+  cut_leaves_ = after_cut(ticker_, models_, answers_, leaves_);
 }
 
 Status Stepper::tick_again(Status status, std::uint64_t most) {

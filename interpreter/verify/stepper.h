@@ -23,6 +23,10 @@ namespace lockstep::host {
 // Asks whether the process is cut before a tick; 1: it is.
 std::uint32_t cut_asker(const Tree& tree, const LeafModels& models);
 
+// A run goes on after a cut, between two ticks: what its leaves do then, as the answers choose.
+std::vector<CutLeaf> after_cut(Ticker& ticker, const LeafModels& models, Answers& answers,
+                               ModelLeaves& leaves);
+
 class Stepper {
  public:
   // All must outlive this.
@@ -74,6 +78,8 @@ class Stepper {
   bool ran(std::uint32_t leaf) const { return from_leaves_[leaf].runs(); }
   // Whether the process was cut before the last tick. That is the first of its answers.
   bool was_cut() const { return was_cut_; }
+  // What the leaves do then that ran.
+  std::span<const CutLeaf> cut_leaves() const { return cut_leaves_; }
   Ticker& ticker() { return ticker_; }
   const Ticker& ticker() const { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
@@ -89,6 +95,7 @@ class Stepper {
  private:
   Status tick_again(Status status, std::uint64_t most);
   bool is_cut_here();
+  void cut();
   void begin_watching();
   bool look_at_round(NodeIndex asks);
   void make_round_state(NodeIndex asks);
@@ -105,9 +112,11 @@ class Stepper {
   StateCode code_;
   ReadParameters parameters_;
   std::optional<BarrierWatch> barriers_;  // of a search with cuts
+  const LeafModels& models_;
   const ProcessCuts cuts_;
   const std::uint32_t cut_asker_;
   bool was_cut_ = false;
+  std::vector<CutLeaf> cut_leaves_;
   std::uint8_t from_cuts_ = 0;
   std::vector<LeafState> from_leaves_;
   std::vector<FactState> from_facts_;

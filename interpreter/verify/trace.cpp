@@ -215,12 +215,20 @@ LeafScripts Tracer::scripts(const TracedRun& run) {
   });
   stepper_.set_before_leaf_again([&](std::uint32_t leaf) { add_word(scripts, leaf); });
   play(run, [&](Stepper& stepper, Status, std::size_t tick) {
-    if (stepper.was_cut()) scripts.cuts.push_back(tick);
+    if (stepper.was_cut()) add_cut(tick, scripts);
     add_words(scripts);
   });
   stepper_.set_before_tick_again(nullptr);
   stepper_.set_before_leaf_again(nullptr);
   return scripts;
+}
+
+void Tracer::add_cut(std::uint64_t tick, LeafScripts& scripts) {
+  ScriptCut& cut = scripts.cuts.emplace_back(ScriptCut{.tick = tick});
+  for (const CutLeaf& it : stepper_.cut_leaves()) {
+    if (it.does == AfterCut::StartsAgain) continue;
+    cut.leaves[tree_.path(tree_.leaves[it.place].node)] = it.does;
+  }
 }
 
 void Tracer::add_words(LeafScripts& scripts) {

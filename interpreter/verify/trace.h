@@ -81,6 +81,7 @@ class Tracer {
   void swap(std::vector<NodeIndex>& nodes, const Swap& swap) const;
   std::vector<LeafAnswer> moved(std::vector<LeafAnswer> answers,
                                 std::span<const NodeIndex> nodes) const;
+  void add_cut(std::uint64_t tick, LeafScripts& scripts);
   void add_words(LeafScripts& scripts);
   void add_word(LeafScripts& scripts, std::uint32_t leaf);
   [[noreturn]] void fail(const char* what) const;

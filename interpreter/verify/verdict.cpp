@@ -628,11 +628,8 @@ class VerdictMaker {
       tracer_.play(finding.run, [&](Stepper& stepper, Status, std::size_t tick) {
         if (!stepper.was_cut()) return;
         finding.cuts.push_back(tick);
-        std::vector<CutLeaf> leaves;
-        for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) {
-          if (stepper.ran(leaf)) leaves.push_back({.place = leaf});
-        }
-        finding.more.push_back(fmt::format("before tick {}, {}", tick, cut_text(leaves, tree_)));
+        finding.more.push_back(
+            fmt::format("before tick {}, {}", tick, cut_text(stepper.cut_leaves(), tree_)));
       });
     }
   }
@@ -661,7 +658,7 @@ class VerdictMaker {
     if (models_.cuts.most > 0) {
       assumed.push_back(fmt::format("the process is cut at most {} in a run, and loses no tick",
                                     counted(models_.cuts.most, "time")));
-      assumed.push_back("each leaf that ran at a cut starts again");
+      assume_after_cut();
     }
     std::size_t held = 0, by_parts = 0;
     std::set<std::uint32_t> parts;
@@ -717,6 +714,22 @@ class VerdictMaker {
       assumed.push_back(
           fmt::format("{} {}", fact.name, kWords[static_cast<std::size_t>(fact.changes)]));
     }
+  }
+
+  void assume_after_cut() {
+    std::size_t go_on = 0, end = 0;
+    for (const LeafModel& model : models_.leaves) {
+      if (!model.can_run) continue;
+      const auto may = [&](AfterCut it) { return std::ranges::count(model.after_cut, it) > 0; };
+      go_on += may(AfterCut::Continues);
+      end += may(AfterCut::Failure) || may(AfterCut::Success);
+    }
+    std::string text = "a leaf that ran at a cut starts again";
+    if (go_on > 0) {
+      text += fmt::format(", or continues where it was ({})", counted(go_on, "action"));
+    }
+    if (end > 0) text += fmt::format(", or has a result at once ({})", counted(end, "action"));
+    verdict_.assumed.push_back(std::move(text));
   }
 
   const Tree& tree_;

@@ -150,8 +150,9 @@ class Judge {
     do {
       const std::string bytes = states_[state].bytes;
       tree_.restore(bytes);
-      if (is_cut && !tree_.cut()) return;
       leaves_.begin_tick();
+      if (is_cut && !tree_.cut()) return;
+      leaves_.drift();
       is_cut_ = is_cut;
       ++ticks_;
       const std::optional<Status> status = tree_.tick();

@@ -55,6 +55,8 @@ class Judged : public JudgedTree {
 
  protected:
   Interpreter reference_;
+
+ private:
   JudgedLeaves& leaves_;
 };
 
@@ -65,10 +67,7 @@ class JudgedPlan final : public Judged<Reference> {
     leaves.set_write(
         [this](const std::string& entry, double value) { reference_.write(entry, value); });
   }
-  bool cut() override {
-    reference_.cut();
-    return leaves_.cut();
-  }
+  bool cut() override { return reference_.cut(); }
   std::optional<Status> tick() override {
     const Status status = reference_.tick(Reference::kRestored + kPeriod);
     return reference_.fault() ? std::nullopt : std::optional(status);
@@ -233,7 +232,7 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed, int cuts) {
   INFO((diagnostics.has_errors() ? diagnostics.all()[0].message : ""));
   REQUIRE_FALSE(diagnostics.has_errors());
   if (!problems.empty()) return {};
-  models.cuts.most = static_cast<std::uint32_t>(cuts);
+  allow_cuts({.most = static_cast<std::uint32_t>(cuts)}, tree, models);
 
   JudgedLeaves leaves(trial.rules(), trial.facts);
   const std::unique_ptr<JudgedTree> judged =
@@ -314,8 +313,26 @@ TEST_CASE("verify says of small trees what a judge finds by trying everything") 
   judge_all(judged_trial);
 }
 
+namespace {
+
+// Each leaf with some of what it may do after a cut.
+JudgedTrial judged_trial_with_cuts(std::uint64_t seed) {
+  JudgedTrial trial = judged_trial(seed);
+  RandomSource random(seed + 2'000'000);
+  for (LeafRule& leaf : trial.leaves) {
+    if (!leaf.is_action || random.one_in(3)) continue;
+    for (const AfterCut it :
+         {AfterCut::StartsAgain, AfterCut::Continues, AfterCut::Failure, AfterCut::Success}) {
+      if (random.one_in(it == AfterCut::Success ? 6 : 2)) leaf.after_cut.push_back(it);
+    }
+  }
+  return trial;
+}
+
+}  // namespace
+
 TEST_CASE("verify --cuts says of small trees what a judge finds by trying everything") {
-  judge_all(judged_trial, 1, 1000);
+  judge_all(judged_trial_with_cuts, 1, 1000);
 }
 
 TEST_CASE("verify says of small trees for BehaviorTree.CPP what a judge finds") {

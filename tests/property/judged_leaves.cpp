@@ -18,6 +18,12 @@ std::string LeafRule::row() const {
   if (!entry.empty()) row += " out.out=\"0|1\"";
   constexpr std::array kWrites{" writes=\"success\"", " writes=\"start\"", " writes=\"tick\"", ""};
   if (!entry.empty()) row += kWrites[static_cast<std::size_t>(writes)];
+  constexpr std::array kAfterCuts{"restart", "continue", "failure", "success"};
+  std::string does;
+  for (const AfterCut it : after_cut) {
+    does += (does.empty() ? "" : ";") + std::string(kAfterCuts[static_cast<std::size_t>(it)]);
+  }
+  if (!does.empty()) row += fmt::format(" on_resume=\"{}\"", does);
   if (!is_action) return row + "/>";
   if (sets >= 0) row += fmt::format(" sets=\"f{}={}\"", sets, sets_to);
   const std::string most = most_ticks == 0 ? "inf" : std::to_string(most_ticks);
@@ -82,6 +88,9 @@ void JudgedLeaves::begin_tick() {
     it.was_asked = false;
     if (it.changes == FactRule::Changes::Freely) it.value.reset();
   }
+}
+
+void JudgedLeaves::drift() {
   for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
     const LeafRule& rule = rules_[i];
     if (leaves_[i].phase != Phase::Held) continue;
@@ -197,13 +206,15 @@ void JudgedLeaves::resume(std::uint32_t leaf) {
   leaves_[leaf].phase = Phase::Running;
 }
 
-bool JudgedLeaves::cut() {
-  bool any = false;
-  for (Leaf& it : leaves_) {
-    any = any || it.phase != Phase::Idle;
-    it = {};
-  }
-  return any;
+AfterCut JudgedLeaves::cut(std::uint32_t leaf, bool has_ticked) {
+  std::vector<AfterCut> may = rules_[leaf].after_cut;
+  if (!has_ticked) std::erase(may, AfterCut::Continues);
+  if (may.empty()) may.push_back(AfterCut::StartsAgain);
+  const AfterCut does = may[choose(static_cast<std::uint32_t>(may.size()))];
+  if (does != AfterCut::Continues) leaves_[leaf] = {};
+  constexpr std::array kWords{"|", "|goes on", "|F", "|S"};
+  say(leaf, kWords[static_cast<std::size_t>(does)]);
+  return does;
 }
 
 double JudgedLeaves::progress(std::uint32_t leaf) const {

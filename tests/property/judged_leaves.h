@@ -36,6 +36,7 @@ struct LeafRule {
   enum class Writes : std::uint8_t { WithSuccess, AtStart, InEachTick, InAnyTick };
   std::string entry = {};  // that its output writes; "": none
   Writes writes = Writes::InAnyTick;
+  std::vector<AfterCut> after_cut = {};  // that it may do; empty: it begins again
 
   // Of a leaf file.
   std::string row() const;
@@ -51,8 +52,7 @@ class JudgedLeaves final : public LeafBehavior {
   void pause(std::uint32_t leaf) override;
   void resume(std::uint32_t leaf) override;
   double progress(std::uint32_t leaf) const override;
-  // They are new ones. False: none ran.
-  bool cut();
+  AfterCut cut(std::uint32_t leaf, bool has_ticked) override;
 
   // Gives an entry a value.
   using Write = std::function<void(const std::string& entry, double value)>;
@@ -62,8 +62,10 @@ class JudgedLeaves final : public LeafBehavior {
   // The first answers of a tick, then all others: false when they have all been given.
   void first_answers();
   bool next_answers();
-  // Before each tick of the tree: what is held may drift.
+  // Before each tick of the tree, and before a cut.
   void begin_tick();
+  // Then what is held may drift.
+  void drift();
 
   // In the tick: a bit for each action that got a tick, and for each activation that has ended.
   std::uint32_t worked() const { return worked_; }

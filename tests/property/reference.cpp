@@ -83,30 +83,39 @@ class BehavingLeaf : public ReferenceNode {
   BehavingLeaf(Reference& tree, const Plan& its_plan, std::uint32_t place)
       : ReferenceNode(tree, its_plan), behavior_(*world.behavior), place_(place) {}
 
+  // "One that was held stays held": what it does after a cut, it does in its next tick.
   Status on_tick(bool first) override {
-    const bool begins_again = std::exchange(was_cut_, false);
-    if (first || begins_again) behavior_.start(place_);
+    const std::optional<AfterCut> was_cut = std::exchange(cut_, std::nullopt);
+    if (was_cut == AfterCut::Failure) return Status::Failure;
+    if (was_cut == AfterCut::Success) return Status::Success;
+    if (first || was_cut) behavior_.start(place_);
     status = Status::Running;
-    if (paused && !begins_again) behavior_.resume(place_);
+    if (paused && !was_cut) behavior_.resume(place_);
     return behavior_.tick(place_);
   }
-  double on_progress() override { return was_cut_ ? 0 : behavior_.progress(place_); }
+  double on_progress() override { return cut_ ? 0 : behavior_.progress(place_); }
   void on_halt() override {
-    if (!std::exchange(was_cut_, false)) behavior_.halt(place_);
+    if (!std::exchange(cut_, std::nullopt)) behavior_.halt(place_);
   }
   void on_pause() override {
-    if (!was_cut_) behavior_.pause(place_);
+    if (!cut_) behavior_.pause(place_);
   }
-  void on_cut() override { was_cut_ = runs(); }
+  bool on_cut() override {
+    if (!runs()) return false;
+    const AfterCut does = behavior_.cut(place_, !cut_);
+    cut_.reset();
+    if (does != AfterCut::Continues) cut_ = does;
+    return true;
+  }
   void keep(KeptState& state) override {
     ReferenceNode::keep(state);
-    state(was_cut_);
+    state(cut_);
   }
 
  private:
   LeafBehavior& behavior_;
   const std::uint32_t place_;
-  bool was_cut_ = false;  // "is started as for the first time" in its next tick
+  std::optional<AfterCut> cut_;  // it was, and has not got a tick since
 };
 
 class Constant : public ReferenceNode {
@@ -897,8 +906,10 @@ const std::map<std::string, long>& Reference::cases() const {
   return world_->cases;
 }
 
-void Reference::cut() {
-  for (ReferenceNode* node : nodes_) node->on_cut();
+bool Reference::cut() {
+  bool any = false;
+  for (ReferenceNode* node : nodes_) any |= node->on_cut();
+  return any;
 }
 
 void Reference::write(const std::string& entry, const std::variant<double, std::string>& value) {

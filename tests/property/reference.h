@@ -41,8 +41,8 @@ class Reference {
   // The root's status. After a fault, everything has been halted.
   Status tick(Nanoseconds now);
   void halt();
-  // Its process ends without a halt, and another one goes on: the leaves that ran begin again.
-  void cut();
+  // Its process ends without a halt, and another one goes on. False: no leaf ran.
+  bool cut();
   // As a leaf would.
   void write(const std::string& entry, const std::variant<double, std::string>& value);
 

@@ -65,7 +65,7 @@ class ReferenceNode {
   // to it asked, and by `between`.
   virtual double taken(double between);
   virtual void on_pause() {}
-  virtual void on_cut() {}
+  virtual bool on_cut() { return false; }  // it is a leaf that ran
   // What the next ticks read of it.
   virtual void keep(KeptState& state);
 

@@ -99,6 +99,36 @@ TEST_CASE("a finding with a cut comes again with run --leaves, which cuts the ru
                  "\nverified for all behaviors that are assumed, with at most 2 cuts\n"));
 }
 
+TEST_CASE("a finding in which leaves continue or fail after a cut comes again, too") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "t.xml",
+      std::string(kHead) +
+          R"(<BehaviorTree ID="T"><Parallel failure_count="2"><Advance name="a" step="0.05"/>
+                      <Advance name="b" step="0.05"/></Parallel></BehaviorTree></root>)");
+  const std::string leaves = directory.file(
+      "t.leaves.xml",
+      R"(<leaves lockstep="1"><leaf path="*" result="success" ticks="3" on_resume="continue"/>
+         <leaf path="*/b" on_resume="failure"/></leaves>)");
+  const std::string stem = directory.path("t.property.sure"), again = directory.path("again");
+  const Outcome verified =
+      run_lockstep({"verify", tree, "--leaves", leaves, "--cuts", "--out", directory.path("."),
+                    "--property", "sure: never b.failure"});
+  INFO(verified.out << verified.err);
+  REQUIRE(verified.code == 1);
+  CHECK(contains(read_file(stem + ".leaves"),
+                 "@cut 1\n@cut 1 continue T/Parallel/a\n@cut 1 failure T/Parallel/b\n"));
+  const Outcome played = run_lockstep({"run", tree, "--leaves", stem + ".leaves", "--clock",
+                                       "virtual", "--view", "none", "--record", again});
+  CHECK(contains(played.err, "; 'T/Parallel/a' continues at "));
+  CHECK(contains(played.err, "; 'T/Parallel/b' counts as failed"));
+  CHECK(run_lockstep({"log", "diff", stem + ".jsonl", again}).code == 0);
+  CHECK(contains(run_lockstep({"verify", tree, "--cuts", "--on-resume", "success", "--out",
+                               directory.path(".")})
+                     .out,
+                 "has a result at once (2 actions)"));
+}
+
 TEST_CASE("what verify has found comes again with run --leaves") {
   for (const Case& it : kCases) {
     INFO(it.claim);

@@ -42,6 +42,64 @@ TEST_CASE("a cut leaf begins again, so it takes longer") {
                            "the process is cut at most 1 time in a run, and loses no tick") == 1);
 }
 
+TEST_CASE("what a leaf may do after a cut, as its row says") {
+  const auto results = [](std::string_view says, std::string_view tree = "a") {
+    const auto row =
+        R"(<leaf path="*/a" result="success" ticks="3" on_resume=")" + std::string(says);
+    return with_cuts(tree, row + "\"/>", 1).said("results");
+  };
+  CHECK(results("restart") == "success (from 3 ticks)");
+  CHECK(results("failure") == "success (from 3 ticks), failure (from 2 ticks)");
+  CHECK(results("restart;success") == "success (from 2 ticks)");
+  // One that continues loses nothing: it is as without a cut, and nothing comes later.
+  const std::vector<std::string> properties{"short: a.running at most 2 ticks"};
+  const auto ticks = [&](std::string_view says) {
+    const auto row = R"(<leaf path="*" result="success" ticks="3" on_resume=")" + std::string(says);
+    return with_cuts("Sequence(a)", row + "\"/>", 3, properties).findings();
+  };
+  CHECK(ticks("continue").empty());
+  CHECK(ticks("continue;restart") == "property/short");
+}
+
+TEST_CASE("a leaf that was held at the cut has its result when it gets a tick") {
+  // b comes to the barrier in its third tick, and only then a gets one.
+  constexpr auto kTree = "ParallelAbsolute[barriers=.5](a b)";
+  const auto failures = [](std::string_view of_a) {
+    const Verified it =
+        with_cuts(kTree,
+                  R"(<leaf path="*" result="success" finish="full" progress="grid:4" step="1"/>
+           <leaf path="*/a" step="3" on_resume=")" +
+                      std::string(of_a) + "\"/>",
+                  1);
+    CHECK(it.findings().empty());
+    return it.said("results");
+  };
+  CHECK(failures("continue") == "success (from 4 ticks)");
+  CHECK(failures("failure") == "success (from 4 ticks), failure (from 2 ticks)");
+}
+
+TEST_CASE("what a leaf may do after a cut, where no row says it") {
+  Verified it = with_cuts("Sequence(a b c)", kThreeTicks, 1);
+  const auto may = [&](std::size_t leaf) { return it.models.leaves[leaf].after_cut; };
+  CHECK(may(0) == std::vector{AfterCut::StartsAgain});
+  const auto allow = [&](const ProcessCuts& cuts) {
+    for (LeafModel& leaf : it.models.leaves) leaf.after_cut.clear();
+    allow_cuts(cuts, it.tree, it.models);
+  };
+  it.tree.leaves[0].at_cut = {.otherwise = AfterCut::Failure, .is_given = true};
+  NodeType keeps_state = *it.tree.leaves[2].type;
+  keeps_state.can_be_restored = true;
+  it.tree.leaves[2].type = &keeps_state;
+  allow({.most = 1, .otherwise = AfterCut::Success});
+  CHECK(may(0) == std::vector{AfterCut::Failure});
+  CHECK(may(1) == std::vector{AfterCut::Success});
+  CHECK(may(2) == std::vector{AfterCut::StartsAgain, AfterCut::Continues, AfterCut::Failure,
+                              AfterCut::Success});
+  // Without a cut, leaves that differ in nothing else are equal.
+  allow({.most = 0});
+  CHECK(may(2).empty());
+}
+
 TEST_CASE("a tree in which no leaf runs is the same after a cut") {
   const Verified it = with_cuts("Wait[seconds=1]", "", 3);
   CHECK(it.found.store.size() == with_cuts("Wait[seconds=1]", "", 0).found.store.size());

@@ -149,7 +149,9 @@ TEST_CASE("scripts of leaves are read as they are written") {
                                {.status = Status::Success, .written = {{"place", "a b|[1;2]=%"}}}};
   scripts.leaves["M/c"] = {
       {.status = Status::Failure}, {.status = Status::Skipped}, {.kind = LeafWord::Kind::Fault}};
-  scripts.cuts = {3, 9};
+  scripts.cuts = {
+      {.tick = 3},
+      {.tick = 9, .leaves = {{"M/an arm", AfterCut::Continues}, {"M/b", AfterCut::Failure}}}};
   const std::string text = to_text(scripts);
   INFO(text);
   const auto read = parse_leaf_scripts(text);
@@ -175,10 +177,14 @@ TEST_CASE("a mistake in a script has its line") {
       {"@rats 3", "1:1", "unknown setting '@rats'"},
       {"@ticks 0", "1:1", "'@ticks' is a whole number"},
       {"@rate no", "1:1", "'@rate' is a number from 0.001 to 100000"},
-      {"@cut 3\n@cut 3", "2:1",
-       "'@cut' is the number of a tick, from 1 on, and behind the '@cut' before it"},
+      {"@cut 3\n@cut 2", "2:1",
+       "'@cut' is the number of a tick, from 1 on, and not before the one above it"},
+      {"@cut 3 restart M/a", "1:1",
+       "behind the tick of '@cut' comes continue, failure or success, and a path"},
+      {"@cut 3 continue", "1:1",
+       "behind the tick of '@cut' comes continue, failure or success, and a path"},
       {"@cut 0", "1:1",
-       "'@cut' is the number of a tick, from 1 on, and behind the '@cut' before it"},
+       "'@cut' is the number of a tick, from 1 on, and not before the one above it"},
   };
   for (const Row& row : kRows) {
     INFO(row.text);

@@ -37,7 +37,7 @@ LeafModels models_of(const Tree& tree, std::string_view rows,
       make_models(tree, file.get(), diagnostics, problems, observed_by(tree, properties, problems));
   if (diagnostics.has_errors()) throw std::invalid_argument(diagnostics.all()[0].message);
   if (!problems.empty()) throw std::invalid_argument(problems[0].message);
-  models.cuts = cuts;
+  allow_cuts(cuts, tree, models);
   return models;
 }
 

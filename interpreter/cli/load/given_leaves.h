@@ -28,8 +28,7 @@ class GivenLeaves {
     return scripts_.rate;
   }
   std::optional<std::uint64_t> ticks() const { return scripts_.ticks; }
-  // The ticks before which its process is cut.
-  const std::vector<std::uint64_t>& cuts() const { return scripts_.cuts; }
+  const std::vector<ScriptCut>& cuts() const { return scripts_.cuts; }
 
   // All leaves of the definition are played from now on.
   void take_over(Definition& definition);

@@ -17,8 +17,8 @@ namespace lockstep::host {
 struct RunCommandOptions {
   LoadCommandOptions load;
   std::string tree;
-  std::string leaves;                    // scripts that are played in place of plugins; "": none
-  std::vector<std::uint64_t> cuts = {};  // of those: see LoopOptions
+  std::string leaves;                // scripts that are played in place of plugins; "": none
+  std::vector<ScriptCut> cuts = {};  // of those: see LoopOptions
   double rate = 100;
   bool is_rate_given = false;
   std::string clock = "wall";

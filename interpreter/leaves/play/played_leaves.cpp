@@ -201,6 +201,7 @@ class ModelRun final : public RemoteRun {
       now_ = caller_.time->now;
       leaves_.fold();
       leaves_.begin_tick();
+      leaves_.drift();
     }
     return leaves_;
   }
@@ -306,9 +307,7 @@ const NodeType* PlayedLeaves::add_type(const NodeType& from) {
     type.leaf.behavior_count = type.node.leaf->behavior_count;
     type.leaf.behavior = type.node.leaf->behavior;
   }
-  type.leaf.set_pace = nullptr;  // what it does is given
-  type.leaf.save = nullptr;
-  type.leaf.restore = nullptr;
+  type.leaf.set_pace = nullptr;       // what it does is given
   type.leaf.start_unreset = nullptr;  // one that takes time keeps its result, as in verify
   if (!type.node.has_progress) type.leaf.progress = nullptr;
   type.node.mock = nullptr;

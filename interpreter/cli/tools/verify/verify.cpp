@@ -52,6 +52,7 @@ struct VerifyOptions {
   std::vector<std::string> only;
   bool symmetry = true, compact = false;
   std::uint32_t cuts = 0;
+  AfterCut on_resume = AfterCut::StartsAgain;
   std::string out = ".";
   std::string save;          // a file of scenarios; "": none
   std::string ticket, sign;  // files; "": none
@@ -158,7 +159,7 @@ class VerifyCommand {
     const Observed observed = observed_by(runnable.tree, properties_, problems);
     LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems, observed,
                                     Declared::Counts, given_outputs());
-    models.cuts.most = options_.cuts;
+    allow_cuts({.most = options_.cuts, .otherwise = options_.on_resume}, runnable.tree, models);
     places.report(problems, diagnostics_);
     if (diagnostics_.has_errors()) return refuse();
     print_diagnostics(diagnostics_, Severity::Warning);
@@ -409,6 +410,13 @@ std::function<int()> define_verify(CLI::App& app) {
       ->expected(0, 1)
       ->default_str("1")
       ->transform(whole_number(0, kMostCuts));
+  app.add_option_function<std::string>(
+         "--on-resume",
+         [options](const std::string& word) { options->on_resume = *after_cut_named(word); },
+         "With --cuts: what leaves do that ran at the cut and cannot continue: restart, failure or "
+         "success")
+      ->check(one_of({"restart", "failure", "success"}))
+      ->default_str("restart");
   app.add_option("--values", options->values, "Stop when an entry has had more than N values")
       ->type_name("N")
       ->transform(whole_number(1))
