@@ -174,6 +174,14 @@ def test_what_is_wrong_with_an_element(directory):
         assert wrong.returncode == 3 and message in wrong.stderr, wrong.stderr
 
 
+def test_the_summary_is_of_a_run_that_began_before(directory):
+    "Nothing is blamed for what the cut did: the progress of its first tick, and the time of restore."
+    mission = Mission(directory, OURS, "", '<ParallelAbsolute barriers="0.9"><Move who="a" ticks="10"/>'
+                                           '<Move who="b" ticks="12"/></ParallelAbsolute>')
+    resumed = mission.cut_and_resume(0.5)
+    assert "rose" not in resumed.stdout and "budget" not in resumed.stderr + resumed.stdout, resumed
+
+
 def test_a_leaf_that_breaks_in_restore(directory):
     mission = Mission(directory, OURS, "", '<Fallback memory="true"><Move who="a" ticks="9"/><Step who="b"/></Fallback>')
     broken = mission.cut_and_resume(0.4, {"AFTER_CUT": "throw"})

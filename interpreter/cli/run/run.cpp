@@ -225,6 +225,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       view_.print("error: nothing is kept any more: " + error);
     });
     if (!has_begun) view_.close();
+    if (has_begun && kept_->continues()) statistics_.join();
     if (has_begun && !kept_->resumed().empty()) {
       tell(kept_->resumed());
     }

@@ -11,6 +11,10 @@ namespace lockstep::host {
 
 Statistics::Statistics(Shape shape) : shape_(std::move(shape)), nodes_(measured_nodes(shape_)) {}
 
+void Statistics::join() {
+  for (MeasuredNode& node : nodes_) node.measure.join();
+}
+
 void Statistics::run_started(const Moment&, const RunStart& start) {
   real_time_ = start.real_time;
 }

@@ -16,6 +16,8 @@ namespace lockstep::host {
 class Statistics final : public Observer {
  public:
   explicit Statistics(Shape shape);
+  // The run began before what comes first: it continues after a cut.
+  void join();
 
   AskedOfRun asked() const override { return why_.asked(); }
   void run_started(const Moment& moment, const RunStart& start) override;
