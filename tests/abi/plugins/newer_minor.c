@@ -48,6 +48,8 @@ static const newer_leaf_type leaf_type = {{sizeof(newer_leaf_type),
                                            NULL,
                                            NULL,
                                            NULL,
+                                           NULL,
+                                           NULL,
                                            NULL},
                                           more};
 static const lockstep_leaf_type* const leaf_types[] = {&leaf_type.base};
