@@ -168,7 +168,7 @@ void LeafWatch::note_unusual(std::uint32_t place, PluginFunction function, std::
     slowest_took_ = took;
     set_usual();
   }
-  if (function == PluginFunction::Restore) return;  // the first tick waits for it
+  if (budget_ == 0) return;  // before the first tick, which waits
   if (took > budget_) {
     note_over_budget(place, function, took);
   } else if (carried > *options_.budget && may_tell() && options_.on_carried) {

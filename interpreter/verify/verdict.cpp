@@ -674,6 +674,11 @@ class VerdictMaker {
     if (held > 0 && !held_.empty()) {
       assumed.push_back(fmt::format("held leaves make no progress ({})", counted(held, "action")));
     }
+    const auto commits = [](const LeafNode& leaf) { return leaf.at_cut.commits; };
+    if (const auto count = std::ranges::count_if(tree_.leaves, commits); count > 0) {
+      assumed.push_back(fmt::format("an action with commit waits for no disk ({})",
+                                    counted(static_cast<std::uint64_t>(count), "action")));
+    }
     if (ends) assumed.push_back("an action that is ticked again and again ends");
     if (options_.paces) {
       assumed.push_back("times of Wait, Timeout and Delay count in full where pace slows them");

@@ -78,7 +78,6 @@ const Elsewhere kElsewhere[] = {
     {"4.6 and older", "cli/convert_test.cpp", "nested deeper than 256 levels"},
     {"4.7, 4.8", "cli/convert_test.cpp", "nested deeper than 256 levels"},
     {"4.9, 4.10", "cli/convert_test.cpp", "nested deeper than 256 levels"},
-    {"std::string onSave() const", "btcpp/leaves/faulty.cpp", "bool onRestored(const std::string&"},
     {"double onPace(double factor)", "btcpp/leaves/faulty.cpp", "double onPace(double factor)"},
 };
 

@@ -149,7 +149,7 @@ void measure_kept_run() {
     for (int i = 0; i < kTicks; ++i) tick();
   });
   std::printf("%d Parallel, kept\n", kLeaves * kTicks);
-  writer.end();
+  writer.end(0, Nanoseconds(0));
   std::remove(file.c_str());
   std::remove((file + ".lock").c_str());
 }

@@ -115,7 +115,8 @@ const ProgramMisdeed kProgramMisdeeds[] = {
     {"wrong_type", "set 'width', a port of type double, to another type"},
     {"no_port", "set 'depth', which is not one of its ports"},
     {"progress", "'progress' is not a number"},
-    {"nothing", "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' alone"},
+    {"nothing",
+     "expected one of 'status', 'done', 'pace', 'log' and 'error', or 'progress' or 'kept' alone"},
     {"deep", "which is not an answer: expected a JSON object"},
 };
 

@@ -13,9 +13,9 @@ namespace lockstep::host {
 
 using TreeIdentity = std::vector<std::pair<std::string, std::string>>;
 
-// `mark` makes a value of a text; `name` is how a file is called.
+// `mark` makes a value of a text. Files are named from the folder of the main file, wherever the
+// command runs.
 TreeIdentity identity_of(const Loaded& loaded,
-                         const std::function<std::string(std::string_view text)>& mark,
-                         const std::function<std::string(const std::string& path)>& name);
+                         const std::function<std::string(std::string_view text)>& mark);
 
 }  // namespace lockstep::host

@@ -63,7 +63,7 @@ lockstep_cut cut_of(const Checkpoint& from, const RunCommandOptions& options, Na
 
 CheckpointFacts KeptRun::facts_of(const RunCommandOptions& options, const Loaded& loaded) {
   CheckpointFacts facts;
-  facts.identity = identity_of(loaded, text_mark, [](const std::string& path) { return path; });
+  facts.identity = identity_of(loaded, text_mark);
   const auto add = [&](std::string name, std::string value) {
     facts.identity.emplace_back(std::move(name), std::move(value));
   };
@@ -183,8 +183,9 @@ void KeptRun::go_on(Run& run) {
     if (has_kept) ticker.ask_after_cut(leaf, leaves_[leaf.place], told);
   }
   ticker.go_on_after_cut(cut);
+  // After a fault the run ends, whatever the others have answered.
   resumed_ = fmt::format("resumed after {}{}", duration_text(from_seconds(told.gap)),
-                         what_leaves_do(cut, tree_));
+                         ticker.faulted() ? "" : what_leaves_do(cut, tree_));
   if (!options_.record.empty())
     resumed_ += fmt::format("; recorded in '{}'", printable(options_.record));
 }

@@ -29,8 +29,8 @@ class KeptRun {
   bool continues() const { return from_.has_value(); }
   CheckpointWriter* writer() { return writer_ ? &*writer_ : nullptr; }
   LoopOptions::Before before() const;
-  void end() {
-    if (writer_) writer_->end();
+  void end(const RunEnd& end) {
+    if (writer_) writer_->end(before().ticks + end.ticks, end.last);
   }
 
   bool has_failed() const { return writer_ && !writer_->error().empty(); }

@@ -211,7 +211,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       Run run(tree_, run_options());
       if (!make_realtime() || (kept_ && !begin_to_keep(run))) return std::nullopt;
       end = run_loop(run, clock, loop_options(), observers());
-      if (kept_) kept_->end();
+      if (kept_) kept_->end(end);
       if (end.fault) in_last_halt = run.ticker().take_tolerated();
     }
     view_.close();
@@ -605,8 +605,7 @@ extern const Command kRunCommand{
     "run", "Run a tree at a fixed rate until it completes",
     "The summary goes to stdout, everything else to stderr.\n"
     "Exit code: 0 Success, 1 Failure, 2 usage, 3 invalid tree, 4 plugin refused, 5 leaf fault,\n"
-    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop or "
-    "--checkpoint-required, 9 lockstep failed,\n"
+    "6 a plugin crashed or hung, 7 --overrun fail, 8 --on-record-error stop, 9 lockstep failed,\n"
     "10 --on-violation end, 124 --timeout or --max-ticks, 128 + N signal N, as 130 for SIGINT "
     "(running leaves are halted in\n"
     "order; a second one ends the program at once), 141 the reader of stdout has gone.\n"

@@ -134,8 +134,10 @@ void CheckpointWriter::lose(const std::string& why) {
   if (options_.on_error) options_.on_error(lost_);
 }
 
-void CheckpointWriter::end() {
+void CheckpointWriter::end(std::uint64_t ticks, Nanoseconds time) {
   stop();
+  head_.ticks = ticks;
+  head_.time = time;
   file_->write_last(last_bytes(Checkpoint::Kind::Ended, {}));
 }
 

@@ -48,8 +48,8 @@ class CheckpointWriter {
              std::uint32_t resumes);
   // After a tick, so many in all.
   void after_tick(Ticker& ticker, std::uint64_t ticks);
-  // The run has ended in order.
-  void end();
+  // The run has ended in order, after so many ticks in all; `time` is that of the last one.
+  void end(std::uint64_t ticks, Nanoseconds time);
 
   // "" if there is no error.
   std::string error() const;

@@ -27,7 +27,9 @@ ConsolePlain::ConsolePlain(Shape shape, Outlet& out, RealTime real_time)
   }
 }
 
-void ConsolePlain::run_started(const Moment&, const RunStart& start) {
+// What runs already was not started now: the run continues after a cut.
+void ConsolePlain::run_started(const Moment& moment, const RunStart& start) {
+  for (Leaf& leaf : leaves_) leaf.last = moment.status(leaf.node);
   print(fmt::format("run of {} starts, {:.6g} Hz{}", shape_.id, 1.0 / to_seconds(start.period),
                     start.real_time ? "" : ", virtual clock"));
 }

@@ -321,9 +321,9 @@ class _Server:
             goes_on = leaf.restore(json.loads(request["kept"]), cut)
         except Failed:
             return say(leaf=leaf._number, done=True, after_cut="cannot continue")
-        if goes_on not in (None, True, False):
+        if goes_on not in (True, False):
             raise ValueError(f"restore returned {goes_on!r}, expected True (it continues) or False (it starts again)")
-        leaf._has_started = goes_on is not False
+        leaf._has_started = goes_on
         answer = {"after_cut": "continues", **self.progress(leaf)} if leaf._has_started else {}
         say(leaf=leaf._number, done=True, **answer)
 

@@ -129,7 +129,7 @@ std::span<const Tool> tools() {
        {"log", "measure", "--json"},
        {kRecording,
         {"measures", Kind::Words, "--measure",
-         "Such as duration:NODE (default: progress-distance, step-length, duration)"}},
+         "Such as factor:NODE (default: progress-distance, step-length, duration)"}},
        "measures",
        Gives::List,
        false},

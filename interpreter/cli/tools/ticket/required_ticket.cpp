@@ -45,7 +45,19 @@ void print_ticket(const Ticket& ticket) {
   messages().say(text);
 }
 
+// The leaves that were proved are those that run.
+std::string_view other_leaves(const RunCommandOptions& options) {
+  if (!options.leaves.empty()) return "--leaves";
+  return options.load.mock || !options.load.mock_leaves.empty() ? "--mock" : "";
+}
+
 int check_ticket(RunCommandOptions& options, const Loaded& loaded) {
+  if (const std::string_view other = other_leaves(options); !other.empty()) {
+    print_error(
+        fmt::format("--require-ticket and {}: other leaves would run than were proved", other),
+        fmt::format("leave out {}", other));
+    return kExitUsage;
+  }
   const auto ticket = read_ticket(options.ticket);
   if (!ticket) return refuse_ticket(ticket.error());
   if (const auto good = check_signature(*ticket, options.trusted_keys); !good)

@@ -41,19 +41,10 @@ Json content_of(const Ticket& ticket) {
           {"leaves", ticket.leaves}};
 }
 
-std::string file_name(const std::string& path, const fs::path& directory, const std::string& main) {
-  if (path == main) return "the main file";
-  const fs::path inside = fs::absolute(path).lexically_normal().lexically_relative(directory);
-  return inside.empty() ? path : inside.string();
-}
-
 }  // namespace
 
 TreeIdentity ticket_identity(const Loaded& loaded) {
-  const std::string& main = loaded.project->sources.all().front()->path();
-  const fs::path directory = fs::absolute(main).lexically_normal().parent_path();
-  TreeIdentity identity = identity_of(
-      loaded, sha256, [&](const std::string& path) { return file_name(path, directory, main); });
+  TreeIdentity identity = identity_of(loaded, sha256);
   constexpr std::size_t kMost = std::size_t{1} << 30u;
   for (const PluginSet::Info& plugin : loaded.plugins->list()) {
     const auto bytes = read_file(plugin.path, kMost);

@@ -16,6 +16,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "cli/load/tree_argument.h"
+#include "cli/outputs.h"
 #include "cli/properties.h"
 #include "cli/tools/ticket/ticket.h"
 #include "cli/tools/verify/fmea.h"
@@ -135,6 +136,16 @@ std::string utc_now() {
 }
 
 class VerifyCommand {
+  // What a ticket must not replace.
+  std::vector<NamedFile> inputs_of_ticket(const Loaded& loaded) const {
+    std::vector<std::string> files{options_.tree};
+    for (const std::string& it : {options_.leaves, options_.sign}) {
+      if (!it.empty()) files.push_back(it);
+    }
+    for (const auto& source : loaded.project->sources.all()) files.push_back(source->path());
+    return inputs_of(files, *loaded.plugins);
+  }
+
  public:
   explicit VerifyCommand(const VerifyOptions& options) : options_(options) {}
 
@@ -142,7 +153,11 @@ class VerifyCommand {
     auto loaded = load();
     if (!loaded) return code_;
     const Places places(*loaded);
-    if (!options_.ticket.empty()) identity_ = ticket_identity(*loaded);
+    if (!options_.ticket.empty()) {
+      if (would_overwrite("--ticket", options_.ticket, inputs_of_ticket(*loaded)))
+        return kExitUsage;
+      identity_ = ticket_identity(*loaded);
+    }
     played_.take_over(loaded->definition);
     paces_ = paces(loaded->definition);
     ignore_pace(loaded->definition);
@@ -365,6 +380,11 @@ int verify(const VerifyOptions& options) {
     print_error("--fmea prints a table: as text, md, csv or json, and without a ticket");
     return kExitUsage;
   }
+  if (options.fmea && options.cuts != 0) {
+    print_error("--fmea and --cuts: a row is what one failure does, without a cut",
+                "leave out --cuts");
+    return kExitUsage;
+  }
   if (!options.ticket.empty() && !options.only.empty()) {
     print_error("--ticket and --only: a ticket is for all questions", "leave out --only");
     return kExitUsage;
@@ -415,6 +435,7 @@ std::function<int()> define_verify(CLI::App& app) {
          [options](const std::string& word) { options->on_resume = *after_cut_named(word); },
          "With --cuts: what leaves do that ran at the cut and cannot continue: restart, failure or "
          "success")
+      ->needs("--cuts")
       ->check(one_of({"restart", "failure", "success"}))
       ->default_str("restart");
   app.add_option("--values", options->values, "Stop when an entry has had more than N values")
