@@ -1,4 +1,4 @@
-// What becomes of an action when the process of its run was cut: docs/resume.md.
+// What an action does after its process was cut: docs/resume.md.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ constexpr std::optional<AfterCut> after_cut_named(std::string_view word) {
 // What an element says of its leaf.
 struct LeafAtCut {
   AfterCut otherwise = AfterCut::StartsAgain;  // what it does if it cannot be asked
-  bool is_given = false;                       // `otherwise`; else the run decides
+  bool is_given = false;                       // `otherwise`; if not, the run decides
   bool commits = false;  // its success counts only once a checkpoint with it is on the disk
 };
 
