@@ -11,7 +11,8 @@
 
 namespace lockstep::host {
 
-// What an object reports that has not begun. No call may read it, so the value is the most harmful one.
+// What an object reports that has not begun. No call may read it, so the value is the most harmful
+// one.
 constexpr double kProgressOfNew = 1.0;
 
 struct ModelLeaves::Functions {
