@@ -28,8 +28,10 @@ struct RecordingHeader : Shape {
   std::map<std::string, std::string, std::less<>> arguments = {};
   std::map<std::string, std::string, std::less<>> values = {};  // that entries start with
   std::uint64_t first_tick = 0;  // of a recording in parts, in this part
-  std::string verify = {};       // what verify has found; "": it is any other run
-  std::string tick = {};         // kExactlyOnce, or ""
+  // Of the first part after a cut: seconds since the state was saved from which the run continues.
+  std::optional<double> resumed_after = {};
+  std::string verify = {};  // what verify has found; "": it is any other run
+  std::string tick = {};    // kExactlyOnce, or ""
 };
 
 struct RecordedEnd {

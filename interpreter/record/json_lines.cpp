@@ -66,6 +66,10 @@ Json json_of(const LeafLine& log) {
   return Json::array({log.who, log.level, log.text});
 }
 
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 template <class Value>
 Json json_of(const Value& value) {
   return value;
@@ -415,6 +419,25 @@ std::optional<std::uint64_t> json_lines::tick_of(std::string_view line) {
   std::uint64_t tick = 0;
   const auto read = std::from_chars(line.data() + kTick.size(), line.data() + line.size(), tick);
   return read.ec == std::errc() ? std::optional(tick) : std::nullopt;
+}
+
+std::optional<std::uint64_t> json_lines::next_tick_of(std::string_view line) {
+  if (const auto tick = tick_of(line)) return *tick + 1;
+  constexpr std::string_view kGap = "{\"lost\":{\"ticks\":", kFrom = ",\"from\":";
+  if (!line.starts_with(kGap)) return std::nullopt;
+  const char* const end = line.data() + line.size();
+  std::uint64_t ticks = 0, from = 0;
+  const auto read = std::from_chars(line.data() + kGap.size(), end, ticks);
+  if (!std::string_view(read.ptr, end).starts_with(kFrom)) return std::nullopt;
+  return std::from_chars(read.ptr + kFrom.size(), end, from).ec == std::errc()
+             ? std::optional(from + ticks)
+             : std::nullopt;
+}
+
+std::string json_lines::lost(std::uint64_t ticks, std::uint64_t from) {
+  std::string line(128, '\0');
+  line.resize(static_cast<std::size_t>(put_lost(line.data(), ticks, from) - line.data()));
+  return line;
 }
 
 bool json_lines::is_last(std::string_view line) {

@@ -71,6 +71,10 @@ Put put_nodes(std::span<char> room, std::span<const NodeChange> nodes, bool firs
 // ----------------------------------------------
 
 // The header of a later part.
+// The tick after a line of a tick, or of lost ones.
+std::optional<std::uint64_t> next_tick_of(std::string_view line);
+// A line with a gap of these ticks.
+std::string lost(std::uint64_t ticks, std::uint64_t from);
 std::string part_header(std::string_view header, std::uint64_t first_tick);
 // The last line of a part: the run goes on in another one, and had so many ticks before it.
 std::string part_end(std::uint64_t ticks);

@@ -81,13 +81,15 @@ constexpr Tuple kTuples[] = {
 };
 
 // Where a header or an end keeps the value; none: the value has a separate reader and writer.
-using Member = std::variant<
-    std::monostate, std::string RecordingHeader::*, std::uint64_t RecordingHeader::*,
-    double RecordingHeader::*, std::map<std::string, std::string, std::less<>> RecordingHeader::*,
-    std::vector<ShapeNode> RecordingHeader::*, std::vector<ShapeEntry> RecordingHeader::*,
-    std::string RecordedEnd::*, std::uint64_t RecordedEnd::*,
-    std::optional<std::uint64_t> RecordedEnd::*, double RecordedEnd::*,
-    std::vector<std::string> RecordedEnd::*, std::vector<LeafLine> RecordedEnd::*>;
+using Member =
+    std::variant<std::monostate, std::string RecordingHeader::*, std::uint64_t RecordingHeader::*,
+                 double RecordingHeader::*, std::optional<double> RecordingHeader::*,
+                 std::map<std::string, std::string, std::less<>> RecordingHeader::*,
+                 std::vector<ShapeNode> RecordingHeader::*,
+                 std::vector<ShapeEntry> RecordingHeader::*, std::string RecordedEnd::*,
+                 std::uint64_t RecordedEnd::*, std::optional<std::uint64_t> RecordedEnd::*,
+                 double RecordedEnd::*, std::vector<std::string> RecordedEnd::*,
+                 std::vector<LeafLine> RecordedEnd::*>;
 
 struct Field {
   enum class Has { Always, Maybe };
@@ -146,6 +148,10 @@ constexpr Field kHeaderFields[] = {
      "only in a part of a recording that is [not the first](#parts): the number of its first tick, "
      "whose line has the whole state",
      &RecordingHeader::first_tick},
+    {"resumed_after_s", "Real", kMaybe,
+     "only in the first part after a [cut](resume.md#recordings): for how long there was no run, "
+     "in seconds",
+     &RecordingHeader::resumed_after},
     {"verify", "Text", kMaybe,
      "of a run that `lockstep verify` has found: the finding, and from which tick on it repeats",
      &RecordingHeader::verify},

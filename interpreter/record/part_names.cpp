@@ -36,6 +36,18 @@ std::optional<std::uint64_t> number_in(std::string_view name, std::string_view b
   return is_number ? std::optional(number) : std::nullopt;
 }
 
+std::string resumed_name(const std::string& recording, std::size_t number) {
+  const std::size_t place = place_of_number(recording);
+  return fmt::format("{}.resumed-{}{}", recording.substr(0, place), number,
+                     recording.substr(place));
+}
+
+// As one file, or in parts.
+bool is_there(const std::string& recording) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(recording, none) || !parts_that_exist(recording).empty();
+}
+
 }  // namespace
 
 std::string part_name(const std::string& recording, std::uint64_t number) {
@@ -64,18 +76,18 @@ std::vector<std::string> parts_that_exist(const std::string& recording) {
   return parts;
 }
 
-std::string name_of_resumed(const std::string& recording) {
-  std::error_code none;
-  const auto is_taken = [&](const std::string& name) {
-    return std::filesystem::is_regular_file(name, none) || !parts_that_exist(name).empty();
-  };
-  const std::size_t place = place_of_number(recording);
-  std::string name = recording;
-  for (std::uint64_t number = 1; is_taken(name); ++number) {
-    name =
-        fmt::format("{}.resumed-{}{}", recording.substr(0, place), number, recording.substr(place));
+std::vector<std::string> resumed_recordings(const std::string& recording) {
+  std::vector<std::string> names;
+  for (std::string name = resumed_name(recording, 1); is_there(name);
+       name = resumed_name(recording, names.size() + 1)) {
+    names.push_back(std::move(name));
   }
-  return name;
+  return names;
+}
+
+std::string name_of_resumed(const std::string& recording) {
+  if (!is_there(recording)) return recording;
+  return resumed_name(recording, resumed_recordings(recording).size() + 1);
 }
 
 }  // namespace lockstep::host

@@ -35,10 +35,15 @@ class Loop {
         begun_(clock.now() - deadlines_.at(first_)),
         start_(begun_),
         wake_up_(is_real_ ? run.wake_up() : nullptr),
-        deadline_(first_) {}
+        deadline_(first_) {
+    end_.ticks = end_.first_tick = options.before.ticks;
+  }
 
   RunEnd run() {
-    observe([&](Observers& it) { it.run_started(run_.ticker(), {run_.period(), is_real_}); });
+    observe([&](Observers& it) {
+      it.run_started(run_.ticker(),
+                     {run_.period(), is_real_, end_.first_tick, options_.before.gap});
+    });
     if (run_.fault() == nullptr) {  // of a leaf that could not be created
       while (may_tick() && (options_.control == nullptr || is_admitted()) && tick() &&
              meet_next()) {
@@ -46,8 +51,8 @@ class Loop {
       }
     }
     // On the virtual clock the last tick, too, lasts until the next one would begin.
-    end_.time = (is_real_ ? clock_.now() - start_ : deadlines_.at(first_ + end_.ticks)) -
-                deadlines_.at(first_);
+    end_.time =
+        is_real_ ? clock_.now() - start_ : deadlines_.at(first_ + end_.ticks - end_.first_tick);
     observe([&](Observers& it) { it.standing(run_.ticker()); });
     run_.halt();
     end_.budget = run_.end_budget();
@@ -80,8 +85,7 @@ class Loop {
     if (options_.property_violated && options_.property_violated()) {
       return stop(StopReason::Property);
     }
-    if (options_.max_ticks && ticks_in_all() >= *options_.max_ticks)
-      return stop(StopReason::MaxTicks);
+    if (options_.max_ticks && end_.ticks >= *options_.max_ticks) return stop(StopReason::MaxTicks);
     if (clock_.now() - begun_ >= std::min(options_.timeout.value_or(kLongestRun), kLongestRun)) {
       return stop(StopReason::Timeout);
     }
@@ -188,11 +192,9 @@ class Loop {
     if (options_.cut) options_.cut(leaves);
   }
 
-  std::uint64_t ticks_in_all() const { return options_.before.ticks + end_.ticks; }
-
   void keep() {
     const InEngine scope(run_.blackboard().lock.get());
-    options_.checkpoints->after_tick(run_.ticker(), ticks_in_all());
+    options_.checkpoints->after_tick(run_.ticker(), end_.ticks);
   }
 
   void note_worst(Nanoseconds took) {

@@ -46,11 +46,11 @@ struct LoopOptions {
   // called. Only with leaves that may begin again without a halt: those of scripts.
   std::span<const ScriptCut> cuts = {};
   std::function<void(std::span<const CutLeaf> leaves)> cut = {};
-  // Of a run that goes on: what was before. Its time goes on; its ticks are counted anew, but for
-  // `max_ticks` and for who keeps it.
+  // Of a run that goes on: what was before. Its time and the numbers of its ticks go on.
   struct Before {
     std::uint64_t ticks = 0;
     Nanoseconds time{0};  // of the last one
+    Nanoseconds gap{0};   // since then, in which there was no process
   };
   Before before = {};
 };

@@ -17,10 +17,14 @@ namespace lockstep::host {
 struct RunStart {
   Nanoseconds period{0};
   bool real_time = true;  // false on a virtual clock: periods and lateness have no meaning
+  // Of a run that continues after a cut. Its ticks and its time count from the beginning of the
+  // run.
+  std::uint64_t first_tick = 0;
+  Nanoseconds gap{0};  // since its state was saved
 };
 
 struct TickReport {
-  std::uint64_t tick = 0;              // counts from 0
+  std::uint64_t tick = 0;              // counts from 0; of a run that was cut, over its parts
   Nanoseconds time{0};                 // when it began, since the run began
   Status status = Status::Running;     // of the root
   std::uint64_t skipped = 0;           // deadlines that were skipped because this tick was late
@@ -60,13 +64,16 @@ struct RunEnd {
   Status status = Status::Running;  // of the root after the last tick
   int signal = 0;                   // when reason is Signal
   std::optional<Fault> fault;       // of a leaf, in a tick or when it was created
-  std::uint64_t ticks = 0;
-  Nanoseconds time{0};         // from the start of the first tick to the end of the last
-  Nanoseconds last{0};         // when the last tick began
-  std::uint64_t overruns = 0;  // ticks that ended after the next deadline
-  std::uint64_t skipped = 0;   // deadlines skipped because of them
+  std::uint64_t ticks = 0;          // in all: also those before a cut
+  std::uint64_t first_tick = 0;     // of this process
+  Nanoseconds time{0};              // from the start of the first tick to the end of the last
+  Nanoseconds last{0};              // when the last tick began
+  std::uint64_t overruns = 0;       // ticks that ended after the next deadline
+  std::uint64_t skipped = 0;        // deadlines skipped because of them
   WorstTick worst;
   EndBudget* budget = nullptr;  // the time that observers of the end may take; null: no limit
+
+  bool has_ticked() const { return ticks > first_tick; }
 
   RunResult result() const {
     if (reason == StopReason::Fault) return RunResult::Fault;

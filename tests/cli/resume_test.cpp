@@ -238,7 +238,57 @@ TEST_CASE("what has ended in order does not go on, and a resumed run says so") {
   CHECK(run_lockstep({"log", "info", recording}).code == 0);
 }
 
-TEST_CASE("a resumed run leaves the recording of the run before it") {
+// The rows of each tick, by its number.
+std::map<std::string, std::vector<std::string>> recorded(const std::string& recording) {
+  const Outcome csv = run_lockstep({"log", "csv", recording});
+  INFO(csv.err);
+  REQUIRE(csv.code == 0);
+  std::map<std::string, std::vector<std::string>> ticks;
+  for (const std::string& row : lines(csv.out)) ticks[row.substr(0, row.find(','))].push_back(row);
+  return ticks;
+}
+
+TEST_CASE("a recording of a run that was cut is one, with the ticks of the run without a cut") {
+  const std::vector<std::vector<std::string>> forms{
+      {"run.jsonl"}, {"run.jsonl.zst"}, {"run.jsonl", "--record-rotate", "0.4s"}};
+  for (const std::string& text : moving_trees()) {
+    for (const auto& form : forms) {
+      INFO(text << form.back());
+      CutRun run(text);
+      const auto with = [&](const std::string& name) {
+        std::vector<std::string> options{"--record", run.directory().path(name + form.front())};
+        options.insert(options.end(), form.begin() + 1, form.end());
+        return options;
+      };
+      REQUIRE(run.go(with("uncut-")).code == 0);
+      const auto expected = recorded(run.directory().path("uncut-" + form.front()));
+      const std::string recording = run.directory().path(form.front());
+      run.forget();
+      for (const int tick : {2, 5, 6}) {
+        auto options = with("");
+        if (tick > 2) options.emplace_back("--resume");
+        REQUIRE(run.cut(tick, options).code == 128 + SIGKILL);
+      }
+      REQUIRE(run.resume(with("")).code == 0);
+      const auto joined = recorded(recording);
+      CHECK(joined.rbegin()->first == expected.rbegin()->first);
+      for (const auto& [tick, rows] : joined) {
+        const auto same = expected.find(tick);
+        INFO("tick " << tick);
+        REQUIRE(same != expected.end());
+        CHECK(rows == same->second);
+      }
+      const Outcome info = run_lockstep({"log", "info", recording});
+      CHECK(info.code == 0);
+      CHECK(holds(info.out, "s, from tick 6 on"));
+      const std::string last = std::to_string(expected.size() - 2);  // but the row of names
+      CHECK(run_lockstep({"replay", recording, "--at", last}).code == 0);
+      CHECK(run_lockstep({"replay", recording, "--at", "6"}).code == 0);
+    }
+  }
+}
+
+TEST_CASE("a resumed run leaves the recording of the run before it, and a new run begins another") {
   CutRun run(ours("<Step who='a' ticks='9'/>"));
   const std::string recording = run.directory().path("run.jsonl");
   REQUIRE(run.cut(4, {"--record", recording}).code == 128 + SIGKILL);
@@ -247,8 +297,18 @@ TEST_CASE("a resumed run leaves the recording of the run before it") {
   CHECK(run.resume({"--record", recording}).code == 0);
   CHECK(read_file(recording) == before);
   for (const std::string name : {"run.resumed-1.jsonl", "run.resumed-2.jsonl"}) {
-    CHECK(run_lockstep({"log", "info", run.directory().path(name)}).code == 0);
+    const Outcome part = run_lockstep({"log", "info", run.directory().path(name)});
+    CHECK(part.code == 0);
+    CHECK(holds(part.out, "a part that begins with tick "));
+    CHECK_FALSE(holds(part.out, "rose in a period"));
+    const Outcome events = run_lockstep({"log", "events", run.directory().path(name)});
+    CHECK_FALSE(holds(events.out, "tick 0 "));
+    CHECK_FALSE(holds(events.out, " start "));
   }
+  CHECK(run.go({"--record", recording}).code == 0);
+  CHECK_FALSE(std::filesystem::exists(run.directory().path("run.resumed-1.jsonl")));
+  CHECK_FALSE(std::filesystem::exists(run.directory().path("run.resumed-2.jsonl")));
+  CHECK(holds(run_lockstep({"log", "info", recording}).out, "after 9 ticks"));
 }
 
 TEST_CASE("a run does not go on with another tree, nor from what is no checkpoint") {

@@ -166,7 +166,7 @@ bool KeptRun::begin(Run& run, std::function<void(const std::string& error)> on_e
 }
 
 LoopOptions::Before KeptRun::before() const {
-  return from_ ? LoopOptions::Before{.ticks = from_->ticks, .time = from_->time}
+  return from_ ? LoopOptions::Before{.ticks = from_->ticks, .time = from_->time, .gap = gap_}
                : LoopOptions::Before{};
 }
 
@@ -175,6 +175,7 @@ void KeptRun::go_on(Run& run) {
   Ticker& ticker = run.ticker();
   ticker.restore(saved_);
   const lockstep_cut told = cut_of(*from_, options_, run.period());
+  gap_ = from_seconds(told.gap);
   std::vector<CutLeaf> cut = ticker.cut_leaves();
   for (CutLeaf& leaf : cut) {
     const LeafAtCut& at_cut = tree_.leaves[leaf.place].at_cut;
@@ -184,7 +185,7 @@ void KeptRun::go_on(Run& run) {
   }
   ticker.go_on_after_cut(cut);
   // After a fault the run ends, whatever the others have answered.
-  resumed_ = fmt::format("resumed after {}{}", duration_text(from_seconds(told.gap)),
+  resumed_ = fmt::format("resumed after {}{}", duration_text(gap_),
                          ticker.faulted() ? "" : what_leaves_do(cut, tree_));
   if (!options_.record.empty())
     resumed_ += fmt::format("; recorded in '{}'", printable(options_.record));

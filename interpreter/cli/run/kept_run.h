@@ -30,7 +30,7 @@ class KeptRun {
   CheckpointWriter* writer() { return writer_ ? &*writer_ : nullptr; }
   LoopOptions::Before before() const;
   void end(const RunEnd& end) {
-    if (writer_) writer_->end(before().ticks + end.ticks, end.last);
+    if (writer_) writer_->end(end.ticks, end.last);
   }
 
   bool has_failed() const { return writer_ && !writer_->error().empty(); }
@@ -53,6 +53,7 @@ class KeptRun {
   const Tree& tree_;
   std::unique_ptr<CheckpointFile> file_;  // until the writer has it
   std::optional<Checkpoint> from_;        // what the run goes on from
+  Nanoseconds gap_{0};                    // since then
   SavedRun saved_;                        // its state
   LeafBytes leaves_;                      // what its leaves kept
   std::string resumed_;

@@ -68,10 +68,11 @@ int exit_code_of(const RunEnd& end) {
 
 // Says which leaf was at fault, and when.
 std::string describe(const Fault& fault, const Shape& shape, const RunEnd& end) {
-  const bool in_tick = !fault.in_last_halt && end.ticks > 0;
-  return fmt::format(
-      "{} {}{}: {}", describe_node(shape, fault.node), failure_text(fault, end.ticks),
-      in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.last)) : "", fault.message);
+  const bool in_tick = !fault.in_last_halt && end.has_ticked();
+  return fmt::format("{} {}{}: {}", describe_node(shape, fault.node),
+                     failure_text(fault, end.ticks, end.first_tick),
+                     in_tick ? fmt::format(" at {:.3f} s", to_seconds(end.last)) : "",
+                     fault.message);
 }
 
 // None: all.

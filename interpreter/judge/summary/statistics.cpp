@@ -20,7 +20,7 @@ void Statistics::run_started(const Moment&, const RunStart& start) {
 }
 
 void Statistics::after_tick(const Moment& moment, const TickReport& report) {
-  if (report.tick > 0) periods_.record(report.time - last_start_);
+  if (last_start_) periods_.record(report.time - *last_start_);
   last_start_ = report.time;
   lateness_.record(report.late);
   for (MeasuredNode& node : nodes_) node.after_tick(moment);
@@ -106,9 +106,9 @@ std::string describe_node(const Shape& shape, NodeIndex node) {
                      shape.nodes[node].path, type.id, type.plugin);
 }
 
-std::string failure_text(const Fault& fault, std::uint64_t ticks) {
+std::string failure_text(const Fault& fault, std::uint64_t ticks, std::uint64_t first_tick) {
   if (fault.in_last_halt) return "could not be halted at the end of the run";
-  if (ticks == 0) return "failed before the first tick";
+  if (ticks == first_tick) return "failed before the first tick";
   return fmt::format("failed in tick {}", ticks - 1);
 }
 

@@ -37,7 +37,7 @@ class Statistics final : public Observer {
   Histogram periods_;
   Histogram lateness_{Histogram::kCoarse};
   bool real_time_ = false;
-  Nanoseconds last_start_{0};
+  std::optional<Nanoseconds> last_start_;  // of a tick
   WhyWatch why_{shape_};
   std::vector<WhyLink> why_failed_;
   CappedNotes faults_{"fault"};  // after which the run went on
@@ -49,7 +49,7 @@ class Statistics final : public Observer {
 // "the leaf 'Main/arm' (Advance of plugin 'motion')" or "the node 'Main/Wait' (Wait)".
 std::string describe_node(const Shape& shape, NodeIndex node);
 // "failed in tick 11", in a run of 12 ticks.
-std::string failure_text(const Fault& fault, std::uint64_t ticks);
+std::string failure_text(const Fault& fault, std::uint64_t ticks, std::uint64_t first_tick = 0);
 // "the leaf 'Door/pull/arm' failed in tick 12: threw …; counted as Failure"
 std::string fault_text(const Shape& shape, const Fault& fault, std::uint64_t tick);
 // "Door/pull/arm: threw …"

@@ -31,6 +31,7 @@ void LineFeed::log(std::string_view who, std::string_view level, std::string_vie
 void LineFeed::run_started(const Moment&, const RunStart& start) {
   is_real_time_ = start.real_time;
   header_ = packets_.header(start);
+  if (start.first_tick > 0) packets_.add_whole();
 }
 
 // Only a tick whose line is due asks leaves for their progress.

@@ -53,6 +53,8 @@ std::string RunPackets::header(const RunStart& start) const {
   header.arguments = run_.arguments;
   header.values = start_values();
   header.verify = run_.verify;
+  header.first_tick = start.first_tick;
+  if (start.first_tick > 0) header.resumed_after = to_seconds(start.gap);
   if (run_.exactly_once) header.tick = kExactlyOnce;
   return json_lines::header(header);
 }

@@ -214,6 +214,13 @@ auto into_header(Value& value) {
 auto into_header(double& rate) {
   return [&rate](JsonValue value) { rate = rate_from(value); };
 }
+auto into_header(std::optional<double>& time) {
+  return [&time](JsonValue value) {
+    double seconds = 0;
+    if (!value.get(seconds) || !(seconds >= 0)) throw JsonError("'resumed_after_s' is no time");
+    time = seconds;
+  };
+}
 auto into_header(Texts& texts) {
   return [&texts](JsonValue value) { texts = named_texts(value, "argument"); };
 }

@@ -8,17 +8,77 @@
 #include <system_error>
 #include <utility>
 
+#include "record/json_lines.h"
 #include "record/part_names.h"
+#include "record/read/recording_reader.h"
 
 namespace lockstep::host {
 namespace {
 
 constexpr std::size_t kRead = 64u << 10;  // bytes
 
+// The files of a recording without those that continue it after a cut.
+std::vector<std::string> own_files(const std::string& recording) {
+  std::error_code none;
+  if (std::filesystem::exists(recording, none)) return {recording};
+  return parts_that_exist(recording);
+}
+
+std::uint64_t first_tick_of(const std::string& path) {
+  DecompressedFile file(path);
+  if (!file.is_open()) return 0;
+  const RecordingReader reader(file.text(), path);
+  return reader.error().empty() ? reader.header().first_tick : 0;
+}
+
+struct BeforeCut {
+  std::uint64_t size = 0;  // bytes
+  std::uint64_t next = 0;  // tick
+};
+
+// The lines before a tick; none behind the last tick or gap, such as the closing line of a crash.
+BeforeCut lines_before(const std::string& path, std::uint64_t tick) {
+  BeforeCut before{.next = first_tick_of(path)};
+  DecompressedFile file(path);
+  std::uint64_t at = 0;
+  std::string line;
+  while (std::getline(file.text(), line) && !file.text().eof()) {
+    at += line.size() + 1;
+    const auto next = json_lines::next_tick_of(line);
+    if (next && *next > tick) break;
+    if (next) before.next = *next;
+    if (next || before.size == 0) before.size = at;
+  }
+  return before;
+}
+
 }  // namespace
 
-RecordingParts::RecordingParts(std::string recording)
-    : recording_(std::move(recording)), paths_(parts_that_exist(recording_)), text_(kRead) {}
+RecordingParts::RecordingParts(const std::string& recording) : recording_(recording), text_(kRead) {
+  for (const std::string& path : own_files(recording)) parts_.push_back({path});
+  for (const std::string& resumed : resumed_recordings(recording)) continue_with(resumed);
+}
+
+// What came after the state that the run continued from was lost with it, so the run did it again.
+void RecordingParts::continue_with(const std::string& resumed) {
+  const std::vector<std::string> files = own_files(resumed);
+  const std::uint64_t tick = first_tick_of(files.front());
+  if (tick == 0) return;  // it tells nothing of a cut: another recording of that name
+  while (parts_.size() > 1 &&
+         (parts_.back().path.empty() || first_tick_of(parts_.back().path) >= tick))
+    parts_.pop_back();
+  Part& last = parts_.back();
+  const BeforeCut before = lines_before(last.path, tick);
+  last.size = before.size;
+  last.is_cut = true;
+  Part piece;
+  if (before.next < tick) piece.piece = json_lines::lost(tick - before.next, before.next);
+  piece.piece += json_lines::part_end(tick);
+  piece.size = piece.piece.size();
+  parts_.push_back(std::move(piece));
+  for (const std::string& path : files) parts_.push_back({path});
+  is_resumed_ = true;
+}
 
 // An error names the part that has it.
 template <class Use>
@@ -26,13 +86,13 @@ auto RecordingParts::in_part(Use use) {
   try {
     return use();
   } catch (const CannotDecompress& damage) {
-    throw CannotDecompress(fmt::format("in '{}', {}", paths_[at_], damage.what()));
+    throw CannotDecompress(fmt::format("in '{}', {}", parts_[at_].path, damage.what()));
   }
 }
 
 RecordingParts::int_type RecordingParts::underflow() {
-  if (!file_) {
-    if (paths_.empty()) return traits_type::eof();
+  if (!is_open_) {
+    if (parts_.empty()) return traits_type::eof();
     open(0);
   }
   std::size_t count = read();
@@ -49,45 +109,55 @@ RecordingParts::int_type RecordingParts::underflow() {
 }
 
 std::size_t RecordingParts::read() {
-  return in_part([this] {
-    const auto count = static_cast<std::streamsize>(text_.size());
+  const Part& part = parts_[at_];
+  std::uint64_t most = text_.size();
+  if (part.is_cut || !file_) most = std::min(most, *part.size - (end_ - begin_));
+  if (!file_) return part.piece.copy(text_.data(), most, end_ - begin_);
+  return in_part([&] {
+    const auto count = static_cast<std::streamsize>(most);
     return static_cast<std::size_t>(file_->text().rdbuf()->sgetn(text_.data(), count));
   });
 }
 
 bool RecordingParts::knows_next() {
-  if (at_ + 1 < paths_.size()) return true;
+  if (at_ + 1 < parts_.size()) return true;
+  if (is_resumed_) return false;
   // The first parts of a run that goes on may be deleted.
   for (std::string& it : parts_that_exist(recording_)) {
-    const bool is_later = it.size() > paths_.back().size() ||
-                          (it.size() == paths_.back().size() && it > paths_.back());
-    if (is_later) paths_.push_back(std::move(it));
+    const std::string& last = parts_.back().path;
+    const bool is_later = it.size() > last.size() || (it.size() == last.size() && it > last);
+    if (is_later) parts_.push_back({std::move(it)});
   }
-  return at_ + 1 < paths_.size();
+  return at_ + 1 < parts_.size();
 }
 
 void RecordingParts::open(std::size_t part) {
   begin_ = 0;
   for (std::size_t i = 0; i < part; ++i) begin_ += size_of(i);
-  errno = 0;
-  file_ = std::make_unique<DecompressedFile>(paths_[part]);
-  if (!file_->is_open()) {
-    throw CannotDecompress(fmt::format("cannot read its part '{}': {}", paths_[part],
-                                       std::generic_category().message(errno)));
+  file_.reset();
+  if (const std::string& path = parts_[part].path; !path.empty()) {
+    errno = 0;
+    file_ = std::make_unique<DecompressedFile>(path);
+    if (!file_->is_open()) {
+      throw CannotDecompress(fmt::format("cannot read its part '{}': {}", path,
+                                         std::generic_category().message(errno)));
+    }
   }
+  is_open_ = true;
   at_ = part;
   end_ = begin_;
   setg(nullptr, nullptr, nullptr);
 }
 
 std::uint64_t RecordingParts::size_of(std::size_t part) {
-  while (sizes_.size() <= part) {
-    DecompressedFile file(paths_[sizes_.size()]);
+  Part& it = parts_[part];
+  if (!it.size) {
+    DecompressedFile file(it.path);
     const auto end = static_cast<std::streamoff>(
         file.text().rdbuf()->pubseekoff(0, std::ios_base::end, std::ios_base::in));
-    sizes_.push_back(static_cast<std::uint64_t>(std::max<std::streamoff>(end, 0)));
+    it.size = static_cast<std::uint64_t>(std::max<std::streamoff>(end, 0));
   }
-  return sizes_[part];
+  return *it.size;
 }
 
 RecordingParts::pos_type RecordingParts::seekoff(off_type offset, std::ios_base::seekdir way,
@@ -97,7 +167,7 @@ RecordingParts::pos_type RecordingParts::seekoff(off_type offset, std::ios_base:
   }
   if (way == std::ios_base::end && offset == 0) {
     off_type size = 0;
-    for (std::size_t i = 0; i < paths_.size(); ++i) size += static_cast<off_type>(size_of(i));
+    for (std::size_t i = 0; i < parts_.size(); ++i) size += static_cast<off_type>(size_of(i));
     return seekpos(size, which);
   }
   if (way != std::ios_base::beg || offset < 0) return pos_type(off_type(-1));
@@ -108,8 +178,13 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
   const auto place = static_cast<std::uint64_t>(off_type(position));
   std::size_t part = 0;
   std::uint64_t begin = 0;
-  while (part + 1 < paths_.size() && begin + size_of(part) <= place) begin += size_of(part++);
-  if (!file_ || part != at_) open(part);
+  while (part + 1 < parts_.size() && begin + size_of(part) <= place) begin += size_of(part++);
+  if (!is_open_ || part != at_) open(part);
+  if (!file_) {
+    setg(nullptr, nullptr, nullptr);
+    end_ = place;
+    return position;
+  }
   const auto there = static_cast<off_type>(place - begin);
   const pos_type found = in_part([&] { return file_->text().rdbuf()->pubseekpos(there, which); });
   if (off_type(found) < 0) return found;
@@ -120,7 +195,8 @@ RecordingParts::pos_type RecordingParts::seekpos(pos_type position, std::ios_bas
 
 NamedRecording::NamedRecording(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::exists(path, none) && !parts_that_exist(path).empty()) {
+  const bool is_whole = std::filesystem::exists(path, none);
+  if (is_whole ? !resumed_recordings(path).empty() : !parts_that_exist(path).empty()) {
     parts_ = std::make_unique<RecordingParts>(path);
     all_.rdbuf(parts_.get());
   } else {

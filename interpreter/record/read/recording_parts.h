@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <istream>
 #include <memory>
+#include <optional>
 #include <streambuf>
 #include <string>
 #include <vector>
@@ -16,9 +17,18 @@ namespace lockstep::host {
 class RecordingParts final : public std::streambuf {
  public:
   // Its parts are beside where the recording would be: record/part_names.h.
-  explicit RecordingParts(std::string recording);
+  explicit RecordingParts(const std::string& recording);
 
  private:
+  // A file; or, where a run continued after a cut, its text until the first tick that the next part
+  // has again, and behind it a piece of its own that says so.
+  struct Part {
+    std::string path;  // "": only the piece
+    std::string piece = {};
+    std::optional<std::uint64_t> size = {};  // of its text, once it is known
+    bool is_cut = false;                     // it ends there, whatever comes in the file
+  };
+
   int_type underflow() override;
   pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override;
   pos_type seekpos(pos_type position, std::ios_base::openmode) override;
@@ -27,21 +37,23 @@ class RecordingParts final : public std::streambuf {
   bool knows_next();
   std::size_t read();
   std::uint64_t size_of(std::size_t part);
+  void continue_with(const std::string& resumed);
   template <class Use>
   auto in_part(Use use);
 
   const std::string recording_;
-  std::vector<std::string> paths_;
-  std::vector<std::uint64_t> sizes_;  // of the texts of the first parts, as far as they are known
-  std::size_t at_ = 0;                // the part that is open
-  std::unique_ptr<DecompressedFile> file_;
-  std::uint64_t begin_ = 0;  // of its text, in all
+  std::vector<Part> parts_;
+  bool is_resumed_ = false;
+  std::size_t at_ = 0;  // the part that is open
+  bool is_open_ = false;
+  std::unique_ptr<DecompressedFile> file_;  // none: a piece
+  std::uint64_t begin_ = 0;                 // of its text, in all
   std::vector<char> text_;
   std::uint64_t end_ = 0;  // behind what has been read, in all
 };
 
-// A recording by its name: a file, or its parts where there is no such file. Not open: errno says
-// why.
+// A recording by its name: a file, or its parts where there is no such file, and behind these the
+// recordings of the runs that continued it after cuts. Not open: errno says why.
 class NamedRecording {
  public:
   explicit NamedRecording(const std::string& path);

@@ -26,6 +26,7 @@ RecordingReader::RecordingReader(std::istream& in, std::string name, Limits limi
   states_.resize(header_.nodes.size());
   next_tick_ = header_.first_tick;
   begins_here_ = has_skipped_ = header_.first_tick > 0;
+  if (header_.resumed_after) resumes_.push_back({next_tick_, *header_.resumed_after});
   if (is_cut_) fail("the header is cut");
 }
 
@@ -76,6 +77,7 @@ std::optional<RecordedTick> RecordingReader::read_further() {
 
 void RecordingReader::take(const RecordedTick& tick) {
   pass_ticks(tick.tick, 1);
+  last_gap_ = 0;
   if (tick.time < last_time_)
     throw JsonError(fmt::format("time_s {} comes after {}", tick.time, last_time_));
   last_time_ = tick.time;
@@ -84,7 +86,7 @@ void RecordingReader::take(const RecordedTick& tick) {
 void RecordingReader::take(const RecordedGap& gap) {
   pass_ticks(gap.from, gap.ticks);
   if (!first_lost_) first_lost_ = gap.from;
-  lost_ += gap.ticks;
+  lost_ += last_gap_ = gap.ticks;
 }
 
 void RecordingReader::take(const RecordedPartEnd& end) {
@@ -96,18 +98,27 @@ void RecordingReader::take(const RecordedPartEnd& end) {
 // Files of one run, one behind the other.
 void RecordingReader::begin_part() {
   const RecordingHeader header = format_->header(lines_.text());
-  const auto run_of = [](const RecordingHeader& it) {
-    return std::tie(it.id, it.file, it.version, it.rate_hz, it.clock, it.seed, it.arguments,
-                    it.tick);
+  const auto tree_of = [](const RecordingHeader& it) {
+    return std::tuple(it.nodes.size(), it.entries.size(), std::tie(it.id, it.rate_hz, it.tick));
   };
-  if (header.nodes.size() != header_.nodes.size() ||
-      header.entries.size() != header_.entries.size() || run_of(header) != run_of(header_)) {
+  const auto run_of = [](const RecordingHeader& it) {
+    return std::tie(it.file, it.version, it.clock, it.seed, it.arguments);
+  };
+  // After a cut, another process may name its file otherwise and have another seed.
+  const bool is_resumed = header.resumed_after.has_value();
+  if (tree_of(header) != tree_of(header_) || (!is_resumed && run_of(header) != run_of(header_))) {
     throw JsonError("the next part is of another run");
   }
   if (header.first_tick != next_tick_) {
     throw JsonError(fmt::format("the next part begins with tick {}, expected {}", header.first_tick,
                                 next_tick_));
   }
+  if (!is_resumed) return;
+  begins_here_ = has_skipped_ = true;  // its last line counts its own lost ticks
+  // A gap directly before a cut is not the disk's: the process ended before it was written.
+  lost_in_cuts_ += last_gap_;
+  lost_ -= std::exchange(last_gap_, 0);
+  resumes_.push_back({next_tick_, *header.resumed_after});
 }
 
 void RecordingReader::take(RecordedEnd end) {
@@ -129,9 +140,17 @@ void RecordingReader::pass_ticks(std::uint64_t first, std::uint64_t count) {
 }
 
 std::string RecordingReader::gaps() const {
-  if (!first_lost_) return {};
-  return fmt::format("{} tick{} missing, the first is {}: the disk was too slow", lost_,
-                     lost_ == 1 ? " is" : "s are", *first_lost_);
+  const auto missing = [](std::uint64_t ticks) {
+    return fmt::format("{} tick{} missing", ticks, ticks == 1 ? " is" : "s are");
+  };
+  std::string text;
+  if (lost_ > 0)
+    text = fmt::format("{}, the first is {}: the disk was too slow", missing(lost_), *first_lost_);
+  if (lost_in_cuts_ > 0) {
+    text += fmt::format("{}{}: cut off before they were written", text.empty() ? "" : "; ",
+                        missing(lost_in_cuts_));
+  }
+  return text;
 }
 
 std::string RecordingReader::cut() const {

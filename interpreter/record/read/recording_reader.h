@@ -68,6 +68,12 @@ class RecordingReader {
   std::string cut() const;
   // It is a part, and the run goes on in the next one.
   bool goes_on() const { return is_part_over_; }
+  // After which cuts the run continued, of the lines read so far.
+  struct Resume {
+    std::uint64_t first_tick = 0;
+    double after = 0;  // seconds since the state was saved
+  };
+  const std::vector<Resume>& resumes() const { return resumes_; }
   RecordingOutcome outcome() const { return {error_, gaps(), cut(), end_}; }
 
  private:
@@ -107,6 +113,9 @@ class RecordingReader {
   double last_time_ = 0;  // of a tick
   std::optional<std::uint64_t> first_lost_;
   std::uint64_t lost_ = 0;
+  std::uint64_t lost_in_cuts_ = 0;  // ticks before a cut that did not get to the disk
+  std::vector<Resume> resumes_;
+  std::uint64_t last_gap_ = 0;  // ticks, if it was in the last line
 };
 
 }  // namespace lockstep::host

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/core/diagnostics.h"
 #include "base/core/wording.h"
@@ -51,6 +52,9 @@ void write_end(const RecordingReader& reader, std::uint64_t ticks, double time, 
   if (const std::uint64_t first = reader.header().first_tick; first > 0) {
     out += fmt::format("  a part that begins with tick {}\n", first);
   }
+  for (const RecordingReader::Resume& it : reader.resumes()) {
+    out += fmt::format("  resumed after {:.1f} s, from tick {} on\n", it.after, it.first_tick);
+  }
   if (const auto& end = reader.end()) {
     out += fmt::format("  {} after {}, {:.3f} s", printable(ending(end->result, end->reason)),
                        counted(end->ticks, "tick"), end->time);
@@ -98,9 +102,12 @@ std::string info_text(RecordingReader& reader, bool color) {
   WhyWatch why(header);
   std::vector<MeasuredNode> nodes = measured_nodes(header);
   std::uint64_t ticks = 0, faults = 0;
+  std::size_t resumes = 0;
   const Moment* last = nullptr;
   while (const auto tick = reader.next()) {
-    if (ticks++ == 0 && tick->tick > 0) {
+    const bool continues =
+        reader.resumes().size() > std::exchange(resumes, reader.resumes().size());
+    if ((ticks++ == 0 && tick->tick > 0) || continues) {
       for (MeasuredNode& node : nodes) node.measure.join();
     }
     faults += tick->faults.size();

@@ -153,7 +153,7 @@ void AppendFile::write_out(Failure failure) {
     known -= again;
     file_->add(text.substr(again), failure, written_);
     if (file_->failed()) return take_failure();
-    if (parts_.are_wanted && failure == Failure::Told) remove_others();
+    if (failure == Failure::Told) remove_others();
     part_size_.store(file_->size(), std::memory_order_relaxed);
     written_ = printer.unfinished_text();
     ring_.take_until(printer.finished());
@@ -193,10 +193,15 @@ void AppendFile::add_text(std::string_view text) {
 // An earlier recording of this name. Its first part is replaced already.
 void AppendFile::remove_others() {
   if (std::exchange(has_removed_others_, true)) return;
-  ::unlink(path_.c_str());
-  for (const std::string& it : parts_that_exist(path_)) {
-    if (it != part_name(path_, 1)) ::unlink(it.c_str());
-  }
+  const auto remove = [this](const std::string& it) {
+    if (it != (parts_.are_wanted ? part_name(path_, 1) : path_)) ::unlink(it.c_str());
+  };
+  const auto remove_parts = [&](const std::string& recording) {
+    remove(recording);
+    std::ranges::for_each(parts_that_exist(recording), remove);
+  };
+  std::ranges::for_each(resumed_recordings(path_), remove_parts);
+  if (parts_.are_wanted) remove_parts(path_);
 }
 
 void AppendFile::take_failure() {

@@ -48,9 +48,11 @@ Recorder::Recorder(const Shape& shape, RecorderOptions options)
 
 void Recorder::run_started(const Moment&, const RunStart& start) {
   may_wait_ = !start.real_time;
-  const std::string header = packets_.header(start);
-  if (options_.rotation.is_wanted()) file_.set_header(header);
-  write(header);
+  // That of a later part gets its own first tick.
+  if (options_.rotation.is_wanted())
+    file_.set_header(packets_.header({start.period, start.real_time}));
+  write(packets_.header(start));
+  if (start.first_tick > 0) packets_.add_whole();
 }
 
 void Recorder::log(std::string_view who, std::string_view level, std::string_view text) {

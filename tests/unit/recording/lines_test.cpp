@@ -201,6 +201,9 @@ void fill(std::vector<LeafLine>& logs) {
 void fill(std::map<std::string, std::string, std::less<>>& texts) {
   texts["x"] = "1";
 }
+void fill(std::optional<double>& number) {
+  number = 0.5;
+}
 void fill(std::vector<ShapeNode>&) {}  // sample_header
 void fill(std::vector<ShapeEntry>&) {}
 

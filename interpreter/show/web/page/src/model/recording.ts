@@ -37,6 +37,7 @@ export interface Header {
   nodes: HeaderNode[];
   entries?: HeaderEntry[];
   first_tick?: number;
+  resumed_after_s?: number;
   verify?: string;
   tick?: "exactly-once";
 }
