@@ -193,6 +193,9 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   if (const auto passed = stepper_.passed()) {
     tell(News::Kind::Passed, passed->node, step, into, passed_text(ticker.tree(), *passed));
   }
+  if (const auto leaf = stepper_.repeated()) {
+    tell(News::Kind::Repeated, ticker.tree().leaves[*leaf].node, step, into);
+  }
   if (const Fault* fault = ticker.fault()) {
     tell(News::Kind::Fault, fault->node, step, into, fault->message);
     into.states.back().ends |= !stepper_.was_cut();

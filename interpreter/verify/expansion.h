@@ -26,7 +26,7 @@ struct Step {
 // A thread sees this for the first time: in the order of the states, the first of all threads is
 // among these.
 struct News {
-  enum class Kind : std::uint8_t { Result, Fault, Broken, Passed, Violated, EntryValue };
+  enum class Kind : std::uint8_t { Result, Fault, Broken, Passed, Repeated, Violated, EntryValue };
   Kind kind;
   std::uint32_t which;        // a status, node, property or entry
   std::uint32_t combination;  // of answers

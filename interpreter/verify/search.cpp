@@ -182,6 +182,9 @@ class Searcher {
       case News::Kind::Passed:
         result_.passed.try_emplace(news.which, news.text, here);
         break;
+      case News::Kind::Repeated:
+        result_.repeated.try_emplace(news.which, here);
+        break;
       case News::Kind::Violated:
         result_.violated.try_emplace(news.which, here);
         break;

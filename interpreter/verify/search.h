@@ -45,6 +45,8 @@ struct SearchResult {
   std::optional<std::pair<std::string, Occurrence>> broken = {};         // contract of the leaves
   // Barriers that were passed before all had reached them; likewise.
   std::map<NodeIndex, std::pair<std::string, Occurrence>> passed = {};
+  // Actions with commit that may be done again after a cut; likewise.
+  std::map<NodeIndex, Occurrence> repeated = {};
   std::map<std::size_t, Occurrence> violated = {};  // properties, by their place
 
   // All states were looked at, as far as the store can tell.

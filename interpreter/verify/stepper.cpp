@@ -145,6 +145,19 @@ void Stepper::cut() {
   cut_leaves_ = after_cut(ticker_, models_, answers_, leaves_);
 }
 
+std::optional<std::uint32_t> Stepper::repeated() const {
+  if (!was_cut_) return std::nullopt;
+  for (const CutLeaf& it : cut_leaves_) {
+    const LeafNode& leaf = ticker_.tree().leaves[it.place];
+    const LeafModel& model = models_.leaves[it.place];
+    const LeafState& was = from_leaves_[it.place];
+    if (leaf.at_cut.commits && it.does == AfterCut::StartsAgain && !leaf.type->can_be_restored &&
+        was.phase == Phase::Running && model.results.success && was.ticks + 1 >= model.least_ticks)
+      return it.place;
+  }
+  return std::nullopt;
+}
+
 Status Stepper::tick_again(Status status, std::uint64_t most) {
   for (root_ticks_ = 1; ticker_.is_asked() && root_ticks_ < most; ++root_ticks_) {
     if (gives_up_ && root_ticks_ % kTicksBetweenQuestions == 0 && gives_up_()) break;

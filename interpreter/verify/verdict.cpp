@@ -547,6 +547,16 @@ class VerdictMaker {
            .node = node,
            .run = run_to(passed.second)});
     }
+    for (const auto& [node, where] : found_.repeated) {
+      verdict_.findings.push_back(
+          {.name = "done-twice/" + tree_.path(node),
+           .message = fmt::format("{} starts again after a cut, though it may have succeeded in "
+                                  "the tick that was lost. With on_resume=\"failure\", the tree "
+                                  "decides; or its type keeps state, and is asked",
+                                  at(node)),
+           .node = node,
+           .run = run_to(where)});
+    }
     for (std::size_t i = 0; i < properties_.size(); ++i) look_at_property(i);
   }
 

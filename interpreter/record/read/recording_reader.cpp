@@ -69,6 +69,8 @@ std::optional<RecordedTick> RecordingReader::read_further() {
   const bool is_gap = std::holds_alternative<RecordedGap>(line);
   if (begins_here_ && !is_gap) {
     begins_here_ = false;
+    // A run that continues may be cut again before its first tick.
+    if (tick == nullptr && !resumes_.empty()) return std::nullopt;
     if (tick == nullptr || !tick->whole) throw JsonError("'whole' is missing");
     tick->entries = *tick->whole;
   }
