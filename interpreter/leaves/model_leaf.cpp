@@ -274,6 +274,12 @@ std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std
   return reaches;
 }
 
+bool ModelLeaves::may_succeed(std::uint32_t leaf, const LeafState& state) const {
+  const Rule& rule = rules_[leaf];
+  return rule.results.success && state.ticks + 1 >= rule.least_ticks &&
+         rule.in_a_tick[state.level].may_succeed;
+}
+
 Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   LeafState& state = states_[leaf];
   const Rule& rule = rules_[leaf];

@@ -79,6 +79,8 @@ class ModelLeaves {
   std::span<LeafSlot> slots() { return slots_; }
   const std::vector<LeafState>& states() const { return states_; }
   const std::vector<FactState>& facts() const { return facts_; }
+  // Whether the next tick of a leaf in this state, which runs, may be its last one, with Success.
+  bool may_succeed(std::uint32_t leaf, const LeafState& state) const;
   void restore(const std::vector<LeafState>& states, const std::vector<FactState>& facts);
   // The same after the first time: back to what was restored last, from one tick behind it.
   void restore_again(const std::vector<LeafState>& states, const std::vector<FactState>& facts);

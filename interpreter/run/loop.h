@@ -46,7 +46,8 @@ struct LoopOptions {
   // called. Only with leaves that may begin again without a halt: those of scripts.
   std::span<const ScriptCut> cuts = {};
   std::function<void(std::span<const CutLeaf> leaves)> cut = {};
-  // Of a run that goes on: what was before. Its time and the numbers of its ticks go on.
+  // Of a run that continues after a cut: what was before. The numbers of its ticks and its time
+  // continue.
   struct Before {
     std::uint64_t ticks = 0;
     Nanoseconds time{0};  // of the last one

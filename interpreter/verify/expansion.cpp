@@ -193,9 +193,7 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   if (const auto passed = stepper_.passed()) {
     tell(News::Kind::Passed, passed->node, step, into, passed_text(ticker.tree(), *passed));
   }
-  if (const auto leaf = stepper_.repeated()) {
-    tell(News::Kind::Repeated, ticker.tree().leaves[*leaf].node, step, into);
-  }
+  if (stepper_.was_cut()) tell_repeated(step, into);
   if (const Fault* fault = ticker.fault()) {
     tell(News::Kind::Fault, fault->node, step, into, fault->message);
     into.states.back().ends |= !stepper_.was_cut();
@@ -218,6 +216,13 @@ void Expander::take(const Step& step, Status status, Chunk& into) {
   const bool is_loop = to == step.from;
   into.edges.push_back(
       {to, labels_.add(is_loop ? labeller_.with_moves(stepper_) : labeller_.only_held(stepper_))});
+}
+
+void Expander::tell_repeated(const Step& step, Chunk& into) {
+  for (const CutLeaf& it : stepper_.cut_leaves()) {
+    if (!stepper_.repeats(it)) continue;
+    tell(News::Kind::Repeated, stepper_.ticker().tree().leaves[it.place].node, step, into);
+  }
 }
 
 void Expander::tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,

@@ -102,6 +102,7 @@ class Expander {
   void take(const Step& step, Status status, Chunk& into);
   void tell(News::Kind kind, std::size_t which, const Step& step, Chunk& into,
             const std::string& text = {});
+  void tell_repeated(const Step& step, Chunk& into);
   void look_at_values(const Step& step, Chunk& into);
   std::optional<SearchEnd> why_cut(const Chunk& chunk) const;
   void begin(const StateStore& known, SearchRoom& room, Chunk& into);

@@ -145,17 +145,11 @@ void Stepper::cut() {
   cut_leaves_ = after_cut(ticker_, models_, answers_, leaves_);
 }
 
-std::optional<std::uint32_t> Stepper::repeated() const {
-  if (!was_cut_) return std::nullopt;
-  for (const CutLeaf& it : cut_leaves_) {
-    const LeafNode& leaf = ticker_.tree().leaves[it.place];
-    const LeafModel& model = models_.leaves[it.place];
-    const LeafState& was = from_leaves_[it.place];
-    if (leaf.at_cut.commits && it.does == AfterCut::StartsAgain && !leaf.type->can_be_restored &&
-        was.phase == Phase::Running && model.results.success && was.ticks + 1 >= model.least_ticks)
-      return it.place;
-  }
-  return std::nullopt;
+bool Stepper::repeats(const CutLeaf& cut) const {
+  const LeafNode& leaf = ticker_.tree().leaves[cut.place];
+  const LeafState& was = from_leaves_[cut.place];
+  return leaf.at_cut.commits && !leaf.type->can_be_restored && cut.does == AfterCut::StartsAgain &&
+         was.phase == Phase::Running && leaves_.may_succeed(cut.place, was);
 }
 
 Status Stepper::tick_again(Status status, std::uint64_t most) {

@@ -89,9 +89,9 @@ class Stepper {
   std::optional<BarrierWatch::Passed> passed() const {
     return barriers_ ? barriers_->passed() : std::nullopt;
   }
-  // An action with commit that starts again after a cut, though it may have succeeded in the tick
-  // that was lost: nobody can ask it whether it has. Its place in Tree::leaves.
-  std::optional<std::uint32_t> repeated() const;
+  // Whether a leaf with commit starts again after the cut, although it may have succeeded in the
+  // tick that was lost, and its type keeps no state by which it would know.
+  bool repeats(const CutLeaf& leaf) const;
   // After `tick`: whether a property still waits for something.
   bool owes(std::size_t property) const { return watch_.owes(property_bytes_.data(), property); }
 

@@ -309,6 +309,11 @@ TEST_CASE("a resumed run leaves the recording of the run before it, and a new ru
     CHECK_FALSE(holds(events.out, "tick 0 "));
     CHECK_FALSE(holds(events.out, " start "));
   }
+  // What is damaged before a cut is reported with its place, and no lost tick.
+  std::ofstream(recording) << before.substr(0, before.find('\n') + 1) << "{\"tick\":0,]\n";
+  const Outcome damaged = run_lockstep({"log", "info", recording});
+  CHECK(damaged.code == 3);
+  CHECK(holds(damaged.err, "run.jsonl:2: "));
   CHECK(run.go({"--record", recording}).code == 0);
   CHECK_FALSE(std::filesystem::exists(run.directory().path("run.resumed-1.jsonl")));
   CHECK_FALSE(std::filesystem::exists(run.directory().path("run.resumed-2.jsonl")));
@@ -337,6 +342,11 @@ TEST_CASE("verify --cuts finds an action with commit that may be done twice") {
   CHECK(holds(found.out, "finding done-twice/Main/Step: "));
   // Its third tick may be the last one, so the cut is before that at the earliest.
   CHECK(holds(read_file(directory.path("findings/tree.done-twice.Main.Step.leaves")), "@cut 2"));
+  const Outcome both =
+      verify("<Parallel><Step commit='true' name='a'/><Step commit='true' name='b'/></Parallel>",
+             succeeds);
+  CHECK(holds(both.out, "done-twice/Main/Parallel/a"));
+  CHECK(holds(both.out, "done-twice/Main/Parallel/b"));
   CHECK(verify("<Step commit='true'/>", succeeds, false).code == 0);
   CHECK(verify("<Step/>", succeeds).code == 0);
   CHECK(verify("<Step commit='true' on_resume='failure'/>", succeeds).code == 0);

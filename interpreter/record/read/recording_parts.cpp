@@ -36,20 +36,20 @@ struct BeforeCut {
   std::uint64_t next = 0;  // tick
 };
 
-// The lines before a tick; none behind the last tick or gap, such as the closing line of a crash.
-BeforeCut lines_before(const std::string& path, std::uint64_t tick) {
+// Those of the lines before a tick, up to the last line of a tick or of a gap: a crash may have
+// written a closing line behind it. Nothing if a line is damaged: who reads the file reports that.
+std::optional<BeforeCut> lines_before(const std::string& path, std::uint64_t tick) {
   BeforeCut before{.next = first_tick_of(path)};
   DecompressedFile file(path);
-  std::uint64_t at = 0;
-  std::string line;
-  while (std::getline(file.text(), line) && !file.text().eof()) {
-    at += line.size() + 1;
-    const auto next = json_lines::next_tick_of(line);
+  LineReader lines(file.text(), RecordingReader::Limits().line);
+  while (lines.next() && lines.has_end()) {
+    const auto next = json_lines::next_tick_of(lines.text());
     if (next && *next > tick) break;
     if (next) before.next = *next;
-    if (next || before.size == 0) before.size = at;
+    if (next || before.size == 0) before.size = lines.position().bytes;
   }
-  return before;
+  const bool is_read = lines.damage().empty() && !lines.is_too_long();
+  return is_read ? std::optional(before) : std::nullopt;
 }
 
 }  // namespace
@@ -63,19 +63,19 @@ RecordingParts::RecordingParts(const std::string& recording) : recording_(record
 void RecordingParts::continue_with(const std::string& resumed) {
   const std::vector<std::string> files = own_files(resumed);
   const std::uint64_t tick = first_tick_of(files.front());
-  if (tick == 0) return;  // it tells nothing of a cut: another recording of that name
+  if (tick == 0) return;  // it continues nothing: another recording of that name
   while (parts_.size() > 1 &&
          (parts_.back().path.empty() || first_tick_of(parts_.back().path) >= tick))
     parts_.pop_back();
   Part& last = parts_.back();
-  const BeforeCut before = lines_before(last.path, tick);
-  last.size = before.size;
-  last.is_cut = true;
-  Part piece;
-  if (before.next < tick) piece.piece = json_lines::lost(tick - before.next, before.next);
-  piece.piece += json_lines::part_end(tick);
-  piece.size = piece.piece.size();
-  parts_.push_back(std::move(piece));
+  if (const auto before = lines_before(last.path, tick)) {
+    last.size = before->size;
+    last.is_cut = true;
+    std::string lines;
+    if (before->next < tick) lines = json_lines::lost(tick - before->next, before->next);
+    lines += json_lines::part_end(tick);
+    parts_.push_back({.path = "", .lines = lines, .size = lines.size()});
+  }
   for (const std::string& path : files) parts_.push_back({path});
   is_resumed_ = true;
 }
@@ -112,7 +112,7 @@ std::size_t RecordingParts::read() {
   const Part& part = parts_[at_];
   std::uint64_t most = text_.size();
   if (part.is_cut || !file_) most = std::min(most, *part.size - (end_ - begin_));
-  if (!file_) return part.piece.copy(text_.data(), most, end_ - begin_);
+  if (!file_) return part.lines.copy(text_.data(), most, end_ - begin_);
   return in_part([&] {
     const auto count = static_cast<std::streamsize>(most);
     return static_cast<std::size_t>(file_->text().rdbuf()->sgetn(text_.data(), count));

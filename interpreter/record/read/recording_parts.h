@@ -20,11 +20,11 @@ class RecordingParts final : public std::streambuf {
   explicit RecordingParts(const std::string& recording);
 
  private:
-  // A file; or, where a run continued after a cut, its text until the first tick that the next part
-  // has again, and behind it a piece of its own that says so.
+  // A file. Where a run continued after a cut, its text up to the first tick that the next part has
+  // again; behind it comes a part without a file: the lines {"lost":…} and {"continued":…}.
   struct Part {
-    std::string path;  // "": only the piece
-    std::string piece = {};
+    std::string path;                        // "": it has no file
+    std::string lines = {};                  // then
     std::optional<std::uint64_t> size = {};  // of its text, once it is known
     bool is_cut = false;                     // it ends there, whatever comes in the file
   };
@@ -46,7 +46,7 @@ class RecordingParts final : public std::streambuf {
   bool is_resumed_ = false;
   std::size_t at_ = 0;  // the part that is open
   bool is_open_ = false;
-  std::unique_ptr<DecompressedFile> file_;  // none: a piece
+  std::unique_ptr<DecompressedFile> file_;  // none: a part without one
   std::uint64_t begin_ = 0;                 // of its text, in all
   std::vector<char> text_;
   std::uint64_t end_ = 0;  // behind what has been read, in all
