@@ -100,6 +100,24 @@ class Reader {
       fact.changes =
           static_cast<Changes>(std::ranges::find(kWords, changes->value) - kWords.begin());
     }
+    if (const Attribute* starts = document_.find_attribute(at, "starts")) {
+      fact.starts = starts->value == "true";
+      if (fact.changes == Changes::Freely) {
+        report_.at_value("bad-leaf-model"_code, starts->place,
+                         "'starts' has no effect on a fact that changes freely",
+                         "add changes=\"never\": then only leaves that set it change it");
+      }
+    }
+    if (const Attribute* chance = document_.find_attribute(at, "chance")) {
+      fact.chance = parse_double(chance->value);
+      if (!fact.chance || !(*fact.chance > 0 && *fact.chance < 1)) {
+        report_.at_value("bad-value"_code, chance->place,
+                         "'chance' must be a number between 0 and 1");
+      } else if (fact.changes == Changes::Never && fact.starts) {
+        report_.at_value("bad-leaf-model"_code, chance->place,
+                         "'chance' has no effect on a fact that is known from its start on");
+      }
+    }
     file_.facts.push_back(std::move(fact));
   }
 
@@ -123,7 +141,9 @@ class Reader {
     } else if (name == "fact") {
       row.fact = LeafRow::Named{std::string(value), "", it.place};
     } else if (name == "sets") {
-      for (const std::string_view part : split(value, ";")) read_set(it, part, row);
+      for (const std::string_view part : split(value, ";")) read_set(it, part, row.sets);
+    } else if (name == "sets_on_failure") {
+      for (const std::string_view part : split(value, ";")) read_set(it, part, row.sets_on_failure);
     } else if (name == "on_resume") {
       read_after_cut(it, row);
     } else if (is_behavior_word(name)) {
@@ -149,11 +169,11 @@ class Reader {
                         row.after_cut.end());
   }
 
-  void read_set(const Attribute& it, std::string_view part, LeafRow& row) {
+  void read_set(const Attribute& it, std::string_view part, std::vector<LeafRow::Named>& sets) {
     const auto sign = part.find('=');
     const std::string_view to = sign == std::string_view::npos ? "" : part.substr(sign + 1);
     if (to == "true" || to == "false") {
-      row.sets.push_back({std::string(part.substr(0, sign)), std::string(to), it.place});
+      sets.push_back({std::string(part.substr(0, sign)), std::string(to), it.place});
     } else {
       report_.at_value("bad-leaf-model"_code, it.place,
                        fmt::format("'{}' does not set a fact", brief(part)),

@@ -22,6 +22,8 @@ enum class Changes : std::uint8_t { Never, Freely, Rises, Falls };
 struct FactRow {
   std::string name;
   Changes changes = Changes::Freely;
+  std::optional<bool> starts = {};    // none: it is not known
+  std::optional<double> chance = {};  // that it is true, where it may be both
   Place place = {};
 };
 
@@ -29,7 +31,8 @@ struct LeafRow : Behavior {
   std::string of, path;  // one of both: the id of a type, or a pattern for paths
   Place place = {};      // of that attribute
   std::optional<Named> fact = {};
-  std::vector<Named> sets = {};          // a fact, and "true" or "false"
+  std::vector<Named> sets = {};  // by its success: a fact, and "true" or "false"
+  std::vector<Named> sets_on_failure = {};
   std::vector<AfterCut> after_cut = {};  // rising
 };
 

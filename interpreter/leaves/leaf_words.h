@@ -25,12 +25,17 @@ inline constexpr Word kFact[] = {
     {"changes", "never|freely|rises|falls",
      "How it changes by itself: never (it is unknown, but constant), freely (the default), rises "
      "(from false to true at most), falls."},
+    {"starts", "true|false", "What it is at the start; unknown when absent."},
+    {"chance", R"([0-9]*\.?[0-9]+([eE]-[0-9]+)?)",
+     "The probability that it is true whenever it is looked at and may be both."},
 };
 inline constexpr Word kLeaf[] = {
     {"of", "", "The leaves of this type. Or give 'path'."},
     {"path", "", "The leaves with this path; * stands for any part of it."},
-    {"result", "(success|failure|skipped|fault)(;(success|failure|skipped|fault))*",
-     "The results that may come."},
+    {"result",
+     R"((success|failure|skipped|fault)(:[0-9]*\.?[0-9]+([eE]-[0-9]+)?)?)"
+     R"((;(success|failure|skipped|fault)(:[0-9]*\.?[0-9]+([eE]-[0-9]+)?)?)*)",
+     "The results that may come, or each with its chance: success:0.7;failure:0.3."},
     {"ticks", R"([0-9]+(\.\.([0-9]+|inf))?)",
      "Ticks that an activation gets until it completes; 1..inf when absent."},
     {"ends", "yes|no",
@@ -47,6 +52,9 @@ inline constexpr Word kLeaf[] = {
     {"fact", "[A-Za-z_][A-Za-z0-9_]*", "Its result is this fact."},
     {"sets", "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
      "Facts that its success makes true or false."},
+    {"sets_on_failure",
+     "[A-Za-z_][A-Za-z0-9_]*=(true|false)(;[A-Za-z_][A-Za-z0-9_]*=(true|false))*",
+     "Facts that its failure makes true or false."},
     {"on_resume", "(restart|continue|failure|success)(;(restart|continue|failure|success))*",
      "What it may do when it ran at a cut of the process: start again, continue, or return a "
      "result."},

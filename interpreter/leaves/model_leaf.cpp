@@ -44,6 +44,15 @@ struct ModelLeaves::Functions {
   }
 };
 
+std::vector<FactState> first_facts(const LeafModels& models) {
+  std::vector<FactState> facts(models.facts.size(), FactState::Unknown);
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    if (const auto starts = models.facts[i].starts)
+      facts[i] = *starts ? FactState::True : FactState::False;
+  }
+  return facts;
+}
+
 ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, Blackboard& board,
                          Answers& answers)
     : ModelLeaves(
@@ -61,7 +70,7 @@ ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, EntryOf ent
       answers_(answers),
       slots_(tree.leaves.size()),
       states_(tree.leaves.size()),
-      facts_(models.facts.size(), FactState::Unknown),
+      facts_(first_facts(models)),
       asked_(models.facts.size()),
       progress_(tree.leaves.size()),
       marks_(tree.leaves.size()) {
@@ -182,7 +191,13 @@ bool ModelLeaves::ask(std::uint32_t fact) {
   const bool is_settled = (changes == Changes::Never && state != FactState::Unknown) ||
                           (changes == Changes::Rises && state == FactState::True) ||
                           (changes == Changes::Falls && state == FactState::False);
-  if (!is_settled) state = answers_.choose(2, asker) == 0 ? FactState::True : FactState::False;
+  if (!is_settled) {
+    const auto& chances = models_.facts[fact].chances;
+    const bool has_chances = chances[0] > 0;
+    const std::uint32_t answer =
+        has_chances ? answers_.draw(chances, asker) : answers_.choose(2, asker);
+    state = answer == 0 ? FactState::True : FactState::False;
+  }
   return state == FactState::True;
 }
 
@@ -239,6 +254,9 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
     constexpr std::int64_t kMost = std::numeric_limits<std::uint32_t>::max();
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ticks, 0, kMost));
   };
+  for (const double it : model.results.chances) {
+    if (it > 0 && model.fact == kNoFact) chances.push_back(it);
+  }
   least_ticks = count(model.least_ticks);
   most_ticks = count(model.most_ticks);
   const auto end = static_cast<std::int32_t>(model.levels.size()) - 1;
@@ -302,12 +320,14 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   const bool is_last = rule.most_ticks != 0 && state.ticks >= rule.most_ticks;
   bool may_run = rule.can_run && !is_last && !must_succeed;
 
+  // Chances are of all results, so it ends only where each of them may come.
+  const bool is_by_chance = !rule.chances.empty();
   Status ends[3];
   std::uint32_t count = 0;
   bool may_fault = false;
   if (may_end && !rule.is_plain && model.fact != kNoFact) {
     ends[count++] = ask(model.fact) ? Status::Success : Status::Failure;
-  } else if (may_end) {
+  } else if (may_end && (!is_by_chance || reach.may_succeed || !rule.results.success)) {
     if (reach.may_succeed && rule.results.success) ends[count++] = Status::Success;
     if (rule.results.failure) ends[count++] = Status::Failure;
     if (rule.results.skipped) ends[count++] = Status::Skipped;
@@ -317,12 +337,18 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
     rule.can_run ? void(may_run = true) : void(ends[count++] = Status::Success);
   }
   const auto running = may_run ? static_cast<std::uint32_t>(reach.last - reach.first + 1) : 0;
-  std::uint32_t choice = answers_.choose(count + (may_fault ? 1 : 0) + running, leaf);
+  const std::uint32_t all_ends = count + (may_fault ? 1 : 0);
+  const bool draws = is_by_chance && all_ends == rule.chances.size();
+  std::uint32_t choice =
+      draws ? choose_end(leaf, running) : answers_.choose(all_ends + running, leaf);
   if (choice < count) {
     mark.result = ends[choice];
     mark.ended = true;
     mark.progress = 0;
-    if (!rule.is_plain && mark.result == Status::Success) succeed(leaf);
+    if (!rule.is_plain) {
+      set_facts(leaf, mark.result);
+      if (mark.result == Status::Success && model.writes == Writes::OnSuccess) write(leaf);
+    }
     if (rule.may_write) may_write(leaf, mark.result == Status::Success);
     state = {};
     return mark.result;
@@ -339,13 +365,21 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   return Status::Running;
 }
 
-void ModelLeaves::succeed(std::uint32_t leaf) {
-  const LeafModel& model = models_.leaves[leaf];
-  for (const LeafModel::Set& set : model.sets) {
+// Which of its results comes, or behind them how it runs: first whether it ends, then with what.
+std::uint32_t ModelLeaves::choose_end(std::uint32_t leaf, std::uint32_t running) {
+  const std::vector<double>& chances = rules_[leaf].chances;
+  const std::uint32_t choice = answers_.choose(1 + running, leaf);
+  ++stage_;
+  if (choice > 0) return choice - 1 + static_cast<std::uint32_t>(chances.size());
+  return chances.size() == 1 ? 0 : answers_.draw(chances, leaf);
+}
+
+void ModelLeaves::set_facts(std::uint32_t leaf, Status result) {
+  for (const LeafModel::Set& set : models_.leaves[leaf].sets) {
+    if (result != (set.by_failure ? Status::Failure : Status::Success)) continue;
     facts_[set.fact] = set.value ? FactState::True : FactState::False;
     asked_[set.fact] = true;
   }
-  if (model.writes == Writes::OnSuccess && !model.outputs.empty()) write(leaf);
 }
 
 void ModelLeaves::halt(std::uint32_t leaf) {

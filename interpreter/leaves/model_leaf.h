@@ -36,6 +36,8 @@ struct LeafState {
 };
 
 enum class FactState : std::uint8_t { False, True, Unknown };
+// Before the first tick.
+std::vector<FactState> first_facts(const LeafModels& models);
 
 inline constexpr std::uint32_t kNoWrite = 0xffffffff;
 
@@ -155,7 +157,8 @@ class ModelLeaves {
   // Each output, or not.
   void may_write(std::uint32_t leaf, bool has_succeeded = false);
   void write(std::uint32_t leaf, const LeafModel::Output& output, std::uint32_t value);
-  void succeed(std::uint32_t leaf);
+  std::uint32_t choose_end(std::uint32_t leaf, std::uint32_t running);
+  void set_facts(std::uint32_t leaf, Status result);
   void set_level(std::uint32_t leaf, std::int32_t level) {
     states_[leaf].level = static_cast<std::uint16_t>(level);
     progress_[leaf] = rules_[leaf].levels[level];
@@ -180,6 +183,7 @@ class ModelLeaves {
     bool is_plain;                   // it has to do with no fact and no entry
     bool may_write, may_write_idle;  // in each tick, or not; and when it gets none
     ResultSet results;
+    std::vector<double> chances;  // of the results that it may have, in their order
   };
 
   const Tree& tree_;

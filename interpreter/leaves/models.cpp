@@ -58,7 +58,10 @@ class ModelMaker {
       models_.rate = file_->rate;
       models_.tree_ends = file_->tree_ends;
       models_.accepted = file_->accepted;
-      for (const FactRow& it : file_->facts) models_.facts.push_back({it.name, it.changes});
+      for (const FactRow& it : file_->facts) {
+        models_.facts.push_back({it.name, it.changes, it.starts});
+        if (it.chance) models_.facts.back().chances = {*it.chance, 1 - *it.chance};
+      }
       for (const LeafRow& row : file_->leaves) apply(row);
     }
     slow_down();
@@ -192,8 +195,18 @@ class ModelMaker {
     replace_declared(row, leaf);
     apply(row, row.place, leaf);
     LeafModel& model = models_.leaves[leaf];
-    if (row.fact) model.fact = fact(*row.fact);
-    for (const LeafRow::Named& it : row.sets) add_set(model, it);
+    if (row.fact) {
+      model.fact = fact(*row.fact);
+      model.results.chances = {};
+    }
+    if (model.fact != kNoFact && model.results.has_chances() &&
+        told_.insert(row.place.byte).second) {
+      report().at("bad-leaf-model"_code, row.place,
+                  "the result is a fact, so its chances have no effect",
+                  "give them to the fact: <fact name=\"…\" chance=\"0.7\"/>");
+    }
+    for (const LeafRow::Named& it : row.sets) add_set(model, it, false);
+    for (const LeafRow::Named& it : row.sets_on_failure) add_set(model, it, true);
     if (!row.after_cut.empty()) model.after_cut = row.after_cut;
   }
 
@@ -237,9 +250,9 @@ class ModelMaker {
     return kNoFact;
   }
 
-  void add_set(LeafModel& model, const LeafRow::Named& named) {
+  void add_set(LeafModel& model, const LeafRow::Named& named, bool by_failure) {
     const std::uint32_t which = fact(named);
-    if (which != kNoFact) model.sets.push_back({which, named.text == "true"});
+    if (which != kNoFact) model.sets.push_back({which, named.text == "true", by_failure});
   }
 
   void add_output(std::size_t leaf, const LeafRow::Named& named) {

@@ -3,6 +3,7 @@
 // lockstep/leaf.h and stands still while it is held. leaves/model_leaf.h does it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -43,10 +44,11 @@ struct LeafModel {
   struct Set {
     std::uint32_t fact;
     bool value;
+    bool by_failure = false;  // else by a success
 
     friend bool operator==(const Set&, const Set&) = default;
   };
-  std::vector<Set> sets;  // by a success
+  std::vector<Set> sets;
   struct Output {
     std::uint32_t port;
     std::uint32_t slot;
@@ -65,6 +67,9 @@ struct LeafModel {
 struct Fact {
   std::string name;
   Changes changes;
+  std::optional<bool> starts = {};  // none: it is not known
+  // Of true and of false, whenever it may be both; all 0: nothing is known about chances.
+  std::array<double, 2> chances = {};
 };
 
 // A cut of the process: it ends without its last halts, and the next one goes on with the state of

@@ -26,6 +26,11 @@ class ChanceAnswers final : public Answers {
     if (count > 1) asked.push_back({asker, answer});
     return answer;
   }
+  std::uint32_t draw(std::span<const double> chances, std::uint32_t asker) override {
+    const std::uint32_t answer = drawn(chances, random_.next_double());
+    if (chances.size() > 1) asked.push_back({asker, answer});
+    return answer;
+  }
   // A run of many ticks is cut at any of them.
   bool is_cut(std::uint32_t asker) {
     constexpr double kOften = 0.15;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "verify/graph.h"
@@ -11,9 +12,10 @@ namespace lockstep::host {
 
 // Tarjan's algorithm without recursion, of the whole graph or of some states again and again: no
 // two components have the same number, and one has a smaller number than those that lead to it.
+template <class G = Graph>
 class Components {
  public:
-  explicit Components(const Graph& graph)
+  explicit Components(const G& graph)
       : graph_(graph),
         of_(graph.states(), kNoState),
         index_(graph.states(), kNoState),
@@ -49,7 +51,7 @@ class Components {
     std::vector<std::vector<StateId>> found;
     std::unordered_map<std::uint32_t, std::size_t> places;
     for (const StateId state : states) {
-      for (const Edge& edge : graph_.edges_of(state)) {
+      for (const auto& edge : graph_.edges_of(state)) {
         if (of_[edge.to] != of_[state] || !uses(state, edge)) continue;
         places.try_emplace(of_[state], places.size());
         break;
@@ -65,9 +67,11 @@ class Components {
   }
 
  private:
+  using Row = decltype(std::declval<const G&>().edges_of(StateId{}));
   struct Frame {
     StateId state;
-    EdgeRow::Iterator next;
+    decltype(std::declval<Row>().begin()) next;
+    decltype(std::declval<Row>().end()) end;
   };
 
   template <class Uses>
@@ -76,7 +80,7 @@ class Components {
     while (!frames_.empty()) {
       Frame& frame = frames_.back();
       const StateId state = frame.state;
-      if (frame.next == std::default_sentinel) {
+      if (frame.next == frame.end) {
         frames_.pop_back();
         if (low_[state] == index_[state]) close(state);
         if (!frames_.empty()) {
@@ -84,7 +88,7 @@ class Components {
         }
         continue;
       }
-      const Edge edge = *frame.next;
+      const auto edge = *frame.next;
       ++frame.next;
       if (!uses(state, edge)) continue;
       if (index_[edge.to] == kNoState) {
@@ -98,7 +102,8 @@ class Components {
   void enter(StateId state) {
     index_[state] = low_[state] = next_++;
     stack_.push_back(state);
-    frames_.push_back({state, graph_.edges_of(state).begin()});
+    const auto row = graph_.edges_of(state);
+    frames_.push_back({state, row.begin(), row.end()});
   }
 
   void close(StateId root) {
@@ -111,7 +116,7 @@ class Components {
     ++count_;
   }
 
-  const Graph& graph_;
+  const G& graph_;
   std::vector<std::uint32_t> of_, index_, low_;
   std::vector<StateId> stack_;
   std::vector<Frame> frames_;

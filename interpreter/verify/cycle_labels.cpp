@@ -159,7 +159,7 @@ class CycleLabels {
   const Expanders& expanders_;
   SearchRoom& room_;
   const std::size_t memory_;  // before
-  Components components_;
+  Components<> components_;
   ByteRows made_;  // states that are found again
   std::vector<Edge> loops_;
 };

@@ -233,7 +233,7 @@ class FairCycle {
   const Fairness fairness_;
   const std::vector<std::uint32_t>& moving_;
   Leaves staying_;
-  Components components_;
+  Components<> components_;
   std::vector<std::uint32_t> set_;  // of each state: the last set in which it was looked at
   std::uint32_t sets_ = 0;
   std::vector<bool> only_works_;  // of each state and each leaf that may move

@@ -71,8 +71,7 @@ Stepper::Stepper(const Tree& tree, const LeafModels& models, std::span<const Pro
 
 StateBytes Stepper::first_state() {
   ticker_.restore(fresh_);
-  leaves_.restore(std::vector<LeafState>(from_leaves_.size()),
-                  std::vector<FactState>(from_facts_.size(), FactState::Unknown));
+  leaves_.restore(std::vector<LeafState>(from_leaves_.size()), first_facts(models_));
   code_.before_fold(ticker_);
   watch_.begin(property_bytes_.data());
   code_.set_cuts(0);

@@ -118,8 +118,15 @@ std::uint32_t TickAnswers::choose(std::uint32_t count, std::uint32_t asker) {
   return digits_[at_++].value;
 }
 
+std::uint32_t TickAnswers::draw(std::span<const double> chances, std::uint32_t asker) {
+  const std::size_t place = at_;
+  const std::uint32_t answer = choose(static_cast<std::uint32_t>(chances.size()), asker);
+  if (at_ > place) digits_[place].chances = chances.data();
+  return answer;
+}
+
 std::uint32_t TickAnswers::repeat(std::uint32_t asker) {
-  const Digit& digit = digits_[repeats_from_ + repeated_.size() % (at_ - repeats_from_)];
+  const Question& digit = digits_[repeats_from_ + repeated_.size() % (at_ - repeats_from_)];
   if (digit.asker != asker) throw std::logic_error("a round requests something else");
   repeated_.push_back({asker, digit.value});
   return digit.value;
@@ -139,7 +146,7 @@ std::uint32_t TickAnswers::least(std::uint32_t asker) const {
   return least;
 }
 
-void TickAnswers::note(Digit& digit) {
+void TickAnswers::note(Question& digit) {
   if (with_equals_.empty() || is_given_) return;
   digit.was_tied = 0;
   std::uint32_t bit = 1;
@@ -157,7 +164,7 @@ void TickAnswers::note(Digit& digit) {
 }
 
 // Those after it are taken back before it.
-void TickAnswers::undo(const Digit& digit) {
+void TickAnswers::undo(const Question& digit) {
   if (with_equals_.empty() || is_given_) return;
   std::uint32_t bit = 1;
   for (const std::uint32_t it : children_of_[digit.asker]) {

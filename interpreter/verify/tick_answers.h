@@ -27,6 +27,12 @@ struct LeafAnswer {
 
 class TickAnswers final : public Answers {
  public:
+  // That had more than one answer.
+  struct Question {
+    std::uint32_t value, count, asker;
+    std::uint32_t was_tied = 0;       // a bit for each child that the asker is in
+    const double* chances = nullptr;  // of the answers; null: there are none
+  };
   // `askers`: leaves and facts. Both must outlive this.
   TickAnswers(const Tree& tree, const Symmetry& symmetry, std::size_t askers);
 
@@ -44,6 +50,7 @@ class TickAnswers final : public Answers {
   // Within it: from here on those since the first of these are given again and again.
   void repeat_from(std::size_t first);
   std::uint32_t choose(std::uint32_t count, std::uint32_t asker) override;
+  std::uint32_t draw(std::span<const double> chances, std::uint32_t asker) override;
   // Asked before a new answer, where `looks`: whether what follows is known, from another tick.
   using IsKnown = std::function<bool(std::uint32_t asker)>;
   void set_is_known(IsKnown is_known) { is_known_before_ = std::move(is_known); }
@@ -66,6 +73,11 @@ class TickAnswers final : public Answers {
     }
   }
 
+  // Those of the tick, in their order.
+  std::span<const Question> questions() const { return std::span(digits_).first(at_); }
+  // After `next`: of the questions of the tick before it, these come again. The last one has
+  // another answer.
+  std::size_t questions_left() const { return digits_.size(); }
   // What the tick has asked that had more than one answer.
   std::vector<LeafAnswer> asked() const;
   // The children that are in a state equal to that of the one before them.
@@ -75,10 +87,6 @@ class TickAnswers final : public Answers {
   std::span<const EqualChild> equal_children() const { return equal_children_; }
 
  private:
-  struct Digit {
-    std::uint32_t value, count, asker;
-    std::uint32_t was_tied = 0;  // a bit for each child that the asker is in
-  };
   // A child that is equal to one beside it.
   struct Child {
     bool has_equal = false;  // in an equal state, too
@@ -90,8 +98,8 @@ class TickAnswers final : public Answers {
                  const std::vector<LeafState>& leaves) const;
   std::uint32_t least(std::uint32_t asker) const;
   std::uint32_t repeat(std::uint32_t asker);
-  void note(Digit& digit);
-  void undo(const Digit& digit);
+  void note(Question& digit);
+  void undo(const Question& digit);
   std::uint32_t given(std::uint32_t asker, std::uint32_t count);
 
   const Tree& tree_;
@@ -101,7 +109,7 @@ class TickAnswers final : public Answers {
   std::vector<std::uint32_t> with_equals_;               // those that have one in an equal state
   std::vector<EqualChild> equal_children_;
   std::vector<std::uint64_t> words_;
-  std::vector<Digit> digits_;
+  std::vector<Question> digits_;
   std::size_t at_ = 0;
   std::size_t repeats_from_ = 0;
   bool is_given_ = false, repeats_ = false;

@@ -13,6 +13,7 @@
 #include "judge/summary/standstill_text.h"
 #include "run/cut_text.h"
 #include "run/live_moments.h"
+#include "verify/assumptions.h"
 #include "verify/fair_cycle.h"
 #include "verify/fixed_conditions.h"
 #include "verify/holds.h"
@@ -663,88 +664,8 @@ class VerdictMaker {
   }
 
   void assume() {
-    auto& assumed = verdict_.assumed;
-    assumed.push_back(fmt::format("ticks come at {} Hz", options_.rate));
-    if (models_.cuts.most > 0) {
-      assumed.push_back(fmt::format("the process is cut at most {} in a run, and loses no tick",
-                                    counted(models_.cuts.most, "time")));
-      assume_after_cut();
-    }
-    std::size_t held = 0, by_parts = 0;
-    std::set<std::uint32_t> parts;
-    bool ends = false;
-    for (const LeafModel& model : models_.leaves) {
-      const bool is_action = model.can_run;
-      held += is_action && !model.drifts();
-      ends |= is_action && model.ends;
-      if (model.parts == 0) continue;
-      ++by_parts;
-      parts.insert(model.parts);
-    }
-    if (held > 0 && !held_.empty()) {
-      assumed.push_back(fmt::format("held leaves make no progress ({})", counted(held, "action")));
-    }
-    const auto commits = [](const LeafNode& leaf) { return leaf.at_cut.commits; };
-    if (const auto count = std::ranges::count_if(tree_.leaves, commits); count > 0) {
-      assumed.push_back(fmt::format("an action with commit waits for no disk ({})",
-                                    counted(static_cast<std::uint64_t>(count), "action")));
-    }
-    if (ends) assumed.push_back("an action that is ticked again and again ends");
-    if (options_.paces) {
-      assumed.push_back("times of Wait, Timeout and Delay count in full where pace slows them");
-    }
-    if (models_.slowed > 0) {
-      assumed.push_back(fmt::format("a slowed leaf may take longer than in its leaf model ({})",
-                                    counted(models_.slowed, "action")));
-    }
-    if (const std::size_t count = models_.unstated_results; count > 0) {
-      assumed.push_back(
-          fmt::format("no leaf without result=\"…\" in the leaf model returns "
-                      "Skipped ({} {})",
-                      count, count == 1 ? "leaf" : "leaves"));
-    }
-    if (models_.unstated_steps > 0) {
-      assumed.push_back(
-          fmt::format("no action without step=\"…\" in the leaf model loses progress while it is "
-                      "ticked ({})",
-                      counted(models_.unstated_steps, "action")));
-    }
-    if (const std::size_t count = models_.unstated_writes; count > 0) {
-      assumed.push_back(
-          fmt::format("no leaf without writes=\"…\" in the leaf model writes outside "
-                      "of its ticks, or succeeds before its outputs have values "
-                      "({} {})",
-                      count, count == 1 ? "leaf" : "leaves"));
-    }
-    for (const std::uint32_t it : parts) {
-      assumed.push_back(
-          fmt::format("progress goes in steps of 1/{} ({})", it, counted(by_parts, "action")));
-    }
-    if (found_.store.keeps_hashes()) assumed.push_back("no two states have the same hash");
-    assumed.insert(assumed.end(), models_.declared.begin(), models_.declared.end());
-    for (const Fact& fact : models_.facts) {
-      constexpr std::string_view kWords[] = {"does not change by itself", "changes freely",
-                                             "changes from false to true at most",
-                                             "changes from true to false at most"};
-      assumed.push_back(
-          fmt::format("{} {}", fact.name, kWords[static_cast<std::size_t>(fact.changes)]));
-    }
-  }
-
-  void assume_after_cut() {
-    std::size_t go_on = 0, end = 0;
-    for (const LeafModel& model : models_.leaves) {
-      if (!model.can_run) continue;
-      const auto may = [&](AfterCut it) { return std::ranges::count(model.after_cut, it) > 0; };
-      go_on += may(AfterCut::Continues);
-      end += may(AfterCut::Failure) || may(AfterCut::Success);
-    }
-    std::string text = "a leaf that ran at a cut starts again";
-    if (go_on > 0) {
-      text += fmt::format(", or continues where it was ({})", counted(go_on, "action"));
-    }
-    if (end > 0) text += fmt::format(", or has a result at once ({})", counted(end, "action"));
-    verdict_.assumed.push_back(std::move(text));
+    verdict_.assumed = assumptions(tree_, models_, options_.rate, options_.paces);
+    if (found_.store.keeps_hashes()) verdict_.assumed.push_back("no two states have the same hash");
   }
 
   const Tree& tree_;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <span>
 
 #include "base/core/suggest.h"
@@ -54,21 +56,49 @@ std::optional<Problem> read_held(std::string_view value, std::optional<WholeRang
   return std::nullopt;
 }
 
+// "success;failure", or each with its chance: "success:0.7;failure:0.3".
 std::optional<Problem> read_results(std::string_view value, std::optional<ResultSet>& into) {
   constexpr std::array<std::string_view, 4> kResults{"success", "failure", "skipped", "fault"};
+  constexpr std::string_view kAs = "write success:0.7;failure:0.3";
+  constexpr double kMostRounding = 1e-6;  // of the sum
   std::array<bool, kResults.size()> has{};
+  std::array<double, kResults.size()> chances{};
+  std::size_t parts = 0, with_chance = 0;
   while (true) {
     const std::string_view part = value.substr(0, value.find(';'));
-    const auto* const word = std::ranges::find(kResults, part);
+    const auto colon = part.find(':');
+    const std::string_view name = part.substr(0, colon);
+    const auto* const word = std::ranges::find(kResults, name);
     if (word == kResults.end()) {
-      return Problem{fmt::format("'{}' is not a result", brief(part)),
-                     suggest(part, kResults, "results")};
+      return Problem{fmt::format("'{}' is not a result", brief(name)),
+                     suggest(name, kResults, "results")};
     }
-    has[static_cast<std::size_t>(word - kResults.begin())] = true;
+    const auto place = static_cast<std::size_t>(word - kResults.begin());
+    if (colon != std::string_view::npos) {
+      const auto chance = parse_double(part.substr(colon + 1));
+      if (!chance || !(*chance > 0 && *chance <= 1)) {
+        return Problem{
+            fmt::format("'{}' is not a chance of {}", brief(part.substr(colon + 1)), name),
+            "a chance is a number above 0, at most 1; leave out a result that never comes"};
+      }
+      if (has[place]) return Problem{fmt::format("'{}' has two chances", name), std::string(kAs)};
+      chances[place] = *chance;
+      ++with_chance;
+    }
+    has[place] = true;
+    ++parts;
     if (part.size() == value.size()) break;
     value.remove_prefix(part.size() + 1);
   }
-  into = ResultSet{has[0], has[1], has[2], has[3]};
+  if (with_chance != 0) {
+    if (with_chance != parts)
+      return Problem{"some results have chances, and others have none", std::string(kAs)};
+    const double sum = std::accumulate(chances.begin(), chances.end(), 0.0);
+    if (std::abs(sum - 1) > kMostRounding)
+      return Problem{fmt::format("the chances add up to {:.6g}, not to 1", sum), std::string(kAs)};
+    for (double& it : chances) it /= sum;
+  }
+  into = ResultSet{has[0], has[1], has[2], has[3], chances};
   return std::nullopt;
 }
 

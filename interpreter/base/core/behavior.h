@@ -2,6 +2,8 @@
 // docs/verify.md says what the words mean.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,6 +26,13 @@ struct WholeRange {
 // The results that an activation may have.
 struct ResultSet {
   bool success = true, failure = true, skipped = false, fault = false;
+  // The chance of each, in this order; those that it may have are in (0, 1] and add up to 1. All 0:
+  // nothing is known about chances.
+  std::array<double, 4> chances = {};
+
+  bool has_chances() const {
+    return std::ranges::any_of(chances, [](double it) { return it > 0; });
+  }
 
   friend bool operator==(const ResultSet&, const ResultSet&) = default;
 };

@@ -170,6 +170,9 @@ class RandomAnswers final : public Answers {
   std::uint32_t choose(std::uint32_t count, std::uint32_t) override {
     return static_cast<std::uint32_t>(host_table().random(&caller_) * count);
   }
+  std::uint32_t draw(std::span<const double> chances, std::uint32_t) override {
+    return drawn(chances, host_table().random(&caller_));
+  }
 
  private:
   const lockstep_caller& caller_;
