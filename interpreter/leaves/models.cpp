@@ -197,7 +197,7 @@ class ModelMaker {
     LeafModel& model = models_.leaves[leaf];
     if (row.fact) {
       model.fact = fact(*row.fact);
-      model.results.chances = {};
+      if (!row.results) model.results.chances = {};
     }
     if (model.fact != kNoFact && model.results.has_chances() &&
         told_.insert(row.place.byte).second) {

@@ -59,6 +59,17 @@ constexpr Mistake kMistakes[] = {
   {R"(<leaf path="*" out.x="1"/>)", "2:16", "'Scripted' has no output 'x'", ""},
   {R"(<accept finding="trap"/>)", "2:1", "'accept' needs the attribute 'because'", ""},
   {R"(<tree ends=""/>)", "2:13", "'ends' is empty", ""},
+  {R"(<leaf path="*" result="success:0.7;failure:0.2"/>)", "2:24", "the chances add up to 0.9, not to 1", "write success:0.7;failure:0.3"},
+  {R"(<leaf path="*" result="success:0.7;failure"/>)", "2:24", "some results have chances, and others have none", "write success:0.7;failure:0.3"},
+  {R"(<leaf path="*" result="success:0;failure:1"/>)", "2:24", "'0' is not a chance of success", "a chance is a number above 0, at most 1; leave out a result that never comes"},
+  {R"(<leaf path="*" result="success:half"/>)", "2:24", "'half' is not a chance of success", "a chance is a number above 0, at most 1; leave out a result that never comes"},
+  {R"(<leaf path="*" result="success:0.5;success:0.5"/>)", "2:24", "'success' has two chances", "write success:0.7;failure:0.3"},
+  {R"(<fact name="day"/><leaf path="*" fact="day" result="success:0.5;failure:0.5"/>)", "2:25", "the result is a fact, so its chances have no effect", "give them to the fact: <fact name=\"…\" chance=\"0.7\"/>"},
+  {R"(<fact name="day" starts="true"/>)", "2:26", "'starts' has no effect on a fact that changes freely", "add changes=\"never\": then only leaves that set it change it"},
+  {R"(<fact name="day" starts="yes" changes="never"/>)", "2:26", "'starts' cannot be 'yes'", "it can be: 'true', 'false'"},
+  {R"(<fact name="day" chance="1.5"/>)", "2:26", "'chance' must be a number between 0 and 1", ""},
+  {R"(<fact name="day" chance="0.5" starts="true" changes="never"/>)", "2:26", "'chance' has no effect on a fact that is known from its start on", ""},
+  {R"(<leaf path="*" sets_on_failure="day"/>)", "2:33", "'day' does not set a fact", "write charged=true, or charged=true;seen=false"},
 };
 // clang-format on
 

@@ -14,18 +14,21 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/help_text.h"
 #include "cli/load/load_options.h"
 #include "cli/load/tree_argument.h"
 #include "cli/outputs.h"
 #include "cli/properties.h"
 #include "cli/tools/ticket/ticket.h"
 #include "cli/tools/verify/fmea.h"
+#include "cli/tools/verify/probability_report.h"
 #include "cli/tools/verify/save_scenarios.h"
 #include "cli/tools/verify/verify_report.h"
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "run/stop_signals.h"
 #include "tree/pace.h"
+#include "verify/assumptions.h"
 #include "verify/chance_runs.h"
 #include "verify/property_watch.h"
 #include "verify/verifiable.h"
@@ -58,6 +61,7 @@ struct VerifyOptions {
   std::string save;          // a file of scenarios; "": none
   std::string ticket, sign;  // files; "": none
   bool fmea = false, pairs = false;
+  bool probability = false;
   PropertyOptions properties;
 };
 
@@ -215,6 +219,7 @@ class VerifyCommand {
     const double rate = options_.rate.value_or(models.rate.value_or(kModelRate));
     StopSignals::install();
     if (options_.fmea) return write_fmea(runnable, models, rate);
+    if (options_.probability) return write_probability(runnable, models, rate);
     VerdictOptions options{
         .rate = rate, .place = [&](NodeIndex node) { return places.text(node); }, .paces = paces_};
     SearchResult found = [&] {
@@ -270,6 +275,31 @@ class VerifyCommand {
     const int failed = write_results(to_text(report, options_.json ? "json" : options_.format));
     const int signal = StopSignals::received();
     return signal != 0 ? kExitSignal + signal : failed;
+  }
+
+  int write_probability(const Runnable& runnable, const LeafModels& models, double rate) const {
+    const ChanceGraph graph = [&] {
+      SearchLine line;
+      return explore_chances(runnable.tree, models, properties_, rate, limits(line));
+    }();
+    const bool has_time = options_.time.has_value();
+    const Nanoseconds until = has_time ? began_ + from_seconds(*options_.time) : Nanoseconds(0);
+    const Probabilities found = probabilities(graph, [&] {
+      return StopSignals::received() != 0 || (has_time && monotonic_now() > until);
+    });
+    const ProbabilityReport report{graph,
+                                   found,
+                                   properties_,
+                                   options_.tree,
+                                   options_.leaves,
+                                   runnable.tree.leaves.size(),
+                                   assumptions(runnable.tree, models, rate, paces_)};
+    const bool as_json = options_.json || options_.format == "json";
+    const int failed = write_results(as_json ? to_json(report) : to_text(report));
+    const int signal = StopSignals::received();
+    if (signal != 0) return kExitSignal + signal;
+    const bool is_whole = graph.end == SearchEnd::Complete && !found.is_cut;
+    return first_failure(failed, is_whole ? kExitSuccess : kExitLimit);
   }
 
   bool give_ticket(const VerifyReport& report, double rate) const {
@@ -385,6 +415,16 @@ int verify(const VerifyOptions& options) {
                 "leave out --cuts");
     return kExitUsage;
   }
+  const bool is_text_or_json = options.format == "text" || options.format == "json";
+  if (options.probability && (options.fmea || !is_text_or_json || !options.ticket.empty())) {
+    print_error("--probability prints probabilities: as text or json, without --fmea and a ticket");
+    return kExitUsage;
+  }
+  if (options.probability && (options.cuts != 0 || options.compact || options.depth)) {
+    print_error("--probability: cuts have no chances, and all ticks and states count",
+                "leave out --cuts, --compact and --depth");
+    return kExitUsage;
+  }
   if (!options.ticket.empty() && !options.only.empty()) {
     print_error("--ticket and --only: a ticket is for all questions", "leave out --only");
     return kExitUsage;
@@ -473,6 +513,9 @@ std::function<int()> define_verify(CLI::App& app) {
       "when one leaf fails");
   app.add_flag("--pairs", options->pairs, "With --fmea: also each two failures of different leaves")
       ->needs("--fmea");
+  app.add_flag("--probability", options->probability,
+               "In place of a verdict, print how likely each result and property is, from the "
+               "chances in the leaf model");
   app.add_option("--format", options->format,
                  "text, json or junit (a test for each question); of --fmea also md and csv")
       ->check(one_of({"text", "json", "junit", "md", "csv"},
@@ -488,6 +531,8 @@ std::function<int()> define_verify(CLI::App& app) {
   add_mock_option(app, options->load);
   add_load_options(app, options->load);
   add_program_option(app, options->load.plugins);
+  constexpr const char* kOfExperts[] = {"--compact", "--no-symmetry", "--values"};
+  only_in_help_all(app, kOfExperts);
   return [options] { return verify(*options); };
 }
 

@@ -17,13 +17,6 @@ std::size_t count_findings(const Verdict& verdict) {
       verdict.findings, [](const Finding& it) { return it.accepted.empty(); }));
 }
 
-// Why a search did not look at everything.
-std::string_view limit_of(SearchEnd end) {
-  constexpr std::string_view kWords[] = {"",       "--states", "transitions", "--memory",
-                                         "--time", "--depth",  "a signal",    "--values"};
-  return kWords[static_cast<std::size_t>(end)];
-}
-
 std::string size_text(const SearchResult& found) {
   return fmt::format("{}, {}, {}, {:.2f} s", counted(found.store.size(), "state"),
                      counted(found.transitions, "transition"),
@@ -45,6 +38,12 @@ std::string repeats_text(const Finding& finding) {
 }
 
 }  // namespace
+
+std::string_view limit_of(SearchEnd end) {
+  constexpr std::string_view kWords[] = {"",       "--states", "transitions", "--memory",
+                                         "--time", "--depth",  "a signal",    "--values"};
+  return kWords[static_cast<std::size_t>(end)];
+}
 
 std::string conclusion(const VerifyReport& report) {
   if (!report.internal_error.empty()) return report.internal_error;

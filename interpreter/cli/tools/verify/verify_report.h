@@ -19,6 +19,8 @@ struct VerifyReport {
   std::string internal_error = {};  // a run contradicts the search: nothing of it is told as true
 };
 
+// Why a search did not look at everything: "--states"; "" if it did.
+std::string_view limit_of(SearchEnd end);
 // "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …",
 // "internal error: …".
 std::string conclusion(const VerifyReport& report);

@@ -1,0 +1,329 @@
+#include "verify/probability.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "verify/components.h"
+
+namespace lockstep::host {
+namespace {
+
+using Target = DecisionProcess::Target;
+
+constexpr double kEnough = 1e-10;  // the width of bounds at which a component is done
+
+std::vector<Vertex> those(const std::vector<bool>& may) {
+  std::vector<Vertex> vertices;
+  for (Vertex it = 0; it < may.size(); ++it) {
+    if (may[it]) vertices.push_back(it);
+  }
+  return vertices;
+}
+
+std::vector<Vertex> all_of(const DecisionProcess& process) {
+  std::vector<Vertex> vertices(process.states());
+  std::iota(vertices.begin(), vertices.end(), Vertex{0});
+  return vertices;
+}
+
+// The largest sets of these vertices in which a run can stay for ever, whatever chance does: the
+// number of each vertex's, or kNoState. Others are taken out of `may`.
+std::vector<std::uint32_t> end_components(const DecisionProcess& process, std::vector<bool>& may) {
+  Components components(process);
+  const auto uses = [&](Vertex, const Target& it) { return bool(may[it.to]); };
+  std::vector<Vertex> vertices;
+  for (bool is_done = false; !is_done;) {
+    is_done = true;
+    vertices = those(may);
+    components.find(vertices, uses);
+    for (const Vertex vertex : vertices) {
+      const auto stays = [&](const Target& it) {
+        return may[it.to] && components.of(it.to) == components.of(vertex);
+      };
+      const auto targets = process.edges_of(vertex);
+      const bool can_stay = process.is_by_chance(vertex) ? std::ranges::all_of(targets, stays)
+                                                         : std::ranges::any_of(targets, stays);
+      if (can_stay) continue;
+      may[vertex] = false;
+      is_done = false;
+    }
+  }
+  std::vector<std::uint32_t> numbers(process.states(), kNoState);
+  for (const Vertex it : vertices) numbers[it] = components.of(it);
+  return numbers;
+}
+
+// The process in which each set of vertices where a run can stay for ever is one vertex, which
+// chooses a way out. Only then the bounds from above come down.
+class Collapsed {
+ public:
+  Collapsed(const DecisionProcess& process, const std::vector<Worth>& worth)
+      : number_(process.states(), kNoState) {
+    std::vector<bool> may(process.states());
+    for (Vertex it = 0; it < may.size(); ++it)
+      may[it] = worth[it] == Worth::GoesOn && !process.edges_of(it).empty();
+    const std::vector<std::uint32_t> sets = end_components(process, may);
+    std::map<std::uint32_t, Vertex> of_set;
+    std::vector<std::vector<Vertex>> members;
+    for (Vertex it = 0; it < number_.size(); ++it) {
+      const auto next = static_cast<Vertex>(members.size());
+      number_[it] = sets[it] == kNoState ? next : of_set.try_emplace(sets[it], next).first->second;
+      if (number_[it] == next) members.emplace_back();
+      members[number_[it]].push_back(it);
+    }
+    for (const std::vector<Vertex>& it : members) add(process, worth, it);
+  }
+
+  Bounds solve(Vertex first, const std::function<bool()>& is_over) {
+    Components components(process_);
+    const std::vector<Vertex> all = all_of(process_);
+    components.find(all, [](Vertex, const Target&) { return true; });
+    const std::vector<Vertex> order = components.in_order(all);
+    for (auto begin = order.begin(); begin != order.end();) {
+      const auto end = std::find_if(begin, order.end(), [&](Vertex it) {
+        return components.of(it) != components.of(*begin);
+      });
+      solve({begin, end}, is_over);
+      begin = end;
+    }
+    return bounds_[number_[first]];
+  }
+
+ private:
+  // One vertex, or those of a set.
+  void add(const DecisionProcess& process, const std::vector<Worth>& worth,
+           const std::vector<Vertex>& members) {
+    std::vector<Target> targets;
+    Bounds bounds{0, 1};
+    const Vertex first = members.front();
+    const bool is_by_chance = members.size() == 1 && process.is_by_chance(first);
+    if (worth[first] == Worth::GoesOn) {
+      for (const Vertex it : members) {
+        for (const Target& target : process.edges_of(it)) {
+          const Vertex to = number_[target.to];
+          if (is_by_chance || to != number_[first])
+            targets.push_back({to, is_by_chance ? target.chance : 0});
+        }
+      }
+      if (targets.empty()) bounds.high = 0;  // it stays for ever
+    }
+    if (worth[first] == Worth::One) bounds.low = 1;
+    if (worth[first] == Worth::Nothing) bounds.high = 0;
+    bounds_.push_back(bounds);
+    process_.add(targets, is_by_chance);
+  }
+
+  // A component of which all is known that it leads to.
+  void solve(std::span<const Vertex> vertices, const std::function<bool()>& is_over) {
+    constexpr std::uint32_t kBetweenLooks = 4096;
+    const bool is_alone =
+        vertices.size() == 1 &&
+        std::ranges::none_of(process_.edges_of(vertices.front()),
+                             [&](const Target& it) { return it.to == vertices.front(); });
+    double width = 1;
+    bool has_changed = true;
+    for (bool is_done = false; !is_done; is_done = is_alone || !has_changed || width <= kEnough) {
+      width = 0;
+      has_changed = false;
+      for (const Vertex it : vertices) {
+        if (process_.edges_of(it).empty()) continue;
+        const Bounds before = bounds_[it], next = look(it);
+        bounds_[it] = {std::max(before.low, next.low), std::min(before.high, next.high)};
+        width = std::max(width, bounds_[it].width());
+        has_changed |= bounds_[it].low != before.low || bounds_[it].high != before.high;
+        if (++looks_ % kBetweenLooks == 0 && is_over()) return;
+      }
+    }
+  }
+
+  // Rounded so that the number stays in them, also if each chance is off by its rounding.
+  Bounds look(Vertex vertex) const {
+    const auto targets = process_.edges_of(vertex);
+    Bounds sum{0, 0};
+    if (!process_.is_by_chance(vertex)) {
+      for (const Target& it : targets) {
+        sum.low = std::max(sum.low, bounds_[it.to].low);
+        sum.high = std::max(sum.high, bounds_[it.to].high);
+      }
+      return sum;
+    }
+    for (const Target& it : targets) {
+      sum.low += it.chance * bounds_[it.to].low;
+      sum.high += it.chance * bounds_[it.to].high;
+    }
+    const double rounding =
+        static_cast<double>(targets.size() + 8) * std::numeric_limits<double>::epsilon();
+    return {sum.low * (1 - rounding), std::min(1.0, sum.high * (1 + rounding))};
+  }
+
+  std::vector<Vertex> number_;  // of each vertex: in `process_`
+  DecisionProcess process_;
+  std::vector<Bounds> bounds_;
+  std::uint32_t looks_ = 0;
+};
+
+class ChanceQuestions {
+ public:
+  ChanceQuestions(const ChanceGraph& graph, const std::function<bool()>& is_over)
+      : graph_(graph), process_(graph.process), is_over_(is_over), unfair_(graph.process.states()) {
+    std::vector<bool> may(process_.states(), true);
+    may[graph_.unknown] = false;
+    for (const TickEnd& it : graph_.ends) may[it.vertex] = it.to != kNoState;
+    const auto any = [](const TickEnd&) { return true; };
+    find_unfair(fair(may, any));
+    endless_ = fair(may, any);
+  }
+
+  Probabilities answer() const {
+    Probabilities all;
+    std::array<bool, kStatuses.size()> has{};
+    bool has_fault = false;
+    for (const TickEnd& it : graph_.ends) {
+      if (it.result) has[index_of(*it.result)] = true;
+      has_fault |= it.has_fault();
+    }
+    for (std::size_t i = 0; i < has.size(); ++i) {
+      if (!has[i]) continue;
+      all.results[i] =
+          ending([&](const TickEnd& it) { return it.result && index_of(*it.result) == i; });
+    }
+    if (has_fault) all.fault = ending([](const TickEnd& it) { return it.has_fault(); });
+    all.ends = ending([](const TickEnd&) { return true; });
+    for (std::uint32_t i = 0; i < graph_.shape.properties; ++i)
+      all.properties.push_back(holding(i));
+    all.is_cut = is_over_();
+    return all;
+  }
+
+ private:
+  using TickEnd = ChanceGraph::TickEnd;
+
+  std::vector<Worth> unknown_worth() const {
+    std::vector<Worth> worth(process_.states(), Worth::GoesOn);
+    worth[graph_.unknown] = Worth::Unknown;
+    return worth;
+  }
+  Bounds largest(const std::vector<Worth>& worth) const {
+    return largest_chance(process_, graph_.first, worth, is_over_);
+  }
+  static Bounds rest(const Bounds& it) { return {1 - it.high, 1 - it.low}; }
+
+  // That the run ends in this way.
+  template <class IsWanted>
+  Probability ending(const IsWanted& is_wanted) const {
+    std::vector<Worth> this_way = unknown_worth(), otherwise = this_way;
+    for (const TickEnd& it : graph_.ends) {
+      if (it.to != kNoState) continue;
+      const bool wanted = is_wanted(it);
+      this_way[it.vertex] = wanted ? Worth::One : Worth::Nothing;
+      otherwise[it.vertex] = wanted ? Worth::Nothing : Worth::One;
+    }
+    for (const Vertex it : those(endless_)) otherwise[it] = Worth::One;
+    return {rest(largest(otherwise)), largest(this_way)};
+  }
+
+  // That the property holds. One that waits for something for ever is violated.
+  Probability holding(std::uint32_t property) const {
+    std::vector<Worth> holds = unknown_worth(), violated = holds;
+    std::vector<bool> open(process_.states(), true);
+    open[graph_.unknown] = false;
+    std::vector<bool> waits = open;
+    const std::size_t owed = graph_.shape.owed_bit(property);
+    for (const TickEnd& it : graph_.ends) {
+      const bool is_violated = std::ranges::binary_search(it.violated, property);
+      if (is_violated || it.to == kNoState) {
+        holds[it.vertex] = is_violated ? Worth::Nothing : Worth::One;
+        violated[it.vertex] = is_violated ? Worth::One : Worth::Nothing;
+        open[it.vertex] = waits[it.vertex] = false;
+      } else if (!graph_.labels.has(it.label, owed)) {
+        waits[it.vertex] = false;
+      }
+    }
+    const std::vector<bool> waiting = fair(waits, [](const TickEnd&) { return true; });
+    for (const Vertex it : those(waiting)) violated[it] = Worth::One;
+    const std::vector<bool> going =
+        fair(open, [&](const TickEnd& it) { return !graph_.labels.has(it.label, owed); });
+    for (const Vertex it : those(going)) holds[it] = Worth::One;
+    return {rest(largest(violated)), largest(holds)};
+  }
+
+  // From where no run ends or goes on as fairness has it: some leaf gets ticks and cannot end.
+  void find_unfair(const std::vector<bool>& stays) {
+    const std::vector<Vertex> all = all_of(process_);
+    Components components(process_);
+    components.find(all, [](Vertex, const Target&) { return true; });
+    std::vector<bool> is_fair(components.count());
+    for (const Vertex it : components.in_order(all)) {
+      const auto targets = process_.edges_of(it);
+      const auto leads_out = [&](const Target& to) { return is_fair[components.of(to.to)]; };
+      if (targets.empty() || stays[it] || std::ranges::any_of(targets, leads_out))
+        is_fair[components.of(it)] = true;
+    }
+    for (const Vertex it : all) unfair_[it] = !is_fair[components.of(it)];
+  }
+
+  // The vertices among these in which a run can stay for ever, so that each leaf that works again
+  // and again also ends, and some of these ticks come again and again.
+  template <class IsWanted>
+  std::vector<bool> fair(std::vector<bool> may, const IsWanted& is_wanted) const {
+    const std::size_t leaves = graph_.shape.leaves;
+    struct Seen {
+      std::vector<bool> works, ends;
+      bool is_wanted = false;
+    };
+    const auto has = [&](const TickEnd& it, std::size_t bit) {
+      return graph_.labels.has(it.label, bit);
+    };
+    for (bool is_done = false; !is_done;) {
+      is_done = true;
+      const std::vector<std::uint32_t> sets = end_components(process_, may);
+      std::map<std::uint32_t, Seen> seen;
+      const auto for_each_end = [&](const auto& call) {
+        for (const TickEnd& it : graph_.ends) {
+          if (it.to != kNoState && sets[it.vertex] != kNoState) call(it, seen[sets[it.vertex]]);
+        }
+      };
+      for_each_end([&](const TickEnd& it, Seen& of) {
+        of.works.resize(leaves);
+        of.ends.resize(leaves);
+        for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+          if (has(it, graph_.shape.worked_bit(leaf))) of.works[leaf] = true;
+          if (has(it, graph_.shape.ended_bit(leaf))) of.ends[leaf] = true;
+        }
+        of.is_wanted |= is_wanted(it);
+      });
+      for_each_end([&](const TickEnd& it, const Seen& of) {
+        bool is_left_out = !of.is_wanted;
+        for (std::size_t leaf = 0; leaf < leaves && !is_left_out; ++leaf) {
+          is_left_out = of.works[leaf] && !of.ends[leaf] &&
+                        has(it, graph_.shape.worked_bit(leaf)) && !unfair_[it.vertex];
+        }
+        if (!is_left_out) return;
+        may[it.vertex] = false;
+        is_done = false;
+      });
+    }
+    return may;
+  }
+
+  const ChanceGraph& graph_;
+  const DecisionProcess& process_;
+  const std::function<bool()>& is_over_;
+  std::vector<bool> unfair_, endless_;
+};
+
+}  // namespace
+
+Bounds largest_chance(const DecisionProcess& process, Vertex first, const std::vector<Worth>& worth,
+                      const std::function<bool()>& is_over) {
+  return Collapsed(process, worth).solve(first, is_over);
+}
+
+Probabilities probabilities(const ChanceGraph& graph, const std::function<bool()>& is_over) {
+  return ChanceQuestions(graph, is_over).answer();
+}
+
+}  // namespace lockstep::host
