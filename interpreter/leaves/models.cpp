@@ -579,8 +579,7 @@ void allow_cuts(const ProcessCuts& cuts, const Tree& tree, LeafModels& models) {
   for (std::size_t i = 0; i < models.leaves.size(); ++i) {
     std::vector<AfterCut>& may = models.leaves[i].after_cut;
     if (!may.empty()) continue;
-    const LeafAtCut& says = tree.leaves[i].at_cut;
-    const AfterCut otherwise = says.is_given ? says.otherwise : cuts.otherwise;
+    const AfterCut otherwise = tree.leaves[i].at_cut.unasked(cuts.otherwise);
     if (!tree.leaves[i].type->can_be_restored) {
       may = {otherwise};
       continue;

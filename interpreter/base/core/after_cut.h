@@ -22,6 +22,9 @@ struct LeafAtCut {
   AfterCut otherwise = AfterCut::StartsAgain;  // what it does if it cannot be asked
   bool is_given = false;                       // `otherwise`; if not, the run decides
   bool commits = false;  // its success counts only once a checkpoint with it is on the disk
+
+  // What it does if it cannot be asked, in a run with this default.
+  AfterCut unasked(AfterCut of_run) const { return is_given ? otherwise : of_run; }
 };
 
 }  // namespace lockstep::host

@@ -16,7 +16,7 @@
 #include "cli/load/given_leaves.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
-#include "cli/run/kept_run.h"
+#include "cli/run/keep.h"
 #include "cli/run/mcap_recording.h"
 #include "cli/run/progress_notes.h"
 #include "cli/run/required_ticket.h"
@@ -212,7 +212,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       Run run(tree_, run_options());
       if (!make_realtime() || (kept_ && !begin_to_keep(run))) return std::nullopt;
       end = run_loop(run, clock, loop_options(), observers());
-      if (kept_) kept_->end(end);
+      if (kept_) kept_->end(end.ticks, end.last);
       if (end.fault) in_last_halt = run.ticker().take_tolerated();
     }
     view_.close();
@@ -222,15 +222,23 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   }
 
   bool begin_to_keep(Run& run) {
-    const bool has_begun = kept_->begin(run, [this](const std::string& error) {
+    const auto why_not = kept_->begin(run, [this](const std::string& error) {
       view_.print("error: nothing is kept any more: " + error);
     });
-    if (!has_begun) view_.close();
-    if (has_begun && kept_->continues()) statistics_.join();
-    if (has_begun && !kept_->resumed().empty()) {
-      tell(kept_->resumed());
+    if (why_not) {
+      view_.close();
+      print_error("--checkpoint: " + why_not->message);
+      return false;
     }
-    return has_begun;
+    if (kept_->continues()) statistics_.join();
+    if (!kept_->resumed().empty()) tell(resumed());
+    return true;
+  }
+
+  std::string resumed() const {
+    return kept_->resumed() + (options_.record.empty()
+                                   ? ""
+                                   : fmt::format("; recorded in '{}'", printable(options_.record)));
   }
 
   // What happens to the run as a whole.
@@ -400,7 +408,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   int print_summary() {
     Summary summary = statistics_.summary();
     summary.tick_limit = options_.tick_limit;
-    if (kept_ && !kept_->resumed().empty()) summary.notes.push_back(kept_->resumed());
+    if (kept_ && !kept_->resumed().empty()) summary.notes.push_back(resumed());
     if (kept_ && !kept_->error().empty()) summary.notes.push_back(kept_->error());
     if (recorder_ && !recorder_->error().empty()) summary.notes.push_back(recorder_->error());
     if (recorder_ && recorder_->lost() != 0) {
@@ -509,7 +517,7 @@ std::vector<std::string> replaced_files(const RunCommandOptions& options) {
 }
 
 bool would_replace(const RunCommandOptions& options, std::span<const NamedFile> used) {
-  if (!options.checkpoint.empty() && would_overwrite("--checkpoint", options.checkpoint, used)) {
+  if (!options.keep.file.empty() && would_overwrite("--checkpoint", options.keep.file, used)) {
     return true;
   }
   return std::ranges::any_of(replaced_files(options), [&](const std::string& file) {
@@ -527,7 +535,7 @@ bool can_rotate(const RunCommandOptions& options) {
 }
 
 bool is_checkpoint_recorded(const RunCommandOptions& options) {
-  if (options.checkpoint.empty() || options.checkpoint != options.record) return false;
+  if (options.keep.file.empty() || options.keep.file != options.record) return false;
   print_error("--checkpoint and --record name the same file");
   return true;
 }
@@ -567,7 +575,8 @@ int run(RunCommandOptions options) {
     return kExitUsage;
   }
   if (!options.leaves.empty()) leaves.take_over(loaded->definition);
-  CheckpointFacts identity = KeptRun::facts_of(options, *loaded);
+  TreeIdentity identity;
+  if (!options.keep.file.empty()) identity = identity_of_run(options, *loaded);
   Runnable runnable = make_runnable(std::move(*loaded));
   return_freed_memory();
   if (!options.leaves.empty() && !leaves.give(runnable.tree)) return kExitUsage;
@@ -577,7 +586,7 @@ int run(RunCommandOptions options) {
   if (!properties) return kExitUsage;
   const auto places = pause_places_of(options, runnable.tree);
   if (!places) return kExitUsage;
-  auto kept = KeptRun::open(options, std::move(identity), runnable.tree);
+  auto kept = keep(options, std::move(identity), runnable.tree);
   if (!kept) return kept.error();
   if (*kept != nullptr && (*kept)->continues() && !options.record.empty()) {
     options.record = name_of_resumed(options.record);

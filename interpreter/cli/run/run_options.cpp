@@ -258,21 +258,21 @@ void define_record_options(CLI::App& app, RunCommandOptions& options) {
 
 void define_checkpoint_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Resume after a cut");
-  app.add_option("--checkpoint", options.checkpoint,
+  app.add_option("--checkpoint", options.keep.file,
                  "Keep the state of the run in FILE, so that --resume can continue it; see "
                  "`lockstep docs resume`")
       ->type_name("FILE");
-  app.add_flag("--resume", options.resumes,
+  app.add_flag("--resume", options.keep.resumes,
                "Continue the run of --checkpoint that a kill, a crash or a power cut ended; if "
                "there is none, start a new run")
       ->needs("--checkpoint");
-  add_choice<AfterCut>(app, "--on-resume", options.on_resume,
+  add_choice<AfterCut>(app, "--on-resume", options.keep.on_resume,
                        {{"restart", AfterCut::StartsAgain},
                         {"failure", AfterCut::Failure},
                         {"success", AfterCut::Success}},
                        "With --resume: leaves that ran at the cut and cannot continue start again, "
                        "or count as Failure or as Success in their next tick");
-  app.add_option("--resume-limit", options.resume_limit,
+  app.add_option("--resume-limit", options.keep.resume_limit,
                  "End with exit code 5 instead of resuming more often than N times in a row "
                  "without a leaf that completes")
       ->type_name("N")
@@ -387,6 +387,13 @@ bool RunCommandOptions::times_each_call() const {
 std::optional<Nanoseconds> RunCommandOptions::end_limit() const {
   if (load.plugins.halt_limit == 0) return std::nullopt;
   return from_seconds(load.plugins.halt_limit);
+}
+
+KeepOptions RunCommandOptions::kept() const {
+  KeepOptions options = keep;
+  options.sync = from_seconds(checkpoint_sync_ms / 1e3);
+  options.real_time = is_real();
+  return options;
 }
 
 LoopOptions RunCommandOptions::loop() const {

@@ -9,6 +9,7 @@
 #include "cli/properties.h"
 #include "lockstep/leaf.h"
 #include "record/write/recorder.h"
+#include "run/kept_run.h"
 #include "run/loop.h"
 #include "run/realtime.h"
 
@@ -47,12 +48,9 @@ struct RunCommandOptions {
   bool record_compress = false;
   Rotation rotation = {};
   bool stop_on_record_error = false;
-  std::string checkpoint;  // "": the run is not kept
+  KeepOptions keep;  // but for its sync and its clock
   double checkpoint_sync_ms = 100;
   bool checkpoint_required = false;  // the run ends where it cannot be kept
-  bool resumes = false;              // where the checkpoint is of a run that has not ended
-  AfterCut on_resume = AfterCut::StartsAgain;  // of leaves that ran at the cut
-  std::uint64_t resume_limit = 3;              // in a row
   // Where the run pauses, for who types.
   std::vector<std::string> breaks, break_conditions;
   std::optional<double> attended;  // s: the run stands while nobody has renewed for so long
@@ -72,7 +70,6 @@ struct RunCommandOptions {
   std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
   bool groot2_control = false;        // it may pause the run
 
-  Nanoseconds sync() const { return from_seconds(checkpoint_sync_ms / 1e3); }
   bool is_real() const { return clock != "virtual"; }  // time passes by itself
   bool has_plugin_clock() const { return is_real() && clock != "wall"; }
   // None on the virtual clock and with --tick-budget 0.
@@ -82,6 +79,7 @@ struct RunCommandOptions {
   // The limit of all that waits after the last halt; nothing: none.
   std::optional<Nanoseconds> end_limit() const;
   LoopOptions loop() const;
+  KeepOptions kept() const;
 };
 
 void define_run_options(CLI::App& app, RunCommandOptions& options);

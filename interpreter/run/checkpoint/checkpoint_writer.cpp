@@ -91,10 +91,12 @@ void CheckpointWriter::note_results(const Ticker& ticker) {
 
 // False: the run has no state that can be kept.
 bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
-  ticker.save_leaves(leaves_);
-  if (ticker.faulted()) return false;
+  const bool goes_on = head_.kind == Checkpoint::Kind::Unfinished;
+  if (goes_on) ticker.save_leaves(leaves_);
+  if (goes_on && ticker.faulted()) return false;
   const RunParts parts = ticker.parts();
-  if (const auto entry = entry_with_object(parts, ticker.tree())) [[unlikely]] {
+  if (const auto entry = goes_on ? entry_with_object(parts, ticker.tree()) : std::nullopt)
+      [[unlikely]] {
     lose(fmt::format("the entry '{}' holds an object, which no checkpoint has", *entry));
     return false;
   }
@@ -102,9 +104,8 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   head_.written = wall_time();
   snapshot.bytes.clear();
   append_head(head_, snapshot.bytes);
-  const std::size_t head = snapshot.bytes.size();
-  const std::size_t passing = append_bytes(parts, leaves_, snapshot.bytes);
-  snapshot.lasting = head + passing;
+  snapshot.lasting = snapshot.bytes.size();
+  if (goes_on) snapshot.lasting += append_bytes(parts, leaves_, snapshot.bytes);
   snapshot.ticks = head_.ticks;
   snapshot.number = ++number_;
   snapshot.tick = ticker.tick_number();
@@ -112,11 +113,13 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   return true;
 }
 
-void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks) {
+void CheckpointWriter::after_tick(Ticker& ticker, std::uint64_t ticks, bool is_over) {
   if (!lost_.empty()) return;
   if (failed_.load(std::memory_order_acquire)) return lose(file_->error());
   head_.ticks = ticks;
+  head_.kind = is_over ? Checkpoint::Kind::Ended : Checkpoint::Kind::Unfinished;
   note_results(ticker);
+  if (is_over) head_.resumes = 0;
   if (!fill(snapshots_.back(), ticker)) return;
   snapshots_.publish();
   if (options_.real_time) return;

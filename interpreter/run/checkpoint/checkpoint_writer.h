@@ -46,8 +46,9 @@ class CheckpointWriter {
   // row. Returns once it is synced. False: error() says why.
   bool begin(Ticker& ticker, const CheckpointFacts& facts, std::uint64_t ticks,
              std::uint32_t resumes);
-  // After a tick, so many in all.
-  void after_tick(Ticker& ticker, std::uint64_t ticks);
+  // After a tick, so many in all. `is_over`: the root has a result, or all was halted, and nothing
+  // goes on from here; but the next tick may begin the tree again.
+  void after_tick(Ticker& ticker, std::uint64_t ticks, bool is_over = false);
   // The run has ended in order, after so many ticks in all; `time` is that of the last one.
   void end(std::uint64_t ticks, Nanoseconds time);
 

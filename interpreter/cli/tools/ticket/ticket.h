@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/core/problem.h"
-#include "cli/load/tree_identity.h"
+#include "run/loading/tree_identity.h"
 
 namespace lockstep::host {
 

@@ -1,4 +1,4 @@
-#include "cli/load/tree_identity.h"
+#include "run/loading/tree_identity.h"
 
 #include <fmt/format.h>
 
