@@ -18,6 +18,7 @@
 #include "embedding/lockstep/runtime.h"
 #include "leaves/play/played_leaves.h"
 #include "run/loading/load.h"
+#include "run/loading/tree_identity.h"
 
 namespace lockstep::host {
 
@@ -33,14 +34,16 @@ struct TreeTexts {
 class Program {
  public:
   // `leaves` are those to which the tree refers, or null.
-  Program(std::shared_ptr<const PlayedLeaves> leaves, Runnable loaded, std::string from,
-          std::shared_ptr<const GrootTree> shown)
+  Program(std::shared_ptr<const PlayedLeaves> leaves, TreeIdentity made_from, Runnable loaded,
+          std::string from, std::shared_ptr<const GrootTree> shown)
       : played(std::move(leaves)),
+        identity(std::move(made_from)),
         runnable(std::move(loaded)),
         file(std::move(from)),
         groot(std::move(shown)) {}
 
   const std::shared_ptr<const PlayedLeaves> played;
+  const TreeIdentity identity;  // for checkpoints
   const Runnable runnable;
   const std::string file;                        // of the tree, as the program named it
   const std::shared_ptr<const GrootTree> groot;  // null: Groot2 is not to see it

@@ -65,7 +65,7 @@ bool play(lockstep_project& project, std::string_view path, std::string_view tex
 
 bool may_have_properties(lockstep_run& run) {
   if (!is_own(run)) return false;
-  return (!run.is_busy && run.run.ticker().tick_number() == 0) ||
+  return (!run.is_busy && run.is_new()) ||
          fail("the run has been ticked already: properties are checked from its first tick on");
 }
 

@@ -13,6 +13,7 @@
 #include "base/core/wording.h"
 #include "embedding/groot.h"
 #include "embedding/handles.h"
+#include "run/checkpoint/checkpoint.h"
 
 namespace lockstep::host {
 
@@ -76,8 +77,10 @@ bool load_with(lockstep_project* project, const char* name, const void* argument
            if (loaded && (plays || project->plugins->initialize(project->diagnostics))) {
              auto shown = project->shows_groot ? groot_of(loaded->definition) : nullptr;
              if (plays) project->played->take_over(loaded->definition);
-             project->program = std::make_shared<Program>(
-                 project->played, make_runnable(std::move(*loaded)), name, std::move(shown));
+             TreeIdentity identity = identity_of(*loaded, text_mark);
+             project->program = std::make_shared<Program>(project->played, std::move(identity),
+                                                          make_runnable(std::move(*loaded)), name,
+                                                          std::move(shown));
            }
            project->diagnostics.sort();
            return project->program != nullptr ||

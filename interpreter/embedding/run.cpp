@@ -15,43 +15,22 @@
 #include "run/shape_of.h"
 
 namespace lockstep::host::embedding {
-namespace {
-
-// A call that ticks, halts or restarts. What it calls back, a leaf, an observer or who gets the
-// log, must not do that again: it would meet a tick that is not over.
-class Busy {
- public:
-  explicit Busy(lockstep_run& run) : run_(run) {
-    if (!is_own(run)) return;
-    is_first_ = !std::exchange(run.is_busy, true);
-    if (!is_first_) fail("the run is in use: what it calls back cannot tick, halt or restart it");
-  }
-  ~Busy() {
-    if (is_first_) run_.is_busy = false;
-  }
-  Busy(const Busy&) = delete;
-  Busy& operator=(const Busy&) = delete;
-
-  bool is_refused() const { return !is_first_; }
-
- private:
-  lockstep_run& run_;
-  bool is_first_ = false;
-};
-
-bool has_processes(const lockstep_project& project) {
-  return std::ranges::any_of(project.plugins->list(), &PluginSet::Info::isolated);
-}
 
 bool refuse(const Problem& wrong) {
   return fail(wrong.hint.empty() ? wrong.message
                                  : fmt::format("{}: {}", wrong.message, wrong.hint));
 }
 
+namespace {
+
+bool has_processes(const lockstep_project& project) {
+  return std::ranges::any_of(project.plugins->list(), &PluginSet::Info::isolated);
+}
+
 bool may_be_watched(lockstep_run& run) {
   if (!is_own(run)) return false;
   if (run.is_busy) return fail("the run is in use: it is watched from its first tick on");
-  return run.run.ticker().tick_number() == 0 ||
+  return run.is_new() ||
          fail("the run has been ticked already: it is watched from its first tick on");
 }
 
@@ -119,7 +98,7 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   if (given.overrun < LOCKSTEP_OVERRUN_SKIP || given.overrun > LOCKSTEP_OVERRUN_FAIL) {
     return fail("overrun is not one of the LOCKSTEP_OVERRUN_ constants");
   }
-  if (run.run.ticker().tick_number() != 0) {
+  if (!run.is_new()) {
     return fail("the run has been ticked already: restart it before the loop");
   }
   LoopOptions options;
@@ -134,6 +113,10 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   if (given.stop != nullptr) {
     options.stop_signal = [&given] { return given.stop(given.user) ? 1 : 0; };
   }
+  if (run.kept != nullptr) {
+    options.checkpoints = run.kept->writer();
+    options.before = run.kept->before();
+  }
   WallClock wall;
   VirtualClock virtual_clock;
   Observing observing(run);
@@ -145,6 +128,8 @@ bool run_loop(lockstep_run& run, const lockstep_loop_options& given, RunEnd& end
   end = lockstep::host::run_loop(run.run, clock, options, observers);
   run.watchers.end_with_loop();
   run.watchers.end(run.run.ticker(), end.last);
+  if (run.kept != nullptr) run.kept->end(end.ticks, end.last);
+  run.forget_kept();
   return true;
 }
 
@@ -222,6 +207,9 @@ bool lockstep_run_restart(lockstep_run* run, uint64_t seed) {
     if (busy.is_refused()) return false;
     run->end();
     run->last = Nanoseconds(0);
+    run->first_tick = 0;
+    run->seed = seed;
+    run->not_kept.clear();
     run->warnings.begin_again();
     if (!run->properties.empty()) {
       run->properties.begin_again();
@@ -252,6 +240,7 @@ lockstep_status tick(lockstep_run* run, double seconds, bool exactly_once) {
       run->run.set_now(*time);
       run->watchers.before_tick(ticker, *time);
     }
+    if (run->kept != nullptr) run->kept->before_tick(ticker);
     status = static_cast<lockstep_status>(exactly_once ? run->run.tick_exactly_once(*time)
                                                        : run->run.tick(*time));
     const std::vector<Fault> faults = ticker.take_tolerated();
@@ -262,6 +251,10 @@ lockstep_status tick(lockstep_run* run, double seconds, bool exactly_once) {
                                         .faults = faults});
     }
     run->notify(seconds, status, faults);
+    if (run->kept != nullptr) {
+      const InEngine scope(lock_of(run));
+      run->kept->after_tick(ticker, static_cast<Status>(status));
+    }
     return true;
   });
   if (is_good) forget_error();  // of an observer
@@ -287,6 +280,7 @@ void lockstep_run_halt(lockstep_run* run) {
     run->run.halt();
     Ticker& ticker = run->run.ticker();
     run->watchers.halted(ticker, run->last);
+    if (run->kept != nullptr) run->kept->halted(ticker);
     run->warnings.tell(ticker, ticker.take_tolerated(), ticker.tick_number());
     return true;
   });
@@ -304,6 +298,7 @@ bool lockstep_run_recover(lockstep_run* run) {
                       fault.message + "; the run continues");
     }
     Ticker& ticker = run->run.ticker();
+    if (run->kept != nullptr) run->kept->halted(ticker);
     run->warnings.tell(ticker, ticker.take_tolerated(), ticker.tick_number());
     return true;
   });

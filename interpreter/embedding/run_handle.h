@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/problem.h"
 #include "embedding/handles.h"
 #include "embedding/node_calls.h"
 #include "embedding/run_limits.h"
 #include "embedding/run_properties.h"
 #include "embedding/run_watchers.h"
 #include "embedding/warnings.h"
+#include "run/kept_run.h"
 #include "run/run.h"
 
 struct lockstep_run {
@@ -25,6 +27,9 @@ struct lockstep_run {
   lockstep_run(std::shared_ptr<const lockstep::host::Program> loaded,
                lockstep::host::RunOptions options, lockstep::host::embedding::RunLimits given)
       : rate(options.rate),
+        seed(options.seed),
+        is_real(!options.virtual_time),
+        fails_on_fault(options.on_fault == lockstep::host::FaultPolicy::Fail),
         program(std::move(loaded)),
         log(std::move(options.log)),
         limits(std::move(given), program->runnable.tree, leaf_log()),
@@ -53,12 +58,20 @@ struct lockstep_run {
     options.watch = limits.leaf_watch();
     return options;
   }
-  // The end of what is watched.
+  // The end of what is watched and kept.
   void end() {
-    if (watchers.empty() || !process.is_this()) return;
+    if ((watchers.empty() && kept == nullptr) || !process.is_this()) return;
     run.halt();
     watchers.end(run.ticker(), last);
+    if (kept != nullptr) kept->end(last);
+    forget_kept();
   }
+  void forget_kept() {
+    if (kept != nullptr) not_kept = kept->error();
+    kept.reset();
+  }
+  // Nothing has ticked it, in this process.
+  bool is_new() { return run.ticker().tick_number() == first_tick; }
 
   void notify(double seconds, lockstep_status status,
               std::span<const lockstep::host::Fault> faults) {
@@ -69,7 +82,9 @@ struct lockstep_run {
     }
   }
 
-  const double rate;  // ticks per second
+  const double rate;   // ticks per second
+  std::uint64_t seed;  // of the last restart
+  const bool is_real, fails_on_fault;
   std::shared_ptr<const lockstep::host::Program> program;
   std::optional<lockstep::host::embedding::NodeCalls> node_calls;  // the end of a run is told
   const lockstep::host::LeafLog log;                               // the program's
@@ -78,6 +93,9 @@ struct lockstep_run {
   lockstep::host::embedding::RunProperties properties;
   lockstep::host::Run run;
   lockstep::host::Warnings warnings;
+  std::unique_ptr<lockstep::host::KeptRun> kept;  // null: it is not kept in a file
+  std::string not_kept;                           // why not any more
+  std::uint32_t first_tick = 0;                   // by the number of RunState
   std::vector<ObserverCall> observers;
   lockstep::host::Nanoseconds last{0};  // when it was ticked last
   bool is_busy = false;                 // in a call that calls back
@@ -97,6 +115,31 @@ inline const Tree& tree_of(const lockstep_run& run) {
 inline bool is_own(const lockstep_run& run) {
   return run.process.is_this() || fail("the run belongs to the process that has made it");
 }
+
+// A call that ticks, halts or restarts. What it calls back, a leaf, an observer or who gets the
+// log, must not do that again: it would meet a tick that is not over.
+class Busy {
+ public:
+  explicit Busy(lockstep_run& run) : run_(run) {
+    if (!is_own(run)) return;
+    is_first_ = !std::exchange(run.is_busy, true);
+    if (!is_first_) fail("the run is in use: what it calls back cannot tick, halt or restart it");
+  }
+  ~Busy() {
+    if (is_first_) run_.is_busy = false;
+  }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+  bool is_refused() const { return !is_first_; }
+
+ private:
+  lockstep_run& run_;
+  bool is_first_ = false;
+};
+
+// A reason, and what to do. Returns false.
+bool refuse(const Problem& wrong);
 
 // While its entries are used.
 inline EntriesLock* lock_of(lockstep_run* run) {

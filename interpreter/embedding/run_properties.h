@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/core/problem.h"
+#include "engine/tree.h"
 #include "judge/measure/property_steps.h"
 #include "trace/observer.h"
 

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <utility>
 
+#include "record/part_names.h"
 #include "run/shape_of.h"
 #include "show/web/server_socket.h"
 
@@ -11,12 +12,20 @@ namespace lockstep::host::embedding {
 RunWatchers::RunWatchers(const Tree& tree, RunDescription run, RunStart start)
     : tree_(tree), run_(std::move(run)), start_(start) {}
 
-std::optional<Problem> RunWatchers::record(const std::string& file) {
+void RunWatchers::go_on(std::uint64_t first_tick, Nanoseconds gap, std::string text) {
+  start_.first_tick = first_tick;
+  start_.gap = gap;
+  resumed_ = std::move(text);
+}
+
+std::optional<Problem> RunWatchers::record(std::string file) {
   if (recorder_) return Problem{"the run is recorded already", "one recording for each run"};
+  if (!resumed_.empty()) file = name_of_resumed(file);
   const Lock lock(mutex_);
   recorder_.emplace(shape_of(tree_), RecorderOptions{.path = file, .run = run_});
   if (recorder_->error().empty()) {
     observers_.push_back(&*recorder_);
+    if (!resumed_.empty()) recorder_->log("lockstep", "info", resumed_);
     return std::nullopt;
   }
   Problem wrong{recorder_->error(), ""};
@@ -31,6 +40,7 @@ Result<std::string> RunWatchers::monitor(const std::string& address) {
   const Lock lock(mutex_);
   monitor_.emplace(shape_of(tree_), MonitorOptions{.run = run_});
   observers_.push_back(&*monitor_);
+  if (!resumed_.empty()) monitor_->log("lockstep", "info", resumed_);
   return monitor_->open(std::move(*socket));
 }
 
@@ -40,10 +50,11 @@ void RunWatchers::show_groot(std::unique_ptr<Observer> groot, Ticker& ticker) {
   if (groot_ != nullptr) observers_.push_back(groot_.get());
   if (all_) all_.emplace(tree_, observers_);
   if (groot_ == nullptr) return;
-  if (is_begun_ || ticker.tick_number() != 0) {
+  const bool has_ticked = ticker.tick_number() != start_.first_tick;
+  if (is_begun_ || has_ticked) {
     groot_->run_started(LiveMoments(tree_).now(ticker), start_);
   }
-  is_begun_ = is_begun_ || ticker.tick_number() != 0;
+  is_begun_ = is_begun_ || has_ticked;
 }
 
 void RunWatchers::log(std::string_view who, std::string_view level, std::string_view text) {
@@ -74,6 +85,7 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
   if (std::exchange(is_begun_, false)) {
     RunEnd end;
     end.status = status_;
+    end.first_tick = start_.first_tick;
     end.ticks = ticker.tick_number();
     end.time = end.last = last;
     if (ticker.fault() != nullptr) {
@@ -87,6 +99,7 @@ void RunWatchers::end(Ticker& ticker, Nanoseconds last) {
     for (Observer* const it : observers_) it->run_ended(moments.now(ticker), end);
   }
   all_.reset();
+  go_on(0, Nanoseconds(0), {});
   observers_.clear();
   groot_.reset();
   const Lock lock(mutex_);

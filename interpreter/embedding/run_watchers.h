@@ -23,12 +23,15 @@ class RunWatchers {
  public:
   RunWatchers(const Tree& tree, RunDescription run, RunStart start);
 
+  // The run goes on after a cut, which is logged. Before who logs is there.
+  void go_on(std::uint64_t first_tick, Nanoseconds gap, std::string text);
   // Both before the first tick. What is wrong, or nothing.
-  std::optional<Problem> record(const std::string& file);
+  std::optional<Problem> record(std::string file);
   // The link.
   Result<std::string> monitor(const std::string& address);
   // Also after it; null: not any more.
   void show_groot(std::unique_ptr<Observer> groot, Ticker& ticker);
+  bool log_somewhere() const { return recorder_ || monitor_; }
   bool has_groot() const { return groot_ != nullptr; }
 
   // Before the first tick. It must live until the end.
@@ -53,7 +56,8 @@ class RunWatchers {
  private:
   const Tree& tree_;
   const RunDescription run_;
-  const RunStart start_;
+  RunStart start_;
+  std::string resumed_;  // "": it has begun
   bool is_begun_ = false;
   Status status_ = Status::Idle;  // of the root, after the last tick
   std::vector<Observer*> observers_;

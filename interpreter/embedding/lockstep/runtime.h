@@ -35,7 +35,7 @@ extern "C" {
 #endif
 
 #define LOCKSTEP_RUNTIME_MAJOR 1u
-#define LOCKSTEP_RUNTIME_MINOR 4u
+#define LOCKSTEP_RUNTIME_MINOR 5u
 
 /* The library's own (major << 16 | minor), which may be newer than the header's. */
 LOCKSTEP_EXPORT uint32_t lockstep_runtime_version(void);
@@ -339,12 +339,68 @@ typedef void (*lockstep_observe)(void* user, lockstep_run* run, uint64_t tick, d
                                  lockstep_status status);
 LOCKSTEP_EXPORT bool lockstep_run_observe(lockstep_run* run, lockstep_observe observe, void* user);
 
+/* Keeps the state of the run in a file, and resumes it after a kill, a crash or a power failure:
+ * docs/resume.md. */
+typedef struct lockstep_keep_options {
+  uint32_t struct_size;      /* set by the program; all else may be 0 */
+  bool resume;               /* continue the run of the file, if it was cut */
+  lockstep_status on_resume; /* what leaves do that ran at the cut and cannot continue:
+                              * LOCKSTEP_IDLE, they start again; LOCKSTEP_SUCCESS or
+                              * LOCKSTEP_FAILURE, their result. The attribute on_resume overrides
+                              * it */
+  uint32_t resume_limit;     /* how often in a row without a leaf that completes; 0: 3 */
+  double sync;               /* seconds: written through to the disk at most so often; 0: 0.1 */
+  const char* version;       /* of the program: a file of another one is refused. May be NULL */
+} lockstep_keep_options;
+
+typedef struct lockstep_resumed {
+  uint32_t struct_size; /* set by the program */
+  bool resumed;         /* false: the run is new, and what follows is 0 */
+  uint64_t ticks;       /* before the cut. The numbers of ticks continue */
+  double seconds;       /* the time of the last of them. The times of ticks continue from here */
+  double gap;           /* seconds of the wall clock since then, in which there was no run */
+  const char* text;     /* "resumed after 35 s; 'Main/left' continues at 0.42", or "". Valid as long
+                         * as the run is kept */
+} lockstep_resumed;
+
+/* A leaf that ran at the cut. */
+typedef struct lockstep_resumed_leaf {
+  uint32_t struct_size; /* set by the program */
+  uint32_t node;
+  lockstep_status status; /* LOCKSTEP_RUNNING: it continues; LOCKSTEP_IDLE: it starts again in its
+                           * next tick; LOCKSTEP_SUCCESS, LOCKSTEP_FAILURE: its next tick has this
+                           * result, without a call */
+  bool asked;             /* restore of the leaf has decided so */
+  double progress;        /* of one that continues */
+} lockstep_resumed_leaf;
+
+/* Before the first tick of a new or restarted run, and before what watches it. After each tick, the
+ * state of the run is given to a thread that writes it; with virtual_time, the tick waits until it
+ * is written. What the program writes to entries after a tick is in the file after the next one.
+ * After a result of the root, a fault or a halt, there is nothing to resume until the next tick
+ * begins the tree. The end of a loop, lockstep_run_restart and lockstep_run_free end the file.
+ *
+ * A resumed run is as it was after its last tick in the file; its leaves are called in this
+ * function, and may have a fault. `options` and `result` may be NULL. False, and the run is as
+ * new: the file is of another run (another tree, argument, plugin, period, version), damaged, in
+ * use, or was resumed too often; or the tree has an entry for objects. */
+LOCKSTEP_EXPORT bool lockstep_run_keep(lockstep_run* run, const char* file,
+                                       const lockstep_keep_options* options,
+                                       lockstep_resumed* result);
+/* The leaves that ran at the cut, from 0; false: no more. */
+LOCKSTEP_EXPORT bool lockstep_run_resumed_leaf(lockstep_run* run, uint32_t index,
+                                               lockstep_resumed_leaf* leaf);
+/* Why nothing is kept any more, and since when, as on a full disk; NULL: all is kept, or nothing was
+ * to be. The run continues; a leaf cannot commit any more. The log gets this once. Valid until the
+ * next call for this run. */
+LOCKSTEP_EXPORT const char* lockstep_run_not_kept(lockstep_run* run);
+
 /* What else watches the run, as in the command `lockstep run`. Each before the
  * first tick, until lockstep_run_restart, lockstep_run_free or the end of a loop. All long work is
  * done in other threads; the time of the ticks is that of the program.
  *
  * Records the run to a file, for `lockstep replay` and `lockstep log` (--record). What a tick has
- * changed is written soon after it. */
+ * changed is written soon after it. A resumed run writes "run.resumed-1.jsonl" for "run.jsonl". */
 LOCKSTEP_EXPORT bool lockstep_run_record(lockstep_run* run, const char* file);
 /* Writes what recordings of this process have not written yet. Async-signal-safe: for a program
  * that handles its own crash. */

@@ -82,6 +82,14 @@ class EntryName {
   std::uint32_t index_ = 0;
 };
 
+inline std::optional<Status> status_of(lockstep_status status) {
+  if (status == LOCKSTEP_IDLE) return std::nullopt;
+  return static_cast<Status>(status);
+}
+inline lockstep_status status_or_idle(const std::optional<Status>& status) {
+  return status ? static_cast<lockstep_status>(*status) : LOCKSTEP_IDLE;
+}
+
 template <class Struct>
 Struct sized() {
   Struct it{};
@@ -314,6 +322,33 @@ struct LoopResult {
   double seconds = 0;
 };
 
+// How the state of a run is kept in a file, and resumed: docs/resume.md.
+struct KeepSettings {
+  bool resume = true;  // continue the run of the file, if it was cut
+  // What leaves do that ran at the cut and cannot continue; nothing: they start again.
+  std::optional<Status> on_resume = std::nullopt;
+  std::uint32_t resume_limit = 3;  // in a row, without a leaf that completes
+  double sync = 0.1;               // seconds: written through to the disk at most so often
+  std::string version = {};        // of the program: a file of another one is refused
+};
+
+// A leaf that ran at the cut. `status`: Running, it continues; nothing, it starts again in its next
+// tick; otherwise, its next tick has this result, without a call.
+struct ResumedLeaf {
+  std::uint32_t node = 0;
+  std::optional<Status> status;
+  bool asked = false;   // the leaf has decided so
+  double progress = 0;  // of one that continues
+};
+
+struct Resumed {
+  std::uint64_t ticks = 0;  // before the cut
+  double seconds = 0;       // the time of the last of them: the times of ticks continue from here
+  double gap = 0;           // seconds of the wall clock since then
+  std::string text;         // "resumed after 35 s; 'Main/left' continues at 0.42"
+  std::vector<ResumedLeaf> leaves;
+};
+
 // One run of a tree, with separate leaves. Used by one thread at a time.
 class Run {
   using EntryName = detail::EntryName;
@@ -358,6 +393,36 @@ class Run {
   }
   // The loop of the run ticks at once, if it waits for its next period. From any thread.
   void wake() { lockstep_run_wake(it_.get()); }
+
+  // Keeps the state of the run in a file, from before its first tick and before what watches it, to
+  // its restart or the end of a loop. A run that was cut resumes from there; nothing: it is new.
+  // Throws an Error when the file is of another run, or cannot be used: then the run is new and not
+  // kept. And when a leaf has a fault.
+  std::optional<Resumed> keep(const std::string& file, const KeepSettings& settings = {}) {
+    auto options = detail::sized<lockstep_keep_options>();
+    options.resume = settings.resume;
+    options.on_resume = detail::status_or_idle(settings.on_resume);
+    options.resume_limit = settings.resume_limit;
+    options.sync = settings.sync;
+    if (!settings.version.empty()) options.version = settings.version.c_str();
+    auto from = detail::sized<lockstep_resumed>();
+    detail::require(lockstep_run_keep(it_.get(), file.c_str(), &options, &from));
+    throw_failures();
+    if (!from.resumed) return std::nullopt;
+    Resumed resumed{from.ticks, from.seconds, from.gap, from.text, {}};
+    auto leaf = detail::sized<lockstep_resumed_leaf>();
+    while (lockstep_run_resumed_leaf(it_.get(), static_cast<std::uint32_t>(resumed.leaves.size()),
+                                     &leaf)) {
+      resumed.leaves.push_back(
+          {leaf.node, detail::status_of(leaf.status), leaf.asked, leaf.progress});
+    }
+    return resumed;
+  }
+  // Why nothing is kept any more, such as on a full disk; the run continues.
+  std::optional<std::string> not_kept() const {
+    const char* const why = lockstep_run_not_kept(it_.get());
+    return why == nullptr ? std::nullopt : std::optional<std::string>(why);
+  }
 
   // Lets others watch the run, each from before its first tick to its end: a file for `lockstep
   // replay` and `lockstep log`, browsers (the link is returned), Groot2 (after
@@ -426,10 +491,7 @@ class Run {
   NodeState node(std::uint32_t index) const {
     auto state = detail::sized<lockstep_node_state>();
     detail::require(lockstep_run_node(it_.get(), index, &state));
-    return {state.status == LOCKSTEP_IDLE
-                ? std::nullopt
-                : std::optional<Status>(static_cast<Status>(state.status)),
-            state.progress, state.held, state.ticked};
+    return {detail::status_of(state.status), state.progress, state.held, state.ticked};
   }
 
   // What a node asks a person at this moment; nothing: it asks nothing. And the answer, one of its

@@ -64,6 +64,19 @@ class Waiting(str):
         return super().__new__(cls, *text)
 
 
+def _kept(leaf):
+    "The text that a leaf keeps for another process."
+    return json.dumps(leaf.save(), separators=(",", ":"), allow_nan=False)
+
+
+def _goes_on(leaf, kept, cut):
+    "Whether it continues with this text, or starts again. Failed: neither."
+    goes_on = leaf.restore(json.loads(kept), cut)
+    if goes_on not in (True, False):
+        raise ValueError(f"restore returned {goes_on!r}, expected True (it continues) or False (it starts again)")
+    return goes_on
+
+
 class Cut:
     """How the process of the run ended before this one: whether the machine was off (power), whether the leaf got no
     ticks then (held), how many seconds ago (gap), and how many ticks the run may have forgotten (lost_ticks)."""
@@ -318,11 +331,9 @@ class _Server:
         self.begin(leaf, request)
         cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks")})
         try:
-            goes_on = leaf.restore(json.loads(request["kept"]), cut)
+            goes_on = _goes_on(leaf, request["kept"], cut)
         except Failed:
             return say(leaf=leaf._number, done=True, after_cut="cannot continue")
-        if goes_on not in (True, False):
-            raise ValueError(f"restore returned {goes_on!r}, expected True (it continues) or False (it starts again)")
         leaf._has_started = goes_on
         answer = {"after_cut": "continues", **self.progress(leaf)} if leaf._has_started else {}
         say(leaf=leaf._number, done=True, **answer)
@@ -336,7 +347,7 @@ class _Server:
         "What is to be kept of it, if that has changed."
         if not hasattr(leaf, "save"):
             return {}
-        kept = json.dumps(leaf.save(), separators=(",", ":"), allow_nan=False)
+        kept = _kept(leaf)
         if kept == leaf._kept:
             return {}
         leaf._kept = kept

@@ -93,6 +93,9 @@ class _Class:
                 setattr(self.table, name, native.CALL(self.caller_of(_do(name))))
         if hasattr(cls, "progress"):
             self.table.progress = native.PROGRESS(self.caller_of(lockstep_leaf._progress, 0.0))
+        if "restore" in fact:
+            self.table.save = native.SAVE(self.caller_of(self.save, 0))
+            self.table.restore = native.RESTORE(self.caller_of(self.restore, native.STARTS_AGAIN))
         self.functions = native.LeafType.from_buffer_copy(self.table)
         self.elements[0].give_ports(self.table)
         if "more_ports" in fact:
@@ -155,13 +158,13 @@ class _Class:
     def caller_of(self, function, otherwise=None):
         leaves = self.leaves
 
-        def call(number):
+        def call(number, *arguments):
             leaf = leaves[number]
             state = leaf._state
             try:
                 state.inside = True
                 leaf.now = leaf._host.now(leaf._caller)
-                result = function(leaf)
+                result = function(leaf, *arguments)
                 state.inside = False
                 return result
             except BaseException as error:
@@ -173,6 +176,21 @@ class _Class:
         leaf._set, leaf._has_ports = {}, True
         if hasattr(leaf, "start"):
             leaf.start()
+
+    def save(self, leaf, to, room):
+        kept = lockstep_leaf._kept(leaf).encode()
+        ctypes.memmove(to, kept, min(len(kept), room))
+        return len(kept)
+
+    def restore(self, leaf, kept, size, cut):
+        leaf._set, leaf._has_ports = {}, True
+        cut = cut.contents
+        cut = lockstep_leaf.Cut(cut.power, cut.held, cut.gap, cut.lost_ticks)
+        try:
+            goes_on = lockstep_leaf._goes_on(leaf, ctypes.string_at(kept, size), cut)
+        except lockstep_leaf.Failed:
+            return native.CANNOT_CONTINUE
+        return native.CONTINUES if goes_on else native.STARTS_AGAIN
 
     def tick(self, leaf):
         result = _RESULTS[lockstep_leaf._status(leaf, leaf.tick())]
@@ -274,7 +292,7 @@ def plugins_of(given):
         modules.setdefault(_plugin_name(cls.__module__), []).append(_class_of(cls))
     for name, classes in modules.items():
         tables = (POINTER(native.LeafType) * len(classes))(*(pointer(it.table) for it in classes))
-        plugin = native.sized(native.Plugin, abi_major=1, abi_minor=4, name=native.bytes_of(name),
+        plugin = native.sized(native.Plugin, abi_major=1, abi_minor=5, name=native.bytes_of(name),
                               doc=b"Leaves in Python", leaf_type_count=len(classes),
                               leaf_types=cast(tables, POINTER(POINTER(native.LeafType))))
         plugin.kept = tables, classes

@@ -71,6 +71,13 @@ class Refusal(Structure):
     _fields_ = [("struct_size", c_uint32), ("port", c_char_p), ("message", c_char_p), ("hint", c_char_p)]
 
 
+class Cut(Structure):
+    _fields_ = [("struct_size", c_uint32), ("power", c_bool), ("held", c_bool), ("gap", c_double), ("lost_ticks", c_uint64)]
+
+
+SAVE = CFUNCTYPE(c_size_t, c_void_p, c_void_p, c_size_t)
+RESTORE = CFUNCTYPE(c_int32, c_void_p, c_void_p, c_size_t, POINTER(Cut))
+STARTS_AGAIN, CONTINUES, CANNOT_CONTINUE = 0, 1, 2
 DESCRIBE = CFUNCTYPE(c_void_p, POINTER(FixedText), c_uint32, POINTER(Refusal))
 
 
@@ -80,7 +87,8 @@ class LeafType(Structure):
                 ("start", CALL), ("tick", TICK), ("halt", CALL), ("pause", CALL), ("resume", CALL),
                 ("progress", PROGRESS), ("get_extension", c_void_p), ("flags", c_uint64), ("min_children", c_uint32),
                 ("max_children", c_uint32), ("start_unreset", c_void_p), ("behavior_count", c_uint32),
-                ("behavior", c_void_p), ("more_ports", c_char_p), ("describe", DESCRIBE), ("data", c_void_p)]
+                ("behavior", c_void_p), ("more_ports", c_char_p), ("describe", DESCRIBE), ("data", c_void_p),
+                ("set_pace", c_void_p), ("save", SAVE), ("restore", RESTORE)]
 
 
 class Plugin(Structure):
@@ -122,6 +130,21 @@ class RunOptions(Structure):
                 ("wake", c_void_p), ("tick_budget", c_double), ("hang_limit", c_double), ("hang", HANG)]
 
 
+class KeepOptions(Structure):
+    _fields_ = [("struct_size", c_uint32), ("resume", c_bool), ("on_resume", c_int32), ("resume_limit", c_uint32),
+                ("sync", c_double), ("version", c_char_p)]
+
+
+class Resumed(Structure):
+    _fields_ = [("struct_size", c_uint32), ("resumed", c_bool), ("ticks", c_uint64), ("seconds", c_double),
+                ("gap", c_double), ("text", c_char_p)]
+
+
+class ResumedLeaf(Structure):
+    _fields_ = [("struct_size", c_uint32), ("node", c_uint32), ("status", c_int32), ("asked", c_bool),
+                ("progress", c_double)]
+
+
 class LoopOptions(Structure):
     _fields_ = [("struct_size", c_uint32), ("overrun", c_int32), ("max_ticks", c_uint64), ("timeout", c_double),
                 ("virtual_clock", c_bool), ("stop", STOP), ("user", c_void_p)]
@@ -157,6 +180,8 @@ _FUNCTIONS = {
     "run_get_text_at": (c_char_p, c_void_p, c_uint32), "run_set_text_at": (c_bool, c_void_p, c_uint32, c_char_p),
     "run_observe": (c_bool, c_void_p, OBSERVE, c_void_p), "run_record": (c_bool, c_void_p, c_char_p),
     "run_monitor": (c_char_p, c_void_p, c_char_p), "run_groot2": (c_bool, c_void_p, c_char_p),
+    "run_keep": (c_bool, c_void_p, c_char_p, POINTER(KeepOptions), POINTER(Resumed)),
+    "run_resumed_leaf": (c_bool, c_void_p, c_uint32, POINTER(ResumedLeaf)), "run_not_kept": (c_char_p, c_void_p),
     "project_show_groot2": (c_bool, c_void_p),
     "run_loop": (c_bool, c_void_p, POINTER(LoopOptions), POINTER(LoopResult)),
 }
@@ -174,7 +199,7 @@ class Library:
     def __init__(self, path):
         loaded = ctypes.CDLL(path)
         loaded.lockstep_runtime_version.restype = c_uint32
-        if loaded.lockstep_runtime_version() < (1 << 16 | 4):
+        if loaded.lockstep_runtime_version() < (1 << 16 | 5):
             raise Error(2, f"'{path}' is older than this package: install both from one version of lockstep")
         for name, (result, *arguments) in _FUNCTIONS.items():
             function = getattr(loaded, "lockstep_" + name)

@@ -12,6 +12,22 @@ from ._project import Project, log as log_
 from ._state import State, free
 
 
+class ResumedLeaf:
+    """A leaf that ran at the cut. `does` is "continues", "restart" (in its next tick), or the "success" or "failure" of
+    its next tick; `asked`: the leaf has decided so."""
+
+    def __init__(self, path, does, asked, progress):
+        self.path, self.does, self.asked, self.progress = path, does, asked, progress
+
+
+class Resumed:
+    """How a tree continues after a cut: `ticks` that were before it, the `time_s` of the last one, the `gap_s` since
+    then, `text` for people, and the `leaves` that ran at the cut."""
+
+    def __init__(self, ticks, time_s, gap_s, text, leaves):
+        self.ticks, self.time_s, self.gap_s, self.text, self.leaves = ticks, time_s, gap_s, text, leaves
+
+
 class Tree:
     """A run of a tree in this process.
 
@@ -74,7 +90,7 @@ class Tree:
         self._forget()
 
     def _forget(self):
-        self._ticks, self._last, self._start = 0, 0.0, None
+        self._ticks, self._before, self._last, self._start = 0, 0, 0.0, None
 
     root = property(lambda self: self.nodes[0])
     status = property(lambda self: self.root.status, doc="of the root")
@@ -115,12 +131,12 @@ class Tree:
 
     def _run(self, handle, max_ticks, timeout):
         from . import Run
-        if self._ticks:
+        if self._ticks != self._before:
             self._restart(handle, self._seed)
         options = native.sized(native.LoopOptions, max_ticks=max_ticks, timeout=timeout,
                                virtual_clock=self._clock == "virtual", stop=self._callbacks[2])
         end = native.sized(native.LoopResult)
-        self._ticks = 1  # also when it ends in an exception
+        self._ticks += 1  # also when it ends in an exception
         if not self._call(handle, self._library.run_loop, options, end):
             raise ValueError(self._library.why())
         self._ticks, self._last = end.ticks, end.seconds
@@ -129,6 +145,35 @@ class Tree:
         summary = {"result": result if completed else "stopped", "reason": reason, "ticks": end.ticks,
                    "time_s": end.seconds, "overruns": end.overruns}
         return Run(summary, _CODES.get(result, 124) if completed else 124, "")
+
+    def keep(self, file, *, resume=True, on_resume="restart", resume_limit=3, sync=0.1, version=""):
+        """Keeps the state of the tree in a file, from before its first tick until it is closed or begins again. If the
+        process of the run in the file was killed, or the power failed, the tree continues from there, and a Resumed
+        is returned: `lockstep docs resume`. `on_resume` is what leaves do that ran then and keep nothing: "restart",
+        "failure" or "success". A file of another run or another `version` of the program is an error."""
+        if on_resume not in _ON_RESUME:
+            raise ValueError(f"on_resume is {on_resume!r}, expected {', '.join(_ON_RESUME)}")
+        options = native.sized(native.KeepOptions, resume=resume, on_resume=_ON_RESUME[on_resume],
+                               resume_limit=resume_limit, sync=sync, version=native.bytes_of(version) or None)
+        return self._using(self._keep, os.fsencode(file), options)
+
+    def _keep(self, handle, file, options):
+        resumed, leaf, leaves = native.sized(native.Resumed), native.sized(native.ResumedLeaf), []
+        if not self._call(handle, self._library.run_keep, file, options, resumed):
+            raise Error(2, self._library.why())
+        if not resumed.resumed:
+            return None
+        self._ticks = self._before = resumed.ticks
+        self._last = resumed.seconds
+        while self._library.run_resumed_leaf(handle, len(leaves), leaf):
+            leaves.append(ResumedLeaf(self.nodes[leaf.node].path, _DOES[leaf.status], leaf.asked, leaf.progress))
+        return Resumed(resumed.ticks, resumed.seconds, resumed.gap, native.text_of(resumed.text), leaves)
+
+    @property
+    def not_kept(self):
+        "Why nothing is kept any more, such as on a full disk; None: all is."
+        why = self._read(lambda library, handle: library.run_not_kept(handle))
+        return None if why is None else native.text_of(why)
 
     def record(self, file):
         "Records the tree to a file, from its first tick until it is closed or begins again: lockstep replay, log."
@@ -281,6 +326,8 @@ def _free_run(library, handle, process, state, _kept):
     free(library.run_free, handle, process, state)
 
 
+_ON_RESUME = {"restart": 0, "success": native.SUCCESS, "failure": native.FAILURE}
+_DOES = {0: "restart", native.RUNNING: "continues", native.SUCCESS: "success", native.FAILURE: "failure"}
 _CODES = {"success": 0, "failure": 1}
 
 
