@@ -324,6 +324,8 @@ TEST_CASE("a resumed run leaves the recording of the run before it, and a new ru
     const Outcome events = run_lockstep({"log", "events", run.directory().path(name)});
     CHECK_FALSE(holds(events.out, "tick 0 "));
     CHECK_FALSE(holds(events.out, " start "));
+    if (name == "run.resumed-2.jsonl")  // of the other one, no tick got to the disk
+      CHECK(holds(events.out, "  log      lockstep: info: resumed after "));
   }
   // What is damaged before a cut is reported with its place, and no lost tick.
   std::ofstream(recording) << before.substr(0, before.find('\n') + 1) << "{\"tick\":0,]\n";
@@ -334,6 +336,26 @@ TEST_CASE("a resumed run leaves the recording of the run before it, and a new ru
   CHECK_FALSE(std::filesystem::exists(run.directory().path("run.resumed-1.jsonl")));
   CHECK_FALSE(std::filesystem::exists(run.directory().path("run.resumed-2.jsonl")));
   CHECK(holds(run_lockstep({"log", "info", recording}).out, "after 9 ticks"));
+}
+
+TEST_CASE("log info counts no step over ticks that were lost with a cut") {
+  CutRun run(
+      ours("<ParallelRelative delta='0.9'><Move who='a' ticks='20'/><Move who='b' ticks='20'/>"
+           "</ParallelRelative>"));
+  const std::string recording = run.directory().path("run.jsonl");
+  REQUIRE(run.go({"--record", recording}).code == 0);
+  const std::string uncut = read_file(recording);
+  REQUIRE(run.cut(8, {"--record", recording}).code == 128 + SIGKILL);
+  REQUIRE(run.resume({"--record", recording}).code == 0);
+  for (const int kept : {8, 4}) {  // ticks before the cut
+    INFO(kept);
+    const auto end = uncut.find("{\"tick\":" + std::to_string(kept) + ",");
+    REQUIRE(end != std::string::npos);
+    std::ofstream(recording) << uncut.substr(0, end);
+    const Outcome info = run_lockstep({"log", "info", recording});
+    CHECK(holds(info.out, "4 ticks are missing") == (kept == 4));
+    CHECK(holds(info.out, "longest step 0.05\n"));
+  }
 }
 
 TEST_CASE("verify --cuts finds an action with commit that may be done twice") {
