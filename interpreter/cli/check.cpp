@@ -12,6 +12,7 @@
 #include "base/core/pre_order.h"
 #include "base/core/wording.h"
 #include "base/terminal/outlet.h"
+#include "cli/check_cuts.h"
 #include "cli/check_formats.h"
 #include "cli/check_mends.h"
 #include "cli/checks.h"
@@ -32,6 +33,7 @@ struct CheckOptions {
   bool strict = false;
   bool together = false;
   bool fix = false;
+  bool cuts = false;  // what leaves do after one
 };
 
 using CheckWriter = std::string (*)(std::span<const MendableMessage>);
@@ -42,14 +44,14 @@ CheckWriter writer_of(const std::string& format) {
   return format == "github" ? as_github : nullptr;
 }
 
-// For people. `written` is the exit code of what went to stdout so far.
+// For people. `written` is the exit code of what went to stdout so far; `cuts` goes there too.
 // `is_told`: it has errors, and perhaps another file reported them.
 void print_checked(const std::string& tree, Diagnostics& diagnostics, bool is_told, int code,
-                   int& written) {
+                   const std::string& cuts, int& written) {
   print_diagnostics(diagnostics, Severity::Note);
   const std::string name = printable(tree == "-" ? "stdin" : tree);
   if (code == kExitSuccess) {
-    if (written == kExitSuccess) written = write_results(name + ": ok\n");
+    if (written == kExitSuccess) written = write_results(name + ": ok\n" + cuts);
   } else if (is_told && !diagnostics.has_errors()) {
     messages().say(fmt::format("{}: a file that it uses has the errors above\n", name));
   } else if (!diagnostics.has_errors()) {
@@ -250,7 +252,9 @@ class Checking {
     Given given = read_once(tree);
     load.text = given.text;
     auto loaded = load_given(given.name, load, diagnostics, plugins);
+    std::string cuts;
     if (loaded) {
+      if (options_.cuts) cuts = cuts_text(loaded->definition);
       add_advice(*loaded->project, std::move(loaded->definition), AdviceEffort::Certain,
                  diagnostics);
     }
@@ -260,7 +264,8 @@ class Checking {
     if (worst_ == kExitSuccess) worst_ = code;
     const bool has_errors = diagnostics.has_errors();
     if (load.library != nullptr) diagnostics = told_.only_new(diagnostics);
-    if (write_ == nullptr) return print_checked(tree, diagnostics, has_errors, code, written_);
+    if (write_ == nullptr)
+      return print_checked(tree, diagnostics, has_errors, code, cuts, written_);
     tell(diagnostics, plugins, std::move(given));
   }
 
@@ -302,11 +307,16 @@ std::function<int()> define_check(CLI::App& app) {
                "Let SubTrees find their trees in the other given files, as they do in a folder");
   app.add_flag("--fix", options->fix,
                "First change the files where a message has a mend that is certain");
+  auto* const cuts = app.add_flag(
+      "--checkpoint", options->cuts,
+      "Also list which leaves of a run that is kept (`run --checkpoint`) continue after "
+      "a cut, and which start again");
   app.add_option("--format", options->format,
                  "text, or on stdout: json (an array of messages) or github (annotations of a "
                  "workflow)")
       ->check(one_of({"text", "json", "github"},
                      {"sarif", "github annotates the files in a workflow, and json is for others"}))
+      ->excludes(cuts)
       ->capture_default_str();
   add_load_options(app, options->load);
   add_mock_option(app, options->load);
@@ -327,6 +337,7 @@ extern const Command kCheckCommand{
     "Examples:\n"
     "  lockstep check trees\n"
     "  lockstep check --fix tree.xml\n"
+    "  lockstep check --checkpoint mission.xml\n"
     "  lockstep check team.xml truck.xml --together\n"
     "  lockstep check --strict --format github trees/*.xml",
     define_check};

@@ -59,6 +59,35 @@ TEST_CASE("check --format json has the bytes of each message, and the edits that
   }
 }
 
+TEST_CASE("check --checkpoint lists what leaves do after a cut") {
+  const TemporaryDirectory directory;
+  const auto check = [&](const std::string& nodes, const std::string& option = "--checkpoint") {
+    const std::string tree =
+        directory.file("tree.xml",
+                       "<root lockstep=\"1\"><plugin name=\"cut\"/><BehaviorTree "
+                       "ID=\"Main\"><Sequence memory=\"true\">" +
+                           nodes + "</Sequence></BehaviorTree></root>");
+    return run_lockstep({"check", "--plugin-path", LOCKSTEP_BINARY_DIR "/tests/cli", option, tree});
+  };
+  const Outcome outcome = check(
+      "<Wait seconds=\"1\"/><Move who=\"a\"/><Step name=\"again\"/>"
+      "<Step name=\"fill\" on_resume=\"failure\" commit=\"true\"/>"
+      "<Step name=\"look\" on_resume=\"success\"/><Move name=\"b\" on_resume=\"failure\"/>");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out == directory.path("tree.xml") + R"(: ok
+  after a cut, built-in nodes continue, and of others:
+  Main/Sequence/Move   Move  continues, if it can
+  Main/Sequence/again  Step  starts again
+  Main/Sequence/fill   Step  counts as failed; its success counts when it is on the disk
+  Main/Sequence/look   Step  counts as succeeded
+  Main/Sequence/b      Move  continues, if it can
+)");
+  CHECK(contains(check("<Wait seconds=\"1\"/>").out, "ok\n  all of it continues after a cut\n"));
+  CHECK_FALSE(contains(check("<Step/>", "--strict").out, "cut"));
+  CHECK(check("<Stop/>").out.empty());
+  CHECK(run_lockstep({"check", "--checkpoint", "--format", "json", "x.xml"}).code == 2);
+}
+
 TEST_CASE("check --fix mends what can be meant in one way only, and names each mend") {
   const TemporaryDirectory directory;
   const std::string text =
