@@ -26,6 +26,7 @@
 #include "record/live/snapshot_feed.h"
 #include "record/live/status_feed.h"
 #include "record/write/recorder.h"
+#include "run/checkpoint/checkpoint_writer.h"
 #include "run/loop.h"
 #include "run/observers.h"
 #include "run/run.h"
@@ -34,6 +35,7 @@
 #include "study/run_measures.h"
 #include "support/compiled.h"
 #include "support/paths.h"
+#include "support/program.h"
 
 namespace {
 thread_local bool t_counting = false;
@@ -168,6 +170,7 @@ class WatchedRun {
       observers_.after_tick(run_.ticker(), {tick_, now, run_.tick(now)});
     }
   }
+  Ticker& ticker() { return run_.ticker(); }
   const Fault* fault() const { return run_.fault(); }
   Status status() { return run_.ticker().status(0); }
 
@@ -183,6 +186,46 @@ class WatchedRun {
   Observers observers_;
   std::uint64_t tick_ = 0;
 };
+
+// As with --checkpoint.
+class KeptTicks {
+ public:
+  explicit KeptTicks(const Tree& tree)
+      : run_(tree),
+        writer_(std::make_unique<CheckpointFile>(directory_.path("run.checkpoint")),
+                {.period = std::chrono::milliseconds(10)}) {
+    REQUIRE(writer_.begin(run_.ticker(), {}, 0, 0));
+  }
+  void tick(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      run_.ticker().set_durable(writer_.durable());
+      run_.tick(1);
+      writer_.after_tick(run_.ticker(), ++ticks_);
+    }
+  }
+  // Until the thread that writes has taken each buffer, with a state as it is now.
+  void warm_up() {
+    tick(100);
+    for (int taken = 0; taken < 4; ++taken) {
+      for (const std::uint64_t before = writer_.kept(); writer_.kept() == before;) tick(1);
+    }
+  }
+  bool has_ticked_well() const { return run_.fault() == nullptr && writer_.error().empty(); }
+  std::uint32_t last_commit() { return run_.ticker().last_commit(); }
+
+ private:
+  const TemporaryDirectory directory_;
+  WatchedRun run_;
+  CheckpointWriter writer_;
+  std::uint64_t ticks_ = 0;
+};
+
+// Leaves that keep their state, and one that commits again and again.
+constexpr const char* kKeptTree = R"xml(
+<root lockstep="1"><BehaviorTree ID="Main"><Sequence memory="true"><Script code="n := 0"/><Parallel>
+  <ParallelRelative delta="1e-8"><Advance step="1e-9"/><Advance step="9e-9"/></ParallelRelative>
+  <Repeat><Sequence memory="true"><Advance step="0.5" commit="true"/><Script code="n += 1"/></Sequence></Repeat>
+</Parallel></Sequence></BehaviorTree></root>)xml";
 
 template <class Work>
 void check_costs_nothing(Work work) {
@@ -213,6 +256,17 @@ TEST_CASE("recording a tick allocates nothing and locks nothing") {
   check_costs_nothing([&] { run.tick(1000); });
   CHECK(run.status() == Status::Running);
   CHECK(recorder.lost() == 0);
+}
+
+TEST_CASE("a tick whose state is kept in a checkpoint allocates nothing and locks nothing") {
+  for (const char* text : {kTree, kKeptTree}) {
+    const TickingTree tree(text);
+    KeptTicks run(tree.tree());
+    run.warm_up();
+    check_costs_nothing([&] { run.tick(1000); });
+    CHECK(run.has_ticked_well());
+    CHECK((run.last_commit() > 0) == (text == kKeptTree));
+  }
 }
 
 TEST_CASE("an entry that is another number in each tick is recorded without allocating") {
@@ -491,6 +545,12 @@ TEST_CASE("a tick calls the system for nothing") {
   recorded.tick(10);
   // So few that nobody has to be woken for them.
   CHECK(survives_without_system_calls([&recorded] { recorded.tick(50); }));
+  for (const char* text : {kTree, kKeptTree}) {
+    const TickingTree kept_tree(text);
+    KeptTicks kept(kept_tree.tree());
+    kept.warm_up();
+    CHECK(survives_without_system_calls([&kept] { kept.tick(1000); }));
+  }
   CHECK_FALSE(survives_without_system_calls([] { getppid(); }));
 }
 
