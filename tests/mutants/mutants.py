@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """Changes the engine at random places, one change at a time, and counts the changes that a test notices.
 
-usage: mutants.py COUNT [FOLDER]
+usage: mutants.py COUNT|LIST [FOLDER]
 
 It works in a copy of the sources, in FOLDER, build/nightly/mutants when absent. The choice depends on the commit, so a run that
 was stopped continues: FOLDER/mutants.txt has a line for each mutant. One that no test notices is a test that is missing, or
-a change that makes no difference: read it. The exit code is 1 if the tests fail without a change."""
+a change that makes no difference: read it. The exit code is 1 if the tests fail without a change.
+
+With LIST, such as resume.txt, it makes the changes of that file, and the exit code is 1 if a test notices one of them not. The tests
+are those whose names begin with the name of the list: "resume: "."""
 import pathlib
 import random
 import re
@@ -49,9 +52,15 @@ def chosen(sources, count, seed):
     return random.Random(seed).sample(every, min(count, len(every)))
 
 
+# A line is "FILE: BEFORE => AFTER", or a comment. BEFORE is in one place.
+def listed(file):
+    rows = [line for line in file.read_text().splitlines() if line and not line.startswith("#")]
+    return [re.fullmatch(r"(\S+): (.+?) => ?(.*)", row).groups() for row in rows]
+
+
 def copy_sources(to):
-    listed = subprocess.run(["git", "-C", SOURCE, "ls-files", "-z"], capture_output=True, text=True, check=True).stdout
-    for file in listed.split("\0"):
+    tracked = subprocess.run(["git", "-C", SOURCE, "ls-files", "-z"], capture_output=True, text=True, check=True).stdout
+    for file in tracked.split("\0"):
         if file and (SOURCE / file).exists():
             (to / file).parent.mkdir(parents=True, exist_ok=True)
             if not (to / file).exists() or (to / file).read_bytes() != (SOURCE / file).read_bytes():
@@ -71,6 +80,41 @@ def outcome(copy):
         if ran.returncode:
             return target
     return "survived"
+
+
+def outcome_of_list(copy, name):
+    targets = ["lockstep", "lockstep_embedding", "torn_writes", "embedding_kept_c", "embedding_kept_cpp", "test_unit", f"test_{name}"]
+    if subprocess.run(["cmake", "--build", "build/release", "--target", *targets], cwd=copy, capture_output=True).returncode:
+        return "the compiler"
+    ran = subprocess.run(["ctest", "--test-dir", "build/release", "-R", f"^{name}: ", "--stop-on-failure", "-j2"], cwd=copy,
+                         capture_output=True, text=True)
+    failed = re.search(r"^\s*\d+ - (.+) \(", ran.stdout, re.MULTILINE)
+    return failed.group(1) if failed else "survived"
+
+
+def main_of_list(file, folder):
+    copy = folder / "source"
+    copy_sources(copy)
+    subprocess.run(["cmake", "--preset", "dev"], cwd=copy, check=True, capture_output=True)
+    rows, survived = listed(file), 0
+    for path, before, after in [(None, "", ""), *rows]:  # the first is none
+        text = (copy / path).read_text() if path else ""
+        if path and text.count(before) != 1:
+            sys.exit(f"{path}: '{before}' is in {text.count(before)} places, expected 1")
+        try:
+            if path:
+                (copy / path).write_text(text.replace(before, after))
+            found = outcome_of_list(copy, file.stem)
+        finally:
+            if path:
+                (copy / path).write_text(text)
+        if not path and found != "survived":
+            sys.exit(f"without a change: {found} fails")
+        if path:
+            print(f"{path}: '{before}' is '{after}': {found}", flush=True)
+            survived += found == "survived"
+    print(f"{len(rows) - survived} of {len(rows)} mutants were noticed")
+    return 1 if survived else 0
 
 
 def main(count, folder):
@@ -110,4 +154,5 @@ if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    sys.exit(main(int(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else SOURCE / "build/nightly/mutants"))
+    where = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else SOURCE / "build/nightly/mutants"
+    sys.exit(main(int(sys.argv[1]), where) if sys.argv[1].isdigit() else main_of_list(pathlib.Path(sys.argv[1]).resolve(), where))

@@ -1,4 +1,6 @@
 """The changes that tests/mutants/mutants.py makes: mutants_test.py."""
+import pathlib
+
 import mutants
 
 TEXT = """\
@@ -18,3 +20,8 @@ assert mutants.changed(TEXT, found[0]).splitlines()[1].startswith("if (a != b &&
 sources = {"b.cpp": TEXT, "a.cpp": TEXT}
 assert mutants.chosen(sources, 5, "seed") == mutants.chosen(dict(reversed(sources.items())), 5, "seed")
 assert len(set(mutants.chosen(sources, 100, "seed"))) == 8
+
+rows = mutants.listed(pathlib.Path(mutants.__file__).parent / "resume.txt")
+for file, before, after in rows:  # each is of one place
+    assert (mutants.SOURCE / file).read_text().count(before) == 1 and before != after, (file, before)
+assert len(rows) >= 6

@@ -104,6 +104,8 @@ STEPS = {
     "judge": (f"{SMALL_TREES:,} small trees: `verify` against all their runs", random_trees("judge", SMALL_TREES), is_here),
     "mutants": (f"{MUTANTS} changes of the engine, each of which a test must notice",
                 one("tests/mutants/mutants.py", str(MUTANTS)), is_here),
+    "resume mutants": ("breaks of the rules of resuming, each of which a test must notice",
+                       one("tests/mutants/mutants.py", "tests/mutants/resume.txt"), is_here),
     "btcpp": ("the tests of BehaviorTree.CPP over the headers of lockstep",
               lambda _: iter([("all", ("./dev", "test-btcpp", str(checkout_of_btcpp())))]), btcpp_is_missing),
     "ros2": ("leaves against real servers of ROS 2", one("./dev", "test-ros2"), ros2_is_missing),
