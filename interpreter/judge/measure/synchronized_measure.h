@@ -19,7 +19,11 @@ class SynchronizedMeasure {
   SynchronizedMeasure(std::size_t children, const Guards& guards, Synchronization synchronization,
                       bool is_group);
 
-  void join() { falls_.join(); }  // the run, later than at its first tick
+  // The run, later than at its first tick, or after ticks that are not known.
+  void join() {
+    falls_.join();
+    step_length_.join();
+  }
   void after_tick(const SynchronizedTick& tick);
   void run_ended(Nanoseconds time);
 

@@ -37,11 +37,9 @@ class Events {
     next_ = tick.tick + 1;
     now_.clear();
     for (const RecordedState& it : tick.nodes) now_.push_back(it.state());
-    if (is_first) {  // what changed with it is not known
-      before_ = now_;
-      return true;
-    }
-    if (tick.moments.empty()) {
+    if (is_first) {
+      // What changed with it is not known.
+    } else if (tick.moments.empty()) {
       for (NodeIndex node = 0; node < before_.size(); ++node) add_node(node, now_);
     } else {
       add_moments(tick.moments);
@@ -52,12 +50,12 @@ class Events {
       add("answer", header_.nodes[it.node].path, fmt::format("{} (by {})", it.answer, it.who));
     }
     for (const RecordedEntry& it : tick.entries) {
-      add("entry", header_.entries[it.entry].key, shown_value(it));
+      if (!is_first) add("entry", header_.entries[it.entry].key, shown_value(it));
     }
     for (const LeafLine& it : tick.logs) add("log", it.who, it.level + ": " + it.text);
     for (NodeIndex node = 0; node < factors_.size(); ++node) {
       const double factor = tick.nodes[node].factor;
-      if (std::exchange(factors_[node], factor) == factor) continue;
+      if (std::exchange(factors_[node], factor) == factor || is_first) continue;
       add("pace", header_.nodes[node].path, fmt::format("{:.3g}", factor));
     }
     before_ = now_;

@@ -101,13 +101,15 @@ std::string info_text(RecordingReader& reader, bool color) {
   RecordedMoments moments(header);
   WhyWatch why(header);
   std::vector<MeasuredNode> nodes = measured_nodes(header);
-  std::uint64_t ticks = 0, faults = 0;
+  std::uint64_t ticks = 0, faults = 0, next = 0;
   std::size_t resumes = 0;
   const Moment* last = nullptr;
   while (const auto tick = reader.next()) {
     const bool continues =
         reader.resumes().size() > std::exchange(resumes, reader.resumes().size());
-    if ((ticks++ == 0 && tick->tick > 0) || continues) {
+    const bool follows = tick->tick == std::exchange(next, tick->tick + 1);
+    ++ticks;
+    if (!follows || continues) {
       for (MeasuredNode& node : nodes) node.measure.join();
     }
     faults += tick->faults.size();
