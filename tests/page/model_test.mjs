@@ -61,6 +61,18 @@ test("a member of a barrier at 0 waits for those that are not reached, and an ex
   assert.deepEqual(model.ownersOf(later, nodes[8]).map(({ place }) => place), [0, 1, 1]);
 });
 
+test("a cut of the process is before the first line of the run that continued", () => {
+  const resumed = { ...HEADER, first_tick: 3, resumed_after_s: 35.2 };
+  const run = runOf(
+    { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0), running(2, 0)] },
+    { tick: 1, time_s: 0.1 },
+    { lost: { ticks: 1, from: 2 } }, { continued: { ticks: 3 } }, resumed, resumed,
+    { tick: 3, time_s: 0.3, nodes: [running(0, 0), running(1, 0.25)], whole: [] });
+  assert.deepEqual(run.cuts, [{ line: 2, after: 35.2 }]);
+  assert.equal(model.cutText(35.2), "the process was cut here, and the run continued after 35 s");
+  assert.deepEqual(runOf({ tick: 0, time_s: 0 }).cuts, []);
+});
+
 test("a line with the whole state makes idle what it does not name, and changes nothing else", () => {
   const run = runOf(
     { tick: 0, time_s: 0, nodes: [running(0, 0), running(1, 0.25), running(2, 0)] },

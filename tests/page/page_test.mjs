@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { SOURCE, close, goToTick, lockstep, openRun, record, soon, tree, violations } from "./support.mjs";
+import { SOURCE, close, goToTick, lockstep, openRun, record, recordOverCut, soon, tree, violations } from "./support.mjs";
 
 after(() => close());
 
@@ -31,6 +31,15 @@ test("a person sees who waits for whom at which barrier, how far each is, and wh
   const progress = page.getByRole("list", { name: "Progress of pull at this moment" });
   await soon.match(page, () => words(progress), /base 0\.50 waits for arm at barrier 0\.5/);
   await soon.ok(page, () => page.getByRole("img", { name: "Progress over time of arm, base" }).isVisible());
+  await page.context().close();
+});
+
+test("the timeline marks where the process was cut and the run continued", async () => {
+  const page = await openRun(await recordOverCut(tree('<Advance step="0.002"/>')));
+  const mark = page.getByRole("img", { name: /^the process was cut here, and the run continued after \d+(\.\d)? s$/ });
+  await soon.equal(page, () => mark.count(), 1);
+  const lanes = await page.getByRole("group", { name: "Lanes of the nodes" }).boundingBox(), cut = await mark.boundingBox();
+  assert.ok(cut.x > lanes.x + 170 && cut.x < lanes.x + lanes.width / 2, "the cut is in the first half of the run");
   await page.context().close();
 });
 

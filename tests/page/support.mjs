@@ -1,7 +1,7 @@
 // What the tests of the page share: recordings, pages of them, a browser that reports what goes wrong in it.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
@@ -33,7 +33,7 @@ export function lockstep(...args) {
 export async function loadModel() {
   const { outputFiles } = await require("esbuild").build({
     stdin: {
-      contents: ["model/run", "model/moment", "model/events", "model/spread", "model/numbers", "model/waiting", "model/thin", "model/lanes", "store/span", "view/chart/data"]
+      contents: ["model/run", "model/moment", "model/events", "model/spread", "model/numbers", "model/waiting", "model/thin", "model/lanes", "model/words", "store/span", "view/chart/data"]
         .map((name) => `export * from "./src/${name}";`).join("\n"),
       resolveDir: join(SOURCE, "interpreter/show/web/page"),
     },
@@ -52,6 +52,20 @@ export function record(tree, ...args) {
   } catch (error) {
     if (error.status === 2 || error.status === 3) throw error;
   }
+  return recording;
+}
+
+// The recording of a run that was killed, and then continued.
+export async function recordOverCut(tree) {
+  const recording = path(`run-${++runs}.jsonl`), keep = ["--checkpoint", path(`run-${runs}.checkpoint`), "--resume"];
+  const child = spawn(join(BUILD, "lockstep"), ["run", tree, "--plugin-path", join(BUILD, "plugins"), "--view", "none",
+    "--record", recording, ...keep], { stdio: "ignore" });
+  const ended = new Promise((done) => child.on("exit", done));
+  const lines = () => existsSync(recording) && readFileSync(recording, "utf8").split("\n").length;
+  while (child.exitCode === null && !(lines() > 100)) await new Promise((go) => setTimeout(go));
+  child.kill("SIGKILL");
+  await ended;
+  lockstep("run", tree, "--plugin-path", join(BUILD, "plugins"), "--view", "none", "--clock", "virtual", "--record", recording, ...keep);
   return recording;
 }
 

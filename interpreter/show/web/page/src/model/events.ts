@@ -172,7 +172,7 @@ export class Events {
     this.fresh[this.fresh.length - 1].level = level;
   }
   lost(ticks: number, from: number) {
-    this.add("lost", null, `${ticks} ticks from tick ${from} on are not here: there was no room for them`);
+    this.add("lost", null, `${ticks} ticks from tick ${from} on are not in the recording`);
     this.settle();
   }
   missed(what: string) {

@@ -12,6 +12,12 @@ export interface EntryChange {
   value: string | null; // null: too long to be shown
 }
 
+// The process was cut before this line, and the run continued in another one.
+export interface Cut {
+  line: number;
+  after: number; // seconds in which there was no run; its own time has none of them
+}
+
 const STATUS_NUMBERS = new Map<string, number>(STATUSES.map((name, number) => [name, number]));
 
 export class Run {
@@ -29,6 +35,7 @@ export class Run {
   private counts = new Counts(0, 0);
   end: End | null = null;
   lost = 0; // ticks without a line
+  cuts: Cut[] = [];
   version = 0; // grows with what is fed
   private joins = false; // the line tells what there was, not what happened
   private readonly thinner = new Thinner();
@@ -63,12 +70,19 @@ export class Run {
     if (header.lockstep_recording !== 1) {
       throw new Error(`this page reads recordings of version 1, not ${header.lockstep_recording}`);
     }
+    if (header.resumed_after_s !== undefined) this.resume(header.resumed_after_s);
     if (this.header) return; // of a stream that goes on
     this.header = header;
     this.shape = shapeOf(header);
     this.nodes = header.nodes.map(() => new NodeColumn());
     this.entries = (header.entries ?? []).map(() => []);
     this.counts = new Counts(header.nodes.length, this.entries.length);
+  }
+
+  // Not for a header that comes twice.
+  private resume(after: number) {
+    const line = this.lines;
+    if (this.cuts.at(-1)?.line !== line) this.cuts.push({ line, after });
   }
 
   private take(line: TickLine) {

@@ -14,6 +14,10 @@ export function stateOf(moment: Moment, node: number): string {
   return moment.held[node] ? "held" : STATUSES[moment.status[node]];
 }
 
+export function cutText(after: number): string {
+  return `the process was cut here, and the run continued after ${after.toFixed(after < 3 ? 1 : 0)} s`;
+}
+
 const SIGNS: Record<string, string> = {
   Sequence: "→", Fallback: "?", Parallel: "⇉", ParallelAbsolute: "⇉A", ParallelRelative: "⇉R", barrier: "‖",
 };

@@ -2,6 +2,7 @@
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { laneNodes, laneText } from "../../model/lanes";
 import { RUNNING } from "../../model/recording";
+import { cutText } from "../../model/words";
 import { spanShown, zoomed } from "../../store/span";
 import type { Store } from "../../store/store";
 import { colors } from "../parts/colors";
@@ -116,6 +117,9 @@ export function Lanes({ store, all }: { store: Store; all: boolean }) {
           ))}
         </ul>
       </div>
+      {run.cuts.map(({ line, after }) => ({ after, x: xOf(run.times[line] ?? run.times[run.last] ?? 0, window) })).map(({ after, x }) => x >= 0 && x <= window.width && (
+        <div class="cut" role="img" style={{ left: px(left + x) }} title={cutText(after)} aria-label={cutText(after)} />
+      ))}
       {cursor < window.width && (
         <div class="later" style={{ left: px(left + Math.max(0, cursor)), width: px(size.width - Math.max(0, cursor)) }} />
       )}

@@ -21,6 +21,7 @@ export function Timeline({ store }: { store: Store }) {
         <Transport store={store} />
         <p class="key dim" aria-hidden="true">
           <i class="runs" /> runs <i class="is-held" /> held <i class="over success" />✓ succeeded <i class="over failure" />✗ failed
+          {run.cuts.length > 0 && <><i class="is-cut" /> cut</>}
         </p>
         <button type="button" class="on-phone" aria-expanded={lanes} onClick={() => setLanes(!lanes)}>lanes</button>
         <span class="grow" />
