@@ -100,6 +100,14 @@ class Kept(unittest.TestCase):
         resumed.stdout.close()
         resumed.wait()
 
+    def test_recordings_of_a_run_that_was_cut_are_one(self):
+        record = self.directory / "run.jsonl"
+        self.cut(IN_PYTHON, 0.5, RECORD=str(record))
+        self.assertEqual(self.run_program(IN_PYTHON, RECORD=str(record)).returncode, 0)
+        self.assertTrue((self.directory / "run.resumed-1.jsonl").exists())
+        info = subprocess.run([os.environ["LOCKSTEP"], "log", "info", record], capture_output=True, text=True).stdout
+        self.assertRegex(info, r"resumed after \d\.\d s, from tick 5 on\n  success \(completed\) after 12 ticks, 1\.\d00 s")
+
     def test_an_end_in_order_is_no_cut(self):
         self.uncut(IN_C)
         self.assertEqual(len(self.uncut(IN_C)), 12)  # from the beginning

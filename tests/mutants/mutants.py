@@ -8,7 +8,7 @@ was stopped continues: FOLDER/mutants.txt has a line for each mutant. One that n
 a change that makes no difference: read it. The exit code is 1 if the tests fail without a change.
 
 With LIST, such as resume.txt, it makes the changes of that file, and the exit code is 1 if a test notices one of them not. The tests
-are those whose names begin with the name of the list: "resume: "."""
+are those whose names begin with the name of the list: "resume:"."""
 import pathlib
 import random
 import re
@@ -83,10 +83,11 @@ def outcome(copy):
 
 
 def outcome_of_list(copy, name):
-    targets = ["lockstep", "lockstep_embedding", "torn_writes", "embedding_kept_c", "embedding_kept_cpp", "test_unit", f"test_{name}"]
+    targets = ["lockstep", "motion", "btcpp_faulty", "lockstep_embedding", "embedding_kept_c", "embedding_kept_cpp", "torn_writes",
+               f"test_{name}"]
     if subprocess.run(["cmake", "--build", "build/release", "--target", *targets], cwd=copy, capture_output=True).returncode:
         return "the compiler"
-    ran = subprocess.run(["ctest", "--test-dir", "build/release", "-R", f"^{name}: ", "--stop-on-failure", "-j2"], cwd=copy,
+    ran = subprocess.run(["ctest", "--test-dir", "build/release", "-R", f"^{name}:", "--stop-on-failure", "-j2"], cwd=copy,
                          capture_output=True, text=True)
     failed = re.search(r"^\s*\d+ - (.+) \(", ran.stdout, re.MULTILINE)
     return failed.group(1) if failed else "survived"

@@ -390,9 +390,9 @@ LOCKSTEP_EXPORT bool lockstep_run_keep(lockstep_run* run, const char* file,
 /* The leaves that ran at the cut, from 0; false: no more. */
 LOCKSTEP_EXPORT bool lockstep_run_resumed_leaf(lockstep_run* run, uint32_t index,
                                                lockstep_resumed_leaf* leaf);
-/* Why nothing is kept any more, and since when, as on a full disk; NULL: all is kept, or nothing was
- * to be. The run continues; a leaf cannot commit any more. The log gets this once. Valid until the
- * next call for this run. */
+/* Why nothing is kept any more, and since when, as on a full disk; NULL: all is kept, or nothing
+ * was to be. The run continues; a leaf cannot commit any more. The log gets this once. Valid until
+ * the next call for this run. */
 LOCKSTEP_EXPORT const char* lockstep_run_not_kept(lockstep_run* run);
 
 /* What else watches the run, as in the command `lockstep run`. Each before the

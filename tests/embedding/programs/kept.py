@@ -1,4 +1,5 @@
-"As kept.c: kept.py TREE FILE PERIOD [CUT_AT]. It ticks by itself, and with the environment variable LOOP in run()."
+"""As kept.c: kept.py TREE FILE PERIOD [CUT_AT]. It ticks by itself, and with the environment variable LOOP in run().
+RECORD is a file."""
 import os
 import signal
 import sys
@@ -45,6 +46,8 @@ if resumed:
     print(resumed.text)
     for leaf in resumed.leaves:
         print(f"leaf {numbers[leaf.path]} is {NUMBERS[leaf.does]} at {leaf.progress:.2f}, asked {int(leaf.asked)}")
+if "RECORD" in os.environ:
+    tree.record(os.environ["RECORD"])
 
 
 @tree.on_tick
