@@ -57,11 +57,10 @@ bool CheckpointWriter::begin(Ticker& ticker, const CheckpointFacts& facts, std::
   if (!has_state && !ticker.faulted()) return false;
   std::string bytes;
   append_facts(facts, bytes);
-  // A leaf that failed when it was asked to continue: the run ends with its fault, in order.
+  // A leaf that failed when it was asked to continue: nothing goes on from here.
   if (!has_state) first.bytes = last_bytes(Checkpoint::Kind::Ended, {});
   if (!file_->begin(std::move(bytes), first.bytes)) return false;
-  if (!has_state) return true;
-  durable_.store(first.tick, std::memory_order_release);
+  durable_.store(ticker.tick_number(), std::memory_order_release);
   snapshots_.for_each([&](Snapshot& it) { it.bytes.reserve(2 * first.bytes.size()); });
   thread_ = own_thread([this] {
     try {

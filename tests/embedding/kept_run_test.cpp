@@ -1,0 +1,199 @@
+// Runs of a program that are kept in a file: what a program gets and must not do. That they
+// continue after a kill is in kept_test.py. Here a copy of the file stands for that of a process
+// that was killed.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <lockstep/runtime.hpp>
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace runtime = lockstep::runtime;
+using lockstep::Status;
+
+struct CountPorts : lockstep::Ports {
+  Input<std::int64_t> ticks{this, "ticks", "4", "how many"};
+};
+
+class Count : public lockstep::Action<CountPorts> {
+ public:
+  void start() override { done_ = 0; }
+  Status tick() override { return ++done_ == ticks.get() ? Status::Success : Status::Running; }
+  double progress() const override {
+    return static_cast<double>(done_) / static_cast<double>(ticks.get());
+  }
+
+ private:
+  std::int64_t done_ = 0;
+};
+
+// Cannot be restored.
+class Breaks : public lockstep::Action<>, public lockstep::Kept<int> {
+ public:
+  Status tick() override { return Status::Running; }
+  lockstep::AfterCut after_cut(const lockstep::Cut&) override {
+    throw std::runtime_error("the table is gone");
+  }
+};
+
+class KeptRuns {
+ public:
+  explicit KeptRuns(const std::string& nodes) {
+    fs::create_directory(folder_);
+    project_.add_leaf<Count>("Count", "Counts its ticks").add_leaf<Breaks>("Breaks", "Does");
+    project_.load_text("<root lockstep=\"1\"><BehaviorTree ID=\"Main\">" + nodes +
+                       "</BehaviorTree></root>");
+  }
+  ~KeptRuns() { fs::remove_all(folder_); }
+  KeptRuns(const KeptRuns&) = delete;
+  KeptRuns& operator=(const KeptRuns&) = delete;
+
+  runtime::Run run() const {
+    runtime::RunSettings settings;
+    settings.tick_period = 0.1;
+    settings.virtual_time = true;  // each tick is in the file
+    return runtime::Run(project_, settings);
+  }
+  std::string file() const { return folder_ / "run.checkpoint"; }
+  // As a kill would leave it now.
+  std::string cut() const {
+    fs::copy_file(file(), folder_ / "cut", fs::copy_options::overwrite_existing);
+    return folder_ / "cut";
+  }
+
+ private:
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("lockstep_kept_" + std::to_string(getpid()));
+  runtime::Project project_;
+};
+
+template <class Work>
+std::string error_in(Work work) {
+  try {
+    work();
+  } catch (const runtime::Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("a program that resumes a run gets its time, its ticks and what its leaves do") {
+  const KeptRuns runs(
+      "<Parallel><Count name=\"a\"/><Count name=\"b\" on_resume=\"failure\"/></Parallel>");
+  runtime::Run first = runs.run();
+  CHECK_FALSE(first.keep(runs.file()));
+  for (int tick = 0; tick < 3; ++tick) first.tick(0.1 * tick);
+  runtime::KeepSettings settings;
+  settings.on_resume = Status::Success;
+  const std::string cut = runs.cut();
+  runtime::Run second = runs.run();
+  const auto resumed = second.keep(cut, settings);
+  REQUIRE(resumed);
+  CHECK(resumed->ticks == 3);
+  CHECK(resumed->seconds == Approx(0.2));
+  CHECK(resumed->gap >= 0);
+  CHECK(resumed->text.find("; 'Main/Parallel/a' counts as succeeded") != std::string::npos);
+  REQUIRE(resumed->leaves.size() == 2);
+  CHECK(resumed->leaves[0].node == 1);
+  CHECK(resumed->leaves[0].status == Status::Success);
+  CHECK(resumed->leaves[1].status == Status::Failure);
+  CHECK_FALSE(resumed->leaves[0].asked);
+  CHECK(error_in([&] { second.tick(0.1); }) == "the time is before that of the last tick");
+  std::uint64_t seen = 0;
+  second.on_tick([&](std::uint64_t tick, double, Status) { seen = tick; });
+  CHECK(second.tick(0.3) == Status::Failure);  // of b
+  CHECK(seen == 3);
+  CHECK(second.node(1).status == Status::Success);
+  CHECK_FALSE(second.not_kept());
+}
+
+TEST_CASE("a loop continues a run that is resumed") {
+  const KeptRuns runs("<Count ticks=\"6\"/>");
+  runtime::Run first = runs.run();
+  first.keep(runs.file());
+  for (int tick = 0; tick < 3; ++tick) first.tick(0.1 * tick);
+  runtime::Run second = runs.run();
+  const std::string cut = runs.cut();
+  REQUIRE(second.keep(cut));
+  runtime::LoopSettings loop;
+  loop.virtual_clock = true;
+  const runtime::LoopResult result = second.loop(loop);
+  CHECK(result.ticks == 9);  // it counts anew
+  CHECK(result.seconds == Approx(0.9));
+  CHECK_FALSE(runs.run().keep(cut));  // it has ended
+}
+
+TEST_CASE("a result, a halt and a restart are no cuts, but the next tick may be cut") {
+  const KeptRuns runs("<Count ticks=\"2\"/>");
+  const auto is_cut = [&] { return runs.run().keep(runs.cut()).has_value(); };
+  runtime::Run run = runs.run();
+  run.keep(runs.file());
+  CHECK_FALSE(is_cut());
+  run.tick(0);
+  CHECK(is_cut());
+  CHECK(run.tick(0.1) == Status::Success);
+  CHECK_FALSE(is_cut());
+  run.tick(0.2);
+  CHECK(is_cut());
+  run.halt();
+  CHECK_FALSE(is_cut());
+  run.tick(0.3);
+  CHECK(is_cut());
+  run.restart(0);
+  CHECK_FALSE(is_cut());
+  run.tick(0);
+  CHECK_FALSE(is_cut());  // it is not kept any more
+  run.restart(0);
+  CHECK_FALSE(run.keep(runs.file()));
+  run.tick(0);
+  CHECK(is_cut());
+}
+
+TEST_CASE("a leaf that breaks when it is restored ends the run, which may recover and is kept") {
+  const KeptRuns runs("<Breaks/>");
+  runtime::Run first = runs.run();
+  first.keep(runs.file());
+  first.tick(0);
+  const std::string cut = runs.cut();
+  {
+    runtime::Run run = runs.run();
+    CHECK(error_in([&] { run.keep(cut); }).find("the table is gone") != std::string::npos);
+    run.recover();
+    CHECK(run.tick(0.1) == Status::Running);
+    fs::copy_file(cut, runs.file() + "2");
+    runtime::Run third = runs.run();
+    CHECK(error_in([&] { third.keep(runs.file() + "2"); }).find("the table is gone") !=
+          std::string::npos);
+  }
+  CHECK_FALSE(runs.run().keep(cut));
+}
+
+TEST_CASE("a program keeps a run from its first tick on, once, and before it is watched") {
+  const KeptRuns runs("<Count ticks=\"9\"/>");
+  runtime::Run run = runs.run();
+  run.keep(runs.file());
+  CHECK(error_in([&] { run.keep(runs.file()); }) == "the run is kept already");
+  CHECK(error_in([&] { runs.run().keep(runs.file()); }).find("another run keeps its checkpoints") !=
+        std::string::npos);
+  runtime::Run ticked = runs.run();
+  ticked.tick(0);
+  CHECK(error_in([&] { ticked.keep(runs.file()); }) ==
+        "the run has been ticked already: it is kept from its first tick on");
+  runtime::Run watched = runs.run();
+  watched.monitor("0");
+  CHECK(error_in([&] { watched.keep(runs.file()); }) ==
+        "the run is watched already: keep it first");
+  runtime::KeepSettings settings;
+  settings.sync = -1;
+  CHECK(error_in([&] { runs.run().keep(runs.file(), settings); }) ==
+        "sync is not a number of seconds");
+  settings = {};
+  settings.on_resume = Status::Running;
+  CHECK(error_in([&] { runs.run().keep(runs.file(), settings); }) ==
+        "on_resume is not LOCKSTEP_IDLE, LOCKSTEP_SUCCESS or LOCKSTEP_FAILURE");
+  CHECK(error_in([&] { runs.run().keep("/no/such/folder/file"); }) != "no error");
+}
