@@ -156,6 +156,9 @@ def test_commit(directory):
         assert resumed.returncode == 0, resumed.stderr
         assert mission.log().count("it succeeds") == 1, (cut_at, mission.log())
         assert "halted" not in mission.log(), mission.log()
+        # From 0.5 s on it waits for the disk, and there is nothing that it could do again.
+        (told,) = re.findall("resumed after .*", resumed.stderr)
+        assert ("/it'" in told) == (cut_at == 0.4), told
 
 
 def test_what_the_element_says(directory):
