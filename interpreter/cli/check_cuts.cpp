@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "base/core/wording.h"
+#include "base/core/diagnostics.h"
 #include "base/terminal/text_table.h"
 #include "engine/compile.h"
 #include "run/checkpoint/run_bytes.h"
