@@ -1,6 +1,8 @@
 // Runs of a program that are kept in a file: what a program gets and must not do. That they
 // continue after a kill is in kept_test.py. Here a copy of the file stands for that of a process
 // that was killed.
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -50,8 +52,9 @@ class KeptRuns {
   KeptRuns(const KeptRuns&) = delete;
   KeptRuns& operator=(const KeptRuns&) = delete;
 
-  runtime::Run run() const {
+  runtime::Run run(decltype(runtime::RunSettings::log) log = {}) const {
     runtime::RunSettings settings;
+    settings.log = std::move(log);
     settings.tick_period = 0.1;
     settings.virtual_time = true;  // each tick is in the file
     return runtime::Run(project_, settings);
@@ -196,4 +199,34 @@ TEST_CASE("a program keeps a run from its first tick on, once, and before it is 
   CHECK(error_in([&] { runs.run().keep(runs.file(), settings); }) ==
         "on_resume is not LOCKSTEP_IDLE, LOCKSTEP_SUCCESS or LOCKSTEP_FAILURE");
   CHECK(error_in([&] { runs.run().keep("/no/such/folder/file"); }) != "no error");
+}
+
+TEST_CASE("a run whose state cannot be kept any more continues, and is not resumed") {
+  const KeptRuns runs(
+      "<Sequence memory=\"true\"><Script code=\"text := 'x'\"/><Count ticks=\"9\"/></Sequence>");
+  std::string logged;
+  runtime::Run run = runs.run([&](const std::string& who, lockstep::LogLevel,
+                                  const std::string& text) { logged += who + ": " + text + "\n"; });
+  run.keep(runs.file());
+  run.tick(0);
+  CHECK_FALSE(run.not_kept());
+  // The disk is full.
+  const auto before = signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit small{1 << 20, limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  run.set("text", std::string(4 << 20, 'x'));
+  CHECK(run.tick(0.1) == Status::Running);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  signal(SIGXFSZ, before);
+  REQUIRE(run.not_kept());
+  CHECK(run.not_kept()->find("the checkpoint has nothing after 1 tick: cannot write '") == 0);
+  CHECK(logged.find("lockstep: nothing is kept any more: cannot write '") == 0);
+  CHECK(run.tick(0.2) == Status::Running);
+  const std::string cut = runs.cut();
+  CHECK(error_in([&] { runs.run().keep(cut); }).find("' has no state of its run after 1 tick: ") !=
+        std::string::npos);
+  run.restart(0);
+  CHECK_FALSE(run.not_kept());
 }
