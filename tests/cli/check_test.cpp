@@ -67,7 +67,8 @@ TEST_CASE("check --checkpoint lists what leaves do after a cut") {
                        "<root lockstep=\"1\"><plugin name=\"cut\"/><BehaviorTree "
                        "ID=\"Main\"><Sequence memory=\"true\">" +
                            nodes + "</Sequence></BehaviorTree></root>");
-    return run_lockstep({"check", "--plugin-path", LOCKSTEP_BINARY_DIR "/tests/cli", option, tree});
+    return run_lockstep({"check", "--plugin-path", LOCKSTEP_BINARY_DIR "/tests/cli", "--plugin",
+                         LOCKSTEP_BINARY_DIR "/plugins/nav_control.so", option, tree});
   };
   const Outcome outcome = check(
       "<Wait seconds=\"1\"/><Move who=\"a\"/><Step name=\"again\"/>"
@@ -82,6 +83,10 @@ TEST_CASE("check --checkpoint lists what leaves do after a cut") {
   Main/Sequence/look   Step  counts as succeeded
   Main/Sequence/b      Move  continues, if it can
 )");
+  const Outcome below =
+      check("<RoundRobin><Move name=\"a\"/><Wait seconds=\"1\"/></RoundRobin>", "--checkpoint");
+  CHECK(contains(below.out, "Main/Sequence/RoundRobin    RoundRobin  starts again\n"));
+  CHECK(contains(below.out, "RoundRobin/a  Move        starts again with the node above it\n"));
   CHECK(contains(check("<Wait seconds=\"1\"/>").out, "ok\n  all of it continues after a cut\n"));
   CHECK_FALSE(contains(check("<Step/>", "--strict").out, "cut"));
   CHECK(check("<Stop/>").out.empty());
