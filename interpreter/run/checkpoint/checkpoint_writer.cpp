@@ -144,7 +144,7 @@ void CheckpointWriter::end(std::uint64_t ticks, Nanoseconds time) {
 }
 
 std::string CheckpointWriter::error() const {
-  return lost_.empty() ? file_->error() : lost_;
+  return lost_.empty() && !thread_.joinable() ? file_->error() : lost_;
 }
 
 std::string CheckpointWriter::last_bytes(Checkpoint::Kind kind, const std::string& note) const {

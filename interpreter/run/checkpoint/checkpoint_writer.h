@@ -52,7 +52,7 @@ class CheckpointWriter {
   // The run has ended in order, after so many ticks in all; `time` is that of the last one.
   void end(std::uint64_t ticks, Nanoseconds time);
 
-  // "" if there is no error.
+  // "" if there is no error. What the thread has found is known after the next tick.
   std::string error() const;
   // The last tick of which a checkpoint is on the disk, by the number of RunState; all, where
   // nothing is kept any more.
