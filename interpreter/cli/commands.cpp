@@ -31,16 +31,16 @@ extern const Command kRunCommand, kCheckCommand, kShowCommand, kDiffCommand, kNo
     kSchemaCommand, kConvertCommand, kPluginCommand, kLogCommand, kReplayCommand, kStudyCommand,
     kMonitorCommand, kCheckpointCommand, kAnswerCommand, kAttendCommand, kVerifyCommand,
     kTestCommand, kNewCommand, kFmtCommand, kLspCommand, kCompletionCommand, kManualCommand,
-    kDoctorCommand, kDocsCommand, kExamplesCommand, kMcpCommand;
+    kDoctorCommand, kDocsCommand, kExamplesCommand, kMcpCommand, kTeamCommand;
 
 std::span<const Command* const> commands() {
   static constexpr const Command* kAll[] = {
-      &kNewCommand,     &kRunCommand,    &kCheckCommand,  &kVerifyCommand,     &kTestCommand,
-      &kShowCommand,    &kDiffCommand,   &kNodesCommand,  &kSchemaCommand,     &kFmtCommand,
-      &kConvertCommand, &kPluginCommand, &kLogCommand,    &kReplayCommand,     &kStudyCommand,
-      &kMonitorCommand, &kAnswerCommand, &kAttendCommand, &kCheckpointCommand, &kLspCommand,
-      &kMcpCommand,     &kDoctorCommand, &kDocsCommand,   &kExamplesCommand,   &kCompletionCommand,
-      &kManualCommand};
+      &kNewCommand,        &kRunCommand,     &kCheckCommand,  &kVerifyCommand, &kTestCommand,
+      &kShowCommand,       &kDiffCommand,    &kNodesCommand,  &kSchemaCommand, &kFmtCommand,
+      &kConvertCommand,    &kPluginCommand,  &kLogCommand,    &kReplayCommand, &kStudyCommand,
+      &kTeamCommand,       &kMonitorCommand, &kAnswerCommand, &kAttendCommand, &kCheckpointCommand,
+      &kLspCommand,        &kMcpCommand,     &kDoctorCommand, &kDocsCommand,   &kExamplesCommand,
+      &kCompletionCommand, &kManualCommand};
   return kAll;
 }
 

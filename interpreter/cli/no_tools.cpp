@@ -9,9 +9,10 @@ extern const Command kShowCommand = absent("show"), kDiffCommand = absent("diff"
                      kLogCommand = absent("log"), kCheckpointCommand = absent("checkpoint"),
                      kReplayCommand = absent("replay"), kStudyCommand = absent("study"),
                      kVerifyCommand = absent("verify"), kTestCommand = absent("test"),
-                     kNewCommand = absent("new"), kFmtCommand = absent("fmt"),
-                     kLspCommand = absent("lsp"), kMcpCommand = absent("mcp"),
-                     kCompletionCommand = absent("completion"), kManualCommand = absent("manual"),
-                     kDocsCommand = absent("docs"), kExamplesCommand = absent("examples");
+                     kTeamCommand = absent("team"), kNewCommand = absent("new"),
+                     kFmtCommand = absent("fmt"), kLspCommand = absent("lsp"),
+                     kMcpCommand = absent("mcp"), kCompletionCommand = absent("completion"),
+                     kManualCommand = absent("manual"), kDocsCommand = absent("docs"),
+                     kExamplesCommand = absent("examples");
 
 }  // namespace lockstep::host

@@ -12,6 +12,7 @@
 #include "tree/expand/groups.h"
 #include "tree/expand/readings.h"
 #include "tree/expand/resources.h"
+#include "tree/expand/robots.h"
 #include "tree/expand/unused_trees.h"
 #include "tree/language_reader.h"
 
@@ -84,6 +85,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   trees.names_at_run_time |= options.opens_entries;
   trees.shares_entries |= options.opens_entries;
   trees.has_outside = options.has_outside;
+  trees.team_member = known.find(kTeamMember);
   const bool has_content = project.documents.front()->elements().size() > 1;
   const auto main = choose_main(trees, has_content, options, report);
   const bool is_expandable = check_references(trees, report);

@@ -75,7 +75,7 @@ class TreeReader {
 
   void read_child(std::uint32_t child) {
     constexpr std::string_view kKnown[] = {"BehaviorTree", "include", "TreeNodesModel", "plugin",
-                                           "arg",          "barrier", "resources"};
+                                           "arg",          "barrier", "resources",      "team"};
     const std::string_view tag = element(child).tag;
     if (tag == "BehaviorTree") return read_tree(child);
     const NodeType* const type = catalog_.find(tag);

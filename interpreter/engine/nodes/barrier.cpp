@@ -41,15 +41,7 @@ constexpr Parameter kBarrierParameters[] = {
 
 std::optional<RuleBreak> rule_of_barrier(const ParameterValues& given) {
   if (auto broken = pacing::check(given, kBarrierPace)) return broken;
-  const bool listed =
-      given.is_given(absolute::kBarriers) || given.is_given(absolute::kBarrierCount);
-  constexpr auto kOne = "give exactly one of 'barriers', 'barrier_count' and 'delta'";
-  if (listed && given.is_given(kBarrierDelta)) {
-    return RuleBreak{static_cast<int>(kBarrierDelta), "both barriers and 'delta' are given", kOne};
-  }
-  if (listed) return absolute::check_barriers(given);
-  if (given.is_given(kBarrierDelta)) return std::nullopt;
-  return RuleBreak{-1, "'barriers', 'barrier_count' or 'delta' is missing", kOne};
+  return absolute::check_limits(given, kBarrierDelta);
 }
 
 // The state of the barrier. Behind it is the progress of each member (child_numbers), and what else

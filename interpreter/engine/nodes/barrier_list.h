@@ -81,6 +81,17 @@ inline std::optional<RuleBreak> check_barriers(const ParameterValues& given) {
   return std::nullopt;
 }
 
+// The same of a node that may have 'delta' instead, at this place.
+inline std::optional<RuleBreak> check_limits(const ParameterValues& given, unsigned delta) {
+  const bool is_listed = given.is_given(kBarriers) || given.is_given(kBarrierCount);
+  constexpr auto kOne = "give exactly one of 'barriers', 'barrier_count' and 'delta'";
+  if (is_listed && given.is_given(delta))
+    return RuleBreak{static_cast<int>(delta), "both barriers and 'delta' are given", kOne};
+  if (is_listed) return check_barriers(given);
+  if (given.is_given(delta)) return std::nullopt;
+  return RuleBreak{-1, "'barriers', 'barrier_count' or 'delta' is missing", kOne};
+}
+
 // The smallest barrier that not everybody has passed; infinity when none is left. `place` is where
 // it is in the list. Most often it is where it was in the last tick.
 inline double current_barrier(std::span<const double> barriers, double least,

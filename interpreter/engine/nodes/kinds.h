@@ -9,7 +9,7 @@ extern const NodeKind kSequence, kFallback, kParallel, kParallelAbsolute, kParal
     kIfThenElse, kWhileDoElse, kSwitch;
 extern const NodeKind kInverter, kForceSuccess, kForceFailure, kRepeat, kRetry, kTimeout, kDelay,
     kCooldown, kRate, kRunOnce, kKeepRunningUntilFailure, kSubTree;
-extern const NodeKind kBarrier, kSyncProgress, kResources, kUseResources;
+extern const NodeKind kBarrier, kSyncProgress, kResources, kUseResources, kTeam, kInStep;
 extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kWaitUntil, kAsk,
     kScript, kCheck;
 
@@ -17,7 +17,7 @@ extern const NodeKind kAlwaysSuccess, kAlwaysFailure, kAlwaysRunning, kWait, kWa
 inline constexpr const NodeKind* kBuiltInKinds[] = {
     // Control nodes
     &kSequence, &kFallback, &kParallel, &kParallelAbsolute, &kParallelRelative, &kIfThenElse,
-    &kWhileDoElse, &kSwitch,
+    &kWhileDoElse, &kSwitch, &kInStep,
     // Decorators
     &kInverter, &kForceSuccess, &kForceFailure, &kRepeat, &kRetry, &kTimeout, &kDelay, &kCooldown,
     &kRate, &kRunOnce, &kKeepRunningUntilFailure, &kSyncProgress, &kUseResources, &kSubTree,
@@ -25,6 +25,6 @@ inline constexpr const NodeKind* kBuiltInKinds[] = {
     &kAlwaysSuccess, &kAlwaysFailure, &kAlwaysRunning, &kWait, &kWaitUntil, &kAsk, &kScript,
     &kCheck,
     // Beside the trees
-    &kBarrier, &kResources};
+    &kBarrier, &kResources, &kTeam};
 
 }  // namespace lockstep::host

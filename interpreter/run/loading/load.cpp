@@ -5,8 +5,10 @@
 #include <optional>
 #include <sstream>
 
+#include "base/core/pre_order.h"
 #include "engine/compile.h"
 #include "run/loading/tree_properties.h"
+#include "team/team_run.h"
 #include "tree/resolve.h"
 
 namespace lockstep::host {
@@ -30,6 +32,24 @@ RosPackages ros_packages(const LoadOptions& options) {
     }
   }
   return packages;
+}
+
+bool has_team(const Project& project) {
+  for (const auto& document : project.documents) {
+    const auto elements = document->elements();
+    for (const std::uint32_t child : children_in(elements, 0)) {
+      if (elements[child].tag == "team") return true;
+    }
+  }
+  return false;
+}
+
+// Several trees may share a set.
+bool add_team_plugin(PluginSet& plugins, Diagnostics& diagnostics) {
+  constexpr const char* kOrigin = "lockstep";
+  const auto there = plugins.list();
+  if (std::ranges::find(there, kOrigin, &PluginSet::Info::path) != there.end()) return true;
+  return plugins.add(team_plugin(), kOrigin, diagnostics);
 }
 
 tl::expected<Loaded, LoadFailure> load(std::unique_ptr<Project> project, const LoadOptions& options,
@@ -70,6 +90,7 @@ LoadedPlugins load_plugins(const Project* project, const LoadOptions& options,
   LoadedPlugins loaded{std::move(plugins)};
   loaded.are_all = load_given_plugins(options.plugins, *loaded.plugins, loaded.messages);
   if (project == nullptr) return loaded;
+  if (has_team(*project)) loaded.are_all &= add_team_plugin(*loaded.plugins, loaded.messages);
   const bool may_lack = options.unknown == MissingNodes::AreMocked;
   loaded.are_all &=
       load_requested_plugins(options.plugins, *project, *loaded.plugins, loaded.messages,

@@ -14,6 +14,7 @@
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
 #include "tree/expand/readings.h"
+#include "tree/expand/robots.h"
 #include "tree/expand/scope.h"
 #include "tree/types/literal.h"
 #include "tree/types/script_entries.h"
@@ -76,16 +77,19 @@ class Expander {
     if (checked.scripts != Port::kNone) {
       definition_.nodes[place].hooks = bind_hooks(checked.scripts, scope);
     }
+    const CheckedNode* team = nullptr;
     if (checked.type->category == NodeCategory::SubTree) {
       definition_.nodes[place].children = 1;
       enter_subtree(trees_.subtrees[checked.first], checked.name, place, scope);
     } else if (!checked.type->parameters.empty()) {
       definition_.nodes[place].first = bind_ports(checked, scope);
-      join_group(place, checked, scope);
+      const CheckedNode* const group = join_group(place, checked, scope);
+      if (group != nullptr && group->type->is_of_robots) team = group;
     }
     for (const std::uint32_t child : children_in(trees_.nodes, from)) {
       add(child, place, scope);
     }
+    if (team != nullptr) add_robots(definition_, trees_, *team, place, report_);
     definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());
   }
 
@@ -141,6 +145,13 @@ class Expander {
   void add_groups(Scope& scope) {
     for (std::size_t i = 0; i < trees_.groups.size(); ++i) {
       const CheckedNode& group = trees_.groups[i];
+      if (group.type->is_of_robots && members_[i].size() > 1 && !is_part_) {
+        report_.at("member-twice"_code, definition_.nodes[members_[i][1]].place,
+                   fmt::format("two nodes of '{}' are in step with the team '{}'",
+                               brief(definition_.id), brief(group.name)),
+                   "a robot is one member, once: declare a team for each");
+      }
+      if (group.type->is_of_robots && !members_[i].empty()) continue;
       if (members_[i].empty()) {
         if (is_part_ || report_.has_errors()) continue;  // it may be for want of what they refuse
         // A file that has a name declares it for a run alone, and a SubTree gives another one.
@@ -165,7 +176,7 @@ class Expander {
   }
 
   // Adds a node to the group that one of its parameters names, if there is such a parameter.
-  void join_group(std::uint32_t place, const CheckedNode& checked, Scope& scope) {
+  const CheckedNode* join_group(std::uint32_t place, const CheckedNode& checked, Scope& scope) {
     const auto& parameters = checked.type->parameters;
     for (std::uint32_t i = 0; i < parameters.size(); ++i) {
       const CheckedPort& port = trees_.ports[checked.first + i];
@@ -175,11 +186,13 @@ class Expander {
       const auto group = groups_.find(name);
       if (group != groups_.end() && trees_.groups[group->second].type->id == parameters[i].group) {
         members_[group->second].push_back(place);
-      } else if (unknown_groups_.emplace(port.place.byte, name).second) {
-        unknown_group(parameters[i], port.place, written, name);
+        return &trees_.groups[group->second];
       }
-      return;
+      if (unknown_groups_.emplace(port.place.byte, name).second)
+        unknown_group(parameters[i], port.place, written, name);
+      break;
     }
+    return nullptr;
   }
 
   void unknown_group(const Parameter& parameter, Place place, std::string_view written,

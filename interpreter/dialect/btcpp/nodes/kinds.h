@@ -24,12 +24,12 @@ inline constexpr const NodeKind* kKinds[] = {
     &kRepeat, &kRetryUntilSuccessful, &lockstep::host::kKeepRunningUntilFailure, &kRunOnce, &kDelay,
     &kTimeout, &kPrecondition, &kSkipUnlessUpdated, &kWaitValueUpdate, &kLoopInt, &kLoopBool,
     &kLoopDouble, &kLoopString, &lockstep::host::kSyncProgress, &lockstep::host::kUseResources,
-    &lockstep::host::kSubTree,
+    &lockstep::host::kInStep, &lockstep::host::kSubTree,
     // Leaves
     &lockstep::host::kAlwaysSuccess, &lockstep::host::kAlwaysFailure, &kSleep,
     &lockstep::host::kScript, &kScriptCondition, &kSetBlackboard, &kUnsetBlackboard,
     &kWasEntryUpdated, &lockstep::host::kWaitUntil,
     // Beside the trees
-    &lockstep::host::kBarrier, &lockstep::host::kResources};
+    &lockstep::host::kBarrier, &lockstep::host::kResources, &lockstep::host::kTeam};
 
 }  // namespace lockstep::host::btcpp

@@ -1,0 +1,101 @@
+// A robot as a member of a team: which round of it the robot does, and what it knows of the others.
+// This is the law of docs/team.md, without a network, a clock and a tree: whoever owns it gives it
+// what is heard, and what its own tree does. One thread at a time; nothing allocates after the
+// constructor.
+//
+// A round is what the team does once in step. It is completed by each member for itself, and
+// counted, so that what was heard of an earlier one opens nothing:
+//
+//   A member that begins its InStep does the round behind the last one that it has completed. A new
+//   process has completed none: once it has heard all others, it does the earliest of their rounds.
+//   A failure or a halt ends no round: the member does the same one again, from 0.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/core/clock.h"
+#include "team/word.h"
+
+namespace lockstep::host {
+
+// What a team is in the tree of one of its members.
+struct TeamDeclaration {
+  std::string team, self;
+  std::vector<std::string> others;
+  std::uint64_t hash = 0;
+  Nanoseconds deadline{0};  // 0: kPeriodsOfSilence of the slowest member
+  Nanoseconds period{0};    // of the own ticks
+};
+
+inline constexpr int kPeriodsOfSilence = 5;
+
+class TeamMember {
+ public:
+  TeamMember(TeamDeclaration declaration, std::uint64_t run);
+
+  const TeamDeclaration& declaration() const { return declaration_; }
+
+  // What is known of another member now. Only those that are InRound have a progress.
+  enum class Where : std::uint8_t {
+    InRound,
+    NotBegun,   // heard, and not in this round
+    Passed,     // it has completed this round
+    Unheard,    // since this process began
+    Silent,     // not since the deadline
+    Contested,  // two robots have its name, or it contradicts itself
+    Stranger,   // its tree declares the team in another way
+  };
+  struct Known {
+    Where where = Where::Unheard;
+    double progress = 0;
+    Nanoseconds age{0};  // since it was heard last; of one that was
+  };
+  static bool is_known(Where where) { return where <= Where::Passed; }
+
+  // What another one, by its place in `others`, has said, which was received at `at`. Those that
+  // are older than what is known of the run change nothing.
+  void hear(std::size_t other, const TeamWord& word, Nanoseconds at);
+  // A word of the own name, which may be that of another robot.
+  void hear_own_name(const TeamWord& word, Nanoseconds at);
+
+  // At the beginning of each tick, with its time on the same clock. Then `known` is of this tick.
+  void look(Nanoseconds now);
+  const Known& known(std::size_t other) const { return others_[other].known; }
+  // Another robot has the own name.
+  bool is_contested() const { return is_contested_; }
+
+  // After a tick: whether the own InStep runs, with its child's progress, and how it has ended in
+  // this tick, if it has.
+  enum class End : std::uint8_t { None, Success, Other };
+  void set_own(bool is_in, double progress, End end);
+  // What to say.
+  TeamWord word();
+
+  std::uint32_t round() const { return own_.round; }
+
+ private:
+  struct Run {
+    TeamWord word;
+    Nanoseconds at{0};
+  };
+  struct Other {
+    std::optional<Run> last, before;       // the run that was heard last, and the one before it
+    std::optional<Nanoseconds> contested;  // when two were last heard
+    Known known;
+  };
+  Where where_of(const Other& other, Nanoseconds now) const;
+  void join();
+  void follow();
+
+  const TeamDeclaration declaration_;
+  TeamWord own_;
+  std::vector<Other> others_;
+  Nanoseconds deadline_{0};
+  std::optional<Nanoseconds> own_name_heard_;
+  bool is_contested_ = false;
+};
+
+}  // namespace lockstep::host

@@ -1,0 +1,126 @@
+#include "team/simulated_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep::host {
+
+Turns::Turns(std::size_t runs) : turns_(runs) {}
+
+bool Turns::has_turn(std::size_t run) const {
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    if (i == run || turns_[i].is_over) continue;
+    if (turns_[i].next < turns_[run].next || (i < run && turns_[i].next == turns_[run].next))
+      return false;
+  }
+  return true;
+}
+
+void Turns::enter(std::size_t run, Nanoseconds begin) {
+  wait(run, begin);
+}
+
+void Turns::wait(std::size_t run, Nanoseconds until) {
+  std::unique_lock lock(mutex_);
+  Turn& turn = turns_[run];
+  turn.next = std::max(until, turn.now);
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return has_turn(run); });
+  turn.now = turn.next;
+}
+
+void Turns::leave(std::size_t run) {
+  const std::scoped_lock lock(mutex_);
+  turns_[run].is_over = true;
+  changed_.notify_all();
+}
+
+Nanoseconds Turns::now(std::size_t run) {
+  const std::scoped_lock lock(mutex_);
+  return turns_[run].now;
+}
+
+class SimulatedNetwork::Link final : public TeamTransport {
+ public:
+  Link(SimulatedNetwork& network, std::vector<TeamDeclaration> teams, Clock& clock)
+      : network_(network), teams_(std::move(teams)), last_(teams_.size()), clock_(clock) {}
+
+  bool take(HeardWord& into) override {
+    if (coming_.empty() || coming_.front().at > clock_.now()) return false;
+    into = coming_.front();
+    coming_.pop_front();
+    return true;
+  }
+  void say(std::uint32_t team, const TeamWord& word) override {
+    last_[team] = word;
+    network_.say(*this, team, word);
+  }
+
+  const std::vector<TeamDeclaration>& teams() const { return teams_; }
+  const TeamWord& last(std::size_t team) const { return last_[team]; }
+  Nanoseconds now() const { return clock_.now(); }
+  // Words of one link may come in another order than they were said.
+  void add(const HeardWord& word) {
+    const auto place = std::ranges::upper_bound(coming_, word.at, {}, &HeardWord::at);
+    coming_.insert(place, word);
+  }
+
+ private:
+  SimulatedNetwork& network_;
+  const std::vector<TeamDeclaration> teams_;
+  std::vector<TeamWord> last_;
+  Clock& clock_;
+  std::deque<HeardWord> coming_;
+};
+
+SimulatedNetwork::SimulatedNetwork(const NetworkOptions& options)
+    : options_(options), random_(options.seed, 0) {}
+SimulatedNetwork::~SimulatedNetwork() = default;
+
+TeamTransport& SimulatedNetwork::join(const std::vector<TeamDeclaration>& teams, Clock& clock) {
+  return *links_.emplace_back(std::make_unique<Link>(*this, teams, clock));
+}
+
+void SimulatedNetwork::say(const Link& from, std::uint32_t team, const TeamWord& word) {
+  const TeamDeclaration& own = from.teams()[team];
+  measure(own);
+  const Nanoseconds now = from.now();
+  const bool is_cut = std::ranges::any_of(
+      options_.cuts, [&](const auto& it) { return it.from <= now && now < it.until; });
+  for (const auto& link : links_) {
+    if (link.get() == &from) continue;
+    const double luck = random_.next_double();
+    const Nanoseconds more = from_seconds(to_seconds(options_.jitter) * random_.next_double());
+    if (is_cut || luck < options_.loss) continue;
+    for (std::uint32_t i = 0; i < link->teams().size(); ++i) {
+      const TeamDeclaration& theirs = link->teams()[i];
+      if (theirs.team != own.team) continue;
+      const auto other = std::ranges::find(theirs.others, own.self);
+      const bool is_same = theirs.self == own.self;
+      if (other == theirs.others.end() && !is_same) continue;
+      const auto place = static_cast<std::uint32_t>(other - theirs.others.begin());
+      link->add({.team = i,
+                 .member = is_same ? HeardWord::kOwnName : place,
+                 .word = word,
+                 .at = now + options_.latency + more});
+    }
+  }
+}
+
+void SimulatedNetwork::measure(const TeamDeclaration& team) {
+  std::vector<const TeamWord*> in;
+  for (const auto& link : links_) {
+    for (std::size_t i = 0; i < link->teams().size(); ++i) {
+      if (link->teams()[i].team == team.team && link->last(i).is_in) in.push_back(&link->last(i));
+    }
+  }
+  for (const TeamWord* one : in) {
+    for (const TeamWord* other : in) {
+      if (one->round != other->round) continue;
+      largest_spread_ = std::max(largest_spread_, std::abs(one->progress - other->progress));
+    }
+  }
+}
+
+}  // namespace lockstep::host

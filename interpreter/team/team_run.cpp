@@ -1,0 +1,264 @@
+#include "team/team_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "engine/tree.h"
+#include "lockstep/ext/behavior.h"
+#include "lockstep/ext/reason.h"
+#include "lockstep/leaf.h"
+
+namespace lockstep::host {
+namespace {
+
+thread_local TeamRun* run_here = nullptr;
+
+enum Port : std::uint32_t { kTeamName, kSelf, kMemberName, kDeclaration, kDeadline, kPorts };
+
+// --- the leaf
+// -------------------------------------------------------------------------------------
+
+struct RobotLeaf {
+  const lockstep_host* host;
+  const lockstep_caller* caller;
+  const lockstep_reason* reason;
+  const TeamMember* team;  // null: the run has none
+  std::size_t other;       // its place there
+};
+
+std::string_view text_of(const lockstep_host& host, const lockstep_caller* caller, Port port) {
+  const char* text = "";
+  std::size_t size = 0;
+  host.get_string(caller, port, &text, &size);
+  return {text, size};
+}
+
+void* create_robot(const lockstep_host* host, const lockstep_caller* caller, void*) {
+  auto* const leaf = new RobotLeaf{
+      host, caller, static_cast<const lockstep_reason*>(host->get_extension(LOCKSTEP_REASON)),
+      nullptr, 0};
+  if (run_here == nullptr) return leaf;
+  leaf->team = run_here->member(text_of(*host, caller, kTeamName));
+  if (leaf->team == nullptr) return leaf;
+  const auto& others = leaf->team->declaration().others;
+  const auto it = std::ranges::find(others, text_of(*host, caller, kMemberName));
+  leaf->other = static_cast<std::size_t>(it - others.begin());
+  return leaf;
+}
+
+void destroy_robot(void* self) {
+  delete static_cast<RobotLeaf*>(self);
+}
+
+// Without an allocation: it is said in each tick of a silence.
+void say_silence(const RobotLeaf& leaf, Nanoseconds age) {
+  char text[64];
+  const auto end =
+      fmt::format_to_n(text, sizeof text - 1, "not heard for {:.1f} s", to_seconds(age));
+  *end.out = '\0';
+  leaf.reason->say(leaf.caller, text);
+}
+
+lockstep_status tick_robot(void* self) {
+  const RobotLeaf& leaf = *static_cast<const RobotLeaf*>(self);
+  using Where = TeamMember::Where;
+  if (leaf.team == nullptr) {
+    leaf.reason->say(leaf.caller, "this run is not connected with a team");
+    return LOCKSTEP_FAILURE;
+  }
+  if (leaf.team->is_contested()) {
+    leaf.reason->say(leaf.caller, "another robot has the name of this one");
+    return LOCKSTEP_FAILURE;
+  }
+  const TeamMember::Known& known = leaf.team->known(leaf.other);
+  switch (known.where) {
+    case Where::InRound:
+      return LOCKSTEP_RUNNING;
+    case Where::NotBegun:
+      return LOCKSTEP_SKIPPED;
+    case Where::Passed:
+      return LOCKSTEP_SUCCESS;
+    case Where::Unheard:
+      leaf.reason->say(leaf.caller, "not heard yet");
+      return LOCKSTEP_FAILURE;
+    case Where::Silent:
+      say_silence(leaf, known.age);
+      return LOCKSTEP_FAILURE;
+    case Where::Contested:
+      leaf.reason->say(leaf.caller, "two robots have this name, or it contradicts itself");
+      return LOCKSTEP_FAILURE;
+    case Where::Stranger:
+      leaf.reason->say(leaf.caller, "its tree declares the team in another way");
+      return LOCKSTEP_FAILURE;
+  }
+  return LOCKSTEP_FAILURE;
+}
+
+double robot_progress(void* self) {
+  const RobotLeaf& leaf = *static_cast<const RobotLeaf*>(self);
+  return leaf.team == nullptr ? 0.0 : leaf.team->known(leaf.other).progress;
+}
+
+constexpr lockstep_port text_port(const char* name, const char* doc) {
+  lockstep_port port{};
+  port.struct_size = sizeof port;
+  port.type = LOCKSTEP_STRING;
+  port.direction = LOCKSTEP_INPUT;
+  port.name = name;
+  port.doc = doc;
+  return port;
+}
+
+const lockstep_port kRobotPorts[] = {
+    text_port("team", "The team."), text_port("as", "The member that this robot is."),
+    text_port("member", "The member that the node stands for."),
+    text_port("declaration", "How the tree declares the team."), [] {
+      lockstep_port port = text_port("deadline", "When it is silent; 0: five periods.");
+      port.type = LOCKSTEP_DOUBLE;
+      port.unit = "s";
+      return port;
+    }()};
+const lockstep_port* const kRobotPortList[] = {&kRobotPorts[0], &kRobotPorts[1], &kRobotPorts[2],
+                                               &kRobotPorts[3], &kRobotPorts[4]};
+static_assert(std::size(kRobotPortList) == kPorts);
+
+// For verify: another robot may do anything.
+constexpr lockstep_behavior kAnything[] = {{"result", "success;failure;skipped"}};
+
+const lockstep_leaf_type kRobotType = [] {
+  lockstep_leaf_type type{};
+  type.struct_size = sizeof type;
+  type.kind = LOCKSTEP_ACTION;
+  type.id = "TeamMember";
+  type.doc = "Stands for another robot of a team, behind the child of an InStep.";
+  type.port_count = kPorts;
+  type.ports = kRobotPortList;
+  type.create = create_robot;
+  type.destroy = destroy_robot;
+  type.tick = tick_robot;
+  type.progress = robot_progress;
+  type.behavior_count = std::size(kAnything);
+  type.behavior = kAnything;
+  return type;
+}();
+const lockstep_leaf_type* const kRobotTypes[] = {&kRobotType};
+
+// A plugin set has a table of its own for each plugin.
+bool is_robot(const LeafNode& leaf) {
+  return leaf.type->leaf->tick == tick_robot;
+}
+
+std::string text_of(const Tree& tree, const LeafNode& leaf, Port port) {
+  const PortBinding& binding = tree.ports[leaf.first_port + port];
+  return std::get<std::string>(tree.constants[binding.constant]);
+}
+
+}  // namespace
+
+const lockstep_plugin& team_plugin() {
+  static const lockstep_plugin plugin = [] {
+    lockstep_plugin it{};
+    it.abi_major = LOCKSTEP_ABI_MAJOR;
+    it.abi_minor = LOCKSTEP_ABI_MINOR;
+    it.struct_size = sizeof it;
+    it.name = "team";
+    it.doc = "The other robots of a team.";
+    it.leaf_type_count = 1;
+    it.leaf_types = kRobotTypes;
+    return it;
+  }();
+  return plugin;
+}
+
+std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period) {
+  std::vector<TeamDeclaration> teams;
+  for (const LeafNode& leaf : tree.leaves) {
+    if (!is_robot(leaf)) continue;
+    const std::string team = text_of(tree, leaf, kTeamName);
+    if (teams.empty() || teams.back().team != team) {
+      const std::string declaration = text_of(tree, leaf, kDeclaration);
+      const PortBinding& deadline = tree.ports[leaf.first_port + kDeadline];
+      teams.push_back(
+          {.team = team,
+           .self = text_of(tree, leaf, kSelf),
+           .others = {},
+           .hash = hash_of_declaration(team + '\n' + declaration),
+           .deadline = from_seconds(std::get<double>(tree.constants[deadline.constant])),
+           .period = period});
+    }
+    teams.back().others.push_back(text_of(tree, leaf, kMemberName));
+  }
+  return teams;
+}
+
+TeamRun::TeamRun(const Tree& tree, std::span<const TeamDeclaration> teams, std::uint64_t run,
+                 TeamTransport& transport, Clock& clock)
+    : transport_(transport), clock_(clock), column_(tree.nodes.size()) {
+  auto it = teams.begin();
+  NodeIndex around = 0;
+  for (const LeafNode& leaf : tree.leaves) {
+    if (!is_robot(leaf)) continue;
+    const NodeIndex parent = tree.labels[leaf.node].parent;
+    if (std::exchange(around, parent) == parent) continue;
+    teams_.push_back({TeamMember(*it++, run), parent});
+  }
+}
+
+TeamRun::~TeamRun() {
+  if (run_here == this) run_here = nullptr;
+}
+
+void TeamRun::use_here() {
+  run_here = this;
+}
+
+const TeamMember* TeamRun::member(std::string_view team) const {
+  for (const Team& it : teams_) {
+    if (it.member.declaration().team == team) return &it.member;
+  }
+  return nullptr;
+}
+
+AskedOfRun TeamRun::asked() const {
+  return {.within = true};
+}
+
+void TeamRun::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
+  for (HeardWord heard; transport_.take(heard);) {
+    TeamMember& member = teams_[heard.team].member;
+    heard.member == HeardWord::kOwnName ? member.hear_own_name(heard.word, heard.at)
+                                        : member.hear(heard.member, heard.word, heard.at);
+  }
+  const Nanoseconds now = clock_.now();
+  for (Team& it : teams_) it.member.look(now);
+}
+
+void TeamRun::after_tick(const Moment& moment, const TickReport&) {
+  for (Team& it : teams_) {
+    auto end = TeamMember::End::None;
+    const auto look = [&](NodeState state) {
+      if (state.ticked() && state.status() == Status::Success) end = TeamMember::End::Success;
+    };
+    moment.within.each_part(
+        column_, [&](std::span<const NodeState> states, bool, bool) { look(states[it.node]); });
+    if (moment.ticked(it.node) && moment.has_succeeded(it.node)) end = TeamMember::End::Success;
+    const bool is_in = moment.status(it.node) == Status::Running;
+    it.member.set_own(is_in, is_in ? moment.used(it.node)[0] : 0.0, end);
+  }
+  say(moment);
+}
+
+void TeamRun::run_ended(const Moment& moment, const RunEnd&) {
+  for (Team& it : teams_) it.member.set_own(false, 0.0, TeamMember::End::None);
+  say(moment);
+}
+
+void TeamRun::say(const Moment&) {
+  for (std::uint32_t i = 0; i < teams_.size(); ++i) transport_.say(i, teams_[i].member.word());
+}
+
+}  // namespace lockstep::host

@@ -1,0 +1,58 @@
+// The teams of one run: gives its members what the transport has heard, before each tick, and says
+// how far the own tree is, after it. The leaves that stand for other robots ask it.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "team/member.h"
+#include "team/transport.h"
+#include "trace/observer.h"
+
+struct lockstep_plugin;
+
+namespace lockstep::host {
+
+struct Tree;
+
+// The teams that the tree declares, in the order of their nodes; `period` is that of its ticks.
+std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period);
+
+// The plugin with the leaf TeamMember, which stands for another robot. It is in a project that has
+// a team.
+const lockstep_plugin& team_plugin();
+
+class TeamRun final : public Observer {
+ public:
+  // All must outlive this. `run` is a random number.
+  TeamRun(const Tree& tree, std::span<const TeamDeclaration> teams, std::uint64_t run,
+          TeamTransport& transport, Clock& clock);
+  ~TeamRun() override;
+
+  // The leaves that are made in this thread from now on are those of this run. Without one, they
+  // hear nobody.
+  void use_here();
+
+  const TeamMember* member(std::string_view team) const;
+
+  AskedOfRun asked() const override;
+  void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
+  void after_tick(const Moment& moment, const TickReport& report) override;
+  void run_ended(const Moment& moment, const RunEnd& end) override;
+
+ private:
+  struct Team {
+    TeamMember member;
+    NodeIndex node;  // that is in step
+  };
+  void say(const Moment& moment);
+
+  std::vector<Team> teams_;
+  TeamTransport& transport_;
+  Clock& clock_;
+  std::vector<NodeState> column_;
+};
+
+}  // namespace lockstep::host
