@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -26,28 +26,32 @@ struct RobotLeaf {
   const lockstep_host* host;
   const lockstep_caller* caller;
   const lockstep_reason* reason;
-  const TeamMember* team;  // null: the run has none
+  const TeamRun* run;      // null: none
+  const TeamMember* team;  // of it; null: not looked for yet, or the run has none
   std::size_t other;       // its place there
 };
 
-std::string_view text_of(const lockstep_host& host, const lockstep_caller* caller, Port port) {
+std::string_view text_of(const RobotLeaf& leaf, Port port) {
   const char* text = "";
   std::size_t size = 0;
-  host.get_string(caller, port, &text, &size);
+  leaf.host->get_string(leaf.caller, port, &text, &size);
   return {text, size};
 }
 
 void* create_robot(const lockstep_host* host, const lockstep_caller* caller, void*) {
-  auto* const leaf = new RobotLeaf{
-      host, caller, static_cast<const lockstep_reason*>(host->get_extension(LOCKSTEP_REASON)),
-      nullptr, 0};
-  if (run_here == nullptr) return leaf;
-  leaf->team = run_here->member(text_of(*host, caller, kTeamName));
-  if (leaf->team == nullptr) return leaf;
-  const auto& others = leaf->team->declaration().others;
-  const auto it = std::ranges::find(others, text_of(*host, caller, kMemberName));
-  leaf->other = static_cast<std::size_t>(it - others.begin());
-  return leaf;
+  const void* const reason = host->get_extension(LOCKSTEP_REASON);
+  return new RobotLeaf{host,     caller,  static_cast<const lockstep_reason*>(reason),
+                       run_here, nullptr, 0};
+}
+
+// Ports have values from the first tick on.
+void find_team(RobotLeaf& leaf) {
+  if (leaf.team != nullptr || leaf.run == nullptr) return;
+  leaf.team = leaf.run->member(text_of(leaf, kTeamName));
+  if (leaf.team == nullptr) return;
+  const auto& others = leaf.team->declaration().others;
+  const auto it = std::ranges::find(others, text_of(leaf, kMemberName));
+  leaf.other = static_cast<std::size_t>(it - others.begin());
 }
 
 void destroy_robot(void* self) {
@@ -64,8 +68,9 @@ void say_silence(const RobotLeaf& leaf, Nanoseconds age) {
 }
 
 lockstep_status tick_robot(void* self) {
-  const RobotLeaf& leaf = *static_cast<const RobotLeaf*>(self);
+  RobotLeaf& leaf = *static_cast<RobotLeaf*>(self);
   using Where = TeamMember::Where;
+  find_team(leaf);
   if (leaf.team == nullptr) {
     leaf.reason->say(leaf.caller, "this run is not connected with a team");
     return LOCKSTEP_FAILURE;
@@ -199,11 +204,11 @@ TeamRun::TeamRun(const Tree& tree, std::span<const TeamDeclaration> teams, std::
                  TeamTransport& transport, Clock& clock)
     : transport_(transport), clock_(clock), column_(tree.nodes.size()) {
   auto it = teams.begin();
-  NodeIndex around = 0;
+  std::optional<NodeIndex> around;  // the node that the last one was in
   for (const LeafNode& leaf : tree.leaves) {
     if (!is_robot(leaf)) continue;
     const NodeIndex parent = tree.labels[leaf.node].parent;
-    if (std::exchange(around, parent) == parent) continue;
+    if (std::exchange(around, std::optional(parent)) == parent) continue;
     teams_.push_back({TeamMember(*it++, run), parent});
   }
 }

@@ -16,6 +16,7 @@
 #include "cli/load/given_leaves.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
+#include "cli/run/connected_team.h"
 #include "cli/run/keep.h"
 #include "cli/run/mcap_recording.h"
 #include "cli/run/progress_notes.h"
@@ -206,6 +207,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
                    : options_.is_real() ? static_cast<Clock&>(wall_clock)
                                         : virtual_clock;
     if (plugin_clock_) wait_for_time();
+    if (!connect_team()) return std::nullopt;
     RunEnd end;
     std::vector<Fault> in_last_halt;
     {
@@ -219,6 +221,22 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     if (end.fault) print_error(describe(*end.fault, shape_, end));
     for (const Fault& fault : in_last_halt) print_error(describe(fault, shape_, end));
     return end;
+  }
+
+  // Before its leaves are made.
+  bool connect_team() {
+    auto team = ConnectedTeam::open(options_, tree_, [this](const std::string& line) {
+      log("team", line);
+      view_.print("warning: " + line);
+    });
+    if (!team) {
+      view_.close();
+      print_error(team.error().message, team.error().hint);
+      return false;
+    }
+    team_ = std::move(*team);
+    if (team_ != nullptr) team_->run().use_here();
+    return true;
   }
 
   bool begin_to_keep(Run& run) {
@@ -395,6 +413,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   std::span<Observer* const> observers() {
     observers_ = {&statistics_, &repeated_halts_};
+    if (team_ != nullptr) observers_.push_back(&team_->run());
     if (standstills_) observers_.push_back(&*standstills_);  // before those that it tells
     if (properties_) observers_.push_back(&*properties_);    // likewise
     if (recorder_) observers_.push_back(&*recorder_);
@@ -456,6 +475,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   std::optional<PropertyObserver> properties_;
   std::optional<StallFail> stall_fail_;
   std::optional<ServiceNotice> service_;
+  std::unique_ptr<ConnectedTeam> team_;  // null: the tree is in none
   LineBudget standstill_budget_{ConsolePlain::kBurstOfFaults};
   std::vector<Observer*> observers_;
 };

@@ -327,6 +327,20 @@ void define_view_options(CLI::App& app, RunCommandOptions& options) {
                "it ends: for a service with Type=notify");
 }
 
+void define_team_options(CLI::App& app, TeamNetworkOptions& options) {
+  app.add_option("--team-domain", options.domain,
+                 "Robots of a team hear only those with the same number: the domain of DDS")
+      ->transform(whole_number(0, 230))
+      ->capture_default_str();
+  app.add_option(
+      "--team-peer", options.peers,
+      "The address of another robot of the team, where multicast does not find it; may be "
+      "repeated");
+  app.add_option("--team-interface", options.interface,
+                 "The network interface to the team (default: the system chooses)")
+      ->type_name("NAME");
+}
+
 // What one expert needs, or needs once.
 constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--hang-limit",
@@ -366,7 +380,10 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--monitor-open",
                                       "--monitor-linger",
                                       "--groot2-control",
-                                      "--notify"};
+                                      "--notify",
+                                      "--team-domain",
+                                      "--team-peer",
+                                      "--team-interface"};
 
 }  // namespace
 
@@ -424,6 +441,7 @@ void define_run_options(CLI::App& app, RunCommandOptions& options) {
   define_record_options(app, options);
   define_checkpoint_options(app, options);
   define_view_options(app, options);
+  define_team_options(app, options.team);
   only_in_help_all(app, kOfExperts);
 }
 

@@ -12,6 +12,7 @@
 #include "run/kept_run.h"
 #include "run/loop.h"
 #include "run/realtime.h"
+#include "team/network.h"
 
 namespace lockstep::host {
 
@@ -66,6 +67,8 @@ struct RunCommandOptions {
   bool begins_paused = false;
   std::optional<double> monitor_linger = {};  // s
   bool opens_browser = false;
+
+  TeamNetworkOptions team;
 
   std::optional<std::string> groot2;  // where Groot2 finds it; none: nowhere
   bool groot2_control = false;        // it may pause the run

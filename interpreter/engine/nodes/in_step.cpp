@@ -88,7 +88,9 @@ double take_snapshot(NodeContext& context, NodeIndex self) {
   std::size_t place = 1;
   for (NodeIndex other = context.end_of(self + 1); other != context.end_of(self);
        other = context.end_of(other)) {
-    progress[place++] = context.progress(other);
+    // Of one that is not heard it stays as it was.
+    if (context.status(other) != Status::Failure) progress[place] = context.progress(other);
+    ++place;
   }
   return least_progress(progress);
 }

@@ -17,12 +17,13 @@ namespace lockstep::host {
 namespace {
 
 // Where lockstep-leafhost is: beside this program in a build directory, else where it is installed.
-std::string leafhost_path(const PluginOptions& options) {
+// Beside the program, or where it is installed with it.
+std::string installed_file(const PluginOptions& options, const char* name) {
   const auto directory = program_directory(options);
-  const auto beside = directory / "lockstep-leafhost";
   std::error_code error;
-  if (std::filesystem::exists(beside, error)) return beside.string();
-  return (directory / LOCKSTEP_LEAFHOST_FROM_BIN).lexically_normal().string();
+  if (std::filesystem::exists(directory / name, error)) return (directory / name).string();
+  const auto leafhost = directory / LOCKSTEP_LEAFHOST_FROM_BIN;
+  return leafhost.lexically_normal().replace_filename(name).string();
 }
 
 Hold hold_of(std::string_view word) {
@@ -62,9 +63,13 @@ bool is_plugin_file(const std::string& plugin) {
   return plugin.find('/') != std::string::npos || plugin.ends_with(".so");
 }
 
+std::string team_module(const PluginOptions& options) {
+  return installed_file(options, "lockstep-team.so");
+}
+
 IsolationOptions isolation_options(const PluginOptions& options) {
   const bool is_limited = options.halt_limit > 0;
-  return {.leafhost = leafhost_path(options),
+  return {.leafhost = installed_file(options, "lockstep-leafhost"),
           .hang_limit = from_seconds(options.hang_limit),
           .halt_limit = is_limited ? std::optional(from_seconds(options.halt_limit)) : std::nullopt,
           .condition_wait = limit_of(options.condition_wait),

@@ -30,6 +30,9 @@ struct PluginOptions {
   std::string program_directory;
 };
 
+// The module that reaches the robots of a team: team/network.h.
+std::string team_module(const PluginOptions& options);
+
 IsolationOptions isolation_options(const PluginOptions& options);
 
 // Whether a plugin is given as a file, and not as a name to search for.

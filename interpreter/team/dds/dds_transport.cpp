@@ -1,0 +1,260 @@
+// Words of a team over DDS (Cyclone DDS): a topic with a key, of which each member is an instance.
+// Reliable, and the last word of each is kept for those that come later.
+#include <dds/dds.h>
+#include <fmt/format.h>
+#include <semaphore.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/core/triple_buffer.h"
+#include "team.h"
+#include "team/network.h"
+
+namespace lockstep::host {
+namespace {
+
+using Sample = lockstep_msgs_msg_dds__TeamMember_;
+
+constexpr const char* kTopic = "rt/lockstep/team";
+constexpr dds_duration_t kLongestLook = DDS_MSECS(100);
+
+// From one thread to another. What does not fit is left out: a newer word comes.
+class Ring {
+ public:
+  void push(const HeardWord& word) {
+    const auto end = end_.load(std::memory_order_relaxed);
+    if (end - begin_.load(std::memory_order_acquire) == words_.size()) return;
+    words_[end % words_.size()] = word;
+    end_.store(end + 1, std::memory_order_release);
+  }
+  bool pop(HeardWord& into) {
+    const auto begin = begin_.load(std::memory_order_relaxed);
+    if (begin == end_.load(std::memory_order_acquire)) return false;
+    into = words_[begin % words_.size()];
+    begin_.store(begin + 1, std::memory_order_release);
+    return true;
+  }
+
+ private:
+  std::array<HeardWord, 4096> words_;
+  std::atomic<std::size_t> begin_{0}, end_{0};
+};
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char it : text) {
+    if (it == '<' || it == '&' || it == '"')
+      out += fmt::format("&#{};", static_cast<int>(it));
+    else
+      out += it;
+  }
+  return out;
+}
+
+std::string config_of(const TeamNetworkOptions& options) {
+  std::string config;
+  if (!options.interface.empty() || !options.peers.empty()) {
+    std::string general, discovery;
+    if (!options.interface.empty()) {
+      general = fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>",
+                            escaped(options.interface));
+    }
+    if (!options.peers.empty()) {
+      general += "<AllowMulticast>false</AllowMulticast>";
+      for (const std::string& it : options.peers)
+        discovery += fmt::format("<Peer address=\"{}\"/>", escaped(it));
+      discovery =
+          "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100"
+          "</MaxAutoParticipantIndex><Peers>" +
+          discovery + "</Peers>";
+    }
+    config = fmt::format("<General>{}</General><Discovery>{}</Discovery>", general, discovery);
+  }
+  return config;
+}
+
+class DdsTransport final : public TeamTransport {
+ public:
+  DdsTransport(std::span<const TeamDeclaration> teams, const TeamNetworkOptions& options)
+      : teams_(teams.begin(), teams.end()), options_(options) {
+    for (std::size_t i = 0; i < teams.size(); ++i) own_.emplace_back(TeamWord());
+  }
+
+  ~DdsTransport() override {
+    stops_ = true;
+    sem_post(&said_);
+    if (speaker_.joinable()) speaker_.join();
+    if (hearer_.joinable()) hearer_.join();
+    if (domain_ > 0) dds_delete(domain_);
+    if (participant_ > 0 && domain_ <= 0) dds_delete(participant_);
+    sem_destroy(&said_);
+  }
+
+  // "": it is open.
+  std::string open() {
+    sem_init(&said_, 0, 0);
+    dds_set_log_sink(log_sink, this);
+    dds_set_trace_sink(log_sink, this);
+    const std::string config = config_of(options_);
+    if (!config.empty()) {
+      domain_ = dds_create_domain(options_.domain, config.c_str());
+      if (domain_ < 0) return failure("its configuration is refused", domain_);
+    }
+    participant_ = dds_create_participant(options_.domain, nullptr, nullptr);
+    if (participant_ < 0) return failure("the network cannot be used", participant_);
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(10));
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+    const dds_entity_t topic = dds_create_topic(
+        participant_, &lockstep_msgs_msg_dds__TeamMember__desc, kTopic, qos, nullptr);
+    reader_ = topic < 0 ? topic : dds_create_reader(participant_, topic, qos, nullptr);
+    writer_ = topic < 0 ? topic : dds_create_writer(participant_, topic, qos, nullptr);
+    dds_delete_qos(qos);
+    if (reader_ < 0 || writer_ < 0) return failure("the topic cannot be made", reader_);
+    hearer_ = std::thread([this] { hear(); });
+    speaker_ = std::thread([this] { speak(); });
+    return "";
+  }
+
+  bool take(HeardWord& into) override { return heard_.pop(into); }
+
+  void say(std::uint32_t team, const TeamWord& word) override {
+    own_[team].back() = word;
+    own_[team].publish();
+    sem_post(&said_);
+  }
+
+ private:
+  std::string failure(const char* what, dds_return_t code) const {
+    const std::string interface =
+        options_.interface.empty() ? "" : fmt::format(" (interface {})", options_.interface);
+    const std::scoped_lock lock(mutex_);
+    return fmt::format("the team cannot be reached: {}{}: {}{}", what, interface,
+                       dds_strretcode(code), last_log_.empty() ? "" : ": " + last_log_);
+  }
+
+  static void log_sink(void* self, const dds_log_data_t* data) {
+    auto& it = *static_cast<DdsTransport*>(self);
+    std::string line(data->message, data->size);
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+    it.tell_once("network: " + line, true);
+  }
+  void tell_once(const std::string& line, bool is_log) {
+    {
+      constexpr std::size_t kMost = 100;
+      const std::scoped_lock lock(mutex_);
+      if (is_log) last_log_ = line;
+      if (told_.size() >= kMost || !told_.insert(line).second) return;
+    }
+    if (options_.tell) options_.tell(line);
+  }
+
+  void hear() {
+    const dds_entity_t set = dds_create_waitset(participant_);
+    dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS);
+    dds_waitset_attach(set, reader_, reader_);
+    while (!stops_) {
+      dds_attach_t triggered = 0;
+      dds_waitset_wait(set, &triggered, 1, kLongestLook);
+      take_all();
+    }
+  }
+
+  void take_all() {
+    constexpr int kMost = 64;
+    std::array<void*, kMost> samples{};
+    std::array<dds_sample_info_t, kMost> infos{};
+    while (!stops_) {
+      const auto count = dds_take(reader_, samples.data(), infos.data(), kMost, kMost);
+      if (count <= 0) return;
+      const Nanoseconds now = monotonic_now();
+      for (int i = 0; i < count; ++i) {
+        if (infos[i].valid_data) take(*static_cast<const Sample*>(samples[i]), now);
+      }
+      dds_return_loan(reader_, samples.data(), count);
+    }
+  }
+
+  void take(const Sample& it, Nanoseconds now) {
+    for (std::uint32_t i = 0; i < teams_.size(); ++i) {
+      const TeamDeclaration& team = teams_[i];
+      if (team.team != it.team) continue;
+      const auto other = std::ranges::find(team.others, it.member);
+      const bool is_own = team.self == it.member;
+      if (other == team.others.end() && !is_own) {
+        tell_once(fmt::format("the team '{}' has no member '{}': what it says is left out",
+                              team.team, std::string(it.member).substr(0, 64)),
+                  false);
+        continue;
+      }
+      heard_.push({.team = i,
+                   .member = is_own ? HeardWord::kOwnName
+                                    : static_cast<std::uint32_t>(other - team.others.begin()),
+                   .word = {.run = it.run,
+                            .number = it.number,
+                            .declaration = it.declaration,
+                            .round = it.round,
+                            .passed = it.passed,
+                            .is_in = it.is_in,
+                            .progress = it.progress,
+                            .period = it.period},
+                   .at = now});
+    }
+  }
+
+  void speak() {
+    while (!stops_) {
+      sem_wait(&said_);
+      for (std::size_t i = 0; i < teams_.size(); ++i) {
+        if (!own_[i].take()) continue;
+        const TeamWord& word = own_[i].front();
+        Sample sample{};
+        sample.team = teams_[i].team.data();
+        sample.member = teams_[i].self.data();
+        sample.run = word.run;
+        sample.number = word.number;
+        sample.declaration = word.declaration;
+        sample.round = word.round;
+        sample.passed = word.passed;
+        sample.is_in = word.is_in;
+        sample.progress = word.progress;
+        sample.period = word.period;
+        dds_write(writer_, &sample);
+      }
+    }
+  }
+
+  std::vector<TeamDeclaration> teams_;
+  const TeamNetworkOptions options_;
+  std::deque<TripleBuffer<TeamWord>> own_;
+  sem_t said_{};
+  Ring heard_;
+  std::atomic<bool> stops_{false};
+  dds_entity_t domain_ = 0, participant_ = 0, reader_ = 0, writer_ = 0;
+  mutable std::mutex mutex_;
+  std::set<std::string> told_;
+  std::string last_log_;
+  std::thread hearer_, speaker_;
+};
+
+}  // namespace
+}  // namespace lockstep::host
+
+extern "C" [[gnu::visibility("default")]] lockstep::host::TeamTransport* lockstep_open_team(
+    std::span<const lockstep::host::TeamDeclaration> teams,
+    const lockstep::host::TeamNetworkOptions& options, std::string& why) {
+  auto transport = std::make_unique<lockstep::host::DdsTransport>(teams, options);
+  why = transport->open();
+  return why.empty() ? transport.release() : nullptr;
+}
