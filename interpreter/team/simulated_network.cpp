@@ -82,6 +82,10 @@ TeamTransport& SimulatedNetwork::join(const std::vector<TeamDeclaration>& teams,
   return *links_.emplace_back(std::make_unique<Link>(*this, teams, clock));
 }
 
+void SimulatedNetwork::leave(const TeamTransport& link) {
+  std::erase_if(links_, [&](const auto& it) { return it.get() == &link; });
+}
+
 void SimulatedNetwork::say(const Link& from, std::uint32_t team, const TeamWord& word) {
   const TeamDeclaration& own = from.teams()[team];
   measure(own);

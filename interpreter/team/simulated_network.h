@@ -73,6 +73,9 @@ class SimulatedNetwork {
   // Before any of them runs. `clock` must outlive this.
   TeamTransport& join(const std::vector<TeamDeclaration>& teams, Clock& clock);
 
+  // Its run has ended.
+  void leave(const TeamTransport& link);
+
   // The largest difference in progress of two members that did one round of a team at one time.
   double largest_spread() const { return largest_spread_; }
 
