@@ -321,7 +321,7 @@ TeamTrial random_team(std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("no robot goes on before the others of its team are there, whatever the network does") {
-  constexpr std::uint64_t kTrials = 400;
+  constexpr std::uint64_t kTrials = 1500;
   std::uint64_t ended = 0, ticks = 0;
   for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
     const Outcome outcome = try_team(random_team(seed), seed);
