@@ -60,6 +60,7 @@ DONE = [
     "docs/recipes.md",
     "docs/recording.md",
     "docs/resume.md",
+    "docs/team.md",
     "docs/reliability.md",
     "docs/roadmap.md",
     "docs/ros2.md",

@@ -276,6 +276,18 @@ std::span<const MessageKind> message_kinds() {
       {"lost-output",
        "An output port is not connected to a blackboard entry, so its value is lost.",
        "Write `port=\"{key}\"`."},
+      {"member-twice", "Two nodes of a tree are in step with one team.",
+       "A robot is a member once. Declare a team for each `InStep`.",
+       R"xml(<root lockstep="1">
+  <team name="table" members="left;right"/>
+  <BehaviorTree ID="Main">
+    <Sequence>
+      <InStep team="table" as="left" delta="0.1"><Wait seconds="1"/></InStep>
+      <InStep team="table" as="left" delta="0.1"><Wait seconds="2"/></InStep>
+    </Sequence>
+  </BehaviorTree>
+</root>
+)xml"},
       {"members-never-meet",
        "Two members of a barrier are in different children of a node that runs its children one "
        "after the other, so they never run together.",
@@ -584,6 +596,15 @@ std::span<const MessageKind> message_kinds() {
 )xml"},
       {"unknown-leaf", "A leaf model names a leaf that the tree does not have.",
        "Correct the name or the path."},
+      {"unknown-member", "A node is in step as a member that its team does not have.",
+       "Write one of the `members` of the team.",
+       R"xml(<root lockstep="1">
+  <team name="table" members="left;right"/>
+  <BehaviorTree ID="Main">
+    <InStep team="table" as="middle" delta="0.1"><Wait seconds="1"/></InStep>
+  </BehaviorTree>
+</root>
+)xml"},
       {"unknown-node", "No built-in node and no loaded plugin has this ID.",
        "Correct the ID, name the plugin with `<plugin name=\"…\"/>`, or try the tree without it: "
        "`--mock`.",

@@ -9,8 +9,6 @@
 //
 // The first tick of an activation only announces it. What others say of this round is looked at
 // from the second one on, when they can know which round that is.
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "base/core/wording.h"
@@ -194,12 +192,12 @@ std::optional<RuleBreak> rule_of_team(const ParameterValues& given) {
   if (members->size() < 2)
     return broken("a team has at least two members", "members=\"left;right\"");
   if (members->size() > kMostMembers)
-    return broken(fmt::format("a team has at most {} members", kMostMembers), "");
+    return broken("a team has at most " + std::to_string(kMostMembers) + " members", "");
   for (auto it = members->begin(); it != members->end(); ++it) {
     const bool is_name = !it->empty() && it->size() <= 64 && it->find('/') == std::string::npos;
-    if (!is_name) return broken(fmt::format("'{}' is not a name of a member", brief(*it)), "");
+    if (!is_name) return broken("'" + brief(*it) + "' is not a name of a member", "");
     if (std::find(members->begin(), it, *it) != it)
-      return broken(fmt::format("the member '{}' is given twice", brief(*it)), "");
+      return broken("the member '" + brief(*it) + "' is given twice", "");
   }
   return std::nullopt;
 }

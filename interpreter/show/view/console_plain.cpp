@@ -48,7 +48,7 @@ void ConsolePlain::after_tick(const Moment& moment, const TickReport& report) {
 void ConsolePlain::tell_moment(const Moment& moment) {
   for (Watched& node : nodes_) tell_waits(moment, node);
   for (Leaf& leaf : leaves_) {
-    tell_leaf(leaf, moment.status(leaf.node), moment.ticked(leaf.node));
+    tell_leaf(moment, leaf, moment.status(leaf.node), moment.ticked(leaf.node));
   }
 }
 
@@ -85,14 +85,17 @@ void ConsolePlain::tell_fault(const Fault& fault) {
                                          shape_.nodes[fault.node].path, fault.message));
 }
 
-void ConsolePlain::tell_leaf(Leaf& leaf, Status now, bool ticked) {
+void ConsolePlain::tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool ticked) {
   const Status before = std::exchange(leaf.last, now);
   if (now != before) {
     tell_again(leaf, before);
     if (now == Status::Running) {
       tell(leaf.node, "started");
     } else if (now != Status::Idle) {
-      tell(leaf.node, to_string(now));
+      const std::string_view reason = moment.reason(leaf.node);
+      const bool has_one = now == Status::Failure && !reason.empty();
+      tell(leaf.node, has_one ? fmt::format("{}: {}", to_string(now), reason)
+                              : std::string(to_string(now)));
     } else if (before == Status::Running) {
       tell(leaf.node, "halted");
     }

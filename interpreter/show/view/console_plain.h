@@ -61,7 +61,7 @@ class ConsolePlain final : public Observer {
   void tell_left_out();
   void tell_fault(const Fault& fault);
   void tell_moment(const Moment& moment);
-  void tell_leaf(Leaf& leaf, Status now, bool ticked);
+  void tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
   void tell_waits(const Moment& moment, Watched& node);
   void tell_wait(const Moment& moment, Watched& node, std::size_t child,

@@ -193,7 +193,7 @@ class DdsTransport final : public TeamTransport {
       const auto other = std::ranges::find(team.others, it.member);
       const bool is_own = team.self == it.member;
       if (other == team.others.end() && !is_own) {
-        tell_once(fmt::format("the team '{}' has no member '{}': what it says is left out",
+        tell_once(fmt::format("the team '{}' has no member '{}': its words are left out",
                               team.team, std::string(it.member).substr(0, 64)),
                   false);
         continue;

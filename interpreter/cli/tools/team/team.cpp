@@ -240,7 +240,7 @@ std::function<int()> define_team(CLI::App& app) {
   app.add_option("--jitter", options->jitter, "Up to so many seconds more, by chance")
       ->check(number_between(0, 1e6))
       ->capture_default_str();
-  app.add_option("--loss", options->loss, "The share of words that are lost, by chance")
+  app.add_option("--loss", options->loss, "The fraction of words that are lost, by chance")
       ->check(number_between(0, 1))
       ->capture_default_str();
   app.add_option("--cut", options->cuts,
