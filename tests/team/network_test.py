@@ -1,7 +1,7 @@
 """Robots in step over the network of this machine: a member that starts late, hangs, is killed and started again, and
 one whose name another program takes. Waits for what the robots print, and never for a time.
 
-  network_test.py LOCKSTEP
+  network_test.py LOCKSTEP MEMBER
 """
 import os
 import re
@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 
-LOCKSTEP = sys.argv[1]
+LOCKSTEP, MEMBER = sys.argv[1:3]
 PATIENCE = 60  # s; only a failure takes so long
 # Robots of other tests on this machine are in other domains.
 DOMAIN = str(1 + os.getpid() % 200)
@@ -110,6 +110,15 @@ def test_trees_that_differ_hold(tree):
     for robot in (left, right):
         robot.kill(signal.SIGINT)
         assert robot.end()[0] == 130
+
+
+def test_a_program_without_lockstep_takes_part(tree):
+    peers = "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer address='127.0.0.1'/></Peers></Discovery>"
+    uri = f"<General><AllowMulticast>false</AllowMulticast></General>{peers}"
+    member = subprocess.Popen([MEMBER, DOMAIN], stdout=subprocess.PIPE, env={**os.environ, "CYCLONEDDS_URI": uri})
+    left = Robot("left", tree, "--arg", "step=0.01")
+    assert left.end()[0] == 0, left.text
+    assert member.communicate(timeout=PATIENCE)[0] == b"success\n" and member.returncode == 0
 
 
 def test_a_wrong_interface_is_a_sentence(tree):
