@@ -37,9 +37,9 @@ TEST_CASE("lockstep team: the robots of a team are in step, also over a bad netw
   const Outcome late = team(bad);
   CHECK(late.code == 0);
   CHECK(late.out == team(bad).out);
-  const auto json = parse_json(late.out);
-  CHECK(json["largest_spread"].get<double>() < 0.25);
-  CHECK(json["robots"]["left"]["seconds"].get<double>() > 1.5);
+  const auto parsed = parse_json(late.out);
+  CHECK(parsed["largest_spread"].get<double>() < 0.25);
+  CHECK(parsed["robots"]["left"]["seconds"].get<double>() > 1.5);
   const Outcome never = team({"--cut", "0..1000", "--timeout", "3"});
   CHECK(never.code == 1);
   CHECK(contains(never.out, "left   stopped, 300 ticks"));

@@ -92,13 +92,13 @@ void ConsolePlain::tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool 
     if (now == Status::Running) {
       tell(leaf.node, "started");
     } else if (now != Status::Idle) {
-      const std::string_view reason = moment.reason(leaf.node);
-      const bool has_one = now == Status::Failure && !reason.empty();
-      tell(leaf.node, has_one ? fmt::format("{}: {}", to_string(now), reason)
-                              : std::string(to_string(now)));
+      tell_result(moment, leaf, now);
     } else if (before == Status::Running) {
       tell(leaf.node, "halted");
     }
+  } else if (ticked && now == Status::Failure && fails_otherwise(moment, leaf)) {
+    tell_again(leaf, now);
+    tell_result(moment, leaf, now);
   } else if (ticked && is_complete(now)) {
     if (leaf.again++ == 0) leaf.first = tick_;
     leaf.latest = tick_;
@@ -106,6 +106,24 @@ void ConsolePlain::tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool 
   } else if (leaf.again > 0 && time_.load() - leaf.latest_time >= kShortWait) {
     tell_again(leaf, now);
   }
+}
+
+// "not heard for 0.2 s" is no other reason than the one before, with 0.1 s.
+std::string_view ConsolePlain::kind_of_reason(const Moment& moment, const Leaf& leaf) {
+  const std::string_view reason = moment.reason(leaf.node);
+  return reason.substr(0, reason.find_first_of("0123456789"));
+}
+
+bool ConsolePlain::fails_otherwise(const Moment& moment, const Leaf& leaf) {
+  return kind_of_reason(moment, leaf) != leaf.reason;
+}
+
+void ConsolePlain::tell_result(const Moment& moment, Leaf& leaf, Status status) {
+  leaf.reason = kind_of_reason(moment, leaf);
+  const std::string_view reason = moment.reason(leaf.node);
+  const bool has_one = status == Status::Failure && !reason.empty();
+  tell(leaf.node, has_one ? fmt::format("{}: {}", to_string(status), reason)
+                          : std::string(to_string(status)));
 }
 
 void ConsolePlain::tell_again(Leaf& leaf, Status status) {

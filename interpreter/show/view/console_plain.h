@@ -45,6 +45,7 @@ class ConsolePlain final : public Observer {
     // Ticks in which it has completed once more in the same way, since its last line.
     std::uint64_t again = 0, first = 0, latest = 0;
     Nanoseconds latest_time{0};
+    std::string reason = {};  // of its last Failure that was printed, up to the first number in it
   };
   struct Wait {
     bool held = false;
@@ -63,6 +64,9 @@ class ConsolePlain final : public Observer {
   void tell_moment(const Moment& moment);
   void tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
+  void tell_result(const Moment& moment, Leaf& leaf, Status status);
+  static std::string_view kind_of_reason(const Moment& moment, const Leaf& leaf);
+  static bool fails_otherwise(const Moment& moment, const Leaf& leaf);
   void tell_waits(const Moment& moment, Watched& node);
   void tell_wait(const Moment& moment, Watched& node, std::size_t child,
                  const SynchronizedTick& tick);

@@ -16,6 +16,7 @@ inline const std::set<std::string>& node_ids() {
                                          "ForceFailure",
                                          "ForceSuccess",
                                          "IfThenElse",
+                                         "InStep",
                                          "Inverter",
                                          "KeepRunningUntilFailure",
                                          "LoopBool",
