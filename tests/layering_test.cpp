@@ -38,12 +38,14 @@ const std::vector<Layer> kOutside{
     {"interpreter/leafhost.cpp", {"base/", "leaves/", "run/"}},
     {"plugins/sdk/btcpp/", {"lockstep/", "behaviortree_cpp/"}},
     {"plugins/lockstep_ros/", {"lockstep/", "behaviortree_ros2/"}},
+    {"plugins/sdk/examples/team_member.c", {"team.h"}},
     {"plugins/", {"lockstep/"}},
 };
 
 // What is not ours, by the beginning of its name, and the only places that may see it.
 const std::vector<Layer> kThirdParty{
     {"tinyxml2", {"interpreter/language/document/"}},
+    {"dds/", {"interpreter/team/dds/", "plugins/sdk/examples/team_member.c"}},
     {"dlfcn.h",
      {"interpreter/leaves/plugin/open/", "interpreter/base/system/late_library.cpp",
       "interpreter/embedding/project.cpp"}},
@@ -59,8 +61,8 @@ const std::vector<Layer> kThirdParty{
     {"kainjow/", {"interpreter/author/scaffold/render.cpp"}},
     {"sodium.h", {"interpreter/cli/tools/ticket/"}},
     {"lockstep/",
-     {"interpreter/engine/leaf_call.h", "interpreter/leaves/", "interpreter/run/loading/",
-      "interpreter/cli/", "interpreter/embedding/"}},
+     {"interpreter/engine/leaf_call.h", "interpreter/leaves/", "interpreter/team/",
+      "interpreter/run/loading/", "interpreter/cli/", "interpreter/embedding/"}},
 };
 
 // What is in each tick formats nothing.

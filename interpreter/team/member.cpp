@@ -53,12 +53,18 @@ void TeamMember::hear_own_name(const TeamWord& word, Nanoseconds at) {
 TeamMember::Where TeamMember::where_of(const Other& other, Nanoseconds now) const {
   if (!other.last) return Where::Unheard;
   const TeamWord& word = other.last->word;
-  if (now - other.last->at > deadline_) return Where::Silent;
   if (other.contested && now - *other.contested <= deadline_) return Where::Contested;
-  if (word.declaration != own_.declaration) return Where::Stranger;
+  const bool is_of_team = word.declaration == own_.declaration;
+  // It has done so for ever, and may be switched off.
+  if (is_of_team && own_.round != 0 && word.passed >= own_.round) return Where::Passed;
+  if (now - other.last->at > deadline_) return Where::Silent;
+  if (!is_of_team) return Where::Stranger;
   if (own_.round == 0) return Where::NotBegun;
-  if (word.passed >= own_.round) return Where::Passed;
-  return word.is_in && word.round == own_.round ? Where::InRound : Where::NotBegun;
+  return is_in_round(word) ? Where::InRound : Where::NotBegun;
+}
+
+bool TeamMember::is_in_round(const TeamWord& word) const {
+  return word.is_in && word.round == own_.round;
 }
 
 void TeamMember::look(Nanoseconds now) {
@@ -66,14 +72,18 @@ void TeamMember::look(Nanoseconds now) {
   for (const Other& it : others_) {
     if (it.last) slowest = std::max(slowest, it.last->word.period);
   }
-  deadline_ = declaration_.deadline.count() != 0 ? declaration_.deadline
-                                                 : from_seconds(kPeriodsOfSilence * slowest);
+  const auto periods = [&](int count) { return from_seconds(count * slowest); };
+  deadline_ = declaration_.deadline.count() != 0
+                  ? std::max(declaration_.deadline, periods(kFewestPeriods))
+                  : periods(kPeriodsOfSilence);
   is_contested_ = own_name_heard_ && now - *own_name_heard_ <= deadline_;
   const auto find_all = [&] {
     for (Other& it : others_) {
       it.known = {.where = where_of(it, now)};
       if (it.last) it.known.age = now - it.last->at;
-      if (it.known.where == Where::InRound) it.known.progress = it.last->word.progress;
+      // Of one that is silent, what was heard last.
+      const bool has_progress = it.known.where == Where::InRound || it.known.where == Where::Silent;
+      if (has_progress && is_in_round(it.last->word)) it.known.progress = it.last->word.progress;
     }
   };
   find_all();

@@ -26,11 +26,11 @@ struct TeamDeclaration {
   std::string team, self;
   std::vector<std::string> others;
   std::uint64_t hash = 0;
-  Nanoseconds deadline{0};  // 0: kPeriodsOfSilence of the slowest member
+  Nanoseconds deadline{0};  // at least kFewestPeriods of the slowest member; 0: kPeriodsOfSilence
   Nanoseconds period{0};    // of the own ticks
 };
 
-inline constexpr int kPeriodsOfSilence = 5;
+inline constexpr int kPeriodsOfSilence = 5, kFewestPeriods = 2;
 
 class TeamMember {
  public:
@@ -38,7 +38,8 @@ class TeamMember {
 
   const TeamDeclaration& declaration() const { return declaration_; }
 
-  // What is known of another member now. Only those that are InRound have a progress.
+  // What is known of another member now. Those that are in this round have a progress, also while
+  // they are silent: the last one that was heard.
   enum class Where : std::uint8_t {
     InRound,
     NotBegun,   // heard, and not in this round
@@ -87,6 +88,7 @@ class TeamMember {
     Known known;
   };
   Where where_of(const Other& other, Nanoseconds now) const;
+  bool is_in_round(const TeamWord& word) const;
   void join();
   void follow();
 

@@ -90,13 +90,10 @@ void SimulatedNetwork::say(const Link& from, std::uint32_t team, const TeamWord&
   const TeamDeclaration& own = from.teams()[team];
   measure(own);
   const Nanoseconds now = from.now();
-  const bool is_cut = std::ranges::any_of(
-      options_.cuts, [&](const auto& it) { return it.from <= now && now < it.until; });
   for (const auto& link : links_) {
     if (link.get() == &from) continue;
-    const double luck = random_.next_double();
-    const Nanoseconds more = from_seconds(to_seconds(options_.jitter) * random_.next_double());
-    if (is_cut || luck < options_.loss) continue;
+    const auto at = arrival(now);
+    if (!at) continue;
     for (std::uint32_t i = 0; i < link->teams().size(); ++i) {
       const TeamDeclaration& theirs = link->teams()[i];
       if (theirs.team != own.team) continue;
@@ -104,12 +101,24 @@ void SimulatedNetwork::say(const Link& from, std::uint32_t team, const TeamWord&
       const bool is_same = theirs.self == own.self;
       if (other == theirs.others.end() && !is_same) continue;
       const auto place = static_cast<std::uint32_t>(other - theirs.others.begin());
-      link->add({.team = i,
-                 .member = is_same ? HeardWord::kOwnName : place,
-                 .word = word,
-                 .at = now + options_.latency + more});
+      link->add(
+          {.team = i, .member = is_same ? HeardWord::kOwnName : place, .word = word, .at = *at});
     }
   }
+}
+
+// What is lost is sent again, as a network for robots does.
+std::optional<Nanoseconds> SimulatedNetwork::arrival(Nanoseconds said) {
+  constexpr Nanoseconds kAgain = std::chrono::milliseconds(100);
+  constexpr int kMostTries = 1000;
+  const Nanoseconds more = from_seconds(to_seconds(options_.jitter) * random_.next_double());
+  for (int tries = 0; tries < kMostTries; ++tries, said += kAgain) {
+    const bool is_cut = std::ranges::any_of(
+        options_.cuts, [&](const auto& it) { return it.from <= said && said < it.until; });
+    const bool is_lost = random_.next_double() < options_.loss;
+    if (!is_cut && !is_lost) return said + options_.latency + more;
+  }
+  return std::nullopt;
 }
 
 void SimulatedNetwork::measure(const TeamDeclaration& team) {

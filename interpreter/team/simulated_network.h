@@ -10,6 +10,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,11 +58,11 @@ class TurnClock final : public Clock {
 struct NetworkOptions {
   Nanoseconds latency{0};  // of each word
   Nanoseconds jitter{0};   // and up to so much more
-  double loss = 0;         // the share of words that never arrive, in [0, 1]
+  double loss = 0;         // the fraction of words that are lost, in [0, 1], and sent again
   struct Cut {
     Nanoseconds from{0}, until{0};
   };
-  std::vector<Cut> cuts = {};  // nothing that is said then arrives
+  std::vector<Cut> cuts = {};  // nothing is sent then; it is sent later
   std::uint64_t seed = 0;
 };
 
@@ -82,6 +83,7 @@ class SimulatedNetwork {
  private:
   class Link;
   void say(const Link& from, std::uint32_t team, const TeamWord& word);
+  std::optional<Nanoseconds> arrival(Nanoseconds said);
   void measure(const TeamDeclaration& team);
 
   const NetworkOptions options_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,49 +59,47 @@ void destroy_robot(void* self) {
   delete static_cast<RobotLeaf*>(self);
 }
 
-// Without an allocation: it is said in each tick of a silence.
-void say_silence(const RobotLeaf& leaf, Nanoseconds age) {
-  char text[64];
-  const auto end =
-      fmt::format_to_n(text, sizeof text - 1, "not heard for {:.1f} s", to_seconds(age));
-  *end.out = '\0';
-  leaf.reason->say(leaf.caller, text);
-}
+// Why a member cannot be relied on; without an allocation, since it is said in each tick.
+struct WhyNot {
+  explicit WhyNot(const TeamMember::Known& known) {
+    using Where = TeamMember::Where;
+    switch (known.where) {
+      case Where::InRound:
+      case Where::NotBegun:
+      case Where::Passed:
+        return;
+      case Where::Unheard:
+        std::snprintf(text, sizeof text, "not heard yet");
+        return;
+      case Where::Silent:
+        std::snprintf(text, sizeof text, "not heard for %.1f s", to_seconds(known.age));
+        return;
+      case Where::Contested:
+        std::snprintf(text, sizeof text, "two robots have this name, or it contradicts itself");
+        return;
+      case Where::Stranger:
+        std::snprintf(text, sizeof text, "its tree declares the team in another way");
+        return;
+    }
+  }
+  char text[64] = "";
+};
+
+constexpr const char* kOwnName = "another robot has the name of this one";
 
 lockstep_status tick_robot(void* self) {
   RobotLeaf& leaf = *static_cast<RobotLeaf*>(self);
-  using Where = TeamMember::Where;
   find_team(leaf);
-  if (leaf.team == nullptr) {
-    leaf.reason->say(leaf.caller, "this run is not connected with a team");
-    return LOCKSTEP_FAILURE;
-  }
-  if (leaf.team->is_contested()) {
-    leaf.reason->say(leaf.caller, "another robot has the name of this one");
-    return LOCKSTEP_FAILURE;
-  }
+  const auto fail = [&](const char* why) {
+    leaf.reason->say(leaf.caller, why);
+    return LOCKSTEP_FAILURE + 0;
+  };
+  if (leaf.team == nullptr) return fail("this run is not connected with a team");
+  if (leaf.team->is_contested()) return fail(kOwnName);
   const TeamMember::Known& known = leaf.team->known(leaf.other);
-  switch (known.where) {
-    case Where::InRound:
-      return LOCKSTEP_RUNNING;
-    case Where::NotBegun:
-      return LOCKSTEP_SKIPPED;
-    case Where::Passed:
-      return LOCKSTEP_SUCCESS;
-    case Where::Unheard:
-      leaf.reason->say(leaf.caller, "not heard yet");
-      return LOCKSTEP_FAILURE;
-    case Where::Silent:
-      say_silence(leaf, known.age);
-      return LOCKSTEP_FAILURE;
-    case Where::Contested:
-      leaf.reason->say(leaf.caller, "two robots have this name, or it contradicts itself");
-      return LOCKSTEP_FAILURE;
-    case Where::Stranger:
-      leaf.reason->say(leaf.caller, "its tree declares the team in another way");
-      return LOCKSTEP_FAILURE;
-  }
-  return LOCKSTEP_FAILURE;
+  if (!TeamMember::is_known(known.where)) return fail(WhyNot(known).text);
+  if (known.where == TeamMember::Where::Passed) return LOCKSTEP_SUCCESS;
+  return known.where == TeamMember::Where::InRound ? LOCKSTEP_RUNNING : LOCKSTEP_SKIPPED;
 }
 
 double robot_progress(void* self) {
@@ -170,7 +169,7 @@ const lockstep_plugin& team_plugin() {
     it.abi_major = LOCKSTEP_ABI_MAJOR;
     it.abi_minor = LOCKSTEP_ABI_MINOR;
     it.struct_size = sizeof it;
-    it.name = "team";
+    it.name = "lockstep-team";
     it.doc = "The other robots of a team.";
     it.leaf_type_count = 1;
     it.leaf_types = kRobotTypes;
@@ -226,6 +225,18 @@ const TeamMember* TeamRun::member(std::string_view team) const {
     if (it.member.declaration().team == team) return &it.member;
   }
   return nullptr;
+}
+
+std::string TeamRun::why() const {
+  for (const Team& it : teams_) {
+    if (it.member.is_contested()) return kOwnName;
+    const auto& others = it.member.declaration().others;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      const WhyNot why(it.member.known(i));
+      if (*why.text != 0) return fmt::format("'{}': {}", others[i], why.text);
+    }
+  }
+  return "";
 }
 
 AskedOfRun TeamRun::asked() const {

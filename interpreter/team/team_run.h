@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -36,6 +37,9 @@ class TeamRun final : public Observer {
   void use_here();
 
   const TeamMember* member(std::string_view team) const;
+  // "'right': not heard for 2.9 s": what was known of others in the last tick, where that holds
+  // the robot. "": nothing.
+  std::string why() const;
 
   AskedOfRun asked() const override;
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;

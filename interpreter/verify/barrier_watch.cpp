@@ -5,6 +5,15 @@
 #include "engine/synchronized.h"
 
 namespace lockstep::host {
+namespace {
+
+// A robot that runs a tree of its own is waited for, and not held here.
+bool may_hold(const Tree& tree, NodeIndex node, NodeIndex child) {
+  const bool holds_first = tree.labels[node].type->holds_first_child;
+  return tree.nodes[child].is_guard == 0 && (!holds_first || child == node + 1);
+}
+
+}  // namespace
 
 BarrierWatch::BarrierWatch(const Tree& tree, const ModelLeaves& leaves)
     : tree_(tree), leaves_(leaves) {
@@ -19,7 +28,7 @@ BarrierWatch::BarrierWatch(const Tree& tree, const ModelLeaves& leaves)
     for_each_child(tree, node, [&](NodeIndex child) {
       const bool is_leaf = tree.labels[child].type->leaf != nullptr;
       it.children.push_back({.node = child,
-                             .is_guard = tree.nodes[child].is_guard != 0,
+                             .is_held = may_hold(tree, node, child),
                              .leaf = is_leaf ? tree.nodes[child].params : kNoLeaf,
                              .reached = {},
                              .may_pass = false});
@@ -40,7 +49,7 @@ void BarrierWatch::before_tick(Ticker& ticker) {
 void BarrierWatch::look_at(Ticker& ticker, const Barriers& of, Child& child) const {
   const Status status = ticker.status(child.node);
   child.reached.reset();
-  child.may_pass = !child.is_guard;
+  child.may_pass = child.is_held;
   if (of.is_group) {
     const NodeIndex member = tree_.labels[child.node].parent;
     if (status != Status::Running || has_passed_barrier(ticker, member)) return;

@@ -34,7 +34,7 @@ class BarrierWatch {
  private:
   struct Child {
     NodeIndex node;
-    bool is_guard;
+    bool is_held;                   // the node may hold it
     std::uint32_t leaf;             // in Tree::leaves; kNoLeaf: it is none
     std::optional<double> reached;  // nothing: it does not count in this tick
     bool may_pass;                  // it gets a tick only where it may

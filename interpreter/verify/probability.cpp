@@ -185,6 +185,8 @@ class ChanceQuestions {
       if (it.result) has[index_of(*it.result)] = true;
       has_fault |= it.has_fault();
     }
+    if (graph_.end != SearchEnd::Complete)
+      has[index_of(Status::Success)] = has[index_of(Status::Failure)] = true;
     for (std::size_t i = 0; i < has.size(); ++i) {
       if (!has[i]) continue;
       all.results[i] =

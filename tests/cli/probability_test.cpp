@@ -15,8 +15,9 @@ struct ChanceModel {
 };
 
 std::string tree_of(const ChanceModel& model) {
-  return "<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"fetch\"/><BehaviorTree ID=\"M\">" + model.tree +
-         "</BehaviorTree></root>\n";
+  return "<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"fetch\"/><BehaviorTree "
+         "ID=\"M\">" +
+         model.tree + "</BehaviorTree></root>\n";
 }
 std::string leaves_of(const ChanceModel& model) {
   return "<leaves lockstep=\"1\" rate=\"10\">" + model.rows + "</leaves>\n";

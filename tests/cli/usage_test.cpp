@@ -43,7 +43,7 @@ TEST_CASE("a wrong command line names the word that is wrong, and the help of it
        "`lockstep run` has that option; see `lockstep check --help`"},
       {{"show", "t.xml", "--seed", "3"},
        "unknown option '--seed'",
-       "`lockstep run`, `lockstep study` have that option; see `lockstep show --help`"},
+       "`lockstep run`, `lockstep study` and 1 more have that option; see `lockstep show --help`"},
       {{"run", "--seed", "1", "-x", "t.xml"}, "unknown option '-x'", "see `lockstep run --help`"},
       {{"run", "--rate", "fast", "t.xml"},
        "--rate: 'fast' is not a number from 0.001 to 100000",

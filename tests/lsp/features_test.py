@@ -81,7 +81,7 @@ class Features(Session):
     def test_completion_beside_trees(self):
         labels = self.complete("<root lockstep=\"1\">\n <|\n</root>")
         self.assertEqual({"BehaviorTree", "plugin", "include", "arg", "property", "scenario", "barrier",
-                          "resources"}, set(labels))
+                          "resources", "team"}, set(labels))
         inside = self.complete("<root lockstep=\"1\">\n <scenario name=\"a\">\n  <|\n </scenario>\n</root>")
         self.assertIn("expect", inside)
         self.assertNotIn("Sequence", inside)

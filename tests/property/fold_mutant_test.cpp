@@ -174,7 +174,8 @@ class Mutants {
 
 TEST_CASE("a fold that forgets too much or nothing, or what is read, is seen for each kind") {
   constexpr std::uint64_t kMost = 2000;
-  Mutants mutants(kLockstepRules);
+  // InStep waits for robots that run other trees: tests/property/team_test.cpp.
+  Mutants mutants(kLockstepRules, {"InStep"});
   // A Rate that is held, and asked again after that before its time is over, is rare.
   mutants.try_on({tree_from_text("ParallelAbsolute[barriers=.5](a Repeat(Rate[seconds=.5](b)))"),
                   "a+.1 b=R.6R.6S..."});
@@ -204,7 +205,8 @@ TEST_CASE("a fold that forgets too much or nothing is seen for each kind of Beha
   constexpr std::uint64_t kMost = 6000;
   const LanguageRules* const rules = languages()[1];
   // These rows are those of lockstep's own language.
-  Mutants mutants(*rules, {"SyncProgress", "UseResources", "WaitUntil", "barrier", "resources"});
+  Mutants mutants(*rules,
+                  {"SyncProgress", "UseResources", "WaitUntil", "InStep", "barrier", "resources"});
   // A branch in which somebody is held when the condition takes time again is rare.
   mutants.try_on({tree_from_text("WhileDoElse(Fallback(Sleep[msec=200]) "
                                  "ParallelAbsolute[barriers=.5](Inverter(a) b))",

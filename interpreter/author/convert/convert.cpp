@@ -183,8 +183,8 @@ class Converter {
   void convert_child_of_root(std::uint32_t element) {
     const std::string_view tag = document_.elements()[element].tag;
     const Place place = place_of(element);
-    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin",   "arg",
-                                          kModels,        "barrier", "resources"};
+    constexpr std::string_view kBoth[] = {"BehaviorTree", "include", "plugin",    "arg",
+                                          kModels,        "barrier", "resources", "team"};
     if (std::ranges::find(kBoth, tag) != std::end(kBoth)) {
       if (to_ours() && tag == "BehaviorTree") check_tree(element);
       if (!to_ours() && tag == "BehaviorTree") warn_of_id(element);

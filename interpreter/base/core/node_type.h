@@ -149,6 +149,7 @@ struct NodeType {
   bool has_progress = true;             // false: an action that reports none, so 0 until Success
   bool can_be_slowed = false;           // an action that obeys a pace: docs/pacing.md
   bool can_be_restored = false;         // an action that may go on after a cut: docs/resume.md
+  bool holds_first_child = false;       // a synchronized node that never holds the others
   bool is_of_robots = false;            // a group whose members run trees of their own
   bool asks = false;                    // an action that waits for the answer of a person
   bool opens_entries = false;           // a leaf that uses entries that no port names

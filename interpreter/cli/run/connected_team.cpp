@@ -17,6 +17,10 @@ Result<std::unique_ptr<ConnectedTeam>> ConnectedTeam::open(
     return tl::unexpected(Problem{"--clock virtual: the other robots of the team have another time",
                                   "`lockstep team` simulates all of them"});
   }
+  if (!options.keep.file.empty()) {
+    return tl::unexpected(Problem{"--checkpoint: a run in a team cannot be kept",
+                                  "the round that its team does would be lost with the process"});
+  }
   std::unique_ptr<ConnectedTeam> team(new ConnectedTeam);
   TeamNetworkOptions network = options.team;
   network.tell = std::move(tell);

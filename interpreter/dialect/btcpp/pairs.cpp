@@ -131,6 +131,7 @@ constexpr NodePair kPairs[] = {
     {.theirs = "Script", .ours = "Script"},
     {.theirs = "WaitUntil", .ours = "WaitUntil"},
     {.theirs = "SyncProgress", .ours = "SyncProgress"},
+    {.theirs = "InStep", .ours = "InStep"},
     {.theirs = "UseResources", .ours = "UseResources"},
     {.theirs = "ScriptCondition", .ours = "Check", .words = kCode},
     {.theirs = "AlwaysSuccess", .ours = "AlwaysSuccess"},

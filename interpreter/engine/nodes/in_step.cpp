@@ -11,6 +11,7 @@
 // from the second one on, when they can know which round that is.
 #include <algorithm>
 
+#include "base/core/identifier.h"
 #include "base/core/wording.h"
 #include "engine/nodes/barrier_list.h"
 #include "engine/nodes/decorator.h"
@@ -58,8 +59,8 @@ std::optional<RuleBreak> rule_of_in_step(const ParameterValues& given) {
 
 struct InStepState {
   SynchronizedState synchronized;
-  Nanoseconds lost_for;  // so long some member has not been heard
-  Nanoseconds last;      // tick
+  Nanoseconds since;      // when some member was not heard any more
+  std::uint64_t is_lost;  // 1: one is not
 };
 static_assert(sizeof(InStepState) % sizeof(double) == 0);
 
@@ -80,17 +81,20 @@ Others tick_others(NodeContext& context, NodeIndex self) {
   return others;
 }
 
+// Before any of them is ticked: what was heard is of the time before the tick. One that was not
+// heard counts 0. Its number, which is only shown, stays as it was.
 double take_snapshot(NodeContext& context, NodeIndex self) {
   const auto progress = context.child_states<double>(self);
   progress[0] = snapshot_of(context, self + 1);
+  double least = std::min(1.0, progress[0]);
   std::size_t place = 1;
   for (NodeIndex other = context.end_of(self + 1); other != context.end_of(self);
-       other = context.end_of(other)) {
-    // Of one that is not heard it stays as it was.
-    if (context.status(other) != Status::Failure) progress[place] = context.progress(other);
-    ++place;
+       other = context.end_of(other), ++place) {
+    const bool was_lost = context.status(other) == Status::Failure;
+    if (!was_lost) progress[place] = context.progress(other);
+    least = std::min(least, was_lost ? 0.0 : progress[place]);
   }
-  return least_progress(progress);
+  return least;
 }
 
 // Finds the limit of this tick. Returns the least progress that is held.
@@ -116,18 +120,13 @@ bool waits_to_begin(NodeContext& context, NodeIndex self, const Others& others) 
 bool has_given_up(NodeContext& context, NodeIndex self, bool are_heard) {
   auto& state = context.state<InStepState>(self);
   const double most = context.parameter(self, kGiveUp).number;  // 0: there is none
-  const bool counts = context.activity(self) != Activity::Paused;
-  state.lost_for = are_heard
-                       ? Nanoseconds(0)
-                       : state.lost_for + (counts ? context.passed(state.last) : Nanoseconds(0));
-  state.last = context.now();
-  return most != 0 && !are_heard && state.lost_for >= from_seconds(most);
+  if (!are_heard && state.is_lost == 0) state.since = context.now();
+  state.is_lost = are_heard ? 0 : 1;
+  return most != 0 && !are_heard && context.passed(state.since) >= from_seconds(most);
 }
 
 Status begin(NodeContext& context, NodeIndex self) {
-  auto& state = context.state<InStepState>(self);
-  state = {};
-  state.last = context.now();
+  context.state<InStepState>(self) = {};
   std::ranges::fill(context.child_states<double>(self), 0.0);
   set_limit(context, self, 0.0);
   return Status::Running;
@@ -135,9 +134,9 @@ Status begin(NodeContext& context, NodeIndex self) {
 
 Status tick_in_step(NodeContext& context, NodeIndex self) {
   if (context.first_tick(self)) return begin(context, self);
+  const double least = take_snapshot(context, self);
   const Others others = tick_others(context, self);
   if (context.faulted()) return Status::Running;
-  const double least = take_snapshot(context, self);
   const double held_from = set_limit(context, self, least);
   const NodeIndex child = self + 1;
   if (has_given_up(context, self, others.are_heard)) {
@@ -145,6 +144,10 @@ Status tick_in_step(NodeContext& context, NodeIndex self) {
     std::uint32_t place = 0;
     context.say(self, place, "gave up: a member of the team was not heard for too long");
     return Status::Failure;
+  }
+  if (!others.are_heard) {
+    std::uint32_t place = 0;
+    context.say(self, place, "waits for a member of the team that is not heard");
   }
   const bool is_held = !others.are_heard || waits_to_begin(context, self, others) ||
                        context.child_states<double>(self)[0] >= held_from;
@@ -157,17 +160,18 @@ Status tick_in_step(NodeContext& context, NodeIndex self) {
 void fold_in_step(NodeContext& context, NodeIndex self) {
   auto& state = context.state<InStepState>(self);
   const double most = context.parameter(self, kGiveUp).number;
-  const bool counts = context.status(self) == Status::Running && most != 0;
-  state = {.synchronized = {},
-           .lost_for = counts ? std::min(state.lost_for, from_seconds(most)) : Nanoseconds(0),
-           .last = counts ? -context.passed(state.last) : Nanoseconds(0)};
+  const bool counts = context.status(self) == Status::Running && most != 0 && state.is_lost != 0;
+  state = {
+      .synchronized = {},
+      .since = counts ? -std::min(context.passed(state.since), from_seconds(most)) : Nanoseconds(0),
+      .is_lost = counts ? 1u : 0u};
   std::ranges::fill(context.child_states<double>(self), 0.0);
 }
 
 // --- the team -----------------------------------------------------------------------------------
 
 constexpr unsigned kMembers = 0;
-constexpr std::size_t kMostMembers = 64;
+constexpr std::size_t kMostMembers = 64, kLongestName = 64;
 
 constexpr Parameter kTeamParameters[] = {
     Parameter{.name = "members",
@@ -194,8 +198,11 @@ std::optional<RuleBreak> rule_of_team(const ParameterValues& given) {
   if (members->size() > kMostMembers)
     return broken("a team has at most " + std::to_string(kMostMembers) + " members", "");
   for (auto it = members->begin(); it != members->end(); ++it) {
-    const bool is_name = !it->empty() && it->size() <= 64 && it->find('/') == std::string::npos;
-    if (!is_name) return broken("'" + brief(*it) + "' is not a name of a member", "");
+    const bool is_name = is_identifier(*it) && it->size() <= kLongestName;
+    if (!is_name) {
+      return broken("'" + brief(*it) + "' is not a name of a member",
+                    "a name has letters, digits and _, and begins with no digit");
+    }
     if (std::find(members->begin(), it, *it) != it)
       return broken("the member '" + brief(*it) + "' is given twice", "");
   }
@@ -221,13 +228,13 @@ const NodeKind kInStep{
                          .at_barrier = absolute::kAtBarrier,
                          .delta = in_step::kDelta,
                          .hold = in_step::kHold},
-             .begins_child_once = true},
+             .begins_child_once = true,
+             .holds_first_child = true},
     .tick = in_step::tick_in_step,
     .progress = decorator::child_progress,
     .state_size = sizeof(in_step::InStepState),
     .state_per_child = sizeof(double),
-    .fold = in_step::fold_in_step,
-    .reads_own_hold = true};
+    .fold = in_step::fold_in_step};
 
 const NodeKind kTeam{
     .type = {.id = "team",

@@ -9,8 +9,9 @@ rm -rf "$pages" build/site build/site-theme
 cp -r interpreter/packaging/site/theme build/site-theme
 mkdir -p "$pages/trees" "$pages/schema" "$pages/plugins/sdk/lockstep"
 cp -r docs/. "$pages/"
-cp trees/*.xml "$pages/trees/"
-cp schema/*.json schema/*.xsd "$pages/schema/"
+cp -r trees/*.xml trees/carry_together "$pages/trees/"
+cp schema/*.json schema/*.xsd schema/*.idl "$pages/schema/"
+cp -r plugins/sdk/examples "$pages/plugins/sdk/"
 cp -r plugins/sdk/lockstep/leaf.h plugins/sdk/lockstep/ext "$pages/plugins/sdk/lockstep/"
 sed -i -E 's,\]\(\.\./,](,g; s,\[([a-z_-]+)\.md\]\(,[\1](,g' "$pages"/*.md
 cp interpreter/packaging/site/mkdocs.yml build/mkdocs.yml

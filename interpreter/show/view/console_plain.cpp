@@ -122,8 +122,8 @@ void ConsolePlain::tell_result(const Moment& moment, Leaf& leaf, Status status) 
   leaf.reason = kind_of_reason(moment, leaf);
   const std::string_view reason = moment.reason(leaf.node);
   const bool has_one = status == Status::Failure && !reason.empty();
-  tell(leaf.node, has_one ? fmt::format("{}: {}", to_string(status), reason)
-                          : std::string(to_string(status)));
+  tell(leaf.node,
+       has_one ? fmt::format("{}: {}", to_string(status), reason) : std::string(to_string(status)));
 }
 
 void ConsolePlain::tell_again(Leaf& leaf, Status status) {

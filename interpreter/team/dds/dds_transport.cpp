@@ -94,6 +94,8 @@ class DdsTransport final : public TeamTransport {
     stops_ = true;
     sem_post(&said_);
     if (speaker_.joinable()) speaker_.join();
+    // The last word says what this robot has completed.
+    if (writer_ > 0) dds_wait_for_acks(writer_, DDS_SECS(1));
     if (hearer_.joinable()) hearer_.join();
     if (domain_ > 0) dds_delete(domain_);
     if (participant_ > 0 && domain_ <= 0) dds_delete(participant_);
@@ -193,8 +195,8 @@ class DdsTransport final : public TeamTransport {
       const auto other = std::ranges::find(team.others, it.member);
       const bool is_own = team.self == it.member;
       if (other == team.others.end() && !is_own) {
-        tell_once(fmt::format("the team '{}' has no member '{}': its words are left out",
-                              team.team, std::string(it.member).substr(0, 64)),
+        tell_once(fmt::format("the team '{}' has no member '{}': its words are left out", team.team,
+                              std::string(it.member).substr(0, 64)),
                   false);
         continue;
       }
@@ -214,8 +216,9 @@ class DdsTransport final : public TeamTransport {
   }
 
   void speak() {
-    while (!stops_) {
+    for (bool is_last = false; !is_last;) {
       sem_wait(&said_);
+      is_last = stops_;
       for (std::size_t i = 0; i < teams_.size(); ++i) {
         if (!own_[i].take()) continue;
         const TeamWord& word = own_[i].front();

@@ -18,8 +18,9 @@ std::size_t place_of(const NodeType& type, std::string_view parameter) {
 
 // Two trees of a team must agree in this: how far members wait for each other, and who they are.
 std::string declaration_of(const Definition& definition, const DefinitionNode& node,
-                           const Value& members) {
-  std::string text = to_text(members);
+                           std::vector<std::string> members) {
+  std::ranges::sort(members);
+  std::string text = to_text(Value(std::move(members)));
   const NodeType& type = *node.type;
   for (std::size_t i = 0; i < type.parameters.size(); ++i) {
     const std::string_view name = type.parameters[i].name;
@@ -57,7 +58,7 @@ void add_robots(Definition& definition, const CheckedTrees& trees, const Checked
   }
   const Value* const given = value_of("deadline");
   const Value deadline = given != nullptr ? *given : Value(0.0);
-  const std::string declaration = declaration_of(definition, definition.nodes[place], *members);
+  const std::string declaration = declaration_of(definition, definition.nodes[place], names);
   for (const std::string& name : names) {
     if (name == own) continue;
     const auto number = static_cast<std::uint32_t>(definition.nodes.size());

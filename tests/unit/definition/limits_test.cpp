@@ -138,7 +138,9 @@ std::string node_with(const NodeType& type, const Parameter& parameter, const st
   if (type.category == NodeCategory::Group) text += " name=\"g\"";
   for (const Parameter& other : type.parameters) {
     if (other.required && other.name != parameter.name) {
-      text += fmt::format(" {}=\"{}\"", other.name, to_text(Value(other.range.min + 1)));
+      const bool is_list = other.type == ValueType::StringList;
+      text += fmt::format(" {}=\"{}\"", other.name,
+                          is_list ? "a;b" : to_text(Value(other.range.min + 1)));
     }
   }
   const bool lacks_barriers = type.synchronization == Synchronization::Absolute &&

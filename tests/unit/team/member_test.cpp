@@ -108,6 +108,24 @@ TEST_CASE("one who has completed the round counts so, whatever it does next") {
   CHECK(member.round() == 2);
 }
 
+TEST_CASE("one who has completed the round counts so for ever, also where it was heard late") {
+  TeamMember member = in_round(2);
+  member.hear(0, word_of(2, 2, 3, false, 0, 2), 10ms);
+  member.look(10s);
+  CHECK(where(member) == Where::Passed);
+}
+
+TEST_CASE("a deadline is at least two periods of the slowest member") {
+  TeamDeclaration hasty = left_of();
+  hasty.deadline = 1ms;
+  TeamMember member(hasty, 1);
+  member.hear(0, word_of(2, 1, 1), 0s);
+  member.look(20ms);
+  CHECK(where(member) == Where::NotBegun);
+  member.look(21ms);
+  CHECK(where(member) == Where::Silent);
+}
+
 TEST_CASE("all go on in the round that a new process has joined instead of this one") {
   TeamMember member = in_round(2);
   member.hear(0, word_of(9, 1, 3, true, 0.1), 0s);  // it has completed none itself

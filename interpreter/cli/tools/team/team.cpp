@@ -103,6 +103,8 @@ class Robot {
     RecorderOptions recorder;
     recorder.path = options.record + '/' + name() + ".jsonl";
     recorder.run = {.tree_file = file_, .rate_hz = options.rate, .seed = options.seed};
+    recorder.run.arguments = values_of(runnable_.arguments);
+    recorder.run.values = runnable_.values;
     recorder_.emplace(shape, std::move(recorder));
   }
 
@@ -125,6 +127,12 @@ class Robot {
     turns.leave(number);
   }
 
+  // Why it has not succeeded, where that is known.
+  std::string why() const {
+    const Summary summary = this->summary();
+    if (!summary.fault.empty()) return summary.fault;
+    return summary.result == RunResult::Stopped ? team_->why() : std::string();
+  }
   Summary summary() const { return statistics_->summary(); }
   std::string recording_error() const { return recorder_ ? recorder_->error() : ""; }
 
@@ -157,8 +165,9 @@ std::string text_of(const std::vector<std::unique_ptr<Robot>>& robots,
   for (const auto& it : robots) width = std::max(width, it->name().size());
   for (const auto& it : robots) {
     const Summary summary = it->summary();
-    text += fmt::format("{:<{}}  {}, {}, {:.3f} s\n", it->name(), width, to_string(summary.result),
-                        counted(summary.ticks, "tick"), summary.seconds);
+    text += fmt::format("{:<{}}  {}, {}, {:.3f} s{}\n", it->name(), width,
+                        to_string(summary.result), counted(summary.ticks, "tick"), summary.seconds,
+                        it->why().empty() ? "" : ": " + printable(it->why()));
   }
   text += fmt::format("largest spread {:.4g}\n", network.largest_spread());
   return text;
@@ -175,6 +184,7 @@ std::string json_of(const std::vector<std::unique_ptr<Robot>>& robots,
     robot["result"] = std::string(to_string(summary.result));
     robot["ticks"] = summary.ticks;
     robot["seconds"] = summary.seconds;
+    if (!it->why().empty()) robot["why"] = it->why();
     all[it->name()] = std::move(robot);
   }
   json["robots"] = std::move(all);
@@ -191,6 +201,14 @@ int simulate(const TeamOptions& options) {
     if (failed != kExitSuccess) return failed;
   }
   if (!have_names(robots)) return kExitUsage;
+  if (!options.starts.empty() && options.starts.size() != robots.size()) {
+    print_error("--start: a time for each robot, in their order");
+    return kExitUsage;
+  }
+  if (!options.record.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.record, error);  // what is wrong, the recorder says
+  }
   StopSignals::install();
   SimulatedNetwork network(*network_of);
   Turns turns(robots.size());
@@ -231,9 +249,9 @@ std::function<int()> define_team(CLI::App& app) {
       ->transform(whole_number())
       ->capture_default_str();
   app.add_option("--timeout", options->timeout, "End after so many seconds")
-      ->check(number_between(0, 1e9));
+      ->check(number_between(1e-9, 1e9));
   app.add_option("--max-ticks", options->max_ticks, "End after so many ticks of a robot")
-      ->transform(whole_number());
+      ->transform(whole_number(1));
   app.add_option("--latency", options->latency, "Seconds that each word takes")
       ->check(number_between(0, 1e6))
       ->capture_default_str();
@@ -245,7 +263,8 @@ std::function<int()> define_team(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--cut", options->cuts,
                  "FROM..UNTIL in seconds: nothing arrives. May be repeated");
-  app.add_option("--start", options->starts, "Seconds at which each robot starts, in their order");
+  app.add_option("--start", options->starts, "Seconds at which each robot starts, in their order")
+      ->check(number_between(0, 1e6));
   app.add_option("--record", options->record, "Record each run into this folder, as NAME.jsonl");
   app.add_flag("--json", options->json, "Print the results as JSON");
   add_load_options(app, options->load);
@@ -263,8 +282,7 @@ extern const Command kTeamCommand{
     "refused, 2 usage.\n"
     "\n"
     "Examples:\n"
-    "  lockstep team trees/carry_together/carry.xml,me=left "
-    "trees/carry_together/carry.xml,me=right\n"
+    "  lockstep team carry.xml,me=left carry.xml,me=right\n"
     "  lockstep team left.xml right.xml --latency 0.02 --jitter 0.005 --loss 0.01 --cut 2..4",
     define_team};
 

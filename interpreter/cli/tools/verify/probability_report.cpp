@@ -87,7 +87,9 @@ std::string to_text(const ProbabilityReport& report) {
   for (const ProbabilityRow& it : rows)
     text += fmt::format("  {:<{}}  {}\n", it.name, width, text_of(it.of));
   if (error > kOneNumber) {
-    text += "  not all is known: what was not looked at may do anything\n";
+    text += is_complete
+                ? "  not all is known: the time was over before the numbers were near enough\n"
+                : "  not all is known: what was not looked at may do anything\n";
   } else {
     if (has_choices)
       text += "  from the least to the largest, over all that has no chance in the leaf model\n";

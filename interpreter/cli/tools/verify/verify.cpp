@@ -420,6 +420,11 @@ int verify(const VerifyOptions& options) {
     print_error("--probability prints probabilities: as text or json, without --fmea and a ticket");
     return kExitUsage;
   }
+  if (options.probability && (!options.save.empty() || !options.only.empty())) {
+    print_error("--probability: there are no findings to save, and it answers all questions",
+                "leave out --save and --only");
+    return kExitUsage;
+  }
   if (options.probability && (options.cuts != 0 || options.compact || options.depth)) {
     print_error("--probability: cuts have no chances, and all ticks and states count",
                 "leave out --cuts, --compact and --depth");
