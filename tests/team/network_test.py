@@ -30,6 +30,9 @@ TREE = """<root lockstep="1" main_tree_to_execute="Carry">
 """
 
 
+started = []  # processes, of which none may be left
+
+
 class Robot:
     def __init__(self, name, tree, *more):
         self.record = f"{os.path.dirname(tree)}/{name}-{time.monotonic_ns()}.jsonl"
@@ -37,6 +40,7 @@ class Robot:
             [LOCKSTEP, "run", tree, "--arg", f"me={name}", "--record", self.record, "--view", "plain", "--team-domain", DOMAIN,
              "--team-peer", "127.0.0.1", "--stall", "0", *more],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        started.append(self.process)
         self.text = ""
 
     def wait_for(self, pattern):
@@ -116,6 +120,7 @@ def test_a_program_without_lockstep_takes_part(tree):
     peers = "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer address='127.0.0.1'/></Peers></Discovery>"
     uri = f"<General><AllowMulticast>false</AllowMulticast></General>{peers}"
     member = subprocess.Popen([MEMBER, DOMAIN], stdout=subprocess.PIPE, env={**os.environ, "CYCLONEDDS_URI": uri})
+    started.append(member)
     left = Robot("left", tree, "--arg", "step=0.01")
     assert left.end()[0] == 0, left.text
     assert member.communicate(timeout=PATIENCE)[0] == b"success\n" and member.returncode == 0
@@ -134,4 +139,10 @@ with tempfile.TemporaryDirectory() as directory:
     for name, test in list(globals().items()):
         if name.startswith("test_"):
             print(name, flush=True)
-            test(file)
+            try:
+                test(file)
+            finally:
+                for process in started:
+                    process.kill()
+                    process.wait()
+                started.clear()

@@ -19,7 +19,8 @@ std::string summary_of(const std::filesystem::path& file) {
   text << in.rdbuf();
   const std::string all = text.str();
   auto begin = all.find("<!-- ");
-  if (begin != std::string::npos && all.compare(begin, 11, "<!-- expect") == 0) begin = all.find("<!-- ", begin + 1);
+  if (begin != std::string::npos && all.compare(begin, 11, "<!-- expect") == 0)
+    begin = all.find("<!-- ", begin + 1);
   if (begin == std::string::npos) return {};
   begin += 5;
   std::istringstream words(all.substr(begin, all.find("-->", begin) - begin));

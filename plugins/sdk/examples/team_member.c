@@ -17,14 +17,17 @@ int main(int count, char** arguments) {
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(10));
   dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
-  const dds_entity_t topic = dds_create_topic(
-      participant, &lockstep_msgs_msg_dds__TeamMember__desc, "rt/lockstep/team", qos, NULL);
+  const dds_entity_t topic = dds_create_topic(participant, &lockstep_msgs_msg_dds__TeamMember__desc,
+                                              "rt/lockstep/team", qos, NULL);
   const dds_entity_t reader = dds_create_reader(participant, topic, qos, NULL);
   const dds_entity_t writer = dds_create_writer(participant, topic, qos, NULL);
   dds_delete_qos(qos);
   if (reader < 0 || writer < 0) return 1;
 
-  Word own = {.team = "table", .member = "right", .run = (uint64_t)dds_time(), .is_in = true,
+  Word own = {.team = "table",
+              .member = "right",
+              .run = (uint64_t)dds_time(),
+              .is_in = true,
               .period = 0.01};
   int done = 0;     /* of 100 steps */
   double left = -1; /* the progress of the other one in this round; -1: it is not in it */
@@ -34,7 +37,8 @@ int main(int count, char** arguments) {
     dds_sample_info_t info;
     while (dds_take(reader, samples, &info, 1, 1) > 0) {
       const Word* word = samples[0];
-      if (info.valid_data && strcmp(word->team, "table") == 0 && strcmp(word->member, "left") == 0) {
+      if (info.valid_data && strcmp(word->team, "table") == 0 &&
+          strcmp(word->member, "left") == 0) {
         own.declaration = word->declaration; /* both must declare the team in one way */
         if (own.round == 0) own.round = word->round == 0 ? 1 : word->round;
         const bool is_in = word->is_in && word->round == own.round;
