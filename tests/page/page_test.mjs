@@ -1,5 +1,6 @@
 // What a person finds on the page of a recording, by role and name.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { SOURCE, close, goToTick, lockstep, openRun, record, recordOverCut, soon, tree, violations } from "./support.mjs";
@@ -35,11 +36,14 @@ test("a person sees who waits for whom at which barrier, how far each is, and wh
 });
 
 test("the timeline marks where the process was cut and the run continued", async () => {
-  const page = await openRun(await recordOverCut(tree('<Advance step="0.002"/>')));
+  const recording = await recordOverCut(tree('<Advance step="0.002"/>')); // 500 ticks, as a line each
+  const share = readFileSync(recording, "utf8").split("\n").length / 500;
+  const page = await openRun(recording);
   const mark = page.getByRole("img", { name: /^the process was cut here, and the run continued after \d+(\.\d)? s$/ });
   await soon.equal(page, () => mark.count(), 1);
   const lanes = await page.getByRole("group", { name: "Lanes of the nodes" }).boundingBox(), cut = await mark.boundingBox();
-  assert.ok(cut.x > lanes.x + 170 && cut.x < lanes.x + lanes.width / 2, "the cut is in the first half of the run");
+  const first = lanes.x + 170, at = (cut.x - first) / (lanes.x + lanes.width - first);
+  assert.ok(Math.abs(at - share) < 0.1, `the cut is at ${at.toFixed(2)} of the run, and ${share.toFixed(2)} was recorded before it`);
   await page.context().close();
 });
 
