@@ -16,6 +16,7 @@
 #include <lockstep/runtime.hpp>
 #include <thread>
 
+#include "error_of.h"
 #include "support/paths.h"
 
 namespace {
@@ -179,16 +180,6 @@ runtime::Project project_of(const std::string& nodes) {
   project.load_text(tree(nodes));
   calls.clear();
   return project;
-}
-
-template <class Work>
-std::string error_of(Work work) {
-  try {
-    work();
-  } catch (const runtime::Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <lockstep/runtime.hpp>
 
+#include "error_of.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,16 +74,6 @@ class KeptRuns {
   runtime::Project project_;
 };
 
-template <class Work>
-std::string error_in(Work work) {
-  try {
-    work();
-  } catch (const runtime::Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 }  // namespace
 
 TEST_CASE("a program that resumes a run gets its time, its ticks and what its leaves do") {
@@ -105,7 +97,7 @@ TEST_CASE("a program that resumes a run gets its time, its ticks and what its le
   CHECK(resumed->leaves[0].status == Status::Success);
   CHECK(resumed->leaves[1].status == Status::Failure);
   CHECK_FALSE(resumed->leaves[0].asked);
-  CHECK(error_in([&] { second.tick(0.1); }) == "the time is before that of the last tick");
+  CHECK(error_of([&] { second.tick(0.1); }) == "the time is before that of the last tick");
   std::uint64_t seen = 0;
   second.on_tick([&](std::uint64_t tick, double, Status) { seen = tick; });
   CHECK(second.tick(0.3) == Status::Failure);  // of b
@@ -164,12 +156,12 @@ TEST_CASE("a leaf that breaks when it is restored ends the run, which may recove
   const std::string cut = runs.cut();
   {
     runtime::Run run = runs.run();
-    CHECK(error_in([&] { run.keep(cut); }).find("the table is gone") != std::string::npos);
+    CHECK(error_of([&] { run.keep(cut); }).find("the table is gone") != std::string::npos);
     run.recover();
     CHECK(run.tick(0.1) == Status::Running);
     fs::copy_file(cut, runs.file() + "2");
     runtime::Run third = runs.run();
-    CHECK(error_in([&] { third.keep(runs.file() + "2"); }).find("the table is gone") !=
+    CHECK(error_of([&] { third.keep(runs.file() + "2"); }).find("the table is gone") !=
           std::string::npos);
   }
   CHECK_FALSE(runs.run().keep(cut));
@@ -179,26 +171,26 @@ TEST_CASE("a program keeps a run from its first tick on, once, and before it is 
   const KeptRuns runs("<Count ticks=\"9\"/>");
   runtime::Run run = runs.run();
   run.keep(runs.file());
-  CHECK(error_in([&] { run.keep(runs.file()); }) == "the run is kept already");
-  CHECK(error_in([&] { runs.run().keep(runs.file()); }).find("another run keeps its checkpoints") !=
+  CHECK(error_of([&] { run.keep(runs.file()); }) == "the run is kept already");
+  CHECK(error_of([&] { runs.run().keep(runs.file()); }).find("another run keeps its checkpoints") !=
         std::string::npos);
   runtime::Run ticked = runs.run();
   ticked.tick(0);
-  CHECK(error_in([&] { ticked.keep(runs.file()); }) ==
+  CHECK(error_of([&] { ticked.keep(runs.file()); }) ==
         "the run has been ticked already: it is kept from its first tick on");
   runtime::Run watched = runs.run();
   watched.monitor("0");
-  CHECK(error_in([&] { watched.keep(runs.file()); }) ==
+  CHECK(error_of([&] { watched.keep(runs.file()); }) ==
         "the run is watched already: keep it first");
   runtime::KeepSettings settings;
   settings.sync = -1;
-  CHECK(error_in([&] { runs.run().keep(runs.file(), settings); }) ==
+  CHECK(error_of([&] { runs.run().keep(runs.file(), settings); }) ==
         "sync is not a number of seconds");
   settings = {};
   settings.on_resume = Status::Running;
-  CHECK(error_in([&] { runs.run().keep(runs.file(), settings); }) ==
+  CHECK(error_of([&] { runs.run().keep(runs.file(), settings); }) ==
         "on_resume is not LOCKSTEP_IDLE, LOCKSTEP_SUCCESS or LOCKSTEP_FAILURE");
-  CHECK(error_in([&] { runs.run().keep("/no/such/folder/file"); }) != "no error");
+  CHECK(error_of([&] { runs.run().keep("/no/such/folder/file"); }) != "no error");
 }
 
 TEST_CASE("a run whose state cannot be kept any more continues, and is not resumed") {
@@ -225,7 +217,7 @@ TEST_CASE("a run whose state cannot be kept any more continues, and is not resum
   CHECK(logged.find("lockstep: nothing is kept any more: cannot write '") == 0);
   CHECK(run.tick(0.2) == Status::Running);
   const std::string cut = runs.cut();
-  CHECK(error_in([&] { runs.run().keep(cut); }).find("' has no state of its run after 1 tick: ") !=
+  CHECK(error_of([&] { runs.run().keep(cut); }).find("' has no state of its run after 1 tick: ") !=
         std::string::npos);
   run.restart(0);
   CHECK_FALSE(run.not_kept());
