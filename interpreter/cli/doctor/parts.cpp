@@ -9,6 +9,7 @@
 #include "base/system/late_library.h"
 #include "cli/doctor/symptoms.h"
 #include "run/loading/plugin_directories.h"
+#include "run/loading/plugins.h"
 
 namespace lockstep::host {
 namespace {
@@ -110,12 +111,24 @@ bool is_library(const char* file) {
   }
 }
 
+// No package has it.
+void look_at_team(const Patient& patient, Symptoms& symptoms) {
+  const std::string module = team_module(patient.plugins);
+  constexpr const char* kName = "lockstep-team.so";
+  if (is_library(module.c_str()))
+    symptoms.push_back({kName, Grade::Good, "for robots in step on a network"});
+  else
+    symptoms.push_back({kName, Grade::Note, "missing: for robots in step on a network",
+                        "build with ./dev build, or with -DLOCKSTEP_TEAM=ON"});
+}
+
 }  // namespace
 
 void look_at_parts(const Patient& patient, Symptoms& symptoms) {
   look_at_plugins(patient, symptoms);
   look_at_leafhost(patient, symptoms);
   for (const Part& part : kLibraries) look_at(part, is_library(part.name), symptoms);
+  look_at_team(patient, symptoms);
   for (const Part& part : kPrograms) look_at(part, is_program(part.name), symptoms);
 }
 
