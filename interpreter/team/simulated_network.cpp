@@ -47,6 +47,7 @@ class SimulatedNetwork::Link final : public TeamTransport {
       : network_(network), teams_(std::move(teams)), last_(teams_.size()), clock_(clock) {}
 
   bool take(HeardWord& into) override {
+    send_again();
     if (coming_.empty() || coming_.front().at > clock_.now()) return false;
     into = coming_.front();
     coming_.pop_front();
@@ -60,18 +61,48 @@ class SimulatedNetwork::Link final : public TeamTransport {
   const std::vector<TeamDeclaration>& teams() const { return teams_; }
   const TeamWord& last(std::size_t team) const { return last_[team]; }
   Nanoseconds now() const { return clock_.now(); }
-  // Words of one link may come in another order than they were said.
-  void add(const HeardWord& word) {
-    const auto place = std::ranges::upper_bound(coming_, word.at, {}, &HeardWord::at);
-    coming_.insert(place, word);
+  // A word of `from`. The one before it is not sent again any more.
+  void send(const Link& from, HeardWord word) {
+    std::erase_if(lost_,
+                  [&](const Lost& it) { return it.from == &from && it.word.team == word.team; });
+    word.at = from.now();
+    if (!try_to_add(word)) lost_.push_back({&from, word});
+  }
+  void forget(const Link& from) {
+    std::erase_if(lost_, [&](const Lost& it) { return it.from == &from; });
   }
 
  private:
+  // What was lost is sent again after a time, as networks for robots do: the last word of each.
+  void send_again() {
+    constexpr Nanoseconds kAgain = std::chrono::milliseconds(100);
+    std::erase_if(lost_, [&](Lost& it) {
+      while (it.word.at + kAgain <= clock_.now()) {
+        it.word.at += kAgain;
+        if (try_to_add(it.word)) return true;
+      }
+      return false;
+    });
+  }
+  bool try_to_add(HeardWord word) {
+    const auto at = network_.arrival(word.at);
+    if (!at) return false;
+    word.at = *at;
+    // Words may come in another order than they were said.
+    coming_.insert(std::ranges::upper_bound(coming_, word.at, {}, &HeardWord::at), word);
+    return true;
+  }
+
+  struct Lost {
+    const Link* from;
+    HeardWord word;  // `at`: when it was sent last
+  };
   SimulatedNetwork& network_;
   const std::vector<TeamDeclaration> teams_;
   std::vector<TeamWord> last_;
   Clock& clock_;
   std::deque<HeardWord> coming_;
+  std::vector<Lost> lost_;
 };
 
 SimulatedNetwork::SimulatedNetwork(const NetworkOptions& options)
@@ -83,17 +114,15 @@ TeamTransport& SimulatedNetwork::join(const std::vector<TeamDeclaration>& teams,
 }
 
 void SimulatedNetwork::leave(const TeamTransport& link) {
+  for (const auto& it : links_) it->forget(static_cast<const Link&>(link));
   std::erase_if(links_, [&](const auto& it) { return it.get() == &link; });
 }
 
 void SimulatedNetwork::say(const Link& from, std::uint32_t team, const TeamWord& word) {
   const TeamDeclaration& own = from.teams()[team];
   measure(own);
-  const Nanoseconds now = from.now();
   for (const auto& link : links_) {
     if (link.get() == &from) continue;
-    const auto at = arrival(now);
-    if (!at) continue;
     for (std::uint32_t i = 0; i < link->teams().size(); ++i) {
       const TeamDeclaration& theirs = link->teams()[i];
       if (theirs.team != own.team) continue;
@@ -101,24 +130,18 @@ void SimulatedNetwork::say(const Link& from, std::uint32_t team, const TeamWord&
       const bool is_same = theirs.self == own.self;
       if (other == theirs.others.end() && !is_same) continue;
       const auto place = static_cast<std::uint32_t>(other - theirs.others.begin());
-      link->add(
-          {.team = i, .member = is_same ? HeardWord::kOwnName : place, .word = word, .at = *at});
+      link->send(from, {.team = i, .member = is_same ? HeardWord::kOwnName : place, .word = word});
     }
   }
 }
 
-// What is lost is sent again, as a network for robots does.
-std::optional<Nanoseconds> SimulatedNetwork::arrival(Nanoseconds said) {
-  constexpr Nanoseconds kAgain = std::chrono::milliseconds(100);
-  constexpr int kMostTries = 1000;
+std::optional<Nanoseconds> SimulatedNetwork::arrival(Nanoseconds sent) {
   const Nanoseconds more = from_seconds(to_seconds(options_.jitter) * random_.next_double());
-  for (int tries = 0; tries < kMostTries; ++tries, said += kAgain) {
-    const bool is_cut = std::ranges::any_of(
-        options_.cuts, [&](const auto& it) { return it.from <= said && said < it.until; });
-    const bool is_lost = random_.next_double() < options_.loss;
-    if (!is_cut && !is_lost) return said + options_.latency + more;
-  }
-  return std::nullopt;
+  const bool is_lost = random_.next_double() < options_.loss;
+  const bool is_cut = std::ranges::any_of(
+      options_.cuts, [&](const auto& it) { return it.from <= sent && sent < it.until; });
+  if (is_lost || is_cut) return std::nullopt;
+  return sent + options_.latency + more;
 }
 
 void SimulatedNetwork::measure(const TeamDeclaration& team) {

@@ -74,7 +74,7 @@ class SimulatedNetwork {
   // Before any of them runs. `clock` must outlive this.
   TeamTransport& join(const std::vector<TeamDeclaration>& teams, Clock& clock);
 
-  // Its run has ended.
+  // Its process is killed. A run that ends in order stays: its last word may be on its way.
   void leave(const TeamTransport& link);
 
   // The largest difference in progress of two members that did one round of a team at one time.
@@ -83,7 +83,8 @@ class SimulatedNetwork {
  private:
   class Link;
   void say(const Link& from, std::uint32_t team, const TeamWord& word);
-  std::optional<Nanoseconds> arrival(Nanoseconds said);
+  // Of what is sent then; nothing: it is lost.
+  std::optional<Nanoseconds> arrival(Nanoseconds sent);
   void measure(const TeamDeclaration& team);
 
   const NetworkOptions options_;

@@ -255,25 +255,25 @@ void TeamRun::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
 
 void TeamRun::after_tick(const Moment& moment, const TickReport&) {
   for (Team& it : teams_) {
-    auto end = TeamMember::End::None;
-    const auto look = [&](NodeState state) {
-      if (state.ticked() && state.status() == Status::Success) end = TeamMember::End::Success;
-    };
-    moment.within.each_part(
-        column_, [&](std::span<const NodeState> states, bool, bool) { look(states[it.node]); });
-    if (moment.ticked(it.node) && moment.has_succeeded(it.node)) end = TeamMember::End::Success;
+    // Within one tick it may succeed and begin again.
+    bool has_succeeded = moment.ticked(it.node) && moment.has_succeeded(it.node);
+    moment.within.each_part(column_, [&](std::span<const NodeState> states, bool, bool) {
+      const NodeState state = states[it.node];
+      has_succeeded |= state.ticked() && state.status() == Status::Success;
+    });
+    const auto end = has_succeeded ? TeamMember::End::Success : TeamMember::End::None;
     const bool is_in = moment.status(it.node) == Status::Running;
     it.member.set_own(is_in, is_in ? moment.used(it.node)[0] : 0.0, end);
   }
-  say(moment);
+  say();
 }
 
-void TeamRun::run_ended(const Moment& moment, const RunEnd&) {
+void TeamRun::run_ended(const Moment&, const RunEnd&) {
   for (Team& it : teams_) it.member.set_own(false, 0.0, TeamMember::End::None);
-  say(moment);
+  say();
 }
 
-void TeamRun::say(const Moment&) {
+void TeamRun::say() {
   for (std::uint32_t i = 0; i < teams_.size(); ++i) transport_.say(i, teams_[i].member.word());
 }
 

@@ -51,7 +51,7 @@ class TeamRun final : public Observer {
     TeamMember member;
     NodeIndex node;  // that is in step
   };
-  void say(const Moment& moment);
+  void say();
 
   std::vector<Team> teams_;
   TeamTransport& transport_;

@@ -50,7 +50,7 @@ TEST_CASE("lockstep team: a robot that starts later is waited for, and recorded 
   const TemporaryDirectory directory;
   const Outcome late = team({"--start", "0", "2", "--record", directory.path("")});
   CHECK(late.code == 0);
-  CHECK(contains(late.out, "left   success, 304 ticks"));
+  CHECK(contains(late.out, "left   success, 303 ticks"));
   const Outcome why = run_lockstep({"log", "events", directory.path("left.jsonl")});
   CHECK(contains(why.out, "tick 1        failure  Carry/InStep/right"));
   const std::string text = read_file(directory.path("left.jsonl"));

@@ -234,7 +234,7 @@ bool lets_go_on(const Truth& it, const Going& other, const TeamTrial& trial) {
   if (trial.is_delta) return other.progress <= progress + trial.delta + kNear;
   return std::ranges::none_of(trial.barriers, [&](double barrier) {
     if (barrier == 0) return other.begins && !is_in;
-    return other.progress >= barrier - kNear / 2 && progress < barrier - kNear;
+    return other.progress >= barrier && progress < barrier - kNear;
   });
 }
 

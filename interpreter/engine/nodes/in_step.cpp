@@ -69,32 +69,31 @@ struct Others {
   bool are_heard = true, have_begun = true;
 };
 
+// One that was not heard before this tick counts from the next one on: its progress is not known.
 Others tick_others(NodeContext& context, NodeIndex self) {
   Others others;
   for (NodeIndex other = context.end_of(self + 1); other != context.end_of(self);
        other = context.end_of(other)) {
-    if (context.status(other) == Status::Success) continue;  // it has completed this round
+    const Status before = context.status(other);
+    if (before == Status::Success) continue;  // it has completed this round
     const Status status = context.tick(other);
-    others.are_heard &= status != Status::Failure;
+    others.are_heard &= before != Status::Failure && status != Status::Failure;
     others.have_begun &= status == Status::Running || status == Status::Success;
   }
   return others;
 }
 
-// Before any of them is ticked: what was heard is of the time before the tick. One that was not
-// heard counts 0. Its number, which is only shown, stays as it was.
+// Before any of them is ticked: what was heard is of the time before the tick. The number of one
+// that was not heard, for which nobody moves, stays as it was.
 double take_snapshot(NodeContext& context, NodeIndex self) {
   const auto progress = context.child_states<double>(self);
   progress[0] = snapshot_of(context, self + 1);
-  double least = std::min(1.0, progress[0]);
   std::size_t place = 1;
   for (NodeIndex other = context.end_of(self + 1); other != context.end_of(self);
        other = context.end_of(other), ++place) {
-    const bool was_lost = context.status(other) == Status::Failure;
-    if (!was_lost) progress[place] = context.progress(other);
-    least = std::min(least, was_lost ? 0.0 : progress[place]);
+    if (context.status(other) != Status::Failure) progress[place] = context.progress(other);
   }
-  return least;
+  return least_progress(progress);
 }
 
 // Finds the limit of this tick. Returns the least progress that is held.
@@ -216,9 +215,9 @@ const NodeKind kInStep{
     .type = {.id = "InStep",
              .category = NodeCategory::Control,
              .doc =
-                 "Keeps its child in step with the other members of a team, robots that run trees "
-                 "of their own: at barriers, or at most delta ahead. Returns what its child "
-                 "returns, and Running while the child is held.",
+                 "Keeps its child in step with the other members of a team, robots that run other "
+                 "trees: at barriers, or at most delta ahead. Returns what its child returns, "
+                 "and Running while the child is held.",
              .arity = {1, 1},
              .parameters = in_step::kInStepParameters,
              .rule = in_step::rule_of_in_step,
@@ -239,8 +238,8 @@ const NodeKind kInStep{
 const NodeKind kTeam{
     .type = {.id = "team",
              .category = NodeCategory::Group,
-             .doc = "Robots that do something in step, each with a tree of its own: "
-                    "in each tree, one InStep names the team and which member it is.",
+             .doc = "Robots that do something in step, and run different trees: in each tree, one "
+                    "InStep names the team and the member that the robot is.",
              .arity = {0, 0},
              .parameters = in_step::kTeamParameters,
              .rule = in_step::rule_of_team,
