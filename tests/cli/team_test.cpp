@@ -86,6 +86,13 @@ TEST_CASE(
   CHECK(contains(team({"--start", "1"}).err, "--start: a time for each robot"));
 }
 
+TEST_CASE("lockstep team: a member that no file plays is named") {
+  const Outcome alone = run_lockstep({"team", kCarry + ",me=left", "--timeout", "1"});
+  CHECK(alone.code == 1);
+  CHECK(contains(alone.err, "no file is 'right' of the team 'table', so the others wait for it"));
+  CHECK_FALSE(contains(team({}).err, "no file is"));
+}
+
 TEST_CASE("run: a run in a team is not kept") {
   const TemporaryDirectory directory;
   const Outcome kept = run_lockstep({"run", kCarry, "--checkpoint", directory.path("c")});

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -158,6 +159,25 @@ bool have_names(const std::vector<std::unique_ptr<Robot>>& robots) {
   return true;
 }
 
+// The others wait for them until the limit.
+void note_missing(const std::vector<std::unique_ptr<Robot>>& robots) {
+  std::set<std::string> told;
+  for (const auto& robot : robots) {
+    for (const TeamDeclaration& team : robot->teams()) {
+      for (const std::string& name : team.others) {
+        const bool is_there = std::ranges::any_of(robots, [&](const auto& other) {
+          return std::ranges::any_of(other->teams(), [&](const TeamDeclaration& it) {
+            return it.team == team.team && it.self == name;
+          });
+        });
+        if (is_there || !told.insert(team.team + '/' + name).second) continue;
+        print_note(fmt::format("no file is '{}' of the team '{}', so the others wait for it",
+                               printable(name), printable(team.team)));
+      }
+    }
+  }
+}
+
 std::string text_of(const std::vector<std::unique_ptr<Robot>>& robots,
                     const SimulatedNetwork& network) {
   std::string text;
@@ -201,6 +221,7 @@ int simulate(const TeamOptions& options) {
     if (failed != kExitSuccess) return failed;
   }
   if (!have_names(robots)) return kExitUsage;
+  note_missing(robots);
   if (!options.starts.empty() && options.starts.size() != robots.size()) {
     print_error("--start: a time for each robot, in their order");
     return kExitUsage;
