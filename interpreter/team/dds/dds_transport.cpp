@@ -2,11 +2,16 @@
 // Reliable, and the last word of each is kept for those that come later.
 #include <dds/dds.h>
 #include <fmt/format.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netinet/in.h>
 #include <semaphore.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <memory>
@@ -27,6 +32,7 @@ using Sample = lockstep_msgs_msg_dds__TeamMember_;
 
 constexpr const char* kTopic = "rt/lockstep/team";
 constexpr dds_duration_t kLongestLook = DDS_MSECS(100);
+constexpr Nanoseconds kBetweenLooks = std::chrono::seconds(1);  // at the addresses of this machine
 
 // From one thread to another. What does not fit is left out: a newer word comes.
 class Ring {
@@ -61,26 +67,49 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+// Robots are found within a second. Threads end also where this machine cannot send to itself,
+// which it cannot when the interface is gone.
+constexpr const char* kDefaults =
+    "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>"
+    "<Discovery><SPDPInterval>1s</SPDPInterval></Discovery>";
+
+// A later one wins: the options.
 std::string config_of(const TeamNetworkOptions& options) {
-  std::string config;
-  if (!options.interface.empty() || !options.peers.empty()) {
-    std::string general, discovery;
-    if (!options.interface.empty()) {
-      general = fmt::format("<Interfaces><NetworkInterface name=\"{}\"/></Interfaces>",
-                            escaped(options.interface));
-    }
-    if (!options.peers.empty()) {
-      general += "<AllowMulticast>false</AllowMulticast>";
-      for (const std::string& it : options.peers)
-        discovery += fmt::format("<Peer address=\"{}\"/>", escaped(it));
-      discovery =
-          "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100"
-          "</MaxAutoParticipantIndex><Peers>" +
-          discovery + "</Peers>";
-    }
-    config = fmt::format("<General>{}</General><Discovery>{}</Discovery>", general, discovery);
+  std::string config = kDefaults;
+  if (const char* const uri = secure_getenv("CYCLONEDDS_URI"); uri != nullptr && *uri != 0)
+    config += fmt::format(",{}", uri);
+  if (!options.interface.empty()) {
+    config +=
+        fmt::format(",<General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces></General>",
+                    escaped(options.interface));
+  }
+  if (!options.peers.empty()) {
+    std::string peers;
+    for (const std::string& it : options.peers)
+      peers += fmt::format("<Peer address=\"{}\"/>", escaped(it));
+    config += fmt::format(
+        ",<General><AllowMulticast>false</AllowMulticast></General><Discovery>"
+        "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>100"
+        "</MaxAutoParticipantIndex><Peers>{}</Peers></Discovery>",
+        peers);
   }
   return config;
+}
+
+// Of this machine's interfaces: where they differ, sockets may be of one that is gone.
+std::string addresses() {
+  std::string all;
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return all;
+  for (const ifaddrs* it = list; it != nullptr; it = it->ifa_next) {
+    if (it->ifa_addr == nullptr || it->ifa_addr->sa_family != AF_INET) continue;
+    sockaddr_in address{};
+    std::memcpy(&address, it->ifa_addr, sizeof address);
+    all += fmt::format("{} {} {}\n", it->ifa_name, if_nametoindex(it->ifa_name),
+                       address.sin_addr.s_addr);
+  }
+  freeifaddrs(list);
+  return all;
 }
 
 class DdsTransport final : public TeamTransport {
@@ -94,11 +123,13 @@ class DdsTransport final : public TeamTransport {
     stops_ = true;
     sem_post(&said_);
     if (speaker_.joinable()) speaker_.join();
+    if (hearer_.joinable()) hearer_.join();
     // The last word says what this robot has completed.
     if (writer_ > 0) dds_wait_for_acks(writer_, DDS_SECS(1));
-    if (hearer_.joinable()) hearer_.join();
-    if (domain_ > 0) dds_delete(domain_);
-    if (participant_ > 0 && domain_ <= 0) dds_delete(participant_);
+    const auto no_log = [](void*, const dds_log_data_t*) {};
+    dds_set_log_sink(no_log, nullptr);
+    dds_set_trace_sink(no_log, nullptr);
+    disconnect();
     sem_destroy(&said_);
   }
 
@@ -107,23 +138,8 @@ class DdsTransport final : public TeamTransport {
     sem_init(&said_, 0, 0);
     dds_set_log_sink(log_sink, this);
     dds_set_trace_sink(log_sink, this);
-    const std::string config = config_of(options_);
-    if (!config.empty()) {
-      domain_ = dds_create_domain(options_.domain, config.c_str());
-      if (domain_ < 0) return failure("its configuration is refused", domain_);
-    }
-    participant_ = dds_create_participant(options_.domain, nullptr, nullptr);
-    if (participant_ < 0) return failure("the network cannot be used", participant_);
-    dds_qos_t* const qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(10));
-    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
-    const dds_entity_t topic = dds_create_topic(
-        participant_, &lockstep_msgs_msg_dds__TeamMember__desc, kTopic, qos, nullptr);
-    reader_ = topic < 0 ? topic : dds_create_reader(participant_, topic, qos, nullptr);
-    writer_ = topic < 0 ? topic : dds_create_writer(participant_, topic, qos, nullptr);
-    dds_delete_qos(qos);
-    if (reader_ < 0 || writer_ < 0) return failure("the topic cannot be made", reader_);
+    std::string why = connect();
+    if (!why.empty()) return why;
     hearer_ = std::thread([this] { hear(); });
     speaker_ = std::thread([this] { speak(); });
     return "";
@@ -152,32 +168,86 @@ class DdsTransport final : public TeamTransport {
     while (!line.empty() && line.back() == '\n') line.pop_back();
     it.tell_once("network: " + line, true);
   }
+  // Lines of DDS that differ in numbers alone, such as those of 100 ports, are one.
   void tell_once(const std::string& line, bool is_log) {
+    std::string kind = line;
+    if (is_log) std::erase_if(kind, [](char it) { return it >= '0' && it <= '9'; });
     {
       constexpr std::size_t kMost = 100;
       const std::scoped_lock lock(mutex_);
       if (is_log) last_log_ = line;
-      if (told_.size() >= kMost || !told_.insert(line).second) return;
+      if (told_.size() >= kMost || !told_.insert(kind).second) return;
     }
     if (options_.tell) options_.tell(line);
   }
 
-  void hear() {
-    const dds_entity_t set = dds_create_waitset(participant_);
+  // "": it is connected.
+  std::string connect() {
+    addresses_ = addresses();
+    domain_ = dds_create_domain(options_.domain, config_of(options_).c_str());
+    if (domain_ < 0) return failure("its configuration is refused", domain_);
+    const dds_entity_t participant = dds_create_participant(options_.domain, nullptr, nullptr);
+    if (participant < 0) return failure("the network cannot be used", participant);
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(10));
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+    const dds_entity_t topic = dds_create_topic(
+        participant, &lockstep_msgs_msg_dds__TeamMember__desc, kTopic, qos, nullptr);
+    reader_ = topic < 0 ? topic : dds_create_reader(participant, topic, qos, nullptr);
+    const dds_entity_t writer =
+        topic < 0 ? topic : dds_create_writer(participant, topic, qos, nullptr);
+    dds_delete_qos(qos);
+    if (reader_ < 0 || writer < 0) return failure("the topic cannot be made", reader_);
+    set_ = dds_create_waitset(participant);
     dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS);
-    dds_waitset_attach(set, reader_, reader_);
+    dds_waitset_attach(set_, reader_, reader_);
+    const std::scoped_lock lock(writes_);
+    writer_ = writer;
+    return "";
+  }
+
+  void disconnect() {
+    {
+      const std::scoped_lock lock(writes_);
+      writer_ = 0;
+    }
+    if (domain_ > 0) dds_delete(domain_);
+    domain_ = reader_ = set_ = 0;
+  }
+
+  void hear() {
+    Nanoseconds looked = monotonic_now();
     while (!stops_) {
       dds_attach_t triggered = 0;
-      dds_waitset_wait(set, &triggered, 1, kLongestLook);
+      if (set_ > 0)
+        dds_waitset_wait(set_, &triggered, 1, kLongestLook);
+      else
+        dds_sleepfor(kLongestLook);
       take_all();
+      if (monotonic_now() - looked < kBetweenLooks) continue;
+      connect_again();
+      looked = monotonic_now();
     }
+  }
+
+  // DDS keeps the interface and the address that it began with. Where these have changed, and no
+  // other robot is connected any more, it begins again.
+  void connect_again() {
+    const bool is_alone = set_ <= 0 || dds_get_matched_publications(reader_, nullptr, 0) <= 1;
+    if (!is_alone || (set_ > 0 && addresses() == addresses_)) return;
+    disconnect();
+    const std::string why = connect();
+    if (!why.empty()) disconnect();
+    tell_once(why.empty() ? "the addresses of this machine have changed: DDS begins again" : why,
+              false);
   }
 
   void take_all() {
     constexpr int kMost = 64;
     std::array<void*, kMost> samples{};
     std::array<dds_sample_info_t, kMost> infos{};
-    while (!stops_) {
+    while (!stops_ && reader_ > 0) {
       const auto count = dds_take(reader_, samples.data(), infos.data(), kMost, kMost);
       if (count <= 0) return;
       const Nanoseconds now = monotonic_now();
@@ -233,7 +303,8 @@ class DdsTransport final : public TeamTransport {
         sample.is_in = word.is_in;
         sample.progress = word.progress;
         sample.period = word.period;
-        dds_write(writer_, &sample);
+        const std::scoped_lock lock(writes_);
+        if (writer_ > 0) dds_write(writer_, &sample);
       }
     }
   }
@@ -244,7 +315,10 @@ class DdsTransport final : public TeamTransport {
   sem_t said_{};
   Ring heard_;
   std::atomic<bool> stops_{false};
-  dds_entity_t domain_ = 0, participant_ = 0, reader_ = 0, writer_ = 0;
+  dds_entity_t domain_ = 0, reader_ = 0, set_ = 0;
+  std::string addresses_;  // when it was connected
+  std::mutex writes_;      // the writer is used by the thread that speaks
+  dds_entity_t writer_ = 0;
   mutable std::mutex mutex_;
   std::set<std::string> told_;
   std::string last_log_;
