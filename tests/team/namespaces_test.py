@@ -4,7 +4,7 @@ ticked beyond a barrier before the other robot was at it.
 
   namespaces_test.py LOCKSTEP TREE
 
-The namespaces end with this program. It needs the right to make them: as root, or where users may have namespaces."""
+The namespaces and all processes in them end with this program. It needs the right to make them: as root, or where users may have namespaces."""
 import contextlib
 import fcntl
 import heapq
@@ -33,7 +33,7 @@ def enter_namespace():
     if IN_NAMESPACE in os.environ:
         return
     for rights in ([], ["--map-root-user"]):
-        command = ["unshare", "--net", *rights]
+        command = ["unshare", "--net", *rights, "--pid", "--fork", "--kill-child", "--mount-proc"]
         with contextlib.suppress(FileNotFoundError):
             if subprocess.run([*command, "ip", "link", "set", "lo", "up"], capture_output=True).returncode == 0:
                 os.execvpe("unshare", [*command, sys.executable, *sys.argv], {**os.environ, IN_NAMESPACE: "1"})
