@@ -29,8 +29,11 @@ TeamMember::TeamMember(TeamDeclaration declaration, std::uint64_t run)
 }
 
 void TeamMember::hear(std::size_t place, const TeamWord& word, Nanoseconds at) {
-  if (!is_sensible(word)) return;
   Other& other = others_[place];
+  if (!is_sensible(word)) {
+    other.nonsense = at;
+    return;
+  }
   const auto is_of = [&](const std::optional<Run>& it) { return it && it->word.run == word.run; };
   if (is_of(other.last)) {
     if (word.number <= other.last->word.number) return;
@@ -51,13 +54,14 @@ void TeamMember::hear_own_name(const TeamWord& word, Nanoseconds at) {
 }
 
 TeamMember::Where TeamMember::where_of(const Other& other, Nanoseconds now) const {
-  if (!other.last) return Where::Unheard;
+  const bool is_nonsense = other.nonsense && now - *other.nonsense <= deadline_;
+  if (!other.last) return is_nonsense ? Where::Nonsense : Where::Unheard;
   const TeamWord& word = other.last->word;
   if (other.contested && now - *other.contested <= deadline_) return Where::Contested;
   const bool is_of_team = word.declaration == own_.declaration;
   // It has done so for ever, and may be switched off.
   if (is_of_team && own_.round != 0 && word.passed >= own_.round) return Where::Passed;
-  if (now - other.last->at > deadline_) return Where::Silent;
+  if (now - other.last->at > deadline_) return is_nonsense ? Where::Nonsense : Where::Silent;
   if (!is_of_team) return Where::Stranger;
   if (own_.round == 0) return Where::NotBegun;
   return is_in_round(word) ? Where::InRound : Where::NotBegun;
@@ -82,7 +86,9 @@ void TeamMember::look(Nanoseconds now) {
       it.known = {.where = where_of(it, now)};
       if (it.last) it.known.age = now - it.last->at;
       // Of one that is silent, what was heard last.
-      const bool has_progress = it.known.where == Where::InRound || it.known.where == Where::Silent;
+      const bool has_progress = it.known.where == Where::InRound ||
+                                it.known.where == Where::Silent ||
+                                it.known.where == Where::Nonsense;
       if (has_progress && is_in_round(it.last->word)) it.known.progress = it.last->word.progress;
     }
   };

@@ -46,6 +46,7 @@ class TeamMember {
     Passed,     // it has completed this round
     Unheard,    // since this process began
     Silent,     // not since the deadline
+    Nonsense,   // nor anything that makes sense
     Contested,  // two robots have its name, or it contradicts itself
     Stranger,   // its tree declares the team in another way
   };
@@ -85,6 +86,7 @@ class TeamMember {
   struct Other {
     std::optional<Run> last, before;       // the run that was heard last, and the one before it
     std::optional<Nanoseconds> contested;  // when two were last heard
+    std::optional<Nanoseconds> nonsense;   // when it was last heard
     Known known;
   };
   Where where_of(const Other& other, Nanoseconds now) const;

@@ -74,6 +74,9 @@ struct WhyNot {
       case Where::Silent:
         std::snprintf(text, sizeof text, "not heard for %.1f s", to_seconds(known.age));
         return;
+      case Where::Nonsense:
+        std::snprintf(text, sizeof text, "what it sends makes no sense");
+        return;
       case Where::Contested:
         std::snprintf(text, sizeof text, "two robots have this name, or it contradicts itself");
         return;

@@ -11,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -31,7 +32,6 @@ namespace {
 using Sample = lockstep_msgs_msg_dds__TeamMember_;
 
 constexpr const char* kTopic = "rt/lockstep/team";
-constexpr dds_duration_t kLongestLook = DDS_MSECS(100);
 constexpr Nanoseconds kBetweenLooks = std::chrono::seconds(1);  // at the addresses of this machine
 
 // From one thread to another. What does not fit is left out: a newer word comes.
@@ -120,10 +120,14 @@ class DdsTransport final : public TeamTransport {
   }
 
   ~DdsTransport() override {
-    stops_ = true;
+    {
+      const std::scoped_lock lock(ends_);
+      stops_ = true;
+    }
+    ended_.notify_all();
     sem_post(&said_);
     if (speaker_.joinable()) speaker_.join();
-    if (hearer_.joinable()) hearer_.join();
+    if (watcher_.joinable()) watcher_.join();
     // The last word says what this robot has completed.
     if (writer_ > 0) dds_wait_for_acks(writer_, DDS_SECS(1));
     const auto no_log = [](void*, const dds_log_data_t*) {};
@@ -140,7 +144,7 @@ class DdsTransport final : public TeamTransport {
     dds_set_trace_sink(log_sink, this);
     std::string why = connect();
     if (!why.empty()) return why;
-    hearer_ = std::thread([this] { hear(); });
+    watcher_ = std::thread([this] { look_at_addresses(); });
     speaker_ = std::thread([this] { speak(); });
     return "";
   }
@@ -194,14 +198,20 @@ class DdsTransport final : public TeamTransport {
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
     const dds_entity_t topic = dds_create_topic(
         participant, &lockstep_msgs_msg_dds__TeamMember__desc, kTopic, qos, nullptr);
-    reader_ = topic < 0 ? topic : dds_create_reader(participant, topic, qos, nullptr);
+    // Before DDS keeps anything: it never forgets a name.
+    const dds_topic_filter filter{
+        .mode = DDS_TOPIC_FILTER_SAMPLE_ARG, .f = {.sample_arg = is_wanted}, .arg = this};
+    if (topic > 0) dds_set_topic_filter_extended(topic, &filter);
+    dds_listener_t* const listener = dds_create_listener(this);
+    dds_lset_data_available(listener, [](dds_entity_t reader, void* self) {
+      static_cast<DdsTransport*>(self)->take_all(reader);
+    });
+    reader_ = topic < 0 ? topic : dds_create_reader(participant, topic, qos, listener);
+    dds_delete_listener(listener);
     const dds_entity_t writer =
         topic < 0 ? topic : dds_create_writer(participant, topic, qos, nullptr);
     dds_delete_qos(qos);
     if (reader_ < 0 || writer < 0) return failure("the topic cannot be made", reader_);
-    set_ = dds_create_waitset(participant);
-    dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS);
-    dds_waitset_attach(set_, reader_, reader_);
     const std::scoped_lock lock(writes_);
     writer_ = writer;
     return "";
@@ -213,29 +223,23 @@ class DdsTransport final : public TeamTransport {
       writer_ = 0;
     }
     if (domain_ > 0) dds_delete(domain_);
-    domain_ = reader_ = set_ = 0;
+    domain_ = reader_ = 0;
   }
 
-  void hear() {
-    Nanoseconds looked = monotonic_now();
-    while (!stops_) {
-      dds_attach_t triggered = 0;
-      if (set_ > 0)
-        dds_waitset_wait(set_, &triggered, 1, kLongestLook);
-      else
-        dds_sleepfor(kLongestLook);
-      take_all();
-      if (monotonic_now() - looked < kBetweenLooks) continue;
+  void look_at_addresses() {
+    std::unique_lock lock(ends_);
+    while (!ended_.wait_for(lock, kBetweenLooks, [&] { return stops_.load(); })) {
+      lock.unlock();
       connect_again();
-      looked = monotonic_now();
+      lock.lock();
     }
   }
 
   // DDS keeps the interface and the address that it began with. Where these have changed, and no
   // other robot is connected any more, it begins again.
   void connect_again() {
-    const bool is_alone = set_ <= 0 || dds_get_matched_publications(reader_, nullptr, 0) <= 1;
-    if (!is_alone || (set_ > 0 && addresses() == addresses_)) return;
+    const bool is_alone = reader_ <= 0 || dds_get_matched_publications(reader_, nullptr, 0) <= 1;
+    if (!is_alone || (reader_ > 0 && addresses() == addresses_)) return;
     disconnect();
     const std::string why = connect();
     if (!why.empty()) disconnect();
@@ -243,18 +247,37 @@ class DdsTransport final : public TeamTransport {
               false);
   }
 
-  void take_all() {
+  static bool is_wanted(const void* sample, void* self) {
+    return static_cast<DdsTransport*>(self)->is_wanted(*static_cast<const Sample*>(sample));
+  }
+  bool is_wanted(const Sample& it) {
+    bool is_member = false;
+    for (const TeamDeclaration& team : teams_) {
+      if (team.team != it.team) continue;
+      is_member |=
+          team.self == it.member || std::ranges::find(team.others, it.member) != team.others.end();
+      if (is_member) continue;
+      tell_once(fmt::format("the team '{}' has no member '{}': its words are left out", team.team,
+                            std::string(it.member).substr(0, 64)),
+                false);
+    }
+    return is_member;
+  }
+
+  // In a thread of DDS.
+  void take_all(dds_entity_t reader) {
     constexpr int kMost = 64;
     std::array<void*, kMost> samples{};
     std::array<dds_sample_info_t, kMost> infos{};
-    while (!stops_ && reader_ > 0) {
-      const auto count = dds_take(reader_, samples.data(), infos.data(), kMost, kMost);
+    const std::scoped_lock lock(takes_);
+    for (;;) {
+      const auto count = dds_take(reader, samples.data(), infos.data(), kMost, kMost);
       if (count <= 0) return;
       const Nanoseconds now = monotonic_now();
       for (int i = 0; i < count; ++i) {
         if (infos[i].valid_data) take(*static_cast<const Sample*>(samples[i]), now);
       }
-      dds_return_loan(reader_, samples.data(), count);
+      dds_return_loan(reader, samples.data(), count);
     }
   }
 
@@ -263,16 +286,10 @@ class DdsTransport final : public TeamTransport {
       const TeamDeclaration& team = teams_[i];
       if (team.team != it.team) continue;
       const auto other = std::ranges::find(team.others, it.member);
-      const bool is_own = team.self == it.member;
-      if (other == team.others.end() && !is_own) {
-        tell_once(fmt::format("the team '{}' has no member '{}': its words are left out", team.team,
-                              std::string(it.member).substr(0, 64)),
-                  false);
-        continue;
-      }
       heard_.push({.team = i,
-                   .member = is_own ? HeardWord::kOwnName
-                                    : static_cast<std::uint32_t>(other - team.others.begin()),
+                   .member = team.self == it.member
+                                 ? HeardWord::kOwnName
+                                 : static_cast<std::uint32_t>(other - team.others.begin()),
                    .word = {.run = it.run,
                             .number = it.number,
                             .declaration = it.declaration,
@@ -315,14 +332,16 @@ class DdsTransport final : public TeamTransport {
   sem_t said_{};
   Ring heard_;
   std::atomic<bool> stops_{false};
-  dds_entity_t domain_ = 0, reader_ = 0, set_ = 0;
+  dds_entity_t domain_ = 0, reader_ = 0;
   std::string addresses_;  // when it was connected
   std::mutex writes_;      // the writer is used by the thread that speaks
   dds_entity_t writer_ = 0;
   mutable std::mutex mutex_;
   std::set<std::string> told_;
   std::string last_log_;
-  std::thread hearer_, speaker_;
+  std::condition_variable ended_;
+  std::mutex ends_, takes_;
+  std::thread watcher_, speaker_;
 };
 
 }  // namespace

@@ -201,12 +201,23 @@ TEST_CASE("a member whose tree declares the team in another way is a stranger") 
 
 TEST_CASE("what makes no sense is not heard, and a run that takes back what it said is contested") {
   TeamMember member = in_round(2);
+  member.hear(0, word_of(2, 2, 2, true, 0.25, 1), 0s);
   const double kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double progress : {kNan, -0.1, 1.1, HUGE_VAL}) {
     member.hear(0, word_of(2, 9, 2, true, progress, 1), 40ms);
     member.look(40ms);
     CHECK(member.known(0).age == 40ms);
+    CHECK(where(member) == Where::InRound);
   }
+  member.look(60ms);
+  CHECK(where(member) == Where::Nonsense);
+  CHECK(member.known(0).progress == 0.25);
+  TeamMember other(left_of(), 1);
+  other.hear(0, word_of(2, 1, 1, true, kNan), 0s);
+  other.look(0s);
+  CHECK(where(other) == Where::Nonsense);
+  other.look(60ms);
+  CHECK(where(other) == Where::Unheard);
   TeamWord word = word_of(2, 9, 2, true, 0.5, 1);
   word.period = kNan;
   member.hear(0, word, 40ms);
