@@ -23,7 +23,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/results"))
 import results  # noqa: E402
 
-TREES, SMALL_TREES, SOAK_MINUTES, MUTANTS = 200_000, 500_000, 60, 60
+TREES, SMALL_TREES, SOAK_MINUTES, TEAM_MINUTES, MUTANTS = 200_000, 500_000, 60, 20, 60
 CUT_RUNS, CUT_RUNS_ON_THE_WALL_CLOCK = 20_000, 2_000
 HEAD = """\
 # Nightly
@@ -111,6 +111,8 @@ STEPS = {
     "ros2": ("leaves against real servers of ROS 2", one("./dev", "test-ros2"), ros2_is_missing),
     "python": ("the Python module with Python 3.9", one("./dev", "test-python"), is_here),
     "cuts": (f"{CUT_RUNS + CUT_RUNS_ON_THE_WALL_CLOCK:,} runs of random trees that are killed and continue", cut_runs, is_here),
+    "team": (f"eight robots in step, against eight alone, for {TEAM_MINUTES} minutes",
+             one("python3", "tests/team/load.py", "build/release/lockstep", str(TEAM_MINUTES)), is_here),
     "soak": (f"random faults at 1 kHz for {SOAK_MINUTES} minutes", one("./dev", "soak", str(SOAK_MINUTES)), is_here),
     "bench": ("the benchmarks, which neither pass nor fail", one("./dev", "bench"), is_here),
 }
