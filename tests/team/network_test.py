@@ -1,7 +1,9 @@
 """Robots in step over the network of this machine: a member that starts late, hangs, is killed and started again, and
 one whose name another program takes. Waits for what the robots print, and never for a time.
 
-  network_test.py LOCKSTEP MEMBER
+  network_test.py LOCKSTEP MEMBER TYPES
+
+MEMBER is team_member.c, and TYPES the types of its words as a shared library, for team_member.py.
 """
 import os
 import signal
@@ -12,7 +14,8 @@ import time
 import robots
 from robots import PATIENCE
 
-LOCKSTEP, MEMBER = sys.argv[1:3]
+LOCKSTEP, MEMBER, TYPES = sys.argv[1:4]
+IN_PYTHON = f"{os.path.dirname(__file__)}/../../plugins/sdk/examples/team_member.py"
 # Robots of other tests on this machine are in other domains.
 DOMAIN = str(1 + os.getpid() % 200)
 
@@ -92,14 +95,22 @@ def test_trees_that_differ_hold(folder):
         assert robot.end() == 130
 
 
-def test_a_program_without_lockstep_takes_part(folder):
+def is_in_step_with(folder, *member):
     peers = "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer address='127.0.0.1'/></Peers></Discovery>"
     uri = f"<General><AllowMulticast>false</AllowMulticast></General>{peers}"
-    member = subprocess.Popen([MEMBER, DOMAIN], stdout=subprocess.PIPE, env={**os.environ, "CYCLONEDDS_URI": uri})
-    robots.started.append(member)
+    process = subprocess.Popen([*member, DOMAIN], stdout=subprocess.PIPE, env={**os.environ, "CYCLONEDDS_URI": uri})
+    robots.started.append(process)
     left = Robot("left", folder, "--arg", "step=0.01")
     left.succeeds()
-    assert member.communicate(timeout=PATIENCE)[0] == b"success\n" and member.returncode == 0
+    assert process.communicate(timeout=PATIENCE)[0] == b"success\n" and process.returncode == 0
+
+
+def test_a_program_in_c_takes_part(folder):
+    is_in_step_with(folder, MEMBER)
+
+
+def test_a_program_in_python_takes_part(folder):
+    is_in_step_with(folder, sys.executable, IN_PYTHON, TYPES)
 
 
 def test_a_wrong_interface_is_a_sentence(folder):
