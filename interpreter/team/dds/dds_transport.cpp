@@ -172,12 +172,13 @@ class DdsTransport final : public TeamTransport {
     while (!line.empty() && line.back() == '\n') line.pop_back();
     it.tell_once("network: " + line, true);
   }
-  // Lines of DDS that differ in numbers alone, such as those of 100 ports, are one.
+  // Lines of DDS that differ in numbers or in what a packet has, such as those of 100 ports, are
+  // one.
   void tell_once(const std::string& line, bool is_log) {
-    std::string kind = line;
+    std::string kind = is_log ? line.substr(0, line.find('<')) : line;
     if (is_log) std::erase_if(kind, [](char it) { return it >= '0' && it <= '9'; });
     {
-      constexpr std::size_t kMost = 100;
+      constexpr std::size_t kMost = 30;
       const std::scoped_lock lock(mutex_);
       if (is_log) last_log_ = line;
       if (told_.size() >= kMost || !told_.insert(kind).second) return;
