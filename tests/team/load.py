@@ -14,6 +14,8 @@ import sys
 import tempfile
 import time
 
+from robots import memory_of
+
 MEMBERS, RATE, TURN = 8, 100, 15  # Hz, s
 MOST_RATIO, LEAST_DIFFERENCE = 1.5, 0.1e-3
 WARM_UP, MOST_GROWTH = 10, 1024  # s, KiB
@@ -37,11 +39,6 @@ def tree(seconds, has_team):
     around = (f'<InStep team="table" as="${{me}}" barriers="{barriers}">', "</InStep>") if has_team else \
         ("<Sequence>", "</Sequence>")
     return TREE.format(team=team, around=around, step=1 / (seconds * RATE))
-
-
-def memory_of(process):
-    with open(f"/proc/{process.pid}/status", encoding="utf-8") as lines:
-        return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS"))
 
 
 def run(lockstep, seconds, has_team, options):

@@ -1,9 +1,9 @@
 """Robots in step over the network of this machine: a member that starts late, hangs, is killed and started again, and
 one whose name another program takes. Waits for what the robots print, and never for a time.
 
-  network_test.py LOCKSTEP MEMBER TYPES
+  network_test.py LOCKSTEP MEMBER TYPES LIAR
 
-MEMBER is team_member.c, and TYPES the types of its words as a shared library, for team_member.py.
+MEMBER is team_member.c, and TYPES the types of its words as a shared library, for team_member.py. LIAR is liar.c.
 """
 import os
 import signal
@@ -14,7 +14,7 @@ import time
 import robots
 from robots import PATIENCE
 
-LOCKSTEP, MEMBER, TYPES = sys.argv[1:4]
+LOCKSTEP, MEMBER, TYPES, LIAR = sys.argv[1:5]
 IN_PYTHON = f"{os.path.dirname(__file__)}/../../plugins/sdk/examples/team_member.py"
 # Robots of other tests on this machine are in other domains.
 DOMAIN = str(1 + os.getpid() % 200)
@@ -95,14 +95,32 @@ def test_trees_that_differ_hold(folder):
         assert robot.end() == 130
 
 
-def is_in_step_with(folder, *member):
+def start(*program):
+    """A program of another kind, in the domain of the robots."""
     peers = "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer address='127.0.0.1'/></Peers></Discovery>"
     uri = f"<General><AllowMulticast>false</AllowMulticast></General>{peers}"
-    process = subprocess.Popen([*member, DOMAIN], stdout=subprocess.PIPE, env={**os.environ, "CYCLONEDDS_URI": uri})
+    process = subprocess.Popen([*program, DOMAIN], stdout=subprocess.PIPE, env={**os.environ, "CYCLONEDDS_URI": uri})
     robots.started.append(process)
+    return process
+
+
+def is_in_step_with(folder, *member):
+    process = start(*member)
     left = Robot("left", folder, "--arg", "step=0.01")
     left.succeeds()
     assert process.communicate(timeout=PATIENCE)[0] == b"success\n" and process.returncode == 0
+
+
+def test_a_program_that_lies_uses_no_memory_and_is_named(folder):
+    left = Robot("left", folder)
+    left.wait_for("right: failure: not heard yet")
+    before = robots.memory_of(left.process)
+    start(LIAR)
+    left.wait_for("the team 'table' has no member 'ghost_0'")
+    left.wait_for("right: failure: what it sends makes no sense")
+    assert robots.memory_of(left.process) - before < 8192, "KiB"
+    left.kill(signal.SIGINT)
+    assert left.end() == 130
 
 
 def test_a_program_in_c_takes_part(folder):

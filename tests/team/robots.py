@@ -61,6 +61,12 @@ class Robot:
             self.process.wait()
 
 
+def memory_of(process):
+    """In KiB."""
+    with open(f"/proc/{process.pid}/status", encoding="utf-8") as lines:
+        return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS"))
+
+
 def run_tests(tests):
     """Each function in `tests` whose name begins with test_, with a folder that is removed."""
     for name, test in list(tests.items()):
