@@ -35,8 +35,9 @@ TREE = """<root lockstep="1" main_tree_to_execute="Carry">
 class Robot(robots.Robot):
     def __init__(self, name, folder, *more):
         tree = f"{folder}/carry.xml"
-        with open(tree, "w", encoding="utf-8") as text:
-            text.write(TREE)
+        if not os.path.exists(tree):  # another robot may read it now
+            with open(tree, "w", encoding="utf-8") as text:
+                text.write(TREE)
         super().__init__([LOCKSTEP, "run", tree, "--arg", f"me={name}", "--team-domain", DOMAIN, "--team-peer", "127.0.0.1", *more],
                          f"{folder}/{name}-{time.monotonic_ns()}.jsonl")
 
