@@ -237,10 +237,10 @@ class DdsTransport final : public TeamTransport {
   }
 
   // DDS keeps the interface and the address that it began with. Where these have changed, and no
-  // other robot is connected any more, it begins again.
+  // other robot is heard, it begins again.
   void connect_again() {
-    const bool is_alone = reader_ <= 0 || dds_get_matched_publications(reader_, nullptr, 0) <= 1;
-    if (!is_alone || (reader_ > 0 && addresses() == addresses_)) return;
+    const bool is_heard = monotonic_now() - heard_at_.load() < kBetweenLooks;
+    if (reader_ > 0 && (is_heard || addresses() == addresses_)) return;
     disconnect();
     const std::string why = connect();
     if (!why.empty()) disconnect();
@@ -287,6 +287,7 @@ class DdsTransport final : public TeamTransport {
       const TeamDeclaration& team = teams_[i];
       if (team.team != it.team) continue;
       const auto other = std::ranges::find(team.others, it.member);
+      if (other != team.others.end()) heard_at_ = now;
       heard_.push({.team = i,
                    .member = team.self == it.member
                                  ? HeardWord::kOwnName
@@ -334,8 +335,9 @@ class DdsTransport final : public TeamTransport {
   Ring heard_;
   std::atomic<bool> stops_{false};
   dds_entity_t domain_ = 0, reader_ = 0;
-  std::string addresses_;  // when it was connected
-  std::mutex writes_;      // the writer is used by the thread that speaks
+  std::string addresses_;                              // when it was connected
+  std::atomic<Nanoseconds> heard_at_{Nanoseconds(0)};  // any other robot
+  std::mutex writes_;  // the writer is used by the thread that speaks
   dds_entity_t writer_ = 0;
   mutable std::mutex mutex_;
   std::set<std::string> told_;
