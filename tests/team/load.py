@@ -18,7 +18,7 @@ from robots import memory_of
 
 MEMBERS, RATE, TURN = 8, 100, 15  # Hz, s
 MOST_RATIO, LEAST_DIFFERENCE = 1.5, 0.1e-3
-WARM_UP, MOST_GROWTH = 10, 1024  # s, KiB
+WARM_UP, MOST_GROWTH = 10, 2048  # s, KiB; DDS keeps up to 1 MiB, and gives it back every few minutes
 
 TREE = """<root lockstep="1" main_tree_to_execute="Carry">
   <plugin name="motion"/>
