@@ -104,7 +104,7 @@ class FairRuns {
 
 class Judge {
  public:
-  Judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<NeverBoth>& properties,
+  Judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<JudgedProperty>& properties,
         const JudgeLimits& limits)
       : tree_(tree), leaves_(leaves), properties_(properties), limits_(limits) {
     const std::size_t nodes = tree.nodes();
@@ -117,7 +117,7 @@ class Judge {
   }
 
   Judgment make() {
-    add({tree_.save(), 0, "", 0, 0});
+    add({tree_.save(), 0, "", 0, 0, std::string(properties_.size(), '-')});
     for (std::size_t state = 0; state < states_.size() && said_.is_conclusive(); ++state) {
       edges_.emplace_back();
       look_at(state, false);
@@ -136,11 +136,12 @@ class Judge {
     std::string said;  // in the tick from there
     std::uint32_t ticks;
     int cuts;
+    std::string came;  // of each property that waits for something: '+' if it has come
   };
 
   std::size_t add(State state) {
     const auto [it, is_new] =
-        numbers_.try_emplace(std::to_string(state.cuts) + state.bytes, states_.size());
+        numbers_.try_emplace(std::to_string(state.cuts) + state.came + state.bytes, states_.size());
     if (is_new) states_.push_back(std::move(state));
     return it->second;
   }
@@ -154,6 +155,7 @@ class Judge {
       if (is_cut && !tree_.cut()) return;
       leaves_.drift();
       is_cut_ = is_cut;
+      came_ = states_[state].came;
       ++ticks_;
       const std::optional<Status> status = tree_.tick();
       if (!leaves_.broken().empty()) said_.broken = leaves_.broken();
@@ -162,7 +164,7 @@ class Judge {
       std::size_t to = kEnd;
       if (*status == Status::Running) {
         to = add({tree_.save(), state, said(), states_[state].ticks + 1,
-                  states_[state].cuts + (is_cut ? 1 : 0)});
+                  states_[state].cuts + (is_cut ? 1 : 0), came_});
       } else if (auto& first = said_.results[index_of(*status)]; !first) {
         first = states_[state].ticks + 1;
         said_.runs_to_results[index_of(*status)] = run_to(state, true);
@@ -191,23 +193,25 @@ class Judge {
       if (moment[node].status == Status::Failure) said_.failed[node] = true;
     }
     for (std::size_t i = 0; i < properties_.size(); ++i) {
-      const NeverBoth& both = properties_[i];
-      if (said_.violated[i] || !holds(both.one, moment) || !holds(both.other, moment)) continue;
+      const JudgedProperty& it = properties_[i];
+      const bool one = holds(it.one, moment), has_come = it.is_after ? came_[i] == '+' : one;
+      if (it.is_after && one) came_[i] = '+';
+      if (said_.violated[i] || !has_come || !holds(it.other, moment)) continue;
       said_.violated[i] = states_[state].ticks + 1;
       said_.runs_to_violated[i] = run_to(state, true);
     }
   }
 
-  static bool holds(const NeverBoth::Fact& fact, const ReferenceMoment& moment) {
+  static bool holds(const JudgedProperty::Fact& fact, const ReferenceMoment& moment) {
     const Status status = moment[fact.node].status;
     switch (fact.what) {
-      case NeverBoth::What::Running:
+      case JudgedProperty::What::Running:
         return status == Status::Running;
-      case NeverBoth::What::Success:
+      case JudgedProperty::What::Success:
         return status == Status::Success;
-      case NeverBoth::What::Failure:
+      case JudgedProperty::What::Failure:
         return status == Status::Failure;
-      case NeverBoth::What::Ticked:
+      case JudgedProperty::What::Ticked:
         break;
     }
     return moment[fact.node].ticked;
@@ -250,20 +254,21 @@ class Judge {
 
   JudgedTree& tree_;
   JudgedLeaves& leaves_;
-  const std::vector<NeverBoth>& properties_;
+  const std::vector<JudgedProperty>& properties_;
   const JudgeLimits limits_;
   std::unordered_map<std::string, std::size_t> numbers_;
   std::vector<State> states_;
   std::vector<std::vector<Edge>> edges_;
   std::size_t ticks_ = 0;
   bool is_cut_ = false;  // before the last tick
+  std::string came_;     // as in State, in the last tick
   Judgment said_;
 };
 
 }  // namespace
 
-Judgment judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<NeverBoth>& properties,
-               const JudgeLimits& limits) {
+Judgment judge(JudgedTree& tree, JudgedLeaves& leaves,
+               const std::vector<JudgedProperty>& properties, const JudgeLimits& limits) {
   return Judge(tree, leaves, properties, limits).make();
 }
 

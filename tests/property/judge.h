@@ -35,14 +35,15 @@ class JudgedTree {
   virtual std::span<const ReferenceMoment> moments() const { return {}; }
 };
 
-// "never ONE and OTHER"
-struct NeverBoth {
+// "never ONE and OTHER", or "after ONE never OTHER".
+struct JudgedProperty {
   enum class What : std::uint8_t { Running, Success, Failure, Ticked };
   struct Fact {
     std::size_t node;
     What what;
   };
   Fact one, other;
+  bool is_after = false;
 };
 
 struct Judgment {
@@ -72,7 +73,7 @@ struct JudgeLimits {
   int cuts = 0;  // of the process, at most, in a run
 };
 
-Judgment judge(JudgedTree& tree, JudgedLeaves& leaves, const std::vector<NeverBoth>& properties,
-               const JudgeLimits& limits);
+Judgment judge(JudgedTree& tree, JudgedLeaves& leaves,
+               const std::vector<JudgedProperty>& properties, const JudgeLimits& limits);
 
 }  // namespace lockstep::host::test

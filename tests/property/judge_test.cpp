@@ -91,25 +91,28 @@ class JudgedDocument final : public Judged<law::Reference> {
 
 // About nodes of the tree. At the end of a period, no node of BehaviorTree.CPP has a result that
 // its parent has used.
-std::vector<NeverBoth> properties_of(std::uint64_t seed, std::size_t nodes, bool is_btcpp) {
+std::vector<JudgedProperty> properties_of(std::uint64_t seed, std::size_t nodes, bool is_btcpp) {
   RandomSource random(seed + 1'000'000);
   if (random.one_in(2)) return {};  // nodes that are named keep their places
   const auto fact = [&] {
-    return NeverBoth::Fact{static_cast<std::size_t>(random.between(0, static_cast<int>(nodes) - 1)),
-                           static_cast<NeverBoth::What>(random.between(0, is_btcpp ? 0 : 3))};
+    return JudgedProperty::Fact{
+        static_cast<std::size_t>(random.between(0, static_cast<int>(nodes) - 1)),
+        static_cast<JudgedProperty::What>(random.between(0, is_btcpp ? 0 : 3))};
   };
-  std::vector<NeverBoth> all;
-  while (all.size() < kProperties) all.push_back({fact(), fact()});
+  std::vector<JudgedProperty> all;
+  while (all.size() < kProperties) all.push_back({fact(), fact(), random.one_in(2)});
   return all;
 }
 
-std::string text_of(const NeverBoth& property, const Tree& tree) {
+std::string text_of(const JudgedProperty& property, const Tree& tree) {
   constexpr std::array kWords{"running", "success", "failure", "ticked"};
-  const auto fact = [&](const NeverBoth::Fact& it) {
+  const auto fact = [&](const JudgedProperty::Fact& it) {
     return fmt::format("'{}'.{}", tree.path(static_cast<NodeIndex>(it.node)),
                        kWords[static_cast<std::size_t>(it.what)]);
   };
-  return fmt::format("never {} and {}", fact(property.one), fact(property.other));
+  const std::string one = fact(property.one), other = fact(property.other);
+  return property.is_after ? fmt::format("after {} never {}", one, other)
+                           : fmt::format("never {} and {}", one, other);
 }
 
 std::string of(const Judgment::First& first) {
@@ -243,7 +246,7 @@ Outcome try_trial(const JudgedTrial& trial, std::uint64_t seed, int cuts) {
   if (!judgment.is_conclusive()) return {};
 
   std::vector<Property> properties;
-  for (const NeverBoth& it : both) {
+  for (const JudgedProperty& it : both) {
     auto property = Property::parse(text_of(it, tree), property_names(shape_of(tree)));
     REQUIRE(property);
     properties.push_back(std::move(*property));

@@ -25,6 +25,7 @@ bool Property::needs_progress(std::size_t place) const {
 //   Sometimes  1: it was so
 //   LeadsTo    0: nothing is owed; else how many ticks ago the oldest debt began, and 1
 //   OnlyAfter  1: what must come before has come
+//   AfterNever 1: what is to be the last has come
 //   AtMost     how many ticks in a row it has been so
 //   Until      1: the end has come
 //   Finally    1: it is so after this tick
@@ -71,6 +72,10 @@ PropertyVerdict Property::step(std::byte* state, const PropertyView& view, TickP
       if (right) store(state, 1);
       if (load(state) != 0) return Holds;
       return left ? Violated : Open;
+    case Pattern::AfterNever:
+      if (right && load(state) != 0) return Violated;
+      if (left) store(state, 1);
+      return Open;
     case Pattern::AtMost:
       return step_at_most(state, left, part);
     case Pattern::Until:
@@ -115,6 +120,7 @@ PropertyVerdict Property::at_end(const std::byte* state) const {
   switch (pattern_) {
     case Pattern::Never:
     case Pattern::OnlyAfter:
+    case Pattern::AfterNever:
     case Pattern::AtMost:
       return Holds;
     case Pattern::Sometimes:

@@ -94,6 +94,7 @@ class Property {
     Sometimes,
     LeadsTo,
     OnlyAfter,
+    AfterNever,
     AtMost,
     Until,
     Finally

@@ -74,7 +74,12 @@ class PropertyParser {
     if (parser_.take_word("never")) return only_left(Pattern::Never);
     if (parser_.take_word("sometimes")) return only_left(Pattern::Sometimes);
     if (parser_.take_word("finally")) return only_left(Pattern::Finally);
+    const bool is_after = parser_.take_word("after");
     property_.left_ = parser_.formula();
+    if (is_after) {
+      if (!parser_.take_word("never")) parser_.expected("'and', 'or' or 'never'");
+      return both(Pattern::AfterNever);
+    }
     if (parser_.take_word("leads")) return leads_to();
     if (parser_.take_word("only")) {
       need("after");
@@ -88,7 +93,7 @@ class PropertyParser {
     if (parser_.take_word("until")) return both(Pattern::Until);
     parser_.expected("'and', 'or', 'leads to', 'only after', 'at most' or 'until'",
                      "a condition of a tick is not a property yet; or write 'never', 'sometimes' "
-                     "or 'finally' before it");
+                     "or 'finally' before it, or 'after' before it and 'never' behind it");
   }
 
   void need(std::string_view word) {

@@ -123,7 +123,8 @@ struct Definition {
     OnlyAfter,
     AtMost,
     Until,
-    Finally
+    Finally,
+    AfterNever
   } pattern;
   std::unique_ptr<Term> left, right;
   std::size_t ticks = 0;
@@ -147,6 +148,8 @@ struct Definition {
         return l + " until " + r;
       case Pattern::Finally:
         return "finally " + l;
+      case Pattern::AfterNever:
+        return "after " + l + " never " + r;
     }
     return {};
   }
@@ -225,6 +228,11 @@ struct Definition {
       case Pattern::Finally:
         if (is_cut) return "open";
         return size > 0 && l(size - 1) ? "holds" : "violated";
+      case Pattern::AfterNever:
+        for (std::size_t i = 0; i < size; ++i) {
+          if (r(i) && any(0, i, l)) return at("violated", i);
+        }
+        return "holds";
     }
     return {};
   }
@@ -236,7 +244,7 @@ TEST_CASE("random properties have the verdict of their definition on random trac
   std::map<std::string, int> seen;
   for (std::uint64_t seed = 0; seed < kProperties; ++seed) {
     Generator make(seed);
-    const Definition definition{static_cast<Definition::Pattern>(make.below(8)), make.term(3),
+    const Definition definition{static_cast<Definition::Pattern>(make.below(9)), make.term(3),
                                 make.term(2), make.below(4)};
     for (int i = 0; i < 10; ++i) {
       const Trace trace = make.trace();
@@ -257,7 +265,7 @@ TEST_CASE("random properties have the verdict of their definition on random trac
 TEST_CASE("a state that is copied goes on as the original") {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator make(seed);
-    const Definition definition{static_cast<Definition::Pattern>(make.below(8)), make.term(2),
+    const Definition definition{static_cast<Definition::Pattern>(make.below(9)), make.term(2),
                                 make.term(2), make.below(4)};
     const Trace trace = make.trace();
     const auto property = Property::parse(definition.text(), trace.names());

@@ -66,6 +66,11 @@ TEST_CASE("each pattern has its verdict on a trace") {
       {"b.running only after a.success", "rrr", "iii", "holds", "holds"},
       // in the same tick is soon enough
       {"b.running only after a.success", "rsi", "iri", "holds 1", "holds 1"},
+      // the tick itself does not count
+      {"after a.success never b.running", "rsr", "iri", "holds", "holds"},
+      {"after a.success never b.running", "rsr", "rir", "violated 2", "violated 2"},
+      {"after a.success never a.success", "rsir", "iiii", "holds", "holds"},
+      {"after a.success never a.success", "rsrs", "iiii", "violated 3", "violated 3"},
       {"a.held at most 2 ticks", "rhhrhh", "iiiiii", "holds", "holds"},
       {"a.held at most 2 ticks", "rhhrhhh", "iiiiiii", "violated 6", "violated 6"},
       {"a.held at most 0 ticks", "rrh", "iii", "violated 2", "violated 2"},
