@@ -22,6 +22,12 @@ bool Ticker::take_failed(NodeIndex node) {
   return was_reached;
 }
 
+void Ticker::report_fault(NodeIndex leaf, std::string message) {
+  const bool is_over = status(leaf) != Status::Running;
+  set_fault(leaf, std::move(message));
+  if (is_over) this->leaf(leaf).mark(LeafSlot::kFailed, false);
+}
+
 // Called in a tick in which something is wrong. Nothing: the node is ticked as always.
 [[gnu::cold, gnu::noinline]] std::optional<Status> NodeContext::tick_interrupted(NodeIndex node) {
   if (state_.faulted) return Status::Running;

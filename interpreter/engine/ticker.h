@@ -68,6 +68,11 @@ class Ticker : public NodeContext {
                : std::span(answers_);
   }
 
+  // Between two ticks: a leaf has done in the last tick what it must not. As after any fault, the
+  // run has one, or goes on: then a leaf that runs fails in its next tick, and one that has
+  // completed keeps its result.
+  void report_fault(NodeIndex leaf, std::string message);
+
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault
   // becomes that of the run, whatever the policy. If the run already has a fault, tolerated() has
   // the new one.

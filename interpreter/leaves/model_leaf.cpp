@@ -121,7 +121,7 @@ void ModelLeaves::begin_tick() {
 void ModelLeaves::drift() {
   for (const std::uint32_t leaf : drifting_) {
     if (states_[leaf].phase != Phase::Paused) continue;
-    const Reach& reach = rules_[leaf].while_held[states_[leaf].level];
+    const LevelReach& reach = rules_[leaf].while_held[states_[leaf].level];
     const auto count = static_cast<std::uint32_t>(reach.last - reach.first + 1);
     set_level(leaf, reach.first + static_cast<std::int32_t>(answers_.choose(count, leaf)));
     mark(leaf).drifted = true;
@@ -259,24 +259,23 @@ ModelLeaves::Rule::Rule(const LeafModel& model)
   }
   least_ticks = count(model.least_ticks);
   most_ticks = count(model.most_ticks);
-  const auto end = static_cast<std::int32_t>(model.levels.size()) - 1;
-  const bool ends_at_1 = model.levels.back() >= 1;
-  const std::int32_t last = model.finishes_full && ends_at_1 ? std::max(end - 1, 0) : end;
-  in_a_tick = reaches(model, model.least_step, model.most_step, last);
-  while_held = reaches(model, model.least_drift, model.most_drift, end);
+  in_a_tick = reaches_in_a_tick(model);
+  while_held = reaches_while_held(model);
 }
+
+namespace {
 
 // From one step to another it may come to all levels on the way. No step is so long that it has to
 // leave the last level of the tree for one that only a property tells apart.
-std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std::int64_t least,
-                                                     std::int64_t most, std::int32_t last_level) {
+std::vector<LevelReach> level_reaches(const LeafModel& model, std::int64_t least, std::int64_t most,
+                                      std::int32_t last_level) {
   const std::vector<std::int32_t>& steps = model.steps;
   const auto usable = std::span(steps).first(static_cast<std::size_t>(last_level) + 1);
   const bool must_finish = model.finishes_full && model.has_progress;
   const bool is_short = must_finish && last_level + 1 < static_cast<std::int32_t>(steps.size());
   const auto last_step =
       std::min({model.last_step, is_short ? model.goal - 1 : usable.back(), usable.back()});
-  std::vector<Reach> reaches;
+  std::vector<LevelReach> reaches;
   for (std::size_t level = 0; level < steps.size(); ++level) {
     const std::int64_t from = std::clamp<std::int64_t>(steps[level] + least, 0, last_step);
     const std::int64_t to = std::clamp<std::int64_t>(steps[level] + most, from, usable.back());
@@ -290,6 +289,20 @@ std::vector<ModelLeaves::Reach> ModelLeaves::reaches(const LeafModel& model, std
                        .must_succeed = must_finish && steps[level] + least >= model.goal});
   }
   return reaches;
+}
+
+}  // namespace
+
+std::vector<LevelReach> reaches_in_a_tick(const LeafModel& model) {
+  const auto end = static_cast<std::int32_t>(model.levels.size()) - 1;
+  const bool ends_at_1 = model.levels.back() >= 1;
+  const std::int32_t last = model.finishes_full && ends_at_1 ? std::max(end - 1, 0) : end;
+  return level_reaches(model, model.least_step, model.most_step, last);
+}
+
+std::vector<LevelReach> reaches_while_held(const LeafModel& model) {
+  return level_reaches(model, model.least_drift, model.most_drift,
+                       static_cast<std::int32_t>(model.levels.size()) - 1);
 }
 
 bool ModelLeaves::may_succeed(std::uint32_t leaf, const LeafState& state) const {
@@ -314,7 +327,7 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   ++state.ticks;
   if (!rule.is_plain && model.writes == Writes::InEachTick && !model.outputs.empty()) write(leaf);
 
-  const Reach& reach = rule.in_a_tick[state.level];
+  const LevelReach& reach = rule.in_a_tick[state.level];
   const bool may_end = state.ticks >= rule.least_ticks;
   const bool must_succeed = reach.must_succeed && may_end && rule.results.success;
   const bool is_last = rule.most_ticks != 0 && state.ticks >= rule.most_ticks;

@@ -39,6 +39,15 @@ enum class FactState : std::uint8_t { False, True, Unknown };
 // Before the first tick.
 std::vector<FactState> first_facts(const LeafModels& models);
 
+// To which levels a leaf may come, and whether it may succeed, or has to.
+struct LevelReach {
+  std::int32_t first, last;
+  bool may_succeed, must_succeed;
+};
+// From each level of the model: in a tick, and in one that is withheld.
+std::vector<LevelReach> reaches_in_a_tick(const LeafModel& model);
+std::vector<LevelReach> reaches_while_held(const LeafModel& model);
+
 inline constexpr std::uint32_t kNoWrite = 0xffffffff;
 
 // A mark says what a leaf did in a tick of the tree.
@@ -164,21 +173,13 @@ class ModelLeaves {
     progress_[leaf] = rules_[leaf].levels[level];
   }
 
-  // To which levels a leaf may come, and whether it may succeed, or has to.
-  struct Reach {
-    std::int32_t first, last;
-    bool may_succeed, must_succeed;
-  };
-  static std::vector<Reach> reaches(const LeafModel& model, std::int64_t least, std::int64_t most,
-                                    std::int32_t last_level);
-
   // All that most ticks read of a model.
   struct Rule {
     explicit Rule(const LeafModel& model);
 
     const double* levels;
     std::uint32_t least_ticks, most_ticks;
-    std::vector<Reach> in_a_tick, while_held;  // from each level
+    std::vector<LevelReach> in_a_tick, while_held;  // from each level
     bool can_run;
     bool is_plain;                   // it has to do with no fact and no entry
     bool may_write, may_write_idle;  // in each tick, or not; and when it gets none

@@ -59,7 +59,7 @@ class ModelMaker {
       models_.tree_ends = file_->tree_ends;
       models_.accepted = file_->accepted;
       for (const FactRow& it : file_->facts) {
-        models_.facts.push_back({it.name, it.changes, it.starts});
+        models_.facts.push_back({it.name, it.changes, it.starts, {}, it.place});
         if (it.chance) models_.facts.back().chances = {*it.chance, 1 - *it.chance};
       }
       for (const LeafRow& row : file_->leaves) apply(row);
@@ -88,6 +88,7 @@ class ModelMaker {
 
   void make_general() {
     ways_.resize(tree_.leaves.size());
+    models_.said.resize(tree_.leaves.size());
     said_.resize(tree_.leaves.size());
     states_result_.resize(tree_.leaves.size());
     states_step_.resize(tree_.leaves.size());
@@ -115,7 +116,7 @@ class ModelMaker {
       said_[leaf] = declared_behavior(type_of(leaf));
       Behavior behavior;
       for (const Statement& it : said_[leaf]) add_statement(it.word, it.value, behavior);
-      apply(behavior, {}, leaf);
+      apply(behavior, {SaidBy::Who::Plugin}, leaf);
     }
   }
 
@@ -128,13 +129,15 @@ class ModelMaker {
     const auto forget = [&](std::string_view word) {
       return std::erase_if(said, [&](const auto& it) { return it.word == word; }) != 0;
     };
-    std::erase_if(said, [&](const auto& it) { return says(row, it.word); });
+    std::erase_if(said, [&](const auto& it) { return host::says(row, it.word); });
     if (row.fact && forget("result")) model.results = {};
+    auto& by = models_.said[leaf];
     if (!row.progress) return;
     if (forget("step")) {
       states_step_[leaf] = false;
       model.least_step = 0;
       model.most_step = kNoEnd;
+      by[static_cast<std::size_t>(Assumption::Step)] = {};
     }
     if (forget("held")) model.least_drift = model.most_drift = 0;
   }
@@ -193,9 +196,11 @@ class ModelMaker {
 
   void apply(const LeafRow& row, std::size_t leaf) {
     replace_declared(row, leaf);
-    apply(row, row.place, leaf);
+    const SaidBy by{SaidBy::Who::Row, row.place};
+    apply(row, by, leaf);
     LeafModel& model = models_.leaves[leaf];
     if (row.fact) {
+      says(leaf, Assumption::Fact, by);
       model.fact = fact(*row.fact);
       if (!row.results) model.results.chances = {};
     }
@@ -210,8 +215,22 @@ class ModelMaker {
     if (!row.after_cut.empty()) model.after_cut = row.after_cut;
   }
 
-  void apply(const Behavior& row, Place place, std::size_t leaf) {
+  void says(std::size_t leaf, Assumption what, const SaidBy& by) {
+    models_.said[leaf][static_cast<std::size_t>(what)] = by;
+  }
+
+  void apply(const Behavior& row, const SaidBy& by, std::size_t leaf) {
     LeafModel& model = models_.leaves[leaf];
+    const auto note = [&](bool is_said, Assumption what) {
+      if (is_said) says(leaf, what, by);
+    };
+    note(row.results.has_value(), Assumption::Result);
+    note(row.ticks.has_value(), Assumption::Ticks);
+    note(row.step.has_value(), Assumption::Step);
+    note(row.finishes_full.has_value(), Assumption::Finish);
+    note(row.held.has_value(), Assumption::Held);
+    note(row.writes.has_value(), Assumption::Writes);
+    note(!row.outputs.empty(), Assumption::Outputs);
     if (row.results) {
       model.results = *row.results;
       states_result_[leaf] = true;
@@ -221,7 +240,7 @@ class ModelMaker {
       model.most_ticks = row.ticks->most.value_or(0);
     }
     if (row.ends) model.ends = *row.ends;
-    if (row.progress) ways_[leaf] = {*row.progress, place};
+    if (row.progress) ways_[leaf] = {*row.progress, by.place};
     if (row.step) {
       states_step_[leaf] = true;
       model.least_step = row.step->least;
@@ -532,6 +551,11 @@ class ModelMaker {
 };
 
 }  // namespace
+
+std::size_t LeafModel::level_of(double progress) const {
+  const auto behind = std::ranges::upper_bound(levels, progress + kProgressEpsilon);
+  return behind == levels.begin() ? 0 : static_cast<std::size_t>(behind - levels.begin()) - 1;
+}
 
 bool matches(std::string_view pattern, std::string_view path) {
   const auto star = pattern.find('*');

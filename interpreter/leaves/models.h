@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/core/after_cut.h"
+#include "base/core/place.h"
 #include "engine/tree.h"
 #include "leaves/leaf_file.h"
 
@@ -60,6 +61,8 @@ struct LeafModel {
   Writes writes = Writes::InAnyTick;
   std::vector<AfterCut> after_cut;  // that it may do; empty: see allow_cuts
 
+  // The level of a leaf with this progress: the last one that it has reached.
+  std::size_t level_of(double progress) const;
   bool drifts() const { return least_drift != 0 || most_drift != 0; }
   friend bool operator==(const LeafModel&, const LeafModel&) = default;
 };
@@ -70,6 +73,16 @@ struct Fact {
   std::optional<bool> starts = {};  // none: it is not known
   // Of true and of false, whenever it may be both; all 0: nothing is known about chances.
   std::array<double, 2> chances = {};
+  Place place = {};  // of its name
+};
+
+// What a model says of a leaf, for who names a statement.
+enum class Assumption : std::uint8_t { Result, Ticks, Step, Finish, Held, Writes, Outputs, Fact };
+inline constexpr std::size_t kAssumptions = 8;
+// Who has said it: nobody, then it is what verify assumes of every leaf; else a plugin, or a row.
+struct SaidBy {
+  enum class Who : std::uint8_t { Nobody, Plugin, Row } who = Who::Nobody;
+  Place place = {};  // of the row
 };
 
 // A cut of the process: it ends without its last halts, and the next one goes on with the state of
@@ -80,7 +93,8 @@ struct ProcessCuts {
 };
 
 struct LeafModels {
-  std::vector<LeafModel> leaves;  // of each Tree::leaves
+  std::vector<LeafModel> leaves;                       // of each Tree::leaves
+  std::vector<std::array<SaidBy, kAssumptions>> said;  // of each Tree::leaves
   std::vector<Fact> facts;
   std::optional<double> rate;
   bool tree_ends = true;

@@ -13,6 +13,7 @@
 #include "run/pace.h"
 #include "run/run_control.h"
 #include "run/stall_fail.h"
+#include "run/watched_leaves.h"
 
 namespace lockstep::host {
 namespace {
@@ -44,6 +45,7 @@ class Loop {
       it.run_started(run_.ticker(),
                      {run_.period(), is_real_, end_.first_tick, options_.before.gap});
     });
+    watch_leaves([&](WatchedLeaves& it) { it.begin(run_.ticker()); });
     if (run_.fault() == nullptr) {  // of a leaf that could not be created
       while (may_tick() && (options_.control == nullptr || is_admitted()) && tick() &&
              meet_next()) {
@@ -71,6 +73,14 @@ class Loop {
   void observe(Tell tell) {
     const InEngine scope(run_.blackboard().lock.get());
     tell(observers_);
+  }
+
+  // They are compared with what entries have.
+  template <class Call>
+  void watch_leaves(Call call) {
+    if (options_.watched_leaves == nullptr) return;
+    const InEngine scope(run_.blackboard().lock.get());
+    call(*options_.watched_leaves);
   }
 
   bool may_tick() {
@@ -164,9 +174,11 @@ class Loop {
     run_.set_now(now);
     observe([&](Observers& it) { it.before_tick(ticker, end_.ticks, now); });
     if (options_.stall_fail != nullptr) options_.stall_fail->before_tick(ticker, now);
+    watch_leaves([&](WatchedLeaves& it) { it.before_tick(ticker); });
     if (options_.checkpoints != nullptr) ticker.set_durable(options_.checkpoints->durable());
     end_.status = run_.tick();
     if (options_.stall_fail != nullptr) options_.stall_fail->after_tick(ticker, now);
+    watch_leaves([&](WatchedLeaves& it) { it.after_tick(ticker, end_.ticks, now); });
     if (is_real_) note_worst(clock_.now() - start_ - now);
     // The loop keeps its own copy: an observer that asks for progress may add to the ticker's.
     std::vector<Fault> faults;
@@ -189,6 +201,7 @@ class Loop {
     const Tree& tree = ticker.tree();
     for (CutLeaf& it : leaves) it.does = how.of(tree.path(tree.leaves[it.place].node));
     ticker.go_on_after_cut(leaves);
+    watch_leaves([&](WatchedLeaves& it) { it.begin(ticker); });
     if (options_.cut) options_.cut(leaves);
   }
 

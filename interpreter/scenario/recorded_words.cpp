@@ -10,11 +10,12 @@
 #include <utility>
 
 #include "engine/writers.h"
+#include "record/read/recorded_moments.h"
 #include "record/read/recording_parts.h"
 #include "record/read/recording_reader.h"
+#include "run/leaf_calls.h"
+#include "run/script_results.h"
 #include "scenario/ended_results.h"
-#include "scenario/recorded_calls.h"
-#include "scenario/script_results.h"
 
 namespace lockstep::host {
 namespace {
@@ -23,7 +24,12 @@ namespace {
 class WordMaker {
  public:
   WordMaker(const RecordingHeader& header, const Tree& tree, RecordedWords& words)
-      : header_(header), tree_(tree), words_(words), results_(header, tree), calls_(header, tree) {
+      : header_(header),
+        tree_(tree),
+        words_(words),
+        results_(header, tree),
+        calls_(header, tree),
+        moments_(header) {
     std::map<std::string, NodeIndex> recorded;
     for (NodeIndex node = 0; node < header.nodes.size(); ++node) {
       recorded[header.nodes[node].path] = node;
@@ -49,7 +55,8 @@ class WordMaker {
   }
 
   void add(const RecordedTick& tick) {
-    calls_.take(tick);
+    const Moment& moment = moments_.read(tick);
+    calls_.take(moment);
     if (!tick.moments.rest.empty()) {
       note(Lacks::Moments, "tick {} has more moments than a recording keeps: the leaves do less",
            tick.tick);
@@ -60,7 +67,7 @@ class WordMaker {
            "the scenario ends with it",
            tick.tick);
     }
-    for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, calls_.of(i), leaves_[i]);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) add(tick, moment, calls_.of(i), leaves_[i]);
     for (const RecordedEntry& entry : tick.entries) {
       if (!entry.value || is_of_tree(tick, entry)) continue;
       const std::string& key = header_.entries[entry.entry].key;
@@ -146,16 +153,17 @@ class WordMaker {
   }
 
   // A word for each tick that it got.
-  void add(const RecordedTick& tick, std::span<const RecordedCalls::Call> calls, Leaf& it) {
-    const double progress = calls_.progress_at(tick, it.node, 0);
+  void add(const RecordedTick& tick, const Moment& moment, std::span<const LeafCalls::Call> calls,
+           Leaf& it) {
+    const double progress = calls_.progress_at(moment, it.node, 0);
     take_progress(progress, it);
     it.before = tick.nodes[it.node];
     it.before.progress = progress;
     if (it.before.ticked) it.still = 0;
-    for (const RecordedCalls::Call& call : calls) {
+    for (const LeafCalls::Call& call : calls) {
       Status status = tick.moments.empty() ? results_.of(tick, it.node) : call.status;
       if (status == Status::Idle) status = Status::Running;
-      const double after = call.next ? calls_.progress_at(tick, it.node, *call.next) : progress;
+      const double after = call.next ? calls_.progress_at(moment, it.node, *call.next) : progress;
       add_word(tick, it, status, call.begins, after);
     }
   }
@@ -234,7 +242,8 @@ class WordMaker {
   const Tree& tree_;
   RecordedWords& words_;
   const EndedResults results_;
-  RecordedCalls calls_;
+  LeafCalls calls_;
+  RecordedMoments moments_;
   std::vector<Leaf> leaves_;
   std::vector<std::vector<NodeIndex>> writers_;  // of each entry: nodes of the recording
   struct Setter {

@@ -32,6 +32,7 @@
 #include "run/run.h"
 #include "run/run_control.h"
 #include "run/shape_of.h"
+#include "run/watched_leaves.h"
 #include "study/run_measures.h"
 #include "support/compiled.h"
 #include "support/paths.h"
@@ -227,6 +228,44 @@ constexpr const char* kKeptTree = R"xml(
   <Repeat><Sequence memory="true"><Advance step="0.5" commit="true"/><Script code="n += 1"/></Sequence></Repeat>
 </Parallel></Sequence></BehaviorTree></root>)xml";
 
+// As with --watch-leaves. An action that writes an entry that a script reads, and a fact.
+class AuditedTicks {
+ public:
+  explicit AuditedTicks(const Tree& tree) : run_(tree) {
+    Diagnostics diagnostics;
+    std::vector<NodeProblem> problems;
+    file_ = read_leaf_file("t.leaves.xml", R"(<leaves lockstep="1"><fact name="on"/>
+<leaf of="Advance" result="success" step="0..1" sets="on=true" out.actual="0.5|1"/></leaves>)",
+                           diagnostics);
+    REQUIRE(file_ != nullptr);
+    models_ = make_models(tree, file_.get(), diagnostics, problems);
+    REQUIRE_FALSE(diagnostics.has_errors());
+    leaves_.emplace(tree, models_, &file_->sources);
+    leaves_->begin(run_.ticker());
+  }
+  void tick(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i, ++ticks_) {
+      leaves_->before_tick(run_.ticker());
+      run_.tick(1);
+      leaves_->after_tick(run_.ticker(), ticks_, deadline_of(ticks_, 100));
+    }
+  }
+  const Fault* fault() const { return run_.fault(); }
+
+ private:
+  std::unique_ptr<LeafFile> file_;
+  LeafModels models_;
+  WatchedRun run_;
+  std::optional<WatchedLeaves> leaves_;
+  std::uint64_t ticks_ = 0;
+};
+
+constexpr const char* kAuditedTree = R"xml(
+<root lockstep="1"><BehaviorTree ID="Main"><Sequence memory="true"><Script code="n := 0; x := 0.0"/><Parallel>
+  <ParallelRelative delta="1e-1"><Advance step="1e-9"/><Advance step="9e-9"/></ParallelRelative>
+  <Repeat><Sequence memory="true"><Advance step="0.5" actual="{x}"/><Script code="n += x"/></Sequence></Repeat>
+</Parallel></Sequence></BehaviorTree></root>)xml";
+
 template <class Work>
 void check_costs_nothing(Work work) {
   g_allocations = g_locks = 0;
@@ -267,6 +306,15 @@ TEST_CASE("a tick whose state is kept in a checkpoint allocates nothing and lock
     CHECK(run.has_ticked_well());
     CHECK((run.last_commit() > 0) == (text == kKeptTree));
   }
+}
+
+TEST_CASE("leaves are watched without allocating and locking") {
+  const TickingTree tree(kAuditedTree);
+  AuditedTicks run(tree.tree());
+  run.tick(10);
+  check_costs_nothing([&] { run.tick(1000); });
+  INFO((run.fault() != nullptr ? run.fault()->message : ""));
+  CHECK(run.fault() == nullptr);
 }
 
 TEST_CASE("an entry that is another number in each tick is recorded without allocating") {
@@ -551,6 +599,10 @@ TEST_CASE("a tick calls the system for nothing") {
     kept.warm_up();
     CHECK(survives_without_system_calls([&kept] { kept.tick(1000); }));
   }
+  const TickingTree audited_tree(kAuditedTree);
+  AuditedTicks audited(audited_tree.tree());
+  audited.tick(10);
+  CHECK(survives_without_system_calls([&audited] { audited.tick(1000); }));
   CHECK_FALSE(survives_without_system_calls([] { getppid(); }));
 }
 

@@ -16,6 +16,7 @@
 #include "cli/load/given_leaves.h"
 #include "cli/load/real_time_leaves.h"
 #include "cli/outputs.h"
+#include "cli/run/assumed_leaves.h"
 #include "cli/run/connected_team.h"
 #include "cli/run/keep.h"
 #include "cli/run/mcap_recording.h"
@@ -139,10 +140,11 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
  public:
   RunCommand(const RunCommandOptions& options, const Runnable& runnable,
              std::vector<Property> properties, WatcherSockets sockets, const PausePlaces& places,
-             std::unique_ptr<KeptRun> kept)
+             std::unique_ptr<KeptRun> kept, WatchedLeaves* leaves)
       : options_(options),
         tree_(runnable.tree),
         kept_(std::move(kept)),
+        watched_leaves_(leaves),
         shape_(shape_of(tree_)),
         end_budget_(options.end_limit()),
         // A person who types reads lines.
@@ -391,6 +393,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   LoopOptions loop_options() {
     LoopOptions loop = options_.loop();
+    loop.watched_leaves = watched_leaves_;
     if (stall_fail_) loop.stall_fail = &*stall_fail_;
     if (properties_ && options_.ends_on_violation) {
       loop.property_violated = [this] { return properties_->is_violated(); };
@@ -460,6 +463,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   const RunCommandOptions& options_;
   const Tree& tree_;
   const std::unique_ptr<KeptRun> kept_;  // null: it is not kept
+  WatchedLeaves* const watched_leaves_;  // null: nothing is assumed of leaves
   const Shape shape_;
   EndBudget end_budget_;
   std::optional<PluginClock> plugin_clock_;  // none: a clock of lockstep
@@ -488,7 +492,9 @@ void last_words() {
 // The files that a recording must not overwrite.
 std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
   std::vector<std::string> documents{options.tree};
-  if (!options.leaves.empty()) documents.push_back(options.leaves);
+  for (const std::string& it : {options.leaves, options.watched_leaves, options.ticket}) {
+    if (!it.empty()) documents.push_back(it);
+  }
   for (const auto& source : loaded.project->sources.all()) documents.push_back(source->path());
   std::vector<NamedFile> inputs = inputs_of(documents, *loaded.plugins);
   // A text of the tree may name a file that a leaf reads.
@@ -511,7 +517,10 @@ bool place_helpers(const RunCommandOptions& options) {
 // Where the command line says nothing.
 void take_what_is_said(const GivenLeaves& leaves, RunCommandOptions& options) {
   options.load.unknown = MissingNodes::AreMocked;
-  if (leaves.rate() && !options.is_rate_given) options.rate = *leaves.rate();
+  if (leaves.rate() && !options.is_rate_given) {
+    options.rate = *leaves.rate();
+    options.is_rate_given = true;
+  }
   options.cuts = leaves.cuts();
   if (options.max_ticks || options.timeout || !leaves.ticks()) return;
   options.max_ticks = leaves.ticks();
@@ -580,6 +589,8 @@ int run(RunCommandOptions options) {
     if (const int refused = require_ticket(options, *loaded); refused != kExitSuccess)
       return refused;
   }
+  AssumedLeaves assumed;
+  if (!assumed.read(options)) return kExitInvalidTree;
   // Until here a signal ends the program as it ends any other: there is nothing to halt or to save.
   StopSignals::install(last_words);
   if (!place_helpers(options)) return kExitUsage;
@@ -604,6 +615,7 @@ int run(RunCommandOptions options) {
   auto properties = all_properties(std::move(runnable.properties), options.properties,
                                    [&] { return property_names(shape_of(runnable.tree)); });
   if (!properties) return kExitUsage;
+  if (!assumed.watch(runnable.tree, *properties)) return kExitInvalidTree;
   const auto places = pause_places_of(options, runnable.tree);
   if (!places) return kExitUsage;
   auto kept = keep(options, std::move(identity), runnable.tree);
@@ -619,7 +631,7 @@ int run(RunCommandOptions options) {
   }
   print_diagnostics(notes, Severity::Note);
   return RunCommand(options, runnable, std::move(*properties), std::move(*sockets), *places,
-                    std::move(*kept))
+                    std::move(*kept), assumed.watched())
       .run(runnable.plugins);
 }
 

@@ -163,19 +163,29 @@ void define_fault_options(CLI::App& app, RunCommandOptions& options) {
       ->check(number_between(0.0, 1e6));
 }
 
+void define_assumption_options(CLI::App& app, RunCommandOptions& options) {
+  app.add_option("--watch-leaves", options.watched_leaves,
+                 "A leaf model: a leaf that does what it does not allow has a fault, which "
+                 "--on-fault handles; see `lockstep docs verify`")
+      ->type_name("FILE")
+      ->excludes(
+          app.add_option("--require-ticket", options.ticket,
+                         "Run only the tree that this ticket of `lockstep verify --ticket` is "
+                         "for, and watch its leaves with the leaf model of the proof")
+              ->type_name("FILE"));
+  app.add_option("--trusted", options.trusted_keys,
+                 "The ticket must be signed with one of these public keys of Ed25519, in PEM")
+      ->type_name("FILE")
+      ->needs("--require-ticket");
+}
+
 void define_property_options(CLI::App& app, RunCommandOptions& options) {
   begin_group(app, "Properties");
   add_property_options(app, options.properties);
   add_choice<bool>(
       app, "--on-violation", options.ends_on_violation, {{"warn", false}, {"end", true}},
       "When the run violates a property: warn, or also end the run, with exit code 10");
-  app.add_option("--require-ticket", options.ticket,
-                 "Run only the tree that this ticket of `lockstep verify --ticket` is for")
-      ->type_name("FILE");
-  app.add_option("--trusted", options.trusted_keys,
-                 "The ticket must be signed with one of these public keys of Ed25519, in PEM")
-      ->type_name("FILE")
-      ->needs("--require-ticket");
+  define_assumption_options(app, options);
 }
 
 void define_monitor_options(CLI::App& app, RunCommandOptions& options) {
@@ -361,6 +371,7 @@ constexpr const char* kOfExperts[] = {"--ros-package",
                                       "--condition-wait",
                                       "--condition-age",
                                       "--property-file",
+                                      "--watch-leaves",
                                       "--require-ticket",
                                       "--trusted",
                                       "--record-compress",

@@ -42,8 +42,11 @@ struct RunCommandOptions {
 
   PropertyOptions properties;
   bool ends_on_violation = false;
-  std::string ticket;        // of the tree; "": none is required
-  std::string trusted_keys;  // a file; "": the ticket need not be signed
+  std::string ticket;                               // of the tree; "": none is required
+  std::string trusted_keys;                         // a file; "": the ticket need not be signed
+  std::string watched_leaves;                       // a leaf model; "": none
+  std::optional<std::string> proved_leaves = {};    // the text of that of the ticket, perhaps ""
+  std::vector<std::string> proved_properties = {};  // of the ticket
 
   std::string record;
   bool record_compress = false;

@@ -42,6 +42,7 @@ void print_ticket(const Ticket& ticket) {
   if (!ticket.is_proof) text += "  not proved: the search had a limit\n";
   for (const std::string& it : ticket.assumptions)
     text += fmt::format("  not proved, but assumed: {}\n", printable(it));
+  text += "  watched: a leaf that breaks the leaf model of the proof has a fault\n";
   messages().say(text);
 }
 
@@ -69,6 +70,8 @@ int check_ticket(RunCommandOptions& options, const Loaded& loaded) {
     return refuse_other_tree(
         {{"--rate", fmt::format("{}", ticket->rate), fmt::format("{}", options.rate)}});
   }
+  options.proved_leaves = ticket->leaves;
+  options.proved_properties = ticket->properties;
   print_ticket(*ticket);
   return kExitSuccess;
 }

@@ -1,6 +1,6 @@
-// The ticks that the leaves of a recording got: one for each moment of a tick that has reached the
-// leaf. An action that has completed and keeps its result, as the condition of a WhileDoElse of
-// BehaviorTree.CPP, is reached without a tick.
+// The ticks that the leaves of a run or of a recording got: one for each moment of a tick that has
+// reached the leaf. An action that has completed and keeps its result, as the condition of a
+// WhileDoElse of BehaviorTree.CPP, is reached without a tick.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "engine/tree.h"
-#include "record/recording.h"
+#include "trace/moment.h"
+#include "trace/shape.h"
 
 namespace lockstep::host {
 
-class RecordedCalls {
+class LeafCalls {
  public:
   struct Call {
     Status status;  // after it; Idle: an ancestor has ended it in the same tick
@@ -21,20 +22,22 @@ class RecordedCalls {
     std::optional<std::size_t> next = {};
   };
 
-  // Of the leaves that the tree has at the path of a node of the recording.
-  RecordedCalls(const RecordingHeader& header, const Tree& tree);
+  // Of the leaves that the tree has at the path of a node of the shape.
+  LeafCalls(const Shape& shape, const Tree& tree);
 
   struct Leaf {
-    NodeIndex node;  // in the recording
+    NodeIndex node;  // in the shape
     const LeafNode* leaf;
   };
   const std::vector<Leaf>& leaves() const { return leaves_; }
 
   // That of a leaf at the start of a moment, or of the tick. A node that compares progress may have
   // compared another number, and in a later moment.
-  double progress_at(const RecordedTick& tick, NodeIndex leaf, std::size_t moment) const;
-  // The next tick of the recording.
-  void take(const RecordedTick& tick);
+  double progress_at(const Moment& tick, NodeIndex leaf, std::size_t moment) const;
+  // Of a run that continues after a cut: what its nodes did before the first tick.
+  void begin(const Moment& before);
+  // The next tick. Does not allocate, unless a leaf gets more ticks in it than in any before.
+  void take(const Moment& tick);
   // What the leaf of this number got in it.
   std::span<const Call> of(std::size_t leaf) const { return followed_[leaf].calls; }
 
@@ -47,7 +50,7 @@ class RecordedCalls {
   template <class StateOf>
   void reach(const StateOf& state_of, std::optional<std::size_t> next = {});
 
-  const RecordingHeader& header_;
+  const Shape& shape_;
   std::vector<Leaf> leaves_;
   std::vector<Followed> followed_;  // of each leaf
   std::vector<NodeState> moment_;
