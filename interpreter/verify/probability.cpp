@@ -29,26 +29,69 @@ std::vector<Vertex> all_of(const DecisionProcess& process) {
   return vertices;
 }
 
+// Thrown where the time is over before a question has an answer that is more than nothing.
+struct TimeIsOver {};
+void look_at_time(const std::function<bool()>& is_over) {
+  if (is_over()) throw TimeIsOver();
+}
+
+// Of each vertex, those that lead to it.
+class Predecessors {
+ public:
+  explicit Predecessors(const DecisionProcess& process) : first_(process.states() + 1) {
+    const auto count = static_cast<Vertex>(process.states());
+    for (Vertex it = 0; it < count; ++it) {
+      for (const Target& target : process.edges_of(it)) ++first_[target.to + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    all_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (Vertex it = 0; it < count; ++it) {
+      for (const Target& target : process.edges_of(it)) all_[next[target.to]++] = it;
+    }
+  }
+  std::span<const Vertex> of(Vertex vertex) const {
+    return std::span(all_).subspan(first_[vertex], first_[vertex + 1] - first_[vertex]);
+  }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<Vertex> all_;
+};
+
 // The largest sets of these vertices in which a run can stay for ever, whatever chance does: the
 // number of each vertex's, or kNoState. Others are taken out of `may`.
-std::vector<std::uint32_t> end_components(const DecisionProcess& process, std::vector<bool>& may) {
+std::vector<std::uint32_t> end_components(const DecisionProcess& process, std::vector<bool>& may,
+                                          const std::function<bool()>& is_over) {
   Components components(process);
+  const Predecessors predecessors(process);
   const auto uses = [&](Vertex, const Target& it) { return bool(may[it.to]); };
-  std::vector<Vertex> vertices;
+  const auto can_stay = [&](Vertex vertex) {
+    const auto stays = [&](const Target& it) {
+      return may[it.to] && components.of(it.to) == components.of(vertex);
+    };
+    const auto targets = process.edges_of(vertex);
+    return process.is_by_chance(vertex) ? std::ranges::all_of(targets, stays)
+                                        : std::ranges::any_of(targets, stays);
+  };
+  std::vector<Vertex> vertices, leaving;
   for (bool is_done = false; !is_done;) {
-    is_done = true;
+    look_at_time(is_over);
     vertices = those(may);
     components.find(vertices, uses);
-    for (const Vertex vertex : vertices) {
-      const auto stays = [&](const Target& it) {
-        return may[it.to] && components.of(it.to) == components.of(vertex);
-      };
-      const auto targets = process.edges_of(vertex);
-      const bool can_stay = process.is_by_chance(vertex) ? std::ranges::all_of(targets, stays)
-                                                         : std::ranges::any_of(targets, stays);
-      if (can_stay) continue;
-      may[vertex] = false;
-      is_done = false;
+    for (const Vertex it : vertices) {
+      if (!can_stay(it)) leaving.push_back(it);
+    }
+    is_done = leaving.empty();
+    for (const Vertex it : leaving) may[it] = false;
+    while (!leaving.empty()) {  // and who has to go with it
+      const Vertex gone = leaving.back();
+      leaving.pop_back();
+      for (const Vertex it : predecessors.of(gone)) {
+        if (!may[it] || components.of(it) != components.of(gone) || can_stay(it)) continue;
+        may[it] = false;
+        leaving.push_back(it);
+      }
     }
   }
   std::vector<std::uint32_t> numbers(process.states(), kNoState);
@@ -60,12 +103,13 @@ std::vector<std::uint32_t> end_components(const DecisionProcess& process, std::v
 // chooses a way out. Only then the bounds from above come down.
 class Collapsed {
  public:
-  Collapsed(const DecisionProcess& process, const std::vector<Worth>& worth)
+  Collapsed(const DecisionProcess& process, const std::vector<Worth>& worth,
+            const std::function<bool()>& is_over)
       : number_(process.states(), kNoState) {
     std::vector<bool> may(process.states());
     for (Vertex it = 0; it < may.size(); ++it)
       may[it] = worth[it] == Worth::GoesOn && !process.edges_of(it).empty();
-    const std::vector<std::uint32_t> sets = end_components(process, may);
+    const std::vector<std::uint32_t> sets = end_components(process, may, is_over);
     std::map<std::uint32_t, Vertex> of_set;
     std::vector<std::vector<Vertex>> members;
     for (Vertex it = 0; it < number_.size(); ++it) {
@@ -173,8 +217,12 @@ class ChanceQuestions {
     may[graph_.unknown] = false;
     for (const TickEnd& it : graph_.ends) may[it.vertex] = it.to != kNoState;
     const auto any = [](const TickEnd&) { return true; };
-    find_unfair(fair(may, any));
-    endless_ = fair(may, any);
+    try {
+      find_unfair(fair(may, any));
+      endless_ = fair(may, any);
+    } catch (const TimeIsOver&) {
+      endless_.clear();
+    }
   }
 
   Probabilities answer() const {
@@ -209,13 +257,18 @@ class ChanceQuestions {
     return worth;
   }
   Bounds largest(const std::vector<Worth>& worth) const {
-    return largest_chance(process_, graph_.first, worth, is_over_);
+    try {
+      return largest_chance(process_, graph_.first, worth, is_over_);
+    } catch (const TimeIsOver&) {
+      return {};
+    }
   }
   static Bounds rest(const Bounds& it) { return {1 - it.high, 1 - it.low}; }
 
   // That the run ends in this way.
   template <class IsWanted>
   Probability ending(const IsWanted& is_wanted) const {
+    if (endless_.empty()) return {};  // it is not known yet
     std::vector<Worth> this_way = unknown_worth(), otherwise = this_way;
     for (const TickEnd& it : graph_.ends) {
       if (it.to != kNoState) continue;
@@ -228,7 +281,8 @@ class ChanceQuestions {
   }
 
   // That the property holds. One that waits for something for ever is violated.
-  Probability holding(std::uint32_t property) const {
+  Probability holding(std::uint32_t property) const try {
+    look_at_time(is_over_);
     std::vector<Worth> holds = unknown_worth(), violated = holds;
     std::vector<bool> open(process_.states(), true);
     open[graph_.unknown] = false;
@@ -250,6 +304,8 @@ class ChanceQuestions {
         fair(open, [&](const TickEnd& it) { return !graph_.labels.has(it.label, owed); });
     for (const Vertex it : those(going)) holds[it] = Worth::One;
     return {rest(largest(violated)), largest(holds)};
+  } catch (const TimeIsOver&) {
+    return {};
   }
 
   // From where no run ends or goes on as fairness has it: some leaf gets ticks and cannot end.
@@ -281,7 +337,7 @@ class ChanceQuestions {
     };
     for (bool is_done = false; !is_done;) {
       is_done = true;
-      const std::vector<std::uint32_t> sets = end_components(process_, may);
+      const std::vector<std::uint32_t> sets = end_components(process_, may, is_over_);
       std::map<std::uint32_t, Seen> seen;
       const auto for_each_end = [&](const auto& call) {
         for (const TickEnd& it : graph_.ends) {
@@ -321,7 +377,7 @@ class ChanceQuestions {
 
 Bounds largest_chance(const DecisionProcess& process, Vertex first, const std::vector<Worth>& worth,
                       const std::function<bool()>& is_over) {
-  return Collapsed(process, worth).solve(first, is_over);
+  return Collapsed(process, worth, is_over).solve(first, is_over);
 }
 
 Probabilities probabilities(const ChanceGraph& graph, const std::function<bool()>& is_over) {

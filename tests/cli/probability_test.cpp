@@ -67,6 +67,29 @@ TEST_CASE("verify prints each result with its probability") {
     CHECK(verify({other}).code == 2);
 }
 
+// A walk by chance from the middle: the numbers need minutes to come near.
+TEST_CASE("probabilities that come near slowly end within --time, with the interval until then") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("walk.xml", R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><Sequence><Script code="n := 2000"/>
+<KeepRunningUntilFailure><Sequence>
+<Fallback><Sequence><Step/><Script code="n += 1"/></Sequence><Script code="n -= 1"/></Fallback>
+<Sleep msec="100"/><ScriptCondition code="n &gt; 0 &amp;&amp; n &lt; 4000"/>
+</Sequence></KeepRunningUntilFailure>
+<ScriptCondition code="n &gt; 0"/></Sequence></BehaviorTree></root>)");
+  const std::string leaves = directory.file(
+      "walk.leaves.xml",
+      R"(<leaves lockstep="1"><leaf of="Step" result="success:0.5;failure:0.5" ticks="1"/></leaves>)");
+  const Outcome it =
+      run_lockstep({"verify", tree, "--mock", "--leaves", leaves, "--probability", "--time", "1"});
+  INFO(it.out);
+  CHECK(it.code == 124);
+  CHECK(it.cpu_seconds < 1.5);
+  CHECK(contains(it.out, "\n  failure  unknown: in 0 to 1\n"));
+  CHECK(
+      contains(it.out, "not all is known: the time was over before the numbers were near enough"));
+}
+
 TEST_CASE("runs by chance agree with the probabilities") {
   constexpr double kRuns = 3000;
   for (const ChanceModel& model : kChanceModels) {
