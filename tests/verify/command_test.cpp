@@ -260,6 +260,56 @@ TEST_CASE("what a limit has stopped is not called verified") {
   }
 }
 
+TEST_CASE("what a limit has stopped names what costs, and what helps") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "t.xml", kHead + std::string(R"(<BehaviorTree ID="T"><Timeout name="slow" seconds="60">
+<ParallelRelative delta="0.05"><Advance name="a"/><Advance name="b"/><Advance name="c"/>
+</ParallelRelative></Timeout></BehaviorTree></root>)"));
+  const Outcome it = run_lockstep({"verify", tree, "--states", "200"});
+  INFO(it.out << it.err);
+  CHECK(it.code == 124);
+  CHECK(contains(
+      it.out, "\n  what costs: 3 leaves may take any of 21 steps of progress in a tick: T/slow/"));
+  CHECK(contains(it.out,
+                 "\n  what costs: 'T/slow' counts 600 ticks: 60 s at 10 Hz\n    remedy: "
+                 "--rate 0.167"));
+  CHECK(contains(it.out, "\n    remedy: step=\"0..1\" in the leaf model"));
+  CHECK(contains(it.out, " --save-model FILE` writes a leaf model to fill in\n"));
+  const auto json = parse_json(run_lockstep({"verify", tree, "--states", "200", "--json"}).out);
+  CHECK(json["costs"].size() == 3);
+  // What is small, and a depth that somebody asked for, is no cost.
+  CHECK_FALSE(contains(run_lockstep({"verify", tree, "--depth", "1"}).out, "what costs"));
+  const std::string door = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
+  CHECK_FALSE(contains(run_lockstep({"verify", door}).out, "what costs"));
+}
+
+TEST_CASE("verify --save-model writes a leaf model that changes no verdict, and replaces none") {
+  const TemporaryDirectory directory;
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml",
+                    model = directory.path("door.leaves.xml");
+  const Outcome first = run_lockstep({"verify", tree, "--save-model", model});
+  CHECK(first.code == 0);
+  CHECK(contains(first.err, "wrote '" + model + "'"));
+  const Outcome again = run_lockstep({"verify", tree, "--leaves", model});
+  INFO(again.err << again.out);
+  CHECK(again.code == 0);
+  CHECK(contains(again.out, "\n  18 states"));
+  CHECK(contains(first.out, "\n  18 states"));
+  const std::string text = read_file(model);
+  const Outcome kept = run_lockstep({"verify", tree, "--save-model", model});
+  CHECK(kept.code == 2);
+  CHECK(read_file(model) == text);
+  // Also where verify cannot begin.
+  const std::string mute =
+      directory.file("m.xml", kHead + std::string(R"(<BehaviorTree ID="T"><Sequence memory="true">
+<Advance name="a" actual="{x}"/><Check code="x &gt; 0.5"/></Sequence></BehaviorTree></root>)"));
+  const std::string other = directory.path("m.leaves.xml");
+  CHECK(run_lockstep({"verify", mute, "--save-model", other}).code == 3);
+  CHECK(contains(read_file(other), "out.actual=\""));
+  CHECK(run_lockstep({"verify", mute, "--leaves", other}).code <= 1);
+}
+
 TEST_CASE("verify --compact proves nothing, and says how likely a state was missed") {
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/predictability.xml";
   const std::vector<std::string> arguments{"verify", tree, "--compact"};

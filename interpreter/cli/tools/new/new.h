@@ -15,6 +15,8 @@ class App;
 
 namespace lockstep::host {
 
+struct Tree;
+
 struct NewPart {
   CLI::App* app;
   std::function<int()> run;
@@ -26,6 +28,10 @@ NewPart define_new_leaf(CLI::App& app);
 NewPart define_new_node(CLI::App& app);
 NewPart define_new_tree(CLI::App& app);
 NewPart define_new_leaves(CLI::App& app);
+
+// A leaf model of a tree, in the layout of `fmt`: see verify/leaf_model_text.h.
+std::string new_leaf_model(const Tree& tree, const std::string& tree_file,
+                           const std::vector<std::uint32_t>& observed);
 
 void add_dry_run(CLI::App& app, bool& is_dry_run);
 void add_language(CLI::App& app, std::string& language);

@@ -23,15 +23,6 @@ struct NewLeavesOptions {
   bool is_dry_run = false;
 };
 
-// In the layout of `fmt`.
-std::string formatted(std::string text) {
-  Diagnostics none;
-  const auto document = Document::parse("", text, none);
-  if (document == nullptr) return text;
-  const auto edit = format(*document, {});
-  return edit ? edit->apply(text) : text;
-}
-
 int new_leaves(const NewLeavesOptions& options) {
   keep_stdout_for_results();
   Diagnostics diagnostics;
@@ -54,12 +45,22 @@ int new_leaves(const NewLeavesOptions& options) {
   const std::string words = in_shell(options.tree) + mock + " --leaves " + in_shell(file.string());
   const std::vector<std::string> next{program_word() + " verify " + words,
                                       program_word() + " run " + words + " --clock virtual"};
-  return make_files({{file, formatted(leaf_model_text(runnable.tree, tree.filename().string(),
-                                                      observed.entries))}},
-                    options.is_dry_run, next);
+  return make_files(
+      {{file, new_leaf_model(runnable.tree, tree.filename().string(), observed.entries)}},
+      options.is_dry_run, next);
 }
 
 }  // namespace
+
+std::string new_leaf_model(const Tree& tree, const std::string& tree_file,
+                           const std::vector<std::uint32_t>& observed) {
+  std::string text = leaf_model_text(tree, tree_file, observed);
+  Diagnostics none;
+  const auto document = Document::parse("", text, none);
+  if (document == nullptr) return text;
+  const auto edit = format(*document, {});
+  return edit ? edit->apply(text) : text;
+}
 
 NewPart define_new_leaves(CLI::App& app) {
   const auto options = std::make_shared<NewLeavesOptions>();

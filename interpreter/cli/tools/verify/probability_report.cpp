@@ -96,7 +96,7 @@ std::string to_text(const ProbabilityReport& report) {
     text += fmt::format("  error: less than {:.1e}, and the sixth digit is rounded\n",
                         std::max(error, 1e-15) * 1.05);
   }
-  return text +
+  return text + to_text(report.costs, report.tree, report.leaves) +
          fmt::format("  assumed: {}; chances are independent\n", joined(report.assumed, "; "));
 }
 
@@ -107,6 +107,7 @@ std::string to_json(const ProbabilityReport& report) {
   if (!report.leaves.empty()) json["leaves"] = report.leaves;
   json["complete"] = graph.end == SearchEnd::Complete && !report.found.is_cut;
   if (graph.end != SearchEnd::Complete) json["limit"] = std::string(limit_of(graph.end));
+  if (!report.costs.empty()) json["costs"] = to_json(report.costs);
   json["states"] = graph.states;
   json["ticks"] = graph.ticks;
   json["seconds"] = to_seconds(graph.took);

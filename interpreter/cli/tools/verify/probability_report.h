@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "language/property/property.h"
+#include "verify/costs.h"
 #include "verify/probability.h"
 
 namespace lockstep::host {
@@ -17,6 +18,7 @@ struct ProbabilityReport {
   std::string tree, leaves;  // files; "": there is no leaf file
   std::size_t leaf_count = 0;
   std::vector<std::string> assumed;
+  std::vector<SearchCost> costs = {};  // of a search that did not look at everything
 };
 
 std::string to_text(const ProbabilityReport& report);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/core/wording.h"
+#include "base/system/output_file.h"
 #include "base/terminal/outlet.h"
 #include "cli/checks.h"
 #include "cli/command.h"
@@ -19,6 +20,7 @@
 #include "cli/load/tree_argument.h"
 #include "cli/outputs.h"
 #include "cli/properties.h"
+#include "cli/tools/new/new.h"
 #include "cli/tools/ticket/ticket.h"
 #include "cli/tools/verify/fmea.h"
 #include "cli/tools/verify/probability_report.h"
@@ -59,6 +61,7 @@ struct VerifyOptions {
   AfterCut on_resume = AfterCut::StartsAgain;
   std::string out = ".";
   std::string save;          // a file of scenarios; "": none
+  std::string save_model;    // a file for a leaf model; "": none
   std::string ticket, sign;  // files; "": none
   bool fmea = false, pairs = false;
   bool probability = false;
@@ -73,20 +76,33 @@ std::size_t usual_memory() {
              : std::size_t{1} << 30u;
 }
 
-// On a terminal, a line that shows how far a search is.
+// Shows how far a search is: on a terminal a line that changes, elsewhere lines, of which a search
+// of a few seconds has none.
 class SearchLine {
  public:
   ~SearchLine() {
     if (is_visible_) messages().say("\r\x1b[K");
   }
   void show(const SearchProgress& it) {
+    show([&](double seconds) {
+      return fmt::format("{} states, {} waiting, tick {}, {:.0f} transitions/s, {} MiB", it.states,
+                         it.waiting, it.depth, static_cast<double>(it.transitions) / seconds,
+                         it.memory >> 20u);
+    });
+  }
+  // `text` makes one of the seconds since the begin.
+  template <class Text>
+  void show(const Text& text) {
+    constexpr std::chrono::seconds kOnTerminal(1), kElsewhere(10);
     const Nanoseconds now = monotonic_now();
-    if (!is_terminal_ || now - shown_ < std::chrono::seconds(1)) return;
+    if (now - shown_ < (is_terminal_ ? kOnTerminal : kElsewhere)) return;
     const double seconds = to_seconds(now - start_);
     shown_ = now;
-    is_visible_ |= messages().show(fmt::format(
-        "\r{} states, {} waiting, tick {}, {:.0f} transitions/s, {} MiB\x1b[K", it.states,
-        it.waiting, it.depth, static_cast<double>(it.transitions) / seconds, it.memory >> 20u));
+    if (is_terminal_) {
+      is_visible_ |= messages().show("\r" + text(seconds) + "\x1b[K");
+    } else {
+      messages().say(fmt::format("verify: {:.0f} s: {}\n", seconds, text(seconds)));
+    }
   }
 
  private:
@@ -176,6 +192,8 @@ class VerifyCommand {
     properties_ = std::move(*properties);
     std::vector<NodeProblem> problems = not_verifiable(runnable.tree);
     const Observed observed = observed_by(runnable.tree, properties_, problems);
+    if (!options_.save_model.empty() && !save_model(runnable.tree, observed.entries))
+      return kExitUsage;
     LeafModels models = make_models(runnable.tree, file->get(), diagnostics_, problems, observed,
                                     Declared::Counts, given_outputs());
     allow_cuts({.most = options_.cuts, .otherwise = options_.on_resume}, runnable.tree, models);
@@ -186,6 +204,26 @@ class VerifyCommand {
   }
 
  private:
+  // Before the search, which may not end, and before what the model must say is missed.
+  bool save_model(const Tree& tree, const std::vector<std::uint32_t>& observed) const {
+    const std::string& file = options_.save_model;
+    if (std::error_code none; std::filesystem::exists(file, none)) {
+      print_error(fmt::format("--save-model: '{}' exists", printable(file)),
+                  "remove it, or give another name");
+      return false;
+    }
+    const std::string name = std::filesystem::path(options_.tree).filename().string();
+    const auto written = write_output(
+        file, new_leaf_model(tree, options_.tree == "-" ? "stdin.xml" : name, observed));
+    if (!written) {
+      print_error("--save-model: " + written.error().message, written.error().hint);
+      return false;
+    }
+    messages().say(
+        fmt::format("verify: wrote '{}': fill it in, and give it as --leaves\n", printable(file)));
+    return true;
+  }
+
   tl::expected<Loaded, LoadFailure> load() {
     auto loaded = load_given(options_.tree, options_.load, diagnostics_);
     if (loaded) return loaded;
@@ -234,6 +272,7 @@ class VerifyCommand {
     if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{
         found, verdict, options_.tree, options_.leaves, runnable.tree.leaves.size(), options_.cuts};
+    if (wants_costs(found.end)) report.costs = search_costs(runnable.tree, models, rate);
     Tracer tracer(runnable.tree, models, properties_, rate, found);
     ChanceLimits chance = usual_chance(found);
     chance.stop_signal = StopSignals::received;
@@ -278,22 +317,28 @@ class VerifyCommand {
   }
 
   int write_probability(const Runnable& runnable, const LeafModels& models, double rate) const {
-    const ChanceGraph graph = [&] {
-      SearchLine line;
-      return explore_chances(runnable.tree, models, properties_, rate, limits(line));
-    }();
+    std::optional<SearchLine> line(std::in_place);
+    const ChanceGraph graph =
+        explore_chances(runnable.tree, models, properties_, rate, limits(*line));
     const bool has_time = options_.time.has_value();
     const Nanoseconds until = has_time ? began_ + from_seconds(*options_.time) : Nanoseconds(0);
     const Probabilities found = probabilities(graph, [&] {
+      line->show([&](double) {
+        return fmt::format("{} states, all found; the numbers come nearer", graph.states);
+      });
       return StopSignals::received() != 0 || (has_time && monotonic_now() > until);
     });
+    line.reset();
     const ProbabilityReport report{graph,
                                    found,
                                    properties_,
                                    options_.tree,
                                    options_.leaves,
                                    runnable.tree.leaves.size(),
-                                   assumptions(runnable.tree, models, rate, paces_)};
+                                   assumptions(runnable.tree, models, rate, paces_),
+                                   wants_costs(graph.end)
+                                       ? search_costs(runnable.tree, models, rate)
+                                       : std::vector<SearchCost>()};
     const bool as_json = options_.json || options_.format == "json";
     const int failed = write_results(as_json ? to_json(report) : to_text(report));
     const int signal = StopSignals::received();
@@ -500,6 +545,10 @@ std::function<int()> define_verify(CLI::App& app) {
                  "Add the findings to this file of scenarios for `lockstep test`; it is made if it "
                  "is missing")
       ->type_name("FILE.test.xml");
+  app.add_option("--save-model", options->save_model,
+                 "Before the search, write a leaf model to fill in, for the leaves that no plugin "
+                 "describes")
+      ->type_name("FILE.leaves.xml");
   add_property_options(app, options->properties);
   app.add_option("--ticket", options->ticket,
                  "Without findings, write a ticket for `lockstep run --require-ticket`")

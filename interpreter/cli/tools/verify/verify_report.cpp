@@ -63,6 +63,22 @@ std::string conclusion(const VerifyReport& report) {
                      counted(found.complete_depth(), "tick"), counted(found.store.size(), "state"));
 }
 
+// Who chooses a depth wants no more.
+bool wants_costs(SearchEnd end) {
+  return end != SearchEnd::Complete && end != SearchEnd::Depth;
+}
+
+std::string to_text(const std::vector<SearchCost>& costs, const std::string& tree,
+                    const std::string& leaves) {
+  std::string text;
+  for (const SearchCost& it : costs)
+    text += fmt::format("  what costs: {}\n    remedy: {}\n", it.what, it.remedy);
+  if (costs.empty() || !leaves.empty()) return text;
+  return text +
+         fmt::format("  `lockstep verify {} --save-model FILE` writes a leaf model to fill in\n",
+                     shell_word(tree));
+}
+
 std::string to_text(const VerifyReport& report) {
   std::string text = fmt::format(
       "verify {}: {}, {}\n  {}\n", report.tree,
@@ -79,6 +95,7 @@ std::string to_text(const VerifyReport& report) {
     text +=
         fmt::format("  the entry '{}' has more values than --values allows\n", report.found.note);
   }
+  text += to_text(report.costs, report.tree, report.leaves);
   bool says_how = true;  // to look at the first recording
   for (const Finding& it : report.verdict.findings) {
     text += fmt::format("{} {}: {}\n", it.accepted.empty() ? "finding" : "accepted", it.name,
@@ -97,6 +114,12 @@ std::string to_text(const VerifyReport& report) {
   return text + conclusion(report) + '\n';
 }
 
+Json to_json(const std::vector<SearchCost>& costs) {
+  Json all = Json::array();
+  for (const SearchCost& it : costs) all.push_back(Json{{"what", it.what}, {"remedy", it.remedy}});
+  return all;
+}
+
 std::string to_json(const VerifyReport& report) {
   Json json = Json::object();
   json["tree"] = report.tree;
@@ -108,6 +131,7 @@ std::string to_json(const VerifyReport& report) {
     json["missed_with_probability_below"] = report.found.store.probability_of_loss();
   }
   if (report.cuts > 0) json["cuts"] = report.cuts;
+  if (!report.costs.empty()) json["costs"] = to_json(report.costs);
   json["states"] = report.found.store.size();
   json["transitions"] = report.found.transitions;
   json["bytes"] = report.found.memory();
