@@ -59,6 +59,46 @@ TEST_CASE("check --format json has the bytes of each message, and the edits that
   }
 }
 
+TEST_CASE("a program that knows only the JSON of check mends a tree with five mistakes") {
+  const TemporaryDirectory directory;
+  std::string text = R"(<root lockstep="1" main_tree_to_execute="Mian">
+  <plugin name="moton"/>
+  <BehaviorTree ID="Main">
+    <Sequnce memory="true">
+      <ParallelAbsolute barriers="0.25;0.5">
+        <Advance name="left" stp="0.1"/>
+        <Advance name="right" step="0.1"/>
+      </ParallelAbsolute>
+      <SubTree ID="Releas"/>
+    </Sequnce>
+  </BehaviorTree>
+  <BehaviorTree ID="Release">
+    <Wait seconds="0.1"/>
+  </BehaviorTree>
+</root>
+)";
+  const std::string tree = directory.file("tree.xml", text);
+  std::size_t edits = 0;
+  Outcome outcome;
+  for (; edits < 20; ++edits) {
+    outcome = run_lockstep({"check", "--format", "json", tree});
+    const auto messages = parse_json(outcome.out);
+    const auto has_edit = [](const auto& it) { return !it["edits"].empty(); };
+    const auto it = std::ranges::find_if(messages, has_edit);
+    if (outcome.code == 0 || it == messages.end()) break;
+    const auto& patches = (*it)["edits"][0]["patches"];
+    for (std::size_t i = patches.size(); i-- > 0;) {
+      const std::size_t from = patches[i]["begin"], to = patches[i]["end"];
+      text.replace(from, to - from, patches[i]["text"].get<std::string>());
+    }
+    directory.file("tree.xml", text);
+  }
+  INFO(text << outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(edits == 5);
+  CHECK(run_lockstep({"run", tree, "--clock", "virtual"}).code == 0);
+}
+
 TEST_CASE("check --checkpoint lists what leaves do after a cut") {
   const TemporaryDirectory directory;
   const auto check = [&](const std::string& nodes, const std::string& option = "--checkpoint") {

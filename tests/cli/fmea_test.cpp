@@ -1,6 +1,12 @@
 // `verify --fmea`: each row was found by hand first.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
 #include "support/json.h"
 #include "support/paths.h"
 #include "support/program.h"
@@ -70,4 +76,90 @@ TEST_CASE("a table of failures has its own formats") {
   CHECK(run_lockstep({"verify", tree, "--mock", "--pairs"}).code == 2);
   const std::string table = run_lockstep({"verify", tree, "--mock", "--fmea"}).out;
   CHECK(table.starts_with("| Leaf | Failure | Tree |"));
+}
+
+namespace {
+
+// The rows of a leaf model in which one leaf fails in this way, and all others succeed.
+std::string model_of_failure(const std::string& leaf, const std::string& failure,
+                             const std::string& others) {
+  const std::map<std::string, std::string> words{
+      {"fails at once", R"(result="failure" ticks="1")"},
+      {"fails late", R"(result="failure" ticks="10")"},
+      {"never ends", R"(result="success" ticks="1000000")"},
+      {"fault", R"(result="fault" ticks="1")"},
+      {"5 s late", R"(result="success" ticks="51")"},
+      {"no progress", R"(result="success" step="0..0")"}};
+  return "<leaves lockstep=\"1\" rate=\"10\"><leaf path=\"*\" result=\"success\"" + others +
+         "/><leaf path=\"" + leaf + "\" " + words.at(failure) + "/></leaves>";
+}
+
+// What the runs of a row show.
+struct SeenRow {
+  std::map<std::string, int> results = {};  // with the fewest ticks of each
+  bool fault = false, may_not_end = false;
+  std::set<std::string> halted = {}, started = {};
+
+  void add(const Outcome& outcome, const std::string& events) {
+    const auto summary = parse_json(outcome.out);
+    const std::string result = summary["result"];
+    const int ticks = summary["ticks"];
+    fault |= outcome.code == 5;
+    may_not_end |= outcome.code == 124;
+    if (outcome.code <= 1) {
+      const auto it = results.try_emplace(result, ticks).first;
+      it->second = std::min(it->second, ticks);
+    }
+    // "     2.800 s  tick 28       halt     OpenDoor/open/pull/base"
+    std::istringstream lines(events);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string time, unit, tick, number, what, path;
+      words >> time >> unit >> tick >> number >> what >> path;
+      if (what == "fault") path.pop_back();  // "PATH: message"
+      started.insert(path);
+      if (what == "halt" && outcome.code <= 1) halted.insert(path);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("each row of the door's table of failures is what runs with that failure do") {
+  const TemporaryDirectory directory;
+  const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml";
+  const auto table = parse_json(run_lockstep({"verify", tree, "--fmea", "--format", "json"}).out);
+  CHECK(table.size() == 27);
+  const std::string record = directory.path("run.jsonl");
+  std::set<std::string> all;
+  for (const auto& row : table) all.insert(row["failures"][0]["leaf"].get<std::string>());
+  // The others are as fast as they can be, or slow, or anything.
+  for (const auto& row : table) {
+    const std::string leaf = row["failures"][0]["leaf"], failure = row["failures"][0]["failure"];
+    SeenRow seen;
+    for (int seed = 0; seed < 9; ++seed) {
+      const std::string model =
+          directory.file("door.leaves.xml", model_of_failure(leaf, failure,
+                                                             seed == 0   ? " ticks=\"1\""
+                                                             : seed == 1 ? " ticks=\"15..inf\""
+                                                                         : ""));
+      const Outcome run = run_lockstep({"run", tree, "--leaves", model, "--clock", "virtual",
+                                        "--seed", std::to_string(seed), "--max-ticks", "300",
+                                        "--view", "none", "--json", "--record", record});
+      seen.add(run, run_lockstep({"log", "events", record}).out);
+    }
+    INFO(leaf << " " << failure << "\n" << row.dump());
+    std::map<std::string, int> results;
+    for (const auto& [result, seconds] : row["results"].items())
+      results[result] = static_cast<int>(std::lround(seconds.get<double>() * 10));
+    CHECK(seen.results == results);
+    CHECK(seen.fault == row["fault"].get<bool>());
+    CHECK(seen.may_not_end == row["may_not_end"].get<bool>());
+    CHECK(seen.halted == row["halted"].get<std::set<std::string>>());
+    std::set<std::string> not_tried;
+    std::ranges::set_difference(all, seen.started, std::inserter(not_tried, not_tried.end()));
+    CHECK(not_tried == row["not_tried"].get<std::set<std::string>>());
+    CHECK(row["handled_by"].is_null());  // no run with a failure succeeds
+    CHECK(row["violated"].empty());
+  }
 }

@@ -166,7 +166,8 @@ TEST_CASE("log check says where the leaves of a recording broke their leaf file"
   INFO(late.out << late.err);
   CHECK(late.code == 1);
   CHECK(late.out ==
-        "Main/both/left: in tick 3: takes more than 3 ticks, the leaf model allows 2 to 3\n");
+        "Main/both/left: in tick 3: takes more than 3 ticks, the leaf model allows 2 to 3 (" +
+            directory.path("t.leaves.xml") + ":1)\n");
   CHECK(contains(check(R"(<leaf path="*/left" ticks="6"/>)").out,
                  "took 4 ticks, the leaf model allows 6"));
   CHECK(contains(check(R"(<leaf of="Advance" result="failure"/>)").out,
