@@ -119,6 +119,7 @@ class Collapsed {
       members[number_[it]].push_back(it);
     }
     for (const std::vector<Vertex>& it : members) add(process, worth, it);
+    find_hopeless();
   }
 
   Bounds solve(Vertex first, const std::function<bool()>& is_over) {
@@ -137,6 +138,30 @@ class Collapsed {
   }
 
  private:
+  // Those that come to nothing of worth are worth nothing at once, however long a run stays there.
+  void find_hopeless() {
+    const Predecessors predecessors(process_);
+    std::vector<bool> has_hope(process_.states());
+    std::vector<Vertex> next;
+    for (Vertex it = 0; it < has_hope.size(); ++it) {
+      if (!process_.edges_of(it).empty() || bounds_[it].high <= 0) continue;
+      has_hope[it] = true;
+      next.push_back(it);
+    }
+    while (!next.empty()) {
+      const Vertex from = next.back();
+      next.pop_back();
+      for (const Vertex it : predecessors.of(from)) {
+        if (has_hope[it]) continue;
+        has_hope[it] = true;
+        next.push_back(it);
+      }
+    }
+    for (Vertex it = 0; it < has_hope.size(); ++it) {
+      if (!has_hope[it]) bounds_[it].high = 0;
+    }
+  }
+
   // One vertex, or those of a set.
   void add(const DecisionProcess& process, const std::vector<Worth>& worth,
            const std::vector<Vertex>& members) {
@@ -211,8 +236,14 @@ class Collapsed {
 
 class ChanceQuestions {
  public:
-  ChanceQuestions(const ChanceGraph& graph, const std::function<bool()>& is_over)
-      : graph_(graph), process_(graph.process), is_over_(is_over), unfair_(graph.process.states()) {
+  ChanceQuestions(const ChanceGraph& graph, const std::function<bool()>& is_stopped,
+                  std::optional<Nanoseconds> until)
+      : graph_(graph),
+        process_(graph.process),
+        until_(until),
+        is_over_(
+            [is_stopped, until] { return is_stopped() || (until && monotonic_now() > *until); }),
+        unfair_(graph.process.states()) {
     std::vector<bool> may(process_.states(), true);
     may[graph_.unknown] = false;
     for (const TickEnd& it : graph_.ends) may[it.vertex] = it.to != kNoState;
@@ -225,7 +256,7 @@ class ChanceQuestions {
     }
   }
 
-  Probabilities answer() const {
+  Probabilities answer() {
     Probabilities all;
     std::array<bool, kStatuses.size()> has{};
     bool has_fault = false;
@@ -235,6 +266,8 @@ class ChanceQuestions {
     }
     if (graph_.end != SearchEnd::Complete)
       has[index_of(Status::Success)] = has[index_of(Status::Failure)] = true;
+    const auto ends = std::ranges::count(has, true) + (has_fault ? 1 : 0) + 1;
+    bounds_left_ = 2 * (static_cast<std::size_t>(ends) + graph_.shape.properties);
     for (std::size_t i = 0; i < has.size(); ++i) {
       if (!has[i]) continue;
       all.results[i] =
@@ -244,7 +277,7 @@ class ChanceQuestions {
     all.ends = ending([](const TickEnd&) { return true; });
     for (std::uint32_t i = 0; i < graph_.shape.properties; ++i)
       all.properties.push_back(holding(i));
-    all.is_cut = is_over_();
+    all.is_cut = is_cut_ || is_over_();
     return all;
   }
 
@@ -256,18 +289,32 @@ class ChanceQuestions {
     worth[graph_.unknown] = Worth::Unknown;
     return worth;
   }
-  Bounds largest(const std::vector<Worth>& worth) const {
+  Bounds largest(const std::vector<Worth>& worth) {
     try {
-      return largest_chance(process_, graph_.first, worth, is_over_);
+      Collapsed collapsed(process_, worth, is_over_);
+      const Nanoseconds now = monotonic_now();
+      std::optional<Nanoseconds> share;
+      if (until_) share = now + (*until_ - now) / static_cast<std::int64_t>(bounds_left_);
+      bounds_left_ = std::max<std::size_t>(bounds_left_, 2) - 1;
+      return collapsed.solve(graph_.first, [&] {
+        const bool is_over = is_over_() || (share && monotonic_now() > *share);
+        is_cut_ |= is_over;
+        return is_over;
+      });
     } catch (const TimeIsOver&) {
       return {};
     }
+  }
+  // The most is no less than the least, whichever of them is known better.
+  static Probability between(Bounds least, Bounds most) {
+    return {{least.low, std::min(least.high, most.high)},
+            {std::max(least.low, most.low), most.high}};
   }
   static Bounds rest(const Bounds& it) { return {1 - it.high, 1 - it.low}; }
 
   // That the run ends in this way.
   template <class IsWanted>
-  Probability ending(const IsWanted& is_wanted) const {
+  Probability ending(const IsWanted& is_wanted) {
     if (endless_.empty()) return {};  // it is not known yet
     std::vector<Worth> this_way = unknown_worth(), otherwise = this_way;
     for (const TickEnd& it : graph_.ends) {
@@ -277,11 +324,11 @@ class ChanceQuestions {
       otherwise[it.vertex] = wanted ? Worth::Nothing : Worth::One;
     }
     for (const Vertex it : those(endless_)) otherwise[it] = Worth::One;
-    return {rest(largest(otherwise)), largest(this_way)};
+    return between(rest(largest(otherwise)), largest(this_way));
   }
 
   // That the property holds. One that waits for something for ever is violated.
-  Probability holding(std::uint32_t property) const try {
+  Probability holding(std::uint32_t property) try {
     look_at_time(is_over_);
     std::vector<Worth> holds = unknown_worth(), violated = holds;
     std::vector<bool> open(process_.states(), true);
@@ -303,7 +350,7 @@ class ChanceQuestions {
     const std::vector<bool> going =
         fair(open, [&](const TickEnd& it) { return !graph_.labels.has(it.label, owed); });
     for (const Vertex it : those(going)) holds[it] = Worth::One;
-    return {rest(largest(violated)), largest(holds)};
+    return between(rest(largest(violated)), largest(holds));
   } catch (const TimeIsOver&) {
     return {};
   }
@@ -369,8 +416,11 @@ class ChanceQuestions {
 
   const ChanceGraph& graph_;
   const DecisionProcess& process_;
-  const std::function<bool()>& is_over_;
+  const std::optional<Nanoseconds> until_;
+  const std::function<bool()> is_over_;
   std::vector<bool> unfair_, endless_;
+  std::size_t bounds_left_ = 1;  // to compute, each with the same share of the time
+  bool is_cut_ = false;
 };
 
 }  // namespace
@@ -380,8 +430,9 @@ Bounds largest_chance(const DecisionProcess& process, Vertex first, const std::v
   return Collapsed(process, worth, is_over).solve(first, is_over);
 }
 
-Probabilities probabilities(const ChanceGraph& graph, const std::function<bool()>& is_over) {
-  return ChanceQuestions(graph, is_over).answer();
+Probabilities probabilities(const ChanceGraph& graph, const std::function<bool()>& is_over,
+                            std::optional<Nanoseconds> until) {
+  return ChanceQuestions(graph, is_over, until).answer();
 }
 
 }  // namespace lockstep::host

@@ -29,7 +29,7 @@ struct Probabilities {
   std::optional<Probability> fault = {};
   Probability ends;                          // that the run ends at all
   std::vector<Probability> properties = {};  // that each holds
-  bool is_cut = false;  // `is_over` has ended it: the bounds are wider than they could be
+  bool is_cut = false;  // the time was over: bounds are wider than they could be
 };
 
 // What it is worth to come to a vertex.
@@ -38,7 +38,9 @@ enum class Worth : std::uint8_t { GoesOn, Nothing, One, Unknown };
 Bounds largest_chance(const DecisionProcess& process, Vertex first, const std::vector<Worth>& worth,
                       const std::function<bool()>& is_over);
 
-// `is_over` is asked now and then.
-Probabilities probabilities(const ChanceGraph& graph, const std::function<bool()>& is_over);
+// `is_over` is asked now and then. Until `until`, of monotonic_now, each question has an equal
+// share of the time that is left, so that one whose numbers come near slowly takes no other's.
+Probabilities probabilities(const ChanceGraph& graph, const std::function<bool()>& is_over,
+                            std::optional<Nanoseconds> until = {});
 
 }  // namespace lockstep::host

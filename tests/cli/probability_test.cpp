@@ -72,20 +72,22 @@ TEST_CASE("probabilities that come near slowly end within --time, with the inter
   const TemporaryDirectory directory;
   const std::string tree = directory.file("walk.xml", R"(<root BTCPP_format="4">
 <BehaviorTree ID="T"><Sequence><Script code="n := 2000"/>
-<KeepRunningUntilFailure><Sequence>
+<ForceSuccess><KeepRunningUntilFailure><Sequence>
 <Fallback><Sequence><Step/><Script code="n += 1"/></Sequence><Script code="n -= 1"/></Fallback>
 <Sleep msec="100"/><ScriptCondition code="n &gt; 0 &amp;&amp; n &lt; 4000"/>
-</Sequence></KeepRunningUntilFailure>
+</Sequence></KeepRunningUntilFailure></ForceSuccess>
 <ScriptCondition code="n &gt; 0"/></Sequence></BehaviorTree></root>)");
   const std::string leaves = directory.file(
       "walk.leaves.xml",
       R"(<leaves lockstep="1"><leaf of="Step" result="success:0.5;failure:0.5" ticks="1"/></leaves>)");
-  const Outcome it =
-      run_lockstep({"verify", tree, "--mock", "--leaves", leaves, "--probability", "--time", "1"});
+  const Outcome it = run_lockstep({"verify", tree, "--mock", "--leaves", leaves, "--probability",
+                                   "--time", "1", "--property", "calm: never Step.skipped"});
   INFO(it.out);
   CHECK(it.code == 124);
   CHECK(it.cpu_seconds < 1.5);
-  CHECK(contains(it.out, "\n  failure  unknown: in 0 to 1\n"));
+  CHECK(contains(it.out, "\n  success          unknown: in 0 to 1\n"));
+  CHECK(contains(it.out, "\n  ends             1\n"));
+  CHECK(contains(it.out, "\n  property 'calm'  1\n"));
   CHECK(
       contains(it.out, "not all is known: the time was over before the numbers were near enough"));
 }

@@ -320,14 +320,17 @@ class VerifyCommand {
     std::optional<SearchLine> line(std::in_place);
     const ChanceGraph graph =
         explore_chances(runnable.tree, models, properties_, rate, limits(*line));
-    const bool has_time = options_.time.has_value();
-    const Nanoseconds until = has_time ? began_ + from_seconds(*options_.time) : Nanoseconds(0);
-    const Probabilities found = probabilities(graph, [&] {
-      line->show([&](double) {
-        return fmt::format("{} states, all found; the numbers come nearer", graph.states);
-      });
-      return StopSignals::received() != 0 || (has_time && monotonic_now() > until);
-    });
+    std::optional<Nanoseconds> until;
+    if (options_.time) until = began_ + from_seconds(*options_.time);
+    const Probabilities found = probabilities(
+        graph,
+        [&] {
+          line->show([&](double) {
+            return fmt::format("{} states, all found; the numbers come nearer", graph.states);
+          });
+          return StopSignals::received() != 0;
+        },
+        until);
     line.reset();
     const ProbabilityReport report{graph,
                                    found,
@@ -585,7 +588,7 @@ std::function<int()> define_verify(CLI::App& app) {
   add_mock_option(app, options->load);
   add_load_options(app, options->load);
   add_program_option(app, options->load.plugins);
-  constexpr const char* kOfExperts[] = {"--compact", "--no-symmetry", "--values"};
+  constexpr const char* kOfExperts[] = {"--compact", "--no-symmetry", "--values", "--sign"};
   only_in_help_all(app, kOfExperts);
   return [options] { return verify(*options); };
 }
