@@ -104,7 +104,8 @@ const Moment& RecordedMoments::read(const RecordedTick& tick) {
   moment_.tick = tick.tick;
   moment_.time = from_seconds(tick.time);
   moment_.ended = ended_;
-  moment_.within = tick.moments.empty() ? MomentsView() : tick.moments;
+  moment_.within =
+      tick.moments.empty() ? MomentsView{.progress = tick.moments.progress} : tick.moments;
   return moment_;
 }
 
