@@ -32,6 +32,7 @@ struct RecordingHeader : Shape {
   std::optional<double> resumed_after = {};
   std::string verify = {};  // what verify has found; "": it is any other run
   std::string tick = {};    // kExactlyOnce, or ""
+  std::uint64_t run = 0;    // of a robot in a team: what others call this run; 0: it is in none
 };
 
 struct RecordedEnd {

@@ -197,6 +197,13 @@ void add_answer(std::string& text, const GivenAnswer& it) {
   text += ']';
 }
 
+void add_heard(std::string& text, const Heard& it) {
+  add_number(text += '[', it.node);
+  add_number(text += ',', it.run);
+  add_number(text += ',', it.word);
+  text += ']';
+}
+
 void add_round(std::string& text, const RoundChange& it) {
   add_number(text += '[', it.node);
   add_number(text += ',', it.round.number);
@@ -349,6 +356,7 @@ void json_lines::set_tick_end(std::string& text, const TickEnd& end) {
   add_list(text, lines::kTick["factors"], end.factors, add_factor);
   add_list(text, lines::kTick["reasons"], end.reasons, add_reason);
   add_list(text, lines::kTick["answers"], end.answers, add_answer);
+  add_list(text, lines::kTick["heard"], end.heard, add_heard);
   add_list(text, lines::kTick["succeeded"], end.succeeded, add_number<NodeIndex>);
   add_moments(text, end.moments);
   add_list(text, lines::kTick["leaf_progress"], end.moments.progress, add_leaf_progress);

@@ -19,6 +19,7 @@
 #include "record/packet.h"
 #include "trace/answer.h"
 #include "trace/faults.h"
+#include "trace/moment.h"
 #include "trace/moments_view.h"
 
 namespace lockstep::host {
@@ -30,6 +31,7 @@ struct TickEnd {
   std::span<const FactorChange> factors = {};
   std::span<const ReasonChange> reasons = {};
   std::span<const GivenAnswer> answers = {};
+  std::span<const Heard> heard = {};
   std::span<const NodeIndex> succeeded = {};
   MomentsView moments = {};
   std::span<const Fault> faults = {};

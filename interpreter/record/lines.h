@@ -77,6 +77,7 @@ constexpr Tuple kTuples[] = {
        {"held", "Whole"},
        {"faults", "Whole"}}}},
     {"EntryCount", {{{"index", "Index"}, {"values", "Whole"}}}},
+    {"HeardWord", {{{"index", "Index"}, {"run", "Whole"}, {"word", "Whole"}}}},
     {"LeafProgress", {{{"moment", "Whole"}, {"index", "Index"}, {"progress", "Progress"}}}},
 };
 
@@ -160,6 +161,10 @@ constexpr Field kHeaderFields[] = {
      "requests "
      "another tick gets it in the next period",
      &RecordingHeader::tick},
+    {"run", "Whole", kMaybe,
+     "only of a robot in a [team](team.md): a random number, by which `heard` in the recordings of "
+     "the other robots names this run",
+     &RecordingHeader::run},
 };
 constexpr Object kHeader{"Header", kHeaderFields};
 
@@ -237,6 +242,10 @@ constexpr Field kTickFields[] = {
      "only if there are any: {} for each answer that a person or program has given to an "
      "[Ask](people.md) "
      "since the line before: `who` is the terminal, a user of the page, or another client"},
+    {"heard", "HeardWord[]", kMaybe,
+     "only of a robot in a [team](team.md): {} for each node that stands for another robot and has "
+     "heard a new word since the line before. That robot sent it after `word` ticks of the run "
+     "that its header calls `run`"},
     {"succeeded", "Index[]", kMaybe,
      "only if there are any: the synchronized nodes, the children of parallels and the children of "
      "SyncProgress nodes that succeeded in this tick and are idle after it, because an ancestor "

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/core/wording.h"
 
 namespace lockstep::host {
@@ -23,6 +25,15 @@ std::string kind_text(const ShapeNode& node) {
 
 Nanoseconds period_of(const RecordingHeader& header) {
   return header.rate_hz > 0 ? from_seconds(1 / header.rate_hz) : Nanoseconds(0);
+}
+
+void take_heard(std::span<const RecordedHeard> words, Nanoseconds time, std::vector<Heard>& heard) {
+  for (const RecordedHeard& word : words) {
+    auto it = std::ranges::find(heard, word.node, &Heard::node);
+    if (it == heard.end()) it = heard.insert(it, {.node = word.node});
+    if (it->run == word.run && it->word == word.word) continue;
+    *it = {.node = word.node, .run = word.run, .word = word.word, .time = time};
+  }
 }
 
 std::string shown_value(const RecordedEntry& entry) {

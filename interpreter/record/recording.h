@@ -50,6 +50,21 @@ struct RecordedReason {
   friend bool operator==(const RecordedReason&, const RecordedReason&) = default;
 };
 
+// A node that stands for another robot and has heard a new word since the line before: Heard.
+struct RecordedHeard {
+  NodeIndex node = 0;
+  std::uint32_t run = 0;
+  std::uint64_t word = 0;
+};
+
+inline bool operator==(const Heard& one, const Heard& other) {
+  return one.node == other.node && one.run == other.run && one.word == other.word &&
+         one.time == other.time;
+}
+// Takes what a tick at `time` has heard to what was heard before, one for each node. A word that a
+// line with the whole state repeats keeps its time.
+void take_heard(std::span<const RecordedHeard> words, Nanoseconds time, std::vector<Heard>& heard);
+
 // A blackboard entry whose value differs from the line before.
 struct RecordedEntry {
   std::uint32_t entry = 0;           // in RecordingHeader::entries
@@ -72,6 +87,7 @@ struct RecordedTick {
   MomentsView moments = {};
   std::span<const RecordedReason> reasons = {};
   std::span<const GivenAnswer> answers = {};
+  std::span<const RecordedHeard> heard = {};
   std::span<const RecordedFault> faults = {};
   std::span<const RecordedEntry> entries = {};
   std::span<const std::uint32_t> set = {};  // of these: written since the tick before, too

@@ -37,6 +37,7 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
   moment_.progress = progress_;
   moment_.limits = limits_;
   moment_.uses = uses_;
+  moment_.heard = asked.heard;
   const auto paces = [](const Node& it) { return it.kind->paced_child != nullptr; };
   if (std::ranges::any_of(tree.nodes, paces)) {
     factors_.resize(tree.nodes.size());

@@ -11,6 +11,7 @@ AskedOfRun asked_by(std::span<Observer* const> observers) {
     all.parallels.insert(all.parallels.end(), asked.parallels.begin(), asked.parallels.end());
     all.within |= asked.within;
     all.progress_within |= asked.progress_within;
+    if (!asked.heard.empty()) all.heard = asked.heard;
   }
   return all;
 }

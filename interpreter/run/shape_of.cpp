@@ -172,6 +172,7 @@ std::optional<NodeQuestion> question_of(const Tree& tree, NodeIndex index) {
 void add_facts(const NodeType& type, ShapeNode& node) {
   node.latches |= type.latches;
   node.limits_time |= type.limits_time;
+  node.holds_first |= type.holds_first_child;
   node.tries_again |= type.repeats_after == Status::Failure;
 }
 

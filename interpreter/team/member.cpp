@@ -84,7 +84,11 @@ void TeamMember::look(Nanoseconds now) {
   const auto find_all = [&] {
     for (Other& it : others_) {
       it.known = {.where = where_of(it, now)};
-      if (it.last) it.known.age = now - it.last->at;
+      if (it.last) {
+        it.known.age = now - it.last->at;
+        it.known.run = it.last->word.run;
+        it.known.number = it.last->word.number;
+      }
       // Of one that is silent, what was heard last.
       const bool has_progress = it.known.where == Where::InRound ||
                                 it.known.where == Where::Silent ||

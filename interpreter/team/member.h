@@ -39,7 +39,7 @@ class TeamMember {
   const TeamDeclaration& declaration() const { return declaration_; }
 
   // What is known of another member now. Those that are in this round have a progress, also while
-  // they are silent: the last one that was heard.
+  // they are silent: the last one that was heard. Those that have completed it have 1.
   enum class Where : std::uint8_t {
     InRound,
     NotBegun,   // heard, and not in this round
@@ -53,7 +53,8 @@ class TeamMember {
   struct Known {
     Where where = Where::Unheard;
     double progress = 0;
-    Nanoseconds age{0};  // since it was heard last; of one that was
+    Nanoseconds age{0};                 // since it was heard last; of one that was
+    std::uint64_t run = 0, number = 0;  // of that word; number 0: none was
   };
   static bool is_known(Where where) { return where <= Where::Passed; }
 

@@ -209,6 +209,7 @@ TeamRun::TeamRun(const Tree& tree, std::span<const TeamDeclaration> teams, std::
   std::optional<NodeIndex> around;  // the node that the last one was in
   for (const LeafNode& leaf : tree.leaves) {
     if (!is_robot(leaf)) continue;
+    heard_.push_back({.node = leaf.node});
     const NodeIndex parent = tree.labels[leaf.node].parent;
     if (std::exchange(around, std::optional(parent)) == parent) continue;
     teams_.push_back({TeamMember(*it++, run), parent});
@@ -243,10 +244,10 @@ std::string TeamRun::why() const {
 }
 
 AskedOfRun TeamRun::asked() const {
-  return {.within = true};
+  return {.within = true, .heard = heard_};
 }
 
-void TeamRun::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
+void TeamRun::before_tick(const Moment&, std::uint64_t, Nanoseconds time) {
   for (HeardWord heard; transport_.take(heard);) {
     TeamMember& member = teams_[heard.team].member;
     heard.member == HeardWord::kOwnName ? member.hear_own_name(heard.word, heard.at)
@@ -254,6 +255,19 @@ void TeamRun::before_tick(const Moment&, std::uint64_t, Nanoseconds) {
   }
   const Nanoseconds now = clock_.now();
   for (Team& it : teams_) it.member.look(now);
+  note_heard(time);
+}
+
+void TeamRun::note_heard(Nanoseconds time) {
+  auto heard = heard_.begin();
+  for (const Team& it : teams_) {
+    for (std::size_t i = 0; i < it.member.declaration().others.size(); ++i, ++heard) {
+      const TeamMember::Known& known = it.member.known(i);
+      const std::uint32_t run = short_run(known.run);
+      if (known.number == heard->word && run == heard->run) continue;
+      *heard = {.node = heard->node, .run = run, .word = known.number, .time = time};
+    }
+  }
 }
 
 void TeamRun::after_tick(const Moment& moment, const TickReport&) {

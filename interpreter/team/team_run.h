@@ -41,6 +41,9 @@ class TeamRun final : public Observer {
   // the robot. "": nothing.
   std::string why() const;
 
+  // By which the recordings of the other members name this run.
+  static std::uint32_t short_run(std::uint64_t run) { return static_cast<std::uint32_t>(run); }
+
   AskedOfRun asked() const override;
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(const Moment& moment, const TickReport& report) override;
@@ -52,8 +55,10 @@ class TeamRun final : public Observer {
     NodeIndex node;  // that is in step
   };
   void say();
+  void note_heard(Nanoseconds time);
 
   std::vector<Team> teams_;
+  std::vector<Heard> heard_;  // of the others of the first team, then of the next
   TeamTransport& transport_;
   Clock& clock_;
   std::vector<NodeState> column_;

@@ -31,6 +31,14 @@ struct EntryText {
   std::uint32_t writes = 0;              // how often it was written, as Entry::writes
 };
 
+// The last word that a robot has heard from another one of its team.
+struct Heard {
+  NodeIndex node = 0;      // that stands for the other robot
+  std::uint32_t run = 0;   // of the other robot: RecordingHeader::run
+  std::uint64_t word = 0;  // it was sent after so many ticks of that run; 0: none is heard yet
+  Nanoseconds time{0};     // of the first tick of this run that knew it
+};
+
 // A run that goes on, for what no column has: it is computed when somebody asks.
 class LiveRun {
  public:
@@ -76,6 +84,9 @@ struct Moment {
 
   // Given since the tick before.
   std::span<const GivenAnswer> answers = {};
+
+  // In a team: of each node that stands for another robot.
+  std::span<const Heard> heard = {};
 
   // By entry of the Shape; the one of a run, the other of a recording.
   std::span<const Entry> entries = {};
@@ -129,6 +140,8 @@ struct AskedOfRun {
   std::vector<NodeIndex> parallels = {};  // Moment::used of these, also if they compare nothing
   bool within = false;                    // Moment::within
   bool progress_within = false;           // and MomentsView::progress
+  // Of the observer that knows it: Moment::heard, which it changes before a tick.
+  std::span<const Heard> heard = {};
 };
 
 // Whether a parallel, or a node beside the tree, asked its children in the tick. A tick in which a

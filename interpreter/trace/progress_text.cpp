@@ -15,6 +15,10 @@ std::string went_on_text(double from, double to) {
                      to);
 }
 
+std::string heard_text(double progress, Nanoseconds age) {
+  return fmt::format("heard at {:.2f}, {:.2f} s ago", progress, to_seconds(age));
+}
+
 std::string over_budget_text(PluginFunction function, Nanoseconds took, Nanoseconds budget) {
   return fmt::format("took {:.3f} ms in {}, more than the budget of {:.3f} ms",
                      to_seconds(took) * 1e3, name_of(function), to_seconds(budget) * 1e3);

@@ -13,6 +13,9 @@ std::string out_of_range_text(double reported);
 // "went on while it was held: its progress rose from 0.25 to 0.27".
 std::string went_on_text(double from, double to);
 
+// "heard at 0.24, 0.02 s ago": a robot's progress as another one knows it.
+std::string heard_text(double progress, Nanoseconds age);
+
 // "took 3.100 ms in tick, more than the budget of 1.000 ms".
 std::string over_budget_text(PluginFunction function, Nanoseconds took, Nanoseconds budget);
 

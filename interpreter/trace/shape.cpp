@@ -96,6 +96,11 @@ std::vector<std::string> paths_of(const Shape& shape) {
   return paths;
 }
 
+bool is_robot(const Shape& shape, NodeIndex node) {
+  const auto parent = shape.nodes[node].parent;
+  return parent && shape.nodes[*parent].holds_first && node != *parent + 1;
+}
+
 std::vector<std::string> child_names(const Shape& shape, NodeIndex node) {
   std::vector<std::string> names;
   const bool is_group = shape.nodes[node].is_group();

@@ -44,6 +44,7 @@ struct ShapeNode {
   bool latches = false;                 // a parallel, also one that compares no progress
   bool limits_time = false;             // it fails, and halts its child, after a time
   bool tries_again = false;             // it begins its child again when that fails
+  bool holds_first = false;             // only its first child: the others stand for robots
   std::string condition = {};           // of a node that a script decides: its text
   std::vector<std::string> reads = {};  // the keys of the entries in it, as it names them
   // And parameters: "0.5", "{goal}". Null: it has none.
@@ -98,6 +99,8 @@ std::vector<bool> resource_users(const Shape& shape);  // the same by index
 // Those that begin their child again and again.
 std::vector<NodeIndex> repeating_nodes(const Shape& shape);
 std::vector<std::string> paths_of(const Shape& shape);
+// Whether it stands for another robot of a team.
+bool is_robot(const Shape& shape, NodeIndex node);
 // What a node calls what it holds: the children of a parallel differ in their last segment.
 std::vector<std::string> child_names(const Shape& shape, NodeIndex node);
 

@@ -38,6 +38,25 @@ test("a state stands until a line changes it, also over ticks that have no line"
   assert.deepEqual(model.waitOf(late, 2).for, [1]);
 });
 
+test("a node that waits for another robot has where that was heard last, and how long ago", () => {
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, nodes: [
+    { index: 0, path: "Test/step", kind: "InStep", name: "step", parent: null, barriers: [0.5] },
+    { index: 1, path: "Test/step/arm", kind: "Advance", name: "arm", parent: 0 },
+    { index: 2, path: "Test/step/right", kind: "TeamMember", name: "right", parent: 0 }] }));
+  const lines = [
+    { nodes: [running(0, 0), running(1, 0.5, 1), running(2, 0.25)], limits: [[0, 0.5]], heard: [[2, 7, 3]] },
+    { nodes: [], heard: [[2, 7, 4]] },
+    { nodes: [] },
+    { nodes: [], heard: [[2, 7, 4]] },
+    { nodes: [[2, "failure", 0.25, 1, 0]], reasons: [[2, "not heard for 0.3 s"]] }];
+  lines.forEach((line, tick) => run.feed(JSON.stringify({ tick, time_s: tick / 10, ...line })));
+  const text = (line) => model.waitOf(new model.Moment(run, line), 1).text;
+  assert.equal(text(1), "waits for right at barrier 0.5 (heard at 0.25, 0.00 s ago)");
+  assert.equal(text(3), "waits for right at barrier 0.5 (heard at 0.25, 0.20 s ago)");
+  assert.equal(text(4), "waits for right: not heard for 0.3 s (heard at 0.25, 0.30 s ago)");
+});
+
 test("a member of a barrier at 0 waits for those that are not reached, and an exchange for what it does not own", () => {
   const member = (index, name) => [
     { index, path: `Test/p/${name}`, kind: "SyncProgress", name, parent: 0 },

@@ -6,8 +6,13 @@
 
 namespace lockstep::host {
 
+std::uint64_t ConnectedTeam::random_run() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32u | random();
+}
+
 Result<std::unique_ptr<ConnectedTeam>> ConnectedTeam::open(
-    const RunCommandOptions& options, const Tree& tree,
+    const RunCommandOptions& options, const Tree& tree, std::uint64_t run,
     std::function<void(const std::string& line)> tell) {
   // Leaves that are played stand for the other robots, too.
   const auto teams = options.leaves.empty() ? teams_of(tree, from_seconds(1 / options.rate))
@@ -27,8 +32,6 @@ Result<std::unique_ptr<ConnectedTeam>> ConnectedTeam::open(
   auto transport = open_team_network(team_module(options.load.plugins), teams, network);
   if (!transport) return tl::unexpected(transport.error());
   team->transport_ = std::move(*transport);
-  std::random_device random;
-  const std::uint64_t run = std::uint64_t{random()} << 32u | random();
   team->run_ = std::make_unique<TeamRun>(tree, teams, run, *team->transport_, team->clock_);
   return team;
 }

@@ -13,9 +13,11 @@ namespace lockstep::host {
 
 class ConnectedTeam {
  public:
-  // Null: the tree is in no team. `tell` may be called from any thread.
+  // A random number of the process.
+  static std::uint64_t random_run();
+  // Null: the tree is in no team. `run` is a random number. `tell` may be called from any thread.
   static Result<std::unique_ptr<ConnectedTeam>> open(
-      const RunCommandOptions& options, const Tree& tree,
+      const RunCommandOptions& options, const Tree& tree, std::uint64_t run,
       std::function<void(const std::string& line)> tell);
 
   TeamRun& run() { return *run_; }

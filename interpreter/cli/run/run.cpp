@@ -227,7 +227,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
 
   // Before its leaves are made.
   bool connect_team() {
-    auto team = ConnectedTeam::open(options_, tree_, [this](const std::string& line) {
+    auto team = ConnectedTeam::open(options_, tree_, team_run_, [this](const std::string& line) {
       log("team", line);
       view_.print("warning: " + line);
     });
@@ -330,6 +330,8 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     run.values = runnable.values;
     run.entries = recorded_keys(options_);
     run.exactly_once = options_.exactly_once;
+    const bool is_in_team = !teams_of(tree_, from_seconds(1 / options_.rate)).empty();
+    if (is_in_team) run.run = TeamRun::short_run(team_run_);
     return run;
   }
 
@@ -472,6 +474,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
   Statistics statistics_;
   LineBudget repeated_halts_budget_{ConsolePlain::kBurstOfFaults};
   RepeatedHalts repeated_halts_;
+  const std::uint64_t team_run_ = ConnectedTeam::random_run();
   const RunDescription description_;
   std::optional<Recorder> recorder_;
   Watchers watchers_;

@@ -169,7 +169,27 @@ std::span<const ReasonChange> RunDelta::reasons(const Moment& moment) {
   return reasons_;
 }
 
+std::span<const Heard> RunDelta::heard(const Moment& moment) {
+  heard_.clear();
+  if (kept_heard_.size() != moment.heard.size()) {
+    kept_heard_.assign(moment.heard.begin(), moment.heard.end());
+    heard_.reserve(moment.heard.size());
+    forget_heard();
+  }
+  for (std::size_t i = 0; i < moment.heard.size(); ++i) {
+    const Heard &it = moment.heard[i], &kept = kept_heard_[i];
+    const bool is_new = it.word != kept.word || it.run != kept.run;
+    if (is_new || (is_whole_ && it.word != 0)) heard_.push_back(it);
+  }
+  return heard_;
+}
+
+void RunDelta::forget_heard() {
+  for (Heard& kept : kept_heard_) kept = {.node = kept.node};
+}
+
 void RunDelta::start_over() {
+  forget_heard();
   for (std::string& kept : kept_reasons_) kept.clear();
   for (FactorChange& kept : kept_factors_) kept.factor = 1;
   std::ranges::fill(kept_, 0);
@@ -192,6 +212,11 @@ void RunDelta::keep() {
     kept_factor->factor = change.factor;
   }
   for (const ReasonChange& change : reasons_) kept_reasons_[change.place] = change.text;
+  auto kept_heard = kept_heard_.begin();
+  for (const Heard& it : heard_) {  // in the same order
+    while (kept_heard->node != it.node) ++kept_heard;
+    *kept_heard = it;
+  }
   auto kept = kept_limits_.begin();
   for (const LimitChange& change : limits_) {  // in the same order
     while (kept->node != change.node) ++kept;

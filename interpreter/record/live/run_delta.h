@@ -34,6 +34,8 @@ class RunDelta {
   // The reasons of leaves that are not what was kept. Valid until the next call. Allocates for the
   // first one of a leaf.
   std::span<const ReasonChange> reasons(const Moment& moment);
+  // The words of other robots that are not what was kept. Valid until the next call.
+  std::span<const Heard> heard(const Moment& moment);
   // About the last result of changes(): a node has another status than what was kept, or is held or
   // was ticked where it was not, or the other way round; and a node has begun.
   bool has_turns() const { return has_turns_; }
@@ -55,6 +57,7 @@ class RunDelta {
   void set_progress(NodeIndex node, double progress);
   void add_change(NodeIndex node);
   void take_used(const Moment& moment);
+  void forget_heard();
 
   // A node that compares the progress of others, and these.
   struct Keeper {
@@ -77,6 +80,8 @@ class RunDelta {
   std::vector<FactorChange> factors_;
   std::vector<std::string> kept_reasons_;  // in the order of Moment::reasons
   std::vector<ReasonChange> reasons_;
+  std::vector<Heard> kept_heard_;  // in the order of Moment::heard
+  std::vector<Heard> heard_;
   std::vector<double> progress_;      // at the start of this tick
   std::vector<std::uint8_t> source_;  // the Activity that it is of, where it follows from that
 

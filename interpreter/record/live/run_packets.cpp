@@ -56,6 +56,7 @@ std::string RunPackets::header(const RunStart& start) const {
   header.first_tick = start.first_tick;
   if (start.first_tick > 0) header.resumed_after = to_seconds(start.gap);
   if (run_.exactly_once) header.tick = kExactlyOnce;
+  header.run = run_.run;
   return json_lines::header(header);
 }
 
@@ -93,6 +94,7 @@ Packet RunPackets::tick(const Moment& moment, const TickReport& report) {
               .factors = delta_.factors(moment),
               .reasons = reasons(moment),
               .answers = run_.leaves_out_answers ? std::span<const GivenAnswer>() : moment.answers,
+              .heard = delta_.heard(moment),
               .succeeded = delta_.succeeded(moment),
               .moments = moment.within,
               .faults = report.faults,

@@ -26,6 +26,7 @@ struct RunDescription {
   std::optional<std::vector<std::string>> entries = {};         // of these keys; none: all
   std::string verify = {};                                      // what it shows, of a run of verify
   bool exactly_once = false;
+  std::uint64_t run = 0;  // RecordingHeader::run
   // Questions and answers have values of entries, so they are left out with those.
   bool leaves_out_answers = false;
 };

@@ -42,6 +42,7 @@ struct Snapshot {
   std::vector<NodeView> nodes;           // by index
   std::vector<EntryState> entries = {};  // in the order of Shape::entries
   RecentLines logs = {};
+  std::vector<Heard> heard = {};  // of each node that stands for another robot
 };
 
 }  // namespace lockstep::host

@@ -88,6 +88,7 @@ void SnapshotFeed::publish(const Moment& moment) {
     back.logs = logs_;
     back.logs.earlier += left_out;
   }
+  back.heard.assign(moment.heard.begin(), moment.heard.end());
   snapshots_.publish();
   is_shown_ = true;
 }

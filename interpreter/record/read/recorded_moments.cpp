@@ -71,6 +71,7 @@ void RecordedMoments::add(const RecordingHeader& header, NodeIndex node) {
       keepers_.emplace_back(Keeper{.node = node,
                                    .is_plain = it.synchronization == Synchronization::None,
                                    .ignores_idle = it.ignores_idle,
+                                   .holds_first = it.holds_first,
                                    .children = it.held()});
   for (const NodeIndex child : it.members) {
     keeper.members.push_back(header.nodes[child].parent.value_or(0));
@@ -98,6 +99,8 @@ const Moment& RecordedMoments::read(const RecordedTick& tick) {
     if (it == reasons_.end()) it = reasons_.insert(it, {.node = reason.node});
     it->text = reason.text;
   }
+  take_heard(tick.heard, from_seconds(tick.time), heard_);
+  moment_.heard = heard_;
   moment_.reasons = reasons_;
   moment_.answers = tick.answers;
   read_ended(tick);
@@ -142,6 +145,7 @@ double RecordedMoments::in_plain_parallel(const Keeper& keeper, std::size_t chil
 // True for a child that was skipped in the last tick, or is in what was; in some groups also for a
 // member that did not run, and had not succeeded, when the tick began.
 bool RecordedMoments::is_left_out(const Keeper& keeper, std::size_t child) const {
+  if (keeper.holds_first && child > 0) return false;
   const bool is_group = !keeper.members.empty();
   const bool runs = moment_.status(keeper.node) == Status::Running;
   const Status last = moment_.status(is_group ? keeper.members[child] : keeper.children[child]);

@@ -23,6 +23,7 @@ class RecordedMoments {
     NodeIndex node = 0;
     bool is_plain = false;  // a parallel that compares no progress
     bool ignores_idle = false;
+    bool holds_first = false;  // robots count 0 where they have not begun
     std::vector<NodeIndex> children = {};
     std::vector<NodeIndex> members = {};              // of a group: the parents of the children
     std::vector<std::vector<NodeIndex>> around = {};  // each member, below what has all members
@@ -45,6 +46,7 @@ class RecordedMoments {
   std::vector<NodeIndex> ended_;
   std::vector<EntryText> texts_;
   std::vector<Reason> reasons_;
+  std::vector<Heard> heard_;
   bool names_children_;  // that have succeeded
   Moment moment_;
 };

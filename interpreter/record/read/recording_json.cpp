@@ -265,6 +265,25 @@ GivenAnswer answer_from(JsonValue value, std::size_t nodes) {
   return found;
 }
 
+RecordedHeard heard_from(JsonValue value, std::size_t nodes) {
+  constexpr char kNone[] = "what is heard is not [index, run, word]";
+  RecordedHeard found;
+  read_tuple(value, 3, kNone, [&](std::size_t place, JsonValue item) {
+    std::uint64_t number = 0;
+    if (place == 0) {
+      found.node = node_from(item, nodes, kNone);
+    } else if (!item.get(number) || (place == 1 && number > UINT32_MAX)) {
+      return false;
+    } else if (place == 1) {
+      found.run = static_cast<std::uint32_t>(number);
+    } else {
+      found.word = number;
+    }
+    return true;
+  });
+  return found;
+}
+
 RecordedEntry entry_from(JsonValue value, std::size_t keys) {
   constexpr char kNone[] = "an entry is not [index, text or null]";
   RecordedEntry entry;
@@ -381,6 +400,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   changed_.clear();
   reasons_.clear();
   answers_.clear();
+  heard_.clear();
   faults_.clear();
   whole_.clear();
   succeeded_.clear();
@@ -420,6 +440,9 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
   };
   const auto read_answers = [&](JsonValue value) {
     value.each_item([&](JsonValue it) { answers_.push_back(answer_from(it, states.size())); });
+  };
+  const auto read_heard = [&](JsonValue value) {
+    value.each_item([&](JsonValue it) { heard_.push_back(heard_from(it, states.size())); });
   };
   const auto read_succeeded = [&](JsonValue value) {
     constexpr char kNone[] = "'succeeded' is not a list of indices";
@@ -480,6 +503,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
          {lines::kTick["more"], read_more, kMayLack},
          {lines::kTick["reasons"], read_reasons, kMayLack},
          {lines::kTick["answers"], read_answers, kMayLack},
+         {lines::kTick["heard"], read_heard, kMayLack},
          {lines::kTick["faults"], read_faults, kMayLack},
          {lines::kTick["entries"], read_entries(entries_), kMayLack},
          {lines::kTick["set"], read_set, kMayLack},
@@ -513,6 +537,7 @@ RecordingJson::Line RecordingJson::line(std::string& line, std::vector<RecordedS
                       .moments = moments(states),
                       .reasons = reasons_,
                       .answers = answers_,
+                      .heard = heard_,
                       .faults = faults_,
                       .entries = entries_,
                       .set = set_,

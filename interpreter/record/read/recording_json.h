@@ -42,6 +42,7 @@ class RecordingJson {
   std::vector<LeafProgress> leaf_progress_;
   std::vector<RecordedReason> reasons_;
   std::vector<GivenAnswer> answers_;
+  std::vector<RecordedHeard> heard_;
   std::vector<RecordedFault> faults_;
   std::vector<RecordedEntry> entries_;
   std::vector<std::uint32_t> set_;

@@ -23,10 +23,11 @@ void Past::add(const RecordedTick& tick) {
     entries[it.entry].set(it.value ? &*it.value : nullptr, tick.tick);
   }
   for (const LeafLine& line : tick.logs) logs.add(line);
+  take_heard(tick.heard, from_seconds(tick.time), heard);
 }
 
 std::size_t Past::memory() const {
-  std::size_t size = memory_of(logs.lines);
+  std::size_t size = memory_of(logs.lines) + heard.size() * sizeof(Heard);
   for (const EntryState& it : entries) size += sizeof it + it.text.size();
   return size;
 }

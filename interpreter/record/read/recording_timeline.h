@@ -21,6 +21,7 @@ namespace lockstep::host {
 struct Past {
   std::vector<EntryState> entries = {};  // by number; shorter where none of the last has a value
   RecentLines logs = {};
+  std::vector<Heard> heard = {};  // of each node that stands for another robot
 
   void add(const RecordedTick& tick);
   std::size_t memory() const;

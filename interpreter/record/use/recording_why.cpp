@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/core/wording.h"
 #include "base/json/json.h"
@@ -11,6 +12,7 @@
 #include "judge/summary/why.h"
 #include "language/property/node_names.h"
 #include "record/read/recorded_moments.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 namespace {
@@ -25,6 +27,10 @@ class Asked {
 
   void after_tick(const Moment& moment) {
     watch_.after_tick(moment);
+    if (!moment.held(line_.front().node))
+      held_since_.reset();
+    else if (!held_since_)
+      held_since_ = moment.time;
     for (Seen& it : line_) {
       const Status status = moment.status(it.node);
       if (moment.ticked(it.node)) {
@@ -106,9 +112,37 @@ class Asked {
     for (const NodeIndex it : {node, header_.nodes[node].parent.value_or(node)}) {
       const Hindrance hindrance(header_, last, it);
       if (hindrance.withheld().empty()) continue;
-      return wait_lines(header_, wait_chain(header_, last, hindrance.withheld().front()));
+      auto lines = wait_lines(header_, wait_chain(header_, last, hindrance.withheld().front()));
+      for (std::string& line : robots(last, hindrance.withheld().front().node))
+        lines.push_back(std::move(line));
+      return lines;
     }
     return {};
+  }
+
+  // What is known of the robots that a node waits for: "'right': not heard for 0.4 s; heard at
+  // 0.24, 0.43 s ago".
+  std::vector<std::string> robots(const Moment& last, NodeIndex keeper) const {
+    std::vector<std::string> lines;
+    const std::span<const double> used = last.used(keeper);
+    const auto& children = header_.nodes[keeper].children;
+    for (std::size_t i = 0; i < std::min(used.size(), children.size()); ++i) {
+      if (!is_robot(header_, children[i])) continue;
+      std::string line = fmt::format("'{}'", header_.nodes[children[i]].segment);
+      std::string_view between = ": ";
+      if (const std::string_view reason = last.reason(children[i]); !reason.empty()) {
+        line += fmt::format("{}{}", std::exchange(between, "; "), reason);
+      }
+      const auto heard = std::ranges::find(last.heard, children[i], &Heard::node);
+      if (heard != last.heard.end())
+        line += std::string(between) + heard_text(used[i], last.time - heard->time);
+      lines.push_back(std::move(line));
+    }
+    if (!lines.empty() && held_since_) {
+      lines.push_back(fmt::format("held since {:.3f} s, for {:.2f} s", to_seconds(*held_since_),
+                                  to_seconds(last.time - *held_since_)));
+    }
+    return lines;
   }
 
   RecordedWhy of_completed(const Seen& seen) const {
@@ -170,6 +204,7 @@ class Asked {
   WhyWatch watch_;
   std::vector<Seen> line_;  // from the asked node up to the root
   std::vector<NodeState> states_;
+  std::optional<Nanoseconds> held_since_;  // the asked node
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "judge/summary/statistics.h"
 #include "judge/summary/summary.h"
 #include "show/view/waiting.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 
@@ -167,6 +168,13 @@ void ConsolePlain::tell_wait(const Moment& moment, Watched& node, std::size_t ch
   tell(node.ticks.children()[child], text);
 }
 
+// "heard at 0.24, 0.02 s ago"; "" of a robot that was never heard.
+std::string ConsolePlain::last_word(const Moment& moment, NodeIndex robot, double progress) {
+  const auto it = std::ranges::find(moment.heard, robot, &Heard::node);
+  if (it == moment.heard.end() || it->word == 0) return "";
+  return heard_text(progress, moment.time - it->time);
+}
+
 std::string ConsolePlain::waiting(const Moment& moment, const Watched& node, std::size_t child,
                                   const SynchronizedTick& tick) const {
   const ShapeNode& self = shape_.nodes[node.ticks.node()];
@@ -179,11 +187,27 @@ std::string ConsolePlain::waiting(const Moment& moment, const Watched& node, std
                            .name_of = name_of},
                           child);
   }
+  const auto robot = [&](std::size_t number) -> std::optional<NodeIndex> {
+    const NodeIndex it = node.ticks.children()[number];
+    return is_robot(shape_, it) ? std::optional(it) : std::nullopt;
+  };
+  const auto heard = [&](std::size_t number) {
+    const auto it = robot(number);
+    return it ? last_word(moment, *it, tick.used[number]) : std::string();
+  };
+  const auto lost = [&](std::size_t number) {
+    const auto it = robot(number);
+    if (!it || moment.status(*it) != Status::Failure) return std::string();
+    const std::string last = heard(number);
+    return std::string(moment.reason(*it)) + (last.empty() ? "" : " (" + last + ")");
+  };
   const WaitedAt waited{.synchronization = self.synchronization,
                         .limit = tick.limit,
                         .progress = tick.used,
                         .name_of = name_of,
-                        .group = self.is_group() ? self.segment : ""};
+                        .group = self.is_group() ? self.segment : "",
+                        .lost = lost,
+                        .heard = heard};
   const auto status = [&](NodeIndex it) { return moment.status(it); };
   const auto member = [&](std::size_t number) { return node.ticks.children()[number] - 1; };
   if (self.is_group() && waits_to_begin(status(member(child)), status(member(child) + 1))) {

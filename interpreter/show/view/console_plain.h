@@ -70,6 +70,7 @@ class ConsolePlain final : public Observer {
   void tell_waits(const Moment& moment, Watched& node);
   void tell_wait(const Moment& moment, Watched& node, std::size_t child,
                  const SynchronizedTick& tick);
+  static std::string last_word(const Moment& moment, NodeIndex robot, double progress);
   std::string waiting(const Moment& moment, const Watched& node, std::size_t child,
                       const SynchronizedTick& tick) const;
   void tell_end_of_wait(const Moment& moment, Watched& node, std::size_t child);

@@ -16,6 +16,7 @@
 #include "show/view/lines_below.h"
 #include "show/view/progress_bar.h"
 #include "show/view/waiting.h"
+#include "trace/progress_text.h"
 
 namespace lockstep::host {
 namespace {
@@ -222,20 +223,34 @@ class View {
   std::string waiting(NodeIndex node, const std::vector<double>& progress, std::size_t place,
                       bool begins) const {
     const ShapeNode& shape = tree_.nodes[node];
-    const WaitedAt waited{.synchronization = shape.synchronization,
-                          .limit = snapshot_.nodes[node].limit,
-                          .progress = progress,
-                          .name_of =
-                              [&](std::size_t child) {
-                                return shape.names.empty()
-                                           ? tree_.nodes[shape.held()[child]].segment
-                                           : shape.names[child];
-                              },
-                          .group = is_beside(node) ? shape.segment : ""};
+    const WaitedAt waited{
+        .synchronization = shape.synchronization,
+        .limit = snapshot_.nodes[node].limit,
+        .progress = progress,
+        .name_of =
+            [&](std::size_t child) {
+              return shape.names.empty() ? tree_.nodes[shape.held()[child]].segment
+                                         : shape.names[child];
+            },
+        .group = is_beside(node) ? shape.segment : "",
+        .lost = [&](std::size_t child) { return lost(shape.held()[child]); },
+        .heard = [&](std::size_t child) { return last_word(shape.held()[child]); }};
     if (!begins) return waiting_text(waited, place);
     return beginning_text(waited, [&](std::size_t child) {
       return status(*tree_.nodes[shape.held()[child]].parent) == Status::Running;
     });
+  }
+
+  std::string last_word(NodeIndex robot) const {
+    const auto it = std::ranges::find(snapshot_.heard, robot, &Heard::node);
+    if (it == snapshot_.heard.end() || it->word == 0) return "";
+    return heard_text(snapshot_.nodes[robot].progress, snapshot_.header.time - it->time);
+  }
+
+  std::string lost(NodeIndex node) const {
+    if (!is_robot(tree_, node) || status(node) != Status::Failure) return "";
+    const std::string last = last_word(node);
+    return last.empty() ? "it is not heard" : "it cannot be relied on (" + last + ")";
   }
 
   // Barriers that an entry gives are not known but for the current one.

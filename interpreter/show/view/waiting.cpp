@@ -30,20 +30,44 @@ std::string listed(const WaitedAt& node, IsNamed is_named) {
   return fmt::format("{}, {} and {} more", names[0], names[1], count - kNamed);
 }
 
+// While one of them cannot be relied on, all others are held, wherever they are.
+std::string lost_text(const WaitedAt& node) {
+  if (!node.lost) return "";
+  for (std::size_t child = 0; child < node.progress.size(); ++child) {
+    if (const std::string why = node.lost(child); !why.empty()) {
+      return fmt::format("waits for {}: {}", node.name_of(child), why);
+    }
+  }
+  return "";
+}
+
+// " (heard at 0.24, 0.02 s ago)", of the first of them that is a robot.
+std::string heard_text(const WaitedAt& node, double most) {
+  if (!node.heard) return "";
+  for (std::size_t child = 0; child < node.progress.size(); ++child) {
+    if (node.progress[child] > most) continue;
+    if (const std::string heard = node.heard(child); !heard.empty()) return " (" + heard + ")";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string waiting_text(const WaitedAt& node, std::size_t child) {
+  if (std::string text = lost_text(node); !text.empty()) return text;
   const double least = least_progress(node.progress);
   const std::string whom = listed(node, [&](std::size_t it) {
     return node.progress[it] <= least + kProgressEpsilon;  // not one that is left out
   });
   const std::string of = node.group.empty() ? "" : fmt::format(" of '{}'", node.group);
   if (node.synchronization == Synchronization::Relative) {
-    return fmt::format("waits for {}, {:.2f} ahead (delta {}{})", whom,
-                       node.progress[child] - least, node.limit, of);
+    return fmt::format("waits for {}, {:.2f} ahead (delta {}{}){}", whom,
+                       node.progress[child] - least, node.limit, of,
+                       heard_text(node, least + kProgressEpsilon));
   }
   if (std::isinf(node.limit)) return fmt::format("waits for {}", whom);
-  return fmt::format("waits for {} at barrier {:.6g}{}", whom, node.limit, of);
+  return fmt::format("waits for {} at barrier {:.6g}{}{}", whom, node.limit, of,
+                     heard_text(node, least + kProgressEpsilon));
 }
 
 std::string beginning_text(const WaitedAt& node,

@@ -16,6 +16,9 @@ struct WaitedAt {
   std::span<const double> progress = {};  // of each child, as the node used it
   std::function<std::string(std::size_t child)> name_of;
   std::string group = {};  // the name of a barrier beside the tree
+  // Of children that stand for robots: why one cannot be relied on, or ""; and what was heard of it
+  // last, or "".
+  std::function<std::string(std::size_t child)> lost = {}, heard = {};
 };
 
 // "waits to begin together with base, of 'lift'": a member at a barrier at 0. `is_reached`: of the

@@ -97,7 +97,8 @@ class Robot {
   void connect(SimulatedNetwork& network, Turns& turns, std::size_t number,
                const TeamOptions& options) {
     clock_.emplace(turns, number);
-    team_.emplace(runnable_.tree, teams_, number + 1, network.join(teams_, *clock_), *clock_);
+    const std::uint64_t run = options.seed << 8u | (number + 1);  // of another seed, another one
+    team_.emplace(runnable_.tree, teams_, run, network.join(teams_, *clock_), *clock_);
     const Shape shape = shape_of(runnable_.tree);
     statistics_.emplace(shape);
     if (options.record.empty()) return;
@@ -106,6 +107,7 @@ class Robot {
     recorder.run = {.tree_file = file_, .rate_hz = options.rate, .seed = options.seed};
     recorder.run.arguments = values_of(runnable_.arguments);
     recorder.run.values = runnable_.values;
+    recorder.run.run = TeamRun::short_run(run);
     recorder_.emplace(shape, std::move(recorder));
   }
 

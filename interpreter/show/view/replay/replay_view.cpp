@@ -104,7 +104,8 @@ Snapshot snapshot_of(const RecordingHeader& header, const TimelineTick& moment,
                                .result = {}},
                     .nodes = std::vector<NodeView>(moment.nodes.size()),
                     .entries = moment.past.entries,
-                    .logs = moment.past.logs};
+                    .logs = moment.past.logs,
+                    .heard = moment.past.heard};
   snapshot.entries.resize(header.entries.size());
   if (end != nullptr) {
     snapshot.header.result = result_of(*end);

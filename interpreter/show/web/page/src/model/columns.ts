@@ -81,4 +81,26 @@ export class NumberColumn {
   }
 }
 
+// The words that another robot was heard to say: the lines from which on it was heard in nearly every tick, and the last of each.
+export class HeardColumn {
+  private readonly spans = new NumberColumn(); // the first line of each, and the last one
+  private time = -Infinity;
+  private run = 0;
+  private word = 0;
+
+  // `pause`: in seconds, after which another span begins.
+  push(line: number, time: number, run: number, word: number, pause: number) {
+    if (run === this.run && word === this.word) return; // a line with the whole state
+    const { spans } = this;
+    if (time - this.time <= pause) spans.values[spans.length - 1] = line;
+    else spans.push(line, line);
+    Object.assign(this, { time, run, word });
+  }
+  // The last line, not after this one, that had a new word; undefined: none had.
+  at(line: number): number | undefined {
+    const last = this.spans.at(line);
+    return last === undefined ? undefined : Math.min(last, line);
+  }
+}
+
 export const TICKED = 8, HELD = 16, STATUS = 7;

@@ -51,6 +51,11 @@ export class Moment {
   factor(node: number): number {
     return this.status[node] === RUNNING ? this.run.factors.get(node)?.at(this.line) || 1 : 1;
   }
+  // For how long a node that stands for another robot has heard no new word, in seconds; null: it has never heard one.
+  silence(node: number): number | null {
+    const line = this.run.heard.get(node)?.at(this.line);
+    return line === undefined ? null : this.time - this.run.times[line];
+  }
   round(node: number): string {
     const round = this.run.rounds.get(node);
     const number = round?.number.at(this.line) ?? 0;

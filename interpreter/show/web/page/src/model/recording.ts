@@ -21,6 +21,7 @@ export type EntryValue = [index: number, value: string | null];
 export type LogLine = [who: string, level: string, text: string];
 export type NodeCounts = [index: number, succeeded: number, failed: number, skipped: number, halted: number, held: number, faults: number];
 export type EntryCount = [index: number, values: number];
+export type HeardWord = [index: number, run: number, word: number];
 export type LeafProgress = [moment: number, index: number, progress: number];
 
 export interface Header {
@@ -40,6 +41,7 @@ export interface Header {
   resumed_after_s?: number;
   verify?: string;
   tick?: "exactly-once";
+  run?: number;
 }
 
 export interface TickLine {
@@ -51,6 +53,7 @@ export interface TickLine {
   factors?: FactorChange[];
   reasons?: ReasonChange[];
   answers?: GivenAnswer[];
+  heard?: HeardWord[];
   succeeded?: number[];
   moments?: Moment[];
   leaf_progress?: LeafProgress[];

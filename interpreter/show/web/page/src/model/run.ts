@@ -1,6 +1,6 @@
 // A run, from the lines of its recording, whoever brings them. Keeps the whole of it, so that any
 // moment can be shown.
-import { NodeColumn, NumberColumn, HELD, STATUS, TICKED } from "./columns";
+import { HeardColumn, NodeColumn, NumberColumn, HELD, STATUS, TICKED } from "./columns";
 import { Counts, type CountsOfNode } from "./counts";
 import { Events } from "./events";
 import { STATUSES, type End, type Header, type Line, type LogLine, type TickLine } from "./recording";
@@ -30,6 +30,7 @@ export class Run {
   rounds = new Map<number, { number: NumberColumn; of: NumberColumn }>();
   factors = new Map<number, NumberColumn>(); // of nodes that are paced; 1 before the first
   reasons = new Map<number, EntryChange[]>(); // of leaves that give one; "" is none
+  heard = new Map<number, HeardColumn>(); // of nodes that stand for other robots
   entries: EntryChange[][] = [];
   events = new Events(this);
   private counts = new Counts(0, 0);
@@ -107,6 +108,9 @@ export class Run {
     }
     this.takeFactors(line);
     this.takeReasons(line);
+    for (const [node, run, word] of line.heard ?? []) {
+      column(this.heard, node, () => new HeardColumn()).push(this.last, this.times[this.last], run, word, 2.5 * this.period);
+    }
     for (const [node, message] of line.faults ?? []) {
       this.events.fault(node, message);
       this.counts.fault(node);

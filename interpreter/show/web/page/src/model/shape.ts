@@ -22,6 +22,7 @@ export interface ShapeNode {
   keeper: number | null; // the synchronized node that holds this one
   isGroup: boolean; // a barrier or a pool beside the tree
   isGuard: boolean;
+  isRobot: boolean; // it stands for another robot of a team
 }
 
 export interface Shape {
@@ -94,6 +95,7 @@ export function shapeOf(header: Header): Shape {
     keeper: null,
     isGroup: node.parent === null && node.index > 0,
     isGuard: node.guard === true,
+    isRobot: node.kind === "TeamMember",
   }));
   for (const node of nodes) {
     if (node.parent === null) continue;

@@ -1,6 +1,7 @@
 // Finds which node waits for which, and where: the same sentences as those of `lockstep replay`.
 import type { Moment, Span } from "./moment";
-import { IDLE, PROGRESS_EPSILON, RUNNING, SKIPPED } from "./recording";
+import { reasonOf } from "./reasons";
+import { FAILURE, IDLE, PROGRESS_EPSILON, RUNNING, SKIPPED } from "./recording";
 import type { ShapeNode } from "./shape";
 
 const FEW = 8;
@@ -14,6 +15,7 @@ export interface Wait {
 
 function isLeftOut(moment: Moment, keeper: ShapeNode, child: number): boolean {
   const status = moment.status[child];
+  if (moment.run.shape.nodes[child].isRobot) return false; // one that has not begun counts 0
   return (status === SKIPPED && !moment.held[child]) || (keeper.ignoresIdle && status === IDLE);
 }
 
@@ -46,7 +48,27 @@ export function short(value: number): string {
   return String(Number(value.toPrecision(6)));
 }
 
+// What was heard last of another robot: "heard at 0.24, 0.02 s ago".
+export function heardText(moment: Moment, robot: number): string {
+  const silence = moment.silence(robot);
+  return silence === null ? "" : `heard at ${moment.progress[robot].toFixed(2)}, ${silence.toFixed(2)} s ago`;
+}
+
+// While a robot cannot be relied on, all others are held, wherever they are.
+function waitForRobot(moment: Moment, keeper: ShapeNode, node: number): Wait | null {
+  const lost = [...keeper.inStep.keys()].filter((place) =>
+    moment.run.shape.nodes[keeper.inStep[place]].isRobot && moment.status[keeper.inStep[place]] === FAILURE);
+  if (lost.length === 0) return null;
+  const first = keeper.inStep[lost[0]], whom = listed(lost, keeper.names);
+  const last = heardText(moment, first);
+  const why = [reasonOf(moment, first), last && `(${last})`].filter((text) => text).join(" ");
+  return { node, keeper: keeper.index, for: lost.slice(0, FEW).map((place) => keeper.inStep[place]),
+    text: `waits for ${whom}${why ? `: ${why}` : ""}` };
+}
+
 function waitAtBarrier(moment: Moment, keeper: ShapeNode, node: number): Wait {
+  const lost = waitForRobot(moment, keeper, node);
+  if (lost) return lost;
   const { least, slowest } = spanOf(moment, keeper);
   const whom = listed(slowest, keeper.names);
   const limit = moment.limit(keeper.index);
@@ -57,6 +79,8 @@ function waitAtBarrier(moment: Moment, keeper: ShapeNode, node: number): Wait {
   } else if (Number.isFinite(limit)) {
     text += ` at barrier ${short(limit)}${of}`;
   }
+  const robot = slowest.map((place) => keeper.inStep[place]).find((other) => moment.run.shape.nodes[other].isRobot);
+  if (robot !== undefined && heardText(moment, robot)) text += ` (${heardText(moment, robot)})`;
   return { node, keeper: keeper.index, for: slowest.slice(0, FEW).map((place) => keeper.inStep[place]), text };
 }
 

@@ -5,7 +5,7 @@ import { shortNumbers } from "../../model/numbers";
 import { reasonOf } from "../../model/reasons";
 import { STATUSES } from "../../model/recording";
 import { valueAt } from "../../model/run";
-import { marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
+import { heardText, marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../../store/store";
 import { Panel } from "../parts/panel";
@@ -27,6 +27,7 @@ function facts(moment: Moment, node: number): [string, string][] {
   if (wait) rows.push(["Waiting", wait.text]);
   const reason = reasonOf(moment, node);
   if (reason) rows.push(["Reason", reason]);
+  if (it.isRobot && heardText(moment, node)) rows.push(["Last word", heardText(moment, node)]);
   const pace = paceText(moment, node);
   if (pace) rows.push(["Pace", pace]);
   if (it.synchronization === "resources") {
