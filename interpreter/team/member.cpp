@@ -93,6 +93,7 @@ void TeamMember::look(Nanoseconds now) {
       const bool has_progress = it.known.where == Where::InRound ||
                                 it.known.where == Where::Silent ||
                                 it.known.where == Where::Nonsense;
+      if (it.known.where == Where::Passed) it.known.progress = 1;
       if (has_progress && is_in_round(it.last->word)) it.known.progress = it.last->word.progress;
     }
   };

@@ -31,7 +31,7 @@ TEST_CASE("lockstep team: the robots of a team are in step, also over a bad netw
   const Outcome good = team({});
   CHECK(good.code == 0);
   CHECK(good.out ==
-        "left   success, 104 ticks, 1.040 s\nright  success, 102 ticks, 1.020 s\n"
+        "left   success, 103 ticks, 1.030 s\nright  success, 102 ticks, 1.020 s\n"
         "largest spread 0.01\n");
   const std::vector<std::string> bad{"--latency", "0.05",  "--jitter", "0.02",  "--loss",
                                      "0.1",       "--cut", "0.3..0.8", "--json"};
