@@ -21,7 +21,7 @@ SOURCE = os.path.abspath(os.path.join(os.path.dirname(__file__), "../.."))
 if os.path.basename(PAGE) in ("README.md", "guards.md", "road.md"):  # whose commands run in a clone
     os.symlink(os.path.join(SOURCE, "trees"), WORK + "/trees")
 LEAST = {"tutorial.md": 16, "recipes.md": 10, "guards.md": 18, "from-behaviortree-cpp.md": 12,
-         "language.md": 9, "road.md": 5, "deadlocks.md": 4, "verify.md": 1, "team.md": 2}  # commands, so that a page is not skipped unseen
+         "language.md": 9, "road.md": 5, "deadlocks.md": 4, "verify.md": 1, "team.md": 5}  # commands, so that a page is not skipped unseen
 QUIET = ("cmake ", "cd ")  # what they print is not ours
 
 

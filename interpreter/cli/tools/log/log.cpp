@@ -84,6 +84,7 @@ std::function<int()> define_log(CLI::App& app) {
   const auto check = define_log_check(app);
   const auto scenario = define_log_scenario(app);
   const auto why = define_log_why(app);
+  const auto merge = define_log_merge(app);
   return [=] {
     if (cat.app->parsed()) return cat.run();
     if (events.app->parsed()) return events.run();
@@ -95,6 +96,7 @@ std::function<int()> define_log(CLI::App& app) {
     if (check.app->parsed()) return check.run();
     if (scenario.app->parsed()) return scenario.run();
     if (why.app->parsed()) return why.run();
+    if (merge.app->parsed()) return merge.run();
     return table->parsed() ? csv(*options) : info(*options);
   };
 }
@@ -123,6 +125,7 @@ extern const Command kLogCommand{
     "  lockstep log page run.jsonl --out run.html\n"
     "  lockstep log diff run.jsonl again.jsonl\n"
     "  lockstep log check run.jsonl --property 'arm.held at most 200 ticks'\n"
+    "  lockstep log merge left.jsonl right.jsonl --out team.jsonl\n"
     "  lockstep log scenario run.jsonl --save tree.test.xml",
     define_log};
 

@@ -63,5 +63,6 @@ LogSubcommand define_log_page(CLI::App& log);
 LogSubcommand define_log_check(CLI::App& log);
 LogSubcommand define_log_scenario(CLI::App& log);
 LogSubcommand define_log_why(CLI::App& log);
+LogSubcommand define_log_merge(CLI::App& log);
 
 }  // namespace lockstep::host

@@ -8,6 +8,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "record/read/recording_reader.h"
+#include "record/use/recording_merge.h"
 
 namespace lockstep::host {
 namespace {
@@ -25,6 +26,12 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
                            const PluginOptions& plugins,
                            const std::function<void(const Definition&)>& look)
     : file_(file.empty() ? header.file : file), code_(kExitSuccess) {
+  if (is_merged(header)) {
+    print_error("the recording is of a team, and its trees are in several files",
+                "take the recording of one robot");
+    code_ = kExitUsage;
+    return;
+  }
   LoadCommandOptions load;
   load.plugins = plugins;
   load.unknown = MissingNodes::AreMocked;

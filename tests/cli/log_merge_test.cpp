@@ -1,0 +1,251 @@
+// `lockstep log merge`: one recording of a team, from those of its robots.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/core/random.h"
+#include "support/json.h"
+#include "support/paths.h"
+#include "support/program.h"
+#include "support/text.h"
+
+using namespace lockstep::host::test;
+using lockstep::host::RandomStream;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+const std::string kTogether = LOCKSTEP_SOURCE_DIR "/trees/carry_together/carry.xml";
+
+// Records a simulated team of these files into a folder.
+void record_team(const std::string& folder, Arguments robots, const Arguments& more = {}) {
+  robots.insert(robots.begin(), "team");
+  robots.insert(robots.end(), more.begin(), more.end());
+  robots.insert(robots.end(), {"--record", folder});
+  run_lockstep(robots);
+}
+
+void record_carry(const std::string& folder, const Arguments& more = {}) {
+  record_team(folder, {kTogether + ",me=left", kTogether + ",me=right"}, more);
+}
+
+struct Began {
+  double seconds = 0, uncertainty = 0;
+};
+
+// "note: 'right' began 0.500 s ± 0.012 s after 'left'"
+Began began_in(const std::string& text, const std::string& name) {
+  const auto at = text.find("'" + name + "' began ");
+  REQUIRE(at != std::string::npos);
+  const std::string rest = text.substr(at + name.size() + 9);
+  const auto sign = rest.find("± ");
+  const auto line = rest.substr(0, rest.find('\n'));
+  Began began{std::stod(rest), std::stod(rest.substr(sign + std::string("± ").size()))};
+  if (contains(line, "before")) began.seconds = -began.seconds;
+  return began;
+}
+
+std::string three_robots(const std::string& me) {
+  return "<root lockstep=\"1\"><plugin name=\"motion\"/><team name=\"row\" "
+         "members=\"a;b;c\"/><BehaviorTree ID=\"Drive\"><InStep team=\"row\" as=\"" +
+         me +
+         "\" delta=\"0.1\"><Advance name=\"drive\" step=\"0.02\"/></InStep></BehaviorTree>"
+         "</root>\n";
+}
+
+}  // namespace
+
+TEST_CASE("log merge: the start of each robot is within the uncertainty that is reported") {
+  const TemporaryDirectory directory;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, 0);
+    const double starts[] = {random.next_double(), random.next_double()};
+    const double latency = seed % 4 == 0 ? 0 : 0.1 * random.next_double();
+    const auto text = [](double value) { return fmt::format("{:.6f}", value); };
+    record_carry(
+        directory.path("runs"),
+        {"--start", text(starts[0]), text(starts[1]), "--latency", text(latency), "--jitter",
+         text(0.05 * random.next_double()), "--loss", text(0.3 * random.next_double()), "--seed",
+         std::to_string(seed), "--rate", seed % 3 == 0 ? "30" : "100"});
+    const Outcome merged =
+        run_lockstep({"log", "merge", directory.path("runs/left.jsonl"),
+                      directory.path("runs/right.jsonl"), "--out", directory.path("team.jsonl")});
+    INFO(seed << ' ' << merged.err);
+    REQUIRE(merged.code == 0);
+    const Began began = began_in(merged.err, "right");
+    CHECK(std::abs(began.seconds - (starts[1] - starts[0])) <= began.uncertainty + 1e-9);
+    CHECK(began.uncertainty <= latency + 0.05 + 0.04);
+  }
+}
+
+TEST_CASE("log merge: all robots of a team have a place, whatever their number and order") {
+  const TemporaryDirectory directory;
+  Arguments trees;
+  for (const char* const me : {"a", "b", "c"})
+    trees.push_back(directory.file(std::string(me) + ".xml", three_robots(me)));
+  record_team(directory.path("runs"), trees, {"--start", "0.4", "0", "0.7", "--latency", "0.03"});
+  const Outcome merged =
+      run_lockstep({"log", "merge", directory.path("runs/a.jsonl"), directory.path("runs/b.jsonl"),
+                    directory.path("runs/c.jsonl"), "-o", directory.path("team.jsonl")});
+  INFO(merged.err);
+  REQUIRE(merged.code == 0);
+  CHECK(contains(merged.err, "before 'a'"));
+  CHECK(std::abs(began_in(merged.err, "b").seconds + 0.4) <= began_in(merged.err, "b").uncertainty);
+  CHECK(std::abs(began_in(merged.err, "c").seconds - 0.3) <= began_in(merged.err, "c").uncertainty);
+  const Outcome info = run_lockstep({"log", "info", directory.path("team.jsonl")});
+  CHECK(info.code == 0);
+  CHECK(info.err.empty());
+  CHECK(contains(info.out, "row from "));
+  CHECK(contains(info.out, "success (completed) after"));
+}
+
+TEST_CASE("log merge: the result is what each robot has recorded, for all commands that read it") {
+  const TemporaryDirectory directory;
+  const std::string left = directory.path("runs/left.jsonl"),
+                    right = directory.path("runs/right.jsonl"), team = directory.path("team.jsonl");
+  record_carry(directory.path("runs"), {"--start", "0", "0.3", "--latency", "0.03"});
+  REQUIRE(run_lockstep({"log", "merge", left, right, "--out", team}).code == 0);
+  CHECK(run_lockstep({"log", "merge", left, right}).out == read_file(team));
+  // The measures of each robot.
+  const auto measured = [](const std::string& file) {
+    return parse_json(run_lockstep({"log", "measure", file, "--json", "--measure",
+                                    "progress-distance", "--measure", "held:lift"})
+                          .out);
+  };
+  const Outcome all = run_lockstep({"log", "measure", team, "--json"});
+  CHECK(all.code == 0);
+  for (const auto& [file, name] : {std::pair{left, "left"}, std::pair{right, "right"}}) {
+    INFO(name);
+    const auto own = measured(file);
+    const auto merged =
+        parse_json(run_lockstep({"log", "measure", team, "--json", "--measure", "progress-distance",
+                                 "--measure", std::string("held:") + name + "/Carry/InStep/lift"})
+                       .out);
+    for (const auto& it : own) {
+      bool is_found = false;
+      for (const auto& other : merged) {
+        const bool is_same_node =
+            other["node"].get<std::string>() ==
+            "table/" + std::string(name) + "/" + it["node"].get<std::string>();
+        if (!is_same_node || other["measure"] != it["measure"]) continue;
+        is_found = true;
+        CHECK(other["value"] == it["value"]);
+      }
+      CHECK((is_found || it["measure"] != "progress-distance"));
+    }
+  }
+  // The events of each robot, in their order.
+  const auto events = [](const std::string& file, const std::string& robot) {
+    std::string found;
+    const Outcome outcome =
+        run_lockstep({"log", "events", file, "--format", "csv", "--path", robot + "Carry/*"});
+    for (std::string line : lines(outcome.out)) {  // without its tick and time
+      line.erase(0, line.find(',', line.find(',') + 1));
+      found += contains(line, robot) ? replaced(line, robot, "") + '\n' : line + '\n';
+    }
+    return found;
+  };
+  CHECK(events(team, "table/left/") == events(left, ""));
+  CHECK(events(team, "table/right/") == events(right, ""));
+  for (const Arguments& command :
+       {Arguments{"log", "csv", team}, Arguments{"log", "why", team, "left/Carry/InStep/lift"},
+        Arguments{"log", "check", team, "--property",
+                  "left/Carry/InStep/lift.held at most 200 ticks"},
+        Arguments{"log", "export", team, "--format", "mcap", "--out", directory.path("t.mcap")},
+        Arguments{"log", "export", team, "--format", "trace", "--out", directory.path("t.json")},
+        Arguments{"log", "page", team, "--out", directory.path("t.html")},
+        Arguments{"replay", team, "--print", "--at", "20"}}) {
+    const Outcome outcome = run_lockstep(command);
+    INFO(command[0] << ' ' << command[1] << ' ' << outcome.err);
+    CHECK(outcome.code == 0);
+  }
+}
+
+TEST_CASE("log merge: a recording that is cut, and the run of a robot that was started again") {
+  const TemporaryDirectory directory;
+  record_carry(directory.path("runs"), {"--latency", "0.01"});
+  const std::string left = directory.path("runs/left.jsonl");
+  const std::string right = read_file(directory.path("runs/right.jsonl"));
+  const std::string cut = directory.file("cut.jsonl", right.substr(0, right.size() / 2));
+  const Outcome merged =
+      run_lockstep({"log", "merge", left, cut, "--out", directory.path("team.jsonl")});
+  INFO(merged.err);
+  CHECK(merged.code == 0);
+  CHECK(contains(merged.err, "'right': the recording is cut: line "));
+  const Outcome info = run_lockstep({"log", "info", directory.path("team.jsonl")});
+  CHECK(contains(info.out, "stopped (cut) after"));
+  CHECK(contains(info.out, "right: the recording is cut"));
+  CHECK(contains(run_lockstep({"log", "why", directory.path("team.jsonl")}).out,
+                 "the recording is cut"));
+  // Whatever the other run of 'right' is.
+  record_carry(directory.path("later"), {"--latency", "0.01", "--seed", "1"});
+  const Outcome both =
+      run_lockstep({"log", "merge", left, cut, directory.path("later/right.jsonl"), "--offset",
+                    "right#2=1.5", "-o", directory.path("both.jsonl")});
+  INFO(both.err);
+  CHECK(both.code == 0);
+  CHECK(contains(run_lockstep({"log", "info", directory.path("both.jsonl")}).out,
+                 "success (completed) after"));
+  const Outcome second = run_lockstep({"log", "events", directory.path("both.jsonl"), "--path",
+                                       "right#2/Carry/InStep/lift", "--event", "success"});
+  CHECK(contains(second.out, "2.5"));
+}
+
+TEST_CASE("log merge: what cannot be merged is refused, with what to do") {
+  const TemporaryDirectory directory;
+  const auto merge = [](Arguments more) {
+    more.insert(more.begin(), {"log", "merge"});
+    return run_lockstep(more);
+  };
+  record_carry(directory.path("runs"), {"--start", "0", "0.5"});
+  record_carry(directory.path("apart"), {"--cut", "0..9", "--timeout", "1"});
+  const std::string left = directory.path("runs/left.jsonl"),
+                    right = directory.path("runs/right.jsonl");
+  const Outcome same = merge({left, left});
+  CHECK(same.code == 2);
+  CHECK(contains(same.err, "are recordings of the same run of 'left'"));
+  const Outcome apart =
+      merge({directory.path("apart/left.jsonl"), directory.path("apart/right.jsonl")});
+  CHECK(apart.code == 2);
+  CHECK(contains(apart.err, "do not show when 'right' began: none has heard another"));
+  CHECK(contains(apart.err, "--offset right=SECONDS"));
+  const Outcome given =
+      merge({directory.path("apart/left.jsonl"), directory.path("apart/right.jsonl"), "--offset",
+             "right=-0.5", "-o", directory.path("given.jsonl")});
+  CHECK(given.code == 0);
+  CHECK(given.err.empty());
+  CHECK(contains(read_file(directory.path("given.jsonl")), "\"time_s\":0.5,"));
+  const Outcome wrong =
+      merge({left, right, "--offset", "right=9", "-o", directory.path("wrong.jsonl")});
+  CHECK(wrong.code == 0);
+  CHECK(contains(wrong.err, "--offset right=9: by what they have heard, 'right' began 0.5"));
+  for (const char* const offset : {"right", "right=x", "right=nan", "rigth=1", "left=1"}) {
+    INFO(offset);
+    const Outcome refused = merge({left, right, "--offset", offset});
+    CHECK(refused.code == 2);
+    CHECK(refused.out.empty());
+  }
+  const std::string alone = directory.file("alone.xml", tree_text("<Wait seconds=\"0.1\"/>"));
+  run_lockstep({"run", alone, "--clock", "virtual", "--record", directory.path("alone.jsonl")});
+  CHECK(contains(merge({left, directory.path("alone.jsonl")}).err, "the robot is in no team"));
+  CHECK(contains(merge({left, alone}).err, "alone.xml:1: "));
+  CHECK(contains(merge({left, directory.path("none.jsonl")}).err, "No such file"));
+  CHECK(contains(merge({left, "-"}).err, "a recording is read twice, from a file"));
+  CHECK(contains(merge({left, right, "-o", left}).err, "--out"));
+  CHECK(merge({left}).code == 2);
+  const std::string team = directory.path("team.jsonl");
+  REQUIRE(merge({left, right, "-o", team}).code == 0);
+  CHECK(contains(merge({left, team}).err, "team.jsonl: it is the recording of a team already"));
+  const Outcome scenario =
+      run_lockstep({"log", "scenario", team, "--save", directory.path("t.test.xml")});
+  CHECK(scenario.code == 2);
+  CHECK(contains(scenario.err, "hint: take the recording of one robot"));
+  const std::string a = directory.file("a.xml", three_robots("a"));
+  record_team(directory.path("row"), {a}, {"--timeout", "0.5"});
+  CHECK(contains(merge({left, directory.path("row/a.jsonl")}).err,
+                 "no other recording is of its team"));
+}
