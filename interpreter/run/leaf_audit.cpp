@@ -104,7 +104,7 @@ void LeafAudit::begin(const Moment& before) {
     it.is_cut = before.status(it.node) == Status::Running;
     it.knows_begin = !it.is_cut;
     it.ticks = 0;
-    it.was_held = it.was_ticked = false;
+    it.was_held = it.was_ticked = it.is_overdue = it.was_late = false;
   }
 }
 
@@ -310,6 +310,7 @@ void LeafAudit::look(const Moment& moment, std::span<const LeafCalls::Call> call
     if (call.begins) {
       leaf.ticks = 0;
       leaf.progress = 0;
+      leaf.is_overdue = leaf.was_late = false;
       leaf.knows_begin = knows_before_;
     }
     if (may_be_of_script(tree_, leaf.model->node, call.status, call.begins)) continue;
@@ -343,7 +344,7 @@ void LeafAudit::look_at_progress(double progress, Leaf& leaf) {
   say(Assumption::Step, "in a tick, which the leaf model does not allow");
 }
 
-void LeafAudit::count(const Leaf& leaf, Status status, bool is_alone) {
+void LeafAudit::count(Leaf& leaf, Status status, bool is_alone) {
   const LeafModel& model = *leaf.model;
   const bool has_result = has_ended(status);
   if (model.fact != kNoFact && status != Status::Skipped) {
@@ -352,8 +353,18 @@ void LeafAudit::count(const Leaf& leaf, Status status, bool is_alone) {
     add(leaf, Assumption::Result,
         fmt::format("had the result {}, which the leaf model does not allow", to_string(status)));
   }
-  const bool is_early = has_result && leaf.knows_begin && leaf.ticks < model.least_ticks;
-  const bool is_late = model.most_ticks != 0 && leaf.ticks == model.most_ticks + 1;
+  const bool may_succeed =
+      model.results.success &&
+      (!model.has_progress || leaf.in_a_tick[model.level_of(leaf.progress)].may_succeed);
+  // A leaf that cannot run ends in one tick, and one that cannot end as it may goes on.
+  const bool is_early =
+      has_result && model.can_run && leaf.knows_begin && leaf.ticks < model.least_ticks;
+  const bool is_late = std::exchange(leaf.is_overdue, false) && leaf.ticks > model.most_ticks;
+  const bool may_end = model.fact != kNoFact || model.results.failure || model.results.skipped ||
+                       (may_succeed && (is_alone || !model.has_progress));
+  leaf.is_overdue = model.most_ticks != 0 && leaf.ticks >= model.most_ticks && may_end &&
+                    status == Status::Running && !leaf.was_late;
+  leaf.was_late |= is_late;
   if (is_early) {
     add(leaf, Assumption::Ticks,
         fmt::format("took {}, the leaf model allows {}",
@@ -365,8 +376,7 @@ void LeafAudit::count(const Leaf& leaf, Status status, bool is_alone) {
                     allowed_ticks(model)));
   }
   const bool is_known = is_alone && leaf.knows_begin && model.has_progress;
-  if (status == Status::Success && is_known &&
-      !leaf.in_a_tick[model.level_of(leaf.progress)].may_succeed) {
+  if (status == Status::Success && is_known && model.results.success && !may_succeed) {
     add(leaf, Assumption::Finish,
         fmt::format("succeeded from progress {:g}, but the leaf model has finish=\"full\" and a "
                     "step that does not reach 1 from there",

@@ -53,13 +53,14 @@ class LeafAudit {
     std::size_t number;  // in the tree
     std::vector<LevelReach> in_a_tick, while_held;
     std::vector<Output> outputs = {};
-    std::int64_t ticks = 0;   // of this activation
-    bool knows_begin = true;  // of it
-    bool is_cut = false;      // its next result may be by a cut
-    bool has_fault = false;   // see note_fault
-    bool was_held = false;    // after the tick before
-    bool was_ticked = false;  // once, in the tick before, and it runs since
-    double progress = 0;      // when that hold began, or at the start of that tick
+    std::int64_t ticks = 0;                     // of this activation
+    bool knows_begin = true;                    // of it
+    bool is_overdue = false, was_late = false;  // it must have ended; that was reported
+    bool is_cut = false;                        // its next result may be by a cut
+    bool has_fault = false;                     // see note_fault
+    bool was_held = false;                      // after the tick before
+    bool was_ticked = false;                    // once, in the tick before, and it runs since
+    double progress = 0;  // when that hold began, or at the start of that tick
   };
   struct WrittenEntry {
     std::vector<NodeIndex> writers = {};  // of the shape
@@ -79,7 +80,7 @@ class LeafAudit {
   void look_at_progress(double progress, Leaf& leaf);
   void look_at_outputs(const Moment& moment, std::span<const LeafCalls::Call> calls, Leaf& leaf);
   void compare(const Moment& moment, const Leaf& leaf, Output& output) const;
-  void count(const Leaf& leaf, Status status, bool is_alone);
+  void count(Leaf& leaf, Status status, bool is_alone);
   void read(const Leaf& leaf, Status status);
   void take_sets();
   void end_facts();
