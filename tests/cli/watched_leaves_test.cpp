@@ -137,6 +137,30 @@ TEST_CASE("a leaf that moves while it is held breaks its model") {
   CHECK(contains(outcome.err, "while it was held, the leaf model has held=\"still\""));
 }
 
+TEST_CASE("a leaf that writes what or when its model does not allow breaks it") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
+<BehaviorTree ID="T"><Sequence memory="true"><Script code="x := 0.0"/>
+<Advance name="a" actual="{x}" failure_if="x &gt; 1"/></Sequence></BehaviorTree></root>)");
+  const std::string leaves = directory.file(
+      "t.leaves", "@rate 10\nT/Sequence/a = R0.2[actual=0.5] R0.5[actual=0.75] S[actual=1]\n");
+  const auto play = [&](const std::string& row) {
+    return run_lockstep(
+        {"run", tree, "--leaves", leaves, "--clock", "virtual", "--view", "none", "--watch-leaves",
+         directory.file("t.leaves.xml",
+                        "<leaves lockstep=\"1\"><leaf of=\"Advance\" " + row + "/></leaves>")});
+  };
+  CHECK(play(R"(out.actual="0.5|0.75|1")").code == 0);
+  CHECK(play(R"(out.actual="0.5|0.75|1" writes="tick")").code == 0);
+  const Outcome early = play(R"(out.actual="0.5|0.75|1" writes="success")");
+  INFO(early.err);
+  CHECK(early.code == 5);
+  CHECK(contains(early.err, "wrote 'x' without a success"));
+  const Outcome other = play(R"(out.actual="0.5|1")");
+  CHECK(other.code == 5);
+  CHECK(contains(other.err, "wrote 0.75 to 'x', which the leaf model does not allow"));
+}
+
 TEST_CASE("on-fault fail: a leaf that breaks its model fails in its next tick") {
   WatchedFiles files;
   files.play("a", "R0.3 R0.1 R0.8 S");
