@@ -58,6 +58,13 @@ Owned owned_by_others(NodeContext& context, NodeIndex node, bool takes_over) {
   return owned;
 }
 
+// Its child runs, or its team is asked.
+bool is_under_way(NodeContext& context, NodeIndex node) {
+  if (context.status(node + 1) == Status::Running) return true;
+  const auto asker = asker_of(context.tree(), node);
+  return asker && context.status(*asker) != Status::Idle;
+}
+
 // It owns these in this tick, and what it keeps.
 void own(NodeContext& context, const Member& member, ResourceSet granted, ResourceSet kept) {
   auto& use = context.state<ResourceUse>(member.node);
@@ -139,7 +146,7 @@ void ask(NodeContext& context, NodeIndex node) {
   const auto request = context.parameters().numbers(node, kResources);
   const OnChange what = on_change(context.tree(), node);
   const bool begins = context.first_tick(node);
-  if (context.status(node + 1) != Status::Running) use.owned = 0;
+  if (begins || !is_under_way(context, node)) use.owned = 0;
   if (begins || keeps(context, node)) use.handed = 0;
   const Owned owned = owned_by_others(context, node, begins && what != OnChange::Release);
   if (begins) {
@@ -159,9 +166,14 @@ void ask(NodeContext& context, NodeIndex node) {
   own(context, member, wanted, kept);
 }
 
+std::optional<NodeIndex> asker_of(const Tree& tree, NodeIndex node) {
+  const NodeIndex asker = tree.nodes[node + 1].end;
+  return asker == tree.nodes[node].end ? std::nullopt : std::optional(asker);
+}
+
 bool keeps(NodeContext& context, NodeIndex node) {
-  return on_change(context.tree(), node) != OnChange::Release &&
-         context.status(node + 1) == Status::Running && context.state<ResourceUse>(node).owned != 0;
+  return on_change(context.tree(), node) != OnChange::Release && is_under_way(context, node) &&
+         context.state<ResourceUse>(node).owned != 0;
 }
 
 ResourceSet kept_set(NodeContext& context, NodeIndex node) {

@@ -47,7 +47,7 @@ void for_each_resource_user(const Tree& tree, Visit visit) {
 namespace resources {
 
 // Where the parameters of a pool and of a member stand in their cells.
-inline constexpr unsigned kIncrement = 0;
+inline constexpr unsigned kIncrement = 0, kTeam = 2, kAs = 3;
 inline constexpr unsigned kResources = 1, kKeep = 2, kOnChange = 3, kGranted = 4;
 
 // What a member does while its child runs: the words of on_change="…".
@@ -66,6 +66,10 @@ bool first_wins(const Tree& tree, NodeIndex pool);
 std::optional<RuleBreak> check_list(const ParameterValues& given, unsigned parameter,
                                     bool may_choose);
 
+// What asks the team for the resources of a member, where robots share the pool: a leaf behind its
+// child. Nothing: the pool is of this tree alone.
+std::optional<NodeIndex> asker_of(const Tree& tree, NodeIndex member);
+
 // True when the member has an answer for this tick.
 inline bool has_asked(const NodeContext& context, const ResourceUse& use) {
   return use.asked == context.tick_number();
@@ -80,8 +84,9 @@ inline bool owned_in_last_tick(const ResourceUse& use, ResourceSet any) {
 // members around it and inside of it own is no obstacle. In its first tick it takes over what those
 // before it in a Sequence have owned in this tick, if it keeps resources.
 void ask(NodeContext& context, NodeIndex member);
-// Its child runs and has resources that no other member gets, whatever the member waits for. A
-// SyncProgress that waits to begin runs without any.
+// Its child runs and has resources that no other member gets, whatever the member waits for; or
+// they are reserved for it while its team is asked. A SyncProgress that waits to begin runs without
+// any.
 bool keeps(NodeContext& context, NodeIndex member);
 // The same, or it has taken over resources and has not begun: which.
 ResourceSet kept_set(NodeContext& context, NodeIndex member);

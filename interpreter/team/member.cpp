@@ -16,7 +16,8 @@ bool is_sensible(const TeamWord& word) {
 
 // In one run, completed rounds are not taken back.
 bool contradicts(const TeamWord& word, const TeamWord& before) {
-  return word.passed < before.passed || word.declaration != before.declaration;
+  return word.passed < before.passed || word.declaration != before.declaration ||
+         word.pool.declaration != before.pool.declaration;
 }
 
 }  // namespace
@@ -53,11 +54,19 @@ void TeamMember::hear_own_name(const TeamWord& word, Nanoseconds at) {
   if (word.run != own_.run) own_name_heard_ = at;
 }
 
+bool TeamMember::is_contested(const Other& other, Nanoseconds now) const {
+  return other.contested && now - *other.contested <= deadline_;
+}
+
+bool TeamMember::is_contested(std::size_t other) const {
+  return is_contested(others_[other], now_);
+}
+
 TeamMember::Where TeamMember::where_of(const Other& other, Nanoseconds now) const {
   const bool is_nonsense = other.nonsense && now - *other.nonsense <= deadline_;
   if (!other.last) return is_nonsense ? Where::Nonsense : Where::Unheard;
   const TeamWord& word = other.last->word;
-  if (other.contested && now - *other.contested <= deadline_) return Where::Contested;
+  if (is_contested(other, now)) return Where::Contested;
   const bool is_of_team = word.declaration == own_.declaration;
   // It has done so for ever, and may be switched off.
   if (is_of_team && own_.round != 0 && word.passed >= own_.round) return Where::Passed;
@@ -72,6 +81,7 @@ bool TeamMember::is_in_round(const TeamWord& word) const {
 }
 
 void TeamMember::look(Nanoseconds now) {
+  now_ = now;
   double slowest = own_.period;
   for (const Other& it : others_) {
     if (it.last) slowest = std::max(slowest, it.last->word.period);
@@ -131,8 +141,9 @@ void TeamMember::set_own(bool is_in, double progress, End end) {
   own_.progress = is_in && std::isfinite(progress) ? std::clamp(progress, 0.0, 1.0) : 0.0;
 }
 
-TeamWord TeamMember::word() {
+TeamWord TeamMember::word(const PoolWord& pool) {
   ++own_.number;
+  own_.pool = pool;
   return own_;
 }
 

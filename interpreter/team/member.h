@@ -28,6 +28,10 @@ struct TeamDeclaration {
   std::uint64_t hash = 0;
   Nanoseconds deadline{0};  // at least kFewestPeriods of the slowest member; 0: kPeriodsOfSilence
   Nanoseconds period{0};    // of the own ticks
+  // The pool that the team shares, if the tree has it.
+  std::vector<std::string> resources = {};
+  std::uint64_t pool_hash = 0;  // 0: none
+  std::size_t place = 0;        // of this robot among all members; the others are in their order
 };
 
 inline constexpr int kPeriodsOfSilence = 5, kFewestPeriods = 2;
@@ -67,6 +71,16 @@ class TeamMember {
   // At the beginning of each tick, with its time on the same clock. Then `known` is of this tick.
   void look(Nanoseconds now);
   const Known& known(std::size_t other) const { return others_[other].known; }
+  // What it has said last; null: nothing yet.
+  const TeamWord* heard(std::size_t other) const {
+    const auto& last = others_[other].last;
+    return last ? &last->word : nullptr;
+  }
+  bool is_silent(std::size_t other) const { return others_[other].known.age > deadline_; }
+  // Two robots have its name, or it contradicts itself.
+  bool is_contested(std::size_t other) const;
+  Nanoseconds deadline() const { return deadline_; }
+  std::uint64_t run() const { return own_.run; }
   // Another robot has the own name.
   bool is_contested() const { return is_contested_; }
 
@@ -74,8 +88,8 @@ class TeamMember {
   // this tick, if it has.
   enum class End : std::uint8_t { None, Success, Other };
   void set_own(bool is_in, double progress, End end);
-  // What to say.
-  TeamWord word();
+  // What to say, with that of the pool.
+  TeamWord word(const PoolWord& pool = {});
 
   std::uint32_t round() const { return own_.round; }
 
@@ -91,6 +105,7 @@ class TeamMember {
     Known known;
   };
   Where where_of(const Other& other, Nanoseconds now) const;
+  bool is_contested(const Other& other, Nanoseconds now) const;
   bool is_in_round(const TeamWord& word) const;
   void join();
   void follow();
@@ -99,6 +114,7 @@ class TeamMember {
   TeamWord own_;
   std::vector<Other> others_;
   Nanoseconds deadline_{0};
+  Nanoseconds now_{0};  // of the last look
   std::optional<Nanoseconds> own_name_heard_;
   bool is_contested_ = false;
 };

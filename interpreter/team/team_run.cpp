@@ -18,45 +18,63 @@ namespace {
 
 thread_local TeamRun* run_here = nullptr;
 
-enum Port : std::uint32_t { kTeamName, kSelf, kMemberName, kDeclaration, kDeadline, kPorts };
+// Of both leaves; then those of one.
+enum Port : std::uint32_t { kTeamName, kSelf, kDeadline, kShared };
+enum RobotPort : std::uint32_t { kMemberName = kShared, kDeclaration, kRobotPorts };
+enum PoolPort : std::uint32_t { kMembers = kShared, kNames, kPlace, kWanted, kPoolPorts };
 
-// --- the leaf
-// -------------------------------------------------------------------------------------
+// --- the leaves ---------------------------------------------------------------------------------
 
-struct RobotLeaf {
+struct TeamLeaf {
   const lockstep_host* host;
   const lockstep_caller* caller;
   const lockstep_reason* reason;
-  const TeamRun* run;      // null: none
-  const TeamMember* team;  // of it; null: not looked for yet, or the run has none
-  std::size_t other;       // its place there
+  TeamRun* run;         // null: none
+  TeamRun::Team* team;  // of it; null: not looked for yet, or the run has none
+  std::size_t place;    // of the other robot, or of the node that uses the pool
+  ResourceSet wanted;   // by that
 };
 
-std::string_view text_of(const RobotLeaf& leaf, Port port) {
+std::string_view text_of(const TeamLeaf& leaf, std::uint32_t port) {
   const char* text = "";
   std::size_t size = 0;
   leaf.host->get_string(leaf.caller, port, &text, &size);
   return {text, size};
 }
 
-void* create_robot(const lockstep_host* host, const lockstep_caller* caller, void*) {
-  const void* const reason = host->get_extension(LOCKSTEP_REASON);
-  return new RobotLeaf{host,     caller,  static_cast<const lockstep_reason*>(reason),
-                       run_here, nullptr, 0};
-}
-
 // Ports have values from the first tick on.
-void find_team(RobotLeaf& leaf) {
-  if (leaf.team != nullptr || leaf.run == nullptr) return;
-  leaf.team = leaf.run->member(text_of(leaf, kTeamName));
-  if (leaf.team == nullptr) return;
-  const auto& others = leaf.team->declaration().others;
-  const auto it = std::ranges::find(others, text_of(leaf, kMemberName));
-  leaf.other = static_cast<std::size_t>(it - others.begin());
+bool find_team(TeamLeaf& leaf) {
+  if (leaf.team != nullptr || leaf.run == nullptr) return false;
+  leaf.team = leaf.run->team(text_of(leaf, kTeamName));
+  return leaf.team != nullptr;
 }
 
-void destroy_robot(void* self) {
-  delete static_cast<RobotLeaf*>(self);
+lockstep_status say(const TeamLeaf& leaf, const char* why, lockstep_status status) {
+  leaf.reason->say(leaf.caller, why);
+  return status;
+}
+
+constexpr const char* kOwnName = "another robot has the name of this one";
+
+// Why nothing can be done with others; null: it can.
+const char* why_apart(const TeamLeaf& leaf) {
+  if (leaf.team == nullptr) return "this run is not connected with a team";
+  return leaf.team->member.is_contested() ? kOwnName : nullptr;
+}
+
+void* create_leaf(const lockstep_host* host, const lockstep_caller* caller, void*) {
+  const void* const reason = host->get_extension(LOCKSTEP_REASON);
+  return new TeamLeaf{.host = host,
+                      .caller = caller,
+                      .reason = static_cast<const lockstep_reason*>(reason),
+                      .run = run_here,
+                      .team = nullptr,
+                      .place = 0,
+                      .wanted = 0};
+}
+
+void destroy_leaf(void* self) {
+  delete static_cast<TeamLeaf*>(self);
 }
 
 // Why a member cannot be relied on; without an allocation, since it is said in each tick.
@@ -88,80 +106,198 @@ struct WhyNot {
   char text[64] = "";
 };
 
-constexpr const char* kOwnName = "another robot has the name of this one";
-
 lockstep_status tick_robot(void* self) {
-  RobotLeaf& leaf = *static_cast<RobotLeaf*>(self);
-  find_team(leaf);
-  const auto fail = [&](const char* why) {
-    leaf.reason->say(leaf.caller, why);
-    return LOCKSTEP_FAILURE + 0;
-  };
-  if (leaf.team == nullptr) return fail("this run is not connected with a team");
-  if (leaf.team->is_contested()) return fail(kOwnName);
-  const TeamMember::Known& known = leaf.team->known(leaf.other);
-  if (!TeamMember::is_known(known.where)) return fail(WhyNot(known).text);
+  TeamLeaf& leaf = *static_cast<TeamLeaf*>(self);
+  if (find_team(leaf)) {
+    const auto& others = leaf.team->member.declaration().others;
+    const auto it = std::ranges::find(others, text_of(leaf, kMemberName));
+    leaf.place = static_cast<std::size_t>(it - others.begin());
+  }
+  if (const char* const why = why_apart(leaf)) return say(leaf, why, LOCKSTEP_FAILURE);
+  const TeamMember::Known& known = leaf.team->member.known(leaf.place);
+  if (!TeamMember::is_known(known.where)) return say(leaf, WhyNot(known).text, LOCKSTEP_FAILURE);
   if (known.where == TeamMember::Where::Passed) return LOCKSTEP_SUCCESS;
   return known.where == TeamMember::Where::InRound ? LOCKSTEP_RUNNING : LOCKSTEP_SKIPPED;
 }
 
 double robot_progress(void* self) {
-  const RobotLeaf& leaf = *static_cast<const RobotLeaf*>(self);
-  return leaf.team == nullptr ? 0.0 : leaf.team->known(leaf.other).progress;
+  const TeamLeaf& leaf = *static_cast<const TeamLeaf*>(self);
+  return leaf.team == nullptr ? 0.0 : leaf.team->member.known(leaf.place).progress;
 }
 
-constexpr lockstep_port text_port(const char* name, const char* doc) {
+// Why a node waits for a pool; without an allocation.
+struct WhyWaiting {
+  WhyWaiting(const TeamRun::Team& team, std::size_t place) {
+    using What = TeamPool::Obstacle::What;
+    const TeamPool::Obstacle it = team.pool.obstacle(team.member, place);
+    const TeamDeclaration& declaration = team.member.declaration();
+    const char* const who = declaration.others[it.other].c_str();
+    switch (it.what) {
+      case What::None:
+        return;
+      case What::Owned: {
+        std::size_t name = 0;
+        while ((it.set >> name & 1U) == 0) ++name;
+        std::snprintf(text, sizeof text, "'%s' has '%s'", who, declaration.resources[name].c_str());
+        return;
+      }
+      case What::Unheard:
+        std::snprintf(text, sizeof text, "'%s' is not heard yet", who);
+        return;
+      case What::Silent:
+        std::snprintf(text, sizeof text, "'%s' is not heard for %.1f s", who,
+                      to_seconds(team.member.known(it.other).age));
+        return;
+      case What::Contested:
+        std::snprintf(text, sizeof text, "two robots have the name '%s', or it contradicts itself",
+                      who);
+        return;
+      case What::Stranger:
+        std::snprintf(text, sizeof text, "the tree of '%s' declares the pool in another way", who);
+        return;
+    }
+  }
+  char text[192] = "";
+};
+
+// A new activation: what the last one had is given back, also where both are in one tick.
+void start_asking(void* self) {
+  const TeamLeaf& leaf = *static_cast<const TeamLeaf*>(self);
+  if (leaf.team != nullptr) leaf.team->pool.give_back(leaf.place);
+}
+
+lockstep_status tick_asking(void* self) {
+  TeamLeaf& leaf = *static_cast<TeamLeaf*>(self);
+  if (find_team(leaf)) {
+    std::int64_t place = 0;
+    leaf.host->get_int(leaf.caller, kPlace, &place);
+    leaf.place = static_cast<std::size_t>(place);
+  }
+  if (const char* const why = why_apart(leaf)) return say(leaf, why, LOCKSTEP_FAILURE);
+  const auto& names = leaf.team->member.declaration().resources;
+  const ResourceList list = resource_list(text_of(leaf, kWanted), names);
+  if (leaf.team->pool.ask(leaf.place, all_resources(list.request()))) return LOCKSTEP_SUCCESS;
+  return say(leaf, WhyWaiting(*leaf.team, leaf.place).text, LOCKSTEP_RUNNING);
+}
+
+constexpr lockstep_port port_of(const char* name, const char* doc,
+                                lockstep_type type = LOCKSTEP_STRING) {
   lockstep_port port{};
   port.struct_size = sizeof port;
-  port.type = LOCKSTEP_STRING;
+  port.type = type;
   port.direction = LOCKSTEP_INPUT;
   port.name = name;
   port.doc = doc;
   return port;
 }
 
-const lockstep_port kRobotPorts[] = {
-    text_port("team", "The team."), text_port("as", "The member that this robot is."),
-    text_port("member", "The member that the node stands for."),
-    text_port("declaration", "How the tree declares the team."), [] {
-      lockstep_port port = text_port("deadline", "When it is silent; 0: five periods.");
-      port.type = LOCKSTEP_DOUBLE;
-      port.unit = "s";
-      return port;
-    }()};
-const lockstep_port* const kRobotPortList[] = {&kRobotPorts[0], &kRobotPorts[1], &kRobotPorts[2],
-                                               &kRobotPorts[3], &kRobotPorts[4]};
-static_assert(std::size(kRobotPortList) == kPorts);
+constexpr lockstep_port kTeamPort = port_of("team", "The team.");
+constexpr lockstep_port kAsPort = port_of("as", "The member that this robot is.");
+constexpr lockstep_port kDeadlinePort = [] {
+  lockstep_port port =
+      port_of("deadline", "When a member is silent; 0: five periods.", LOCKSTEP_DOUBLE);
+  port.unit = "s";
+  return port;
+}();
+const lockstep_port kMemberPort = port_of("member", "The member that the node stands for.");
+const lockstep_port kDeclarationPort = port_of("declaration", "How the tree declares the team.");
+const lockstep_port* const kRobotPortList[] = {&kTeamPort, &kAsPort, &kDeadlinePort, &kMemberPort,
+                                               &kDeclarationPort};
+static_assert(std::size(kRobotPortList) == kRobotPorts);
 
-// For verify: another robot may do anything.
-constexpr lockstep_behavior kAnything[] = {{"result", "success;failure;skipped"}};
+const lockstep_port kMembersPort =
+    port_of("members", "All members; the first one decides.", LOCKSTEP_STRING_LIST);
+const lockstep_port kNamesPort = port_of("names", "All resources of the pool.");
+const lockstep_port kPlacePort =
+    port_of("place", "Which of the nodes that use the pool it asks for.", LOCKSTEP_INT);
+const lockstep_port kWantedPort = port_of("resources", "What that node needs.");
+const lockstep_port* const kPoolPortList[] = {
+    &kTeamPort, &kAsPort, &kDeadlinePort, &kMembersPort, &kNamesPort, &kPlacePort, &kWantedPort};
+static_assert(std::size(kPoolPortList) == kPoolPorts);
 
-const lockstep_leaf_type kRobotType = [] {
+// For verify: other robots may do anything.
+constexpr lockstep_behavior kAnyMember[] = {{"result", "success;failure;skipped"}};
+constexpr lockstep_behavior kAnyAnswer[] = {{"result", "success;failure"}};
+
+constexpr lockstep_leaf_type leaf_of(const char* id, const char* doc) {
   lockstep_leaf_type type{};
   type.struct_size = sizeof type;
   type.kind = LOCKSTEP_ACTION;
-  type.id = "TeamMember";
-  type.doc = "Stands for another robot of a team, behind the child of an InStep.";
-  type.port_count = kPorts;
+  type.id = id;
+  type.doc = doc;
+  type.create = create_leaf;
+  type.destroy = destroy_leaf;
+  return type;
+}
+
+const lockstep_leaf_type kRobotType = [] {
+  lockstep_leaf_type type =
+      leaf_of("TeamMember", "Stands for another robot of a team, behind the child of an InStep.");
+  type.port_count = kRobotPorts;
   type.ports = kRobotPortList;
-  type.create = create_robot;
-  type.destroy = destroy_robot;
   type.tick = tick_robot;
   type.progress = robot_progress;
-  type.behavior_count = std::size(kAnything);
-  type.behavior = kAnything;
+  type.behavior_count = std::size(kAnyMember);
+  type.behavior = kAnyMember;
   return type;
 }();
-const lockstep_leaf_type* const kRobotTypes[] = {&kRobotType};
+const lockstep_leaf_type kPoolType = [] {
+  lockstep_leaf_type type = leaf_of(
+      "TeamResources",
+      "Asks the other robots for resources that they share, behind the child of a UseResources.");
+  type.port_count = kPoolPorts;
+  type.ports = kPoolPortList;
+  type.start = start_asking;
+  type.tick = tick_asking;
+  type.behavior_count = std::size(kAnyAnswer);
+  type.behavior = kAnyAnswer;
+  return type;
+}();
+const lockstep_leaf_type* const kTeamTypes[] = {&kRobotType, &kPoolType};
 
 // A plugin set has a table of its own for each plugin.
 bool is_robot(const LeafNode& leaf) {
   return leaf.type->leaf->tick == tick_robot;
 }
+bool is_asking(const LeafNode& leaf) {
+  return leaf.type->leaf->tick == tick_asking;
+}
 
-std::string text_of(const Tree& tree, const LeafNode& leaf, Port port) {
-  const PortBinding& binding = tree.ports[leaf.first_port + port];
-  return std::get<std::string>(tree.constants[binding.constant]);
+template <class T>
+const T& constant_of(const Tree& tree, const LeafNode& leaf, std::uint32_t port) {
+  return std::get<T>(tree.constants[tree.ports[leaf.first_port + port].constant]);
+}
+
+// The declaration with which the leaves of a team agree.
+TeamDeclaration& declaration_of(std::vector<TeamDeclaration>& teams, const Tree& tree,
+                                const LeafNode& leaf, Nanoseconds period) {
+  const auto& name = constant_of<std::string>(tree, leaf, kTeamName);
+  const auto known = std::ranges::find(teams, name, &TeamDeclaration::team);
+  if (known != teams.end()) return *known;
+  return teams.emplace_back(
+      TeamDeclaration{.team = name,
+                      .self = constant_of<std::string>(tree, leaf, kSelf),
+                      .others = {},
+                      .hash = 0,
+                      .deadline = from_seconds(constant_of<double>(tree, leaf, kDeadline)),
+                      .period = period});
+}
+
+void add_pool(TeamDeclaration& team, const Tree& tree, const LeafNode& leaf) {
+  const auto& members = constant_of<std::vector<std::string>>(tree, leaf, kMembers);
+  const auto& names = constant_of<std::string>(tree, leaf, kNames);
+  team.others.clear();
+  std::string text = team.team;
+  for (const std::string& it : members) {
+    if (it != team.self) team.others.push_back(it);
+    text += '\n' + it;
+  }
+  team.place = static_cast<std::size_t>(std::ranges::find(members, team.self) - members.begin());
+  team.resources.clear();
+  for (const std::string_view it : resource_names(names)) {
+    text.append(";").append(team.resources.emplace_back(it));
+  }
+  team.pool_hash = hash_of_declaration(text);
 }
 
 }  // namespace
@@ -174,8 +310,8 @@ const lockstep_plugin& team_plugin() {
     it.struct_size = sizeof it;
     it.name = "lockstep-team";
     it.doc = "The other robots of a team.";
-    it.leaf_type_count = 1;
-    it.leaf_types = kRobotTypes;
+    it.leaf_type_count = std::size(kTeamTypes);
+    it.leaf_types = kTeamTypes;
     return it;
   }();
   return plugin;
@@ -184,35 +320,41 @@ const lockstep_plugin& team_plugin() {
 std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period) {
   std::vector<TeamDeclaration> teams;
   for (const LeafNode& leaf : tree.leaves) {
+    if (is_asking(leaf)) add_pool(declaration_of(teams, tree, leaf, period), tree, leaf);
     if (!is_robot(leaf)) continue;
-    const std::string team = text_of(tree, leaf, kTeamName);
-    if (teams.empty() || teams.back().team != team) {
-      const std::string declaration = text_of(tree, leaf, kDeclaration);
-      const PortBinding& deadline = tree.ports[leaf.first_port + kDeadline];
-      teams.push_back(
-          {.team = team,
-           .self = text_of(tree, leaf, kSelf),
-           .others = {},
-           .hash = hash_of_declaration(team + '\n' + declaration),
-           .deadline = from_seconds(std::get<double>(tree.constants[deadline.constant])),
-           .period = period});
-    }
-    teams.back().others.push_back(text_of(tree, leaf, kMemberName));
+    TeamDeclaration& team = declaration_of(teams, tree, leaf, period);
+    const auto& other = constant_of<std::string>(tree, leaf, kMemberName);
+    if (std::ranges::find(team.others, other) == team.others.end()) team.others.push_back(other);
+    team.hash =
+        hash_of_declaration(team.team + '\n' + constant_of<std::string>(tree, leaf, kDeclaration));
   }
   return teams;
 }
 
+TeamRun::Team::Team(const TeamDeclaration& declaration, std::uint64_t run, std::vector<Use> nodes)
+    : member(declaration, run), uses(std::move(nodes)), pool(member.declaration(), run) {}
+
 TeamRun::TeamRun(const Tree& tree, std::span<const TeamDeclaration> teams, std::uint64_t run,
                  TeamTransport& transport, Clock& clock)
     : transport_(transport), clock_(clock), column_(tree.nodes.size()) {
-  auto it = teams.begin();
-  std::optional<NodeIndex> around;  // the node that the last one was in
-  for (const LeafNode& leaf : tree.leaves) {
-    if (!is_robot(leaf)) continue;
-    heard_.push_back({.node = leaf.node});
-    const NodeIndex parent = tree.labels[leaf.node].parent;
-    if (std::exchange(around, std::optional(parent)) == parent) continue;
-    teams_.push_back({TeamMember(*it++, run), parent});
+  for (const TeamDeclaration& declaration : teams) {
+    std::vector<Use> uses;
+    std::optional<NodeIndex> node;
+    for (const LeafNode& leaf : tree.leaves) {
+      const bool is_of_team = is_robot(leaf) || is_asking(leaf);
+      if (!is_of_team || constant_of<std::string>(tree, leaf, kTeamName) != declaration.team)
+        continue;
+      const NodeIndex parent = tree.labels[leaf.node].parent;
+      if (is_robot(leaf)) {
+        node = parent;
+        heard_.push_back({.node = leaf.node});
+      }
+      if (!is_asking(leaf)) continue;
+      const auto place = static_cast<std::size_t>(constant_of<std::int64_t>(tree, leaf, kPlace));
+      uses.resize(std::max(uses.size(), place + 1));
+      uses[place] = {parent, leaf.node};
+    }
+    teams_.emplace_back(declaration, run, std::move(uses)).node = node;
   }
 }
 
@@ -224,16 +366,20 @@ void TeamRun::use_here() {
   run_here = this;
 }
 
-const TeamMember* TeamRun::member(std::string_view team) const {
-  for (const Team& it : teams_) {
-    if (it.member.declaration().team == team) return &it.member;
-  }
-  return nullptr;
+TeamRun::Team* TeamRun::team(std::string_view name) {
+  const auto it = std::ranges::find_if(
+      teams_, [&](const Team& team) { return team.member.declaration().team == name; });
+  return it == teams_.end() ? nullptr : &*it;
 }
 
-std::string TeamRun::why() const {
+std::string TeamRun::find_why() const {
   for (const Team& it : teams_) {
     if (it.member.is_contested()) return kOwnName;
+    for (std::size_t place = 0; place < it.uses.size(); ++place) {
+      const WhyWaiting why(it, place);
+      if (it.pool.waits(place) && *why.text != 0) return why.text;
+    }
+    if (!it.node) continue;
     const auto& others = it.member.declaration().others;
     for (std::size_t i = 0; i < others.size(); ++i) {
       const WhyNot why(it.member.known(i));
@@ -254,13 +400,17 @@ void TeamRun::before_tick(const Moment&, std::uint64_t, Nanoseconds time) {
                                         : member.hear(heard.member, heard.word, heard.at);
   }
   const Nanoseconds now = clock_.now();
-  for (Team& it : teams_) it.member.look(now);
+  for (Team& it : teams_) {
+    it.member.look(now);
+    it.pool.look(it.member, now);
+  }
   note_heard(time);
 }
 
 void TeamRun::note_heard(Nanoseconds time) {
   auto heard = heard_.begin();
   for (const Team& it : teams_) {
+    if (!it.node) continue;
     for (std::size_t i = 0; i < it.member.declaration().others.size(); ++i, ++heard) {
       const TeamMember::Known& known = it.member.known(i);
       const std::uint32_t run = short_run(known.run);
@@ -272,26 +422,39 @@ void TeamRun::note_heard(Nanoseconds time) {
 
 void TeamRun::after_tick(const Moment& moment, const TickReport&) {
   for (Team& it : teams_) {
+    for (std::size_t place = 0; place < it.uses.size(); ++place) {
+      const Use& use = it.uses[place];
+      const bool has_asked = moment.status(use.asker) != Status::Idle;  // in this activation
+      if (moment.status(use.node) != Status::Running || !has_asked) it.pool.give_back(place);
+    }
+    it.pool.end_tick();
+    if (!it.node) continue;
     // Within one tick it may succeed and begin again.
-    bool has_succeeded = moment.ticked(it.node) && moment.has_succeeded(it.node);
+    bool has_succeeded = moment.ticked(*it.node) && moment.has_succeeded(*it.node);
     moment.within.each_part(column_, [&](std::span<const NodeState> states, bool, bool) {
-      const NodeState state = states[it.node];
+      const NodeState state = states[*it.node];
       has_succeeded |= state.ticked() && state.status() == Status::Success;
     });
     const auto end = has_succeeded ? TeamMember::End::Success : TeamMember::End::None;
-    const bool is_in = moment.status(it.node) == Status::Running;
-    it.member.set_own(is_in, is_in ? moment.used(it.node)[0] : 0.0, end);
+    const bool is_in = moment.status(*it.node) == Status::Running;
+    it.member.set_own(is_in, is_in ? moment.used(*it.node)[0] : 0.0, end);
   }
   say();
 }
 
 void TeamRun::run_ended(const Moment&, const RunEnd&) {
-  for (Team& it : teams_) it.member.set_own(false, 0.0, TeamMember::End::None);
+  why_ = find_why();
+  for (Team& it : teams_) {
+    it.member.set_own(false, 0.0, TeamMember::End::None);
+    it.pool.leave();
+  }
   say();
 }
 
 void TeamRun::say() {
-  for (std::uint32_t i = 0; i < teams_.size(); ++i) transport_.say(i, teams_[i].member.word());
+  for (std::uint32_t i = 0; i < teams_.size(); ++i) {
+    transport_.say(i, teams_[i].member.word(teams_[i].pool.word()));
+  }
 }
 
 }  // namespace lockstep::host

@@ -2,13 +2,15 @@
 // how far the own tree is, after it. The leaves that stand for other robots ask it.
 #pragma once
 
-#include <memory>
+#include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "team/member.h"
+#include "team/pool.h"
 #include "team/transport.h"
 #include "trace/observer.h"
 
@@ -21,8 +23,8 @@ struct Tree;
 // The teams that the tree declares, in the order of their nodes; `period` is that of its ticks.
 std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period);
 
-// The plugin with the leaf TeamMember, which stands for another robot. It is in a project that has
-// a team.
+// The plugin with the leaves that stand for other robots: TeamMember for one, TeamResources for all
+// that share a pool. It is in a project that has a team.
 const lockstep_plugin& team_plugin();
 
 class TeamRun final : public Observer {
@@ -36,10 +38,21 @@ class TeamRun final : public Observer {
   // hear nobody.
   void use_here();
 
-  const TeamMember* member(std::string_view team) const;
-  // "'right': not heard for 2.9 s": what was known of others in the last tick, where that holds
-  // the robot. "": nothing.
-  std::string why() const;
+  // A node of the tree that uses the pool of a team, and the leaf that asks for it.
+  struct Use {
+    NodeIndex node = 0, asker = 0;
+  };
+  struct Team {
+    Team(const TeamDeclaration& declaration, std::uint64_t run, std::vector<Use> uses);
+    TeamMember member;
+    std::optional<NodeIndex> node = {};  // that is in step
+    std::vector<Use> uses;
+    TeamPool pool;
+  };
+  Team* team(std::string_view name);
+  // After the run: "'right': not heard for 2.9 s": what was known of others in the last tick, where
+  // that held the robot. "": nothing.
+  const std::string& why() const { return why_; }
 
   // By which the recordings of the other members name this run.
   static std::uint32_t short_run(std::uint64_t run) { return static_cast<std::uint32_t>(run); }
@@ -50,18 +63,16 @@ class TeamRun final : public Observer {
   void run_ended(const Moment& moment, const RunEnd& end) override;
 
  private:
-  struct Team {
-    TeamMember member;
-    NodeIndex node;  // that is in step
-  };
   void say();
   void note_heard(Nanoseconds time);
+  std::string find_why() const;
 
-  std::vector<Team> teams_;
-  std::vector<Heard> heard_;  // of the others of the first team, then of the next
+  std::deque<Team> teams_;
+  std::vector<Heard> heard_;  // of the others of the first team in step, then of the next
   TeamTransport& transport_;
   Clock& clock_;
   std::vector<NodeState> column_;
+  std::string why_;
 };
 
 }  // namespace lockstep::host

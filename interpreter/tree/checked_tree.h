@@ -109,6 +109,7 @@ struct CheckedTrees {
   bool has_outside = false;                       // "@key" is of a board outside of the main tree
   bool names_at_run_time = false;                 // names of entries, or scripts, are in entries
   const NodeType* team_member = nullptr;          // what stands for another robot
+  const NodeType* team_resources = nullptr;       // what asks robots for resources
   std::optional<CheckedMain> main;                // none: it is no tree file
 };
 

@@ -123,8 +123,10 @@ struct Definition {
   std::list<std::string> texts = {};               // names that are not as a document has them
   std::shared_ptr<const StandIns> stand_ins = {};  // the types of some nodes
 
-  // A parameter that is a constant; null when it is absent or comes from an entry.
+  // A parameter that is a constant; null when it is absent, comes from an entry, or the type has
+  // none of that name.
   const Value* constant(const DefinitionNode& node, std::size_t parameter) const {
+    if (parameter >= node.type->parameters.size()) return nullptr;
     const Port& port = ports[node.first + parameter];
     return port.entry == Port::kNone && port.value != Port::kNone ? &values[port.value] : nullptr;
   }

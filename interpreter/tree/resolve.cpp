@@ -86,6 +86,7 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   trees.shares_entries |= options.opens_entries;
   trees.has_outside = options.has_outside;
   trees.team_member = known.find(kTeamMember);
+  trees.team_resources = known.find(kTeamResources);
   const bool has_content = project.documents.front()->elements().size() > 1;
   const auto main = choose_main(trees, has_content, options, report);
   const bool is_expandable = check_references(trees, report);

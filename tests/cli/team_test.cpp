@@ -150,3 +150,84 @@ TEST_CASE("run: without its team, a robot does not move, and other robots may be
   INFO(scripted.err);
   CHECK(scripted.code == 0);
 }
+
+TEST_CASE(
+    "lockstep team: robots share resources, one after the other, and the reason is recorded") {
+  const std::string road = LOCKSTEP_SOURCE_DIR "/trees/construction/narrow_road.xml,me=truck_";
+  const TemporaryDirectory directory;
+  const Outcome all = run_lockstep({"team", road + "1", road + "2", road + "3", "--latency", "0.02",
+                                    "--record", directory.path("")});
+  CHECK(all.code == 0);
+  const Outcome why = run_lockstep({"log", "why", directory.path("truck_3.jsonl"), "--at", "70"});
+  CHECK(contains(why.out, "'truck_1' has 'narrow_road'"));
+  // The one that decides ends in a cut: nobody knows, until it is over.
+  const Outcome cut = run_lockstep(
+      {"team", road + "1", road + "2", road + "3", "--cut", "1..8", "--timeout", "20"});
+  CHECK(cut.code == 0);
+  const Outcome alone = run_lockstep({"team", road + "2", road + "3", "--timeout", "2"});
+  CHECK(alone.code == 1);
+  CHECK(contains(alone.err, "no file is 'truck_1' of the team 'trucks'"));
+  CHECK(contains(alone.out, "truck_2  stopped, 200 ticks, 2.000 s: 'truck_1' is not heard yet"));
+}
+
+TEST_CASE("lockstep team: the missions of a construction site end, and check has nothing to say") {
+  const std::string site = LOCKSTEP_SOURCE_DIR "/trees/construction/";
+  const std::vector<std::pair<std::string, std::vector<std::string>>> missions{
+      {"loading.xml", {"excavator", "truck"}},
+      {"narrow_road.xml", {"truck_1", "truck_2", "truck_3"}},
+      {"beam.xml", {"west", "east"}}};
+  for (const auto& [file, robots] : missions) {
+    INFO(file);
+    std::vector<std::string> call{"team"};
+    for (const std::string& robot : robots) {
+      const Outcome check = run_lockstep({"check", site + file, "--arg", "me=" + robot});
+      CHECK(check.err == "");
+      call.push_back(site + file + ",me=" + robot);
+    }
+    for (const char* const latency : {"0", "0.2"}) {
+      std::vector<std::string> late = call;
+      late.insert(late.end(), {"--latency", latency, "--timeout", "60"});
+      CHECK(run_lockstep(late).code == 0);
+    }
+  }
+}
+
+TEST_CASE("check: a pool of a team that cannot be shared is refused") {
+  const auto message = [](const std::string& pool, const std::string& use) {
+    const TemporaryDirectory directory;
+    const std::string tree =
+        directory.file("t.xml", "<root lockstep=\"1\"><team name=\"t\" members=\"a;b\"/>" + pool +
+                                    "<BehaviorTree ID=\"M\">" + use + "</BehaviorTree></root>\n");
+    return run_lockstep({"check", tree}).err;
+  };
+  const std::string use =
+      R"(<UseResources pool="p" resources="x"><Wait seconds="1"/></UseResources>)";
+  const std::string pool = R"(<resources name="p" team="t" as="a" resources="x;y"/>)";
+  CHECK(message(pool, use) == "");
+  CHECK(contains(message(R"(<resources name="p" team="t" resources="x"/>)", use),
+                 "needs the name of this robot"));
+  CHECK(contains(message(R"(<resources name="p" team="t" as="a"/>)", use),
+                 "names all of its resources"));
+  CHECK(contains(message(R"(<resources name="p" as="a" resources="x"/>)", use),
+                 "'as' is for a pool of a team"));
+  CHECK(contains(message(R"(<resources name="p" team="t" as="c" resources="x"/>)", use),
+                 "'c' is not a member of the team 't'"));
+  CHECK(contains(message(R"(<resources name="p" team="u" as="a" resources="x"/>)", use),
+                 "unknown team 'u'"));
+  CHECK(contains(message(pool + R"(<resources name="q" team="t" as="a" resources="z"/>)",
+                         "<Sequence>" + use +
+                             R"(<UseResources pool="q" resources="z"><Wait seconds="1"/>)"
+                             "</UseResources></Sequence>"),
+                 "shares the pool 'p' already"));
+  CHECK(contains(
+      message(
+          pool,
+          R"x(<UseResources pool="p" resources="any(x;y)"><Wait seconds="1"/></UseResources>)x"),
+      "any(…) of its resources cannot be chosen"));
+  CHECK(contains(message(pool, R"(<UseResources pool="p" resources="x" on_change="exchange">)"
+                               R"(<Wait seconds="1"/></UseResources>)"),
+                 "kept until the child ends"));
+  std::string nine = "<Parallel>";
+  for (int i = 0; i < 9; ++i) nine += use;
+  CHECK(contains(message(pool, nine + "</Parallel>"), "more than 8 nodes use the pool 'p'"));
+}

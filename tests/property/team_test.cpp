@@ -12,12 +12,7 @@
 #include <vector>
 
 #include "base/core/random.h"
-#include "run/loading/load.h"
-#include "run/observers.h"
-#include "run/run.h"
-#include "support/plugin_tables.h"
-#include "team/simulated_network.h"
-#include "team/team_run.h"
+#include "property/simulated_robot.h"
 
 namespace lockstep::host::test::team_trial {
 namespace {
@@ -63,30 +58,6 @@ const lockstep_leaf_type kMove = [] {
   type.progress = progress;
   return type;
 }();
-const lockstep_leaf_type* const kMoveList[] = {&kMove};
-
-const lockstep_plugin& move_plugin() {
-  static const lockstep_plugin plugin = [] {
-    lockstep_plugin it{};
-    it.abi_major = LOCKSTEP_ABI_MAJOR;
-    it.abi_minor = LOCKSTEP_ABI_MINOR;
-    it.struct_size = sizeof it;
-    it.name = "move";
-    it.leaf_type_count = 1;
-    it.leaf_types = kMoveList;
-    return it;
-  }();
-  return plugin;
-}
-
-class ManualClock final : public Clock {
- public:
-  Nanoseconds now() override { return time; }
-  void sleep_until(Nanoseconds) override {}
-  bool is_real() const override { return false; }
-  Nanoseconds time{0};
-};
-
 struct TeamTrial {
   std::size_t robots = 2;
   bool is_delta = false;
@@ -112,111 +83,64 @@ struct Going {
   bool begins = false;
 };
 
-class Robot {
+std::string tree_of(const TeamTrial& trial, std::size_t number) {
+  std::string members, limits;
+  for (std::size_t i = 0; i < trial.robots; ++i) members += fmt::format("{}r{}", i ? ";" : "", i);
+  for (const double it : trial.barriers)
+    limits += fmt::format("{}{}", limits.empty() ? "" : ";", it);
+  const std::string limit = trial.is_delta ? fmt::format("delta=\"{}\"", trial.delta)
+                                           : fmt::format("barriers=\"{}\"", limits);
+  const std::string in =
+      fmt::format(R"(<InStep team="t" as="r{}" {}><Move/></InStep>)", number, limit);
+  const std::string root =
+      trial.repeats ? "<Repeat times=\"3\"><Retry attempts=\"100\">" + in + "</Retry></Repeat>"
+                    : in;
+  return fmt::format(
+      R"(<root lockstep="1"><team name="t" members="{}"/><BehaviorTree ID="M">{}</BehaviorTree></root>)",
+      members, root);
+}
+
+class Robot : public SimulatedRobot {
  public:
   Robot(const TeamTrial& trial, std::size_t number, std::uint64_t seed)
-      : period_(Nanoseconds(std::chrono::milliseconds(7 + 3 * number))), number_(number) {
+      : SimulatedRobot(tree_of(trial, number), kMove,
+                       std::chrono::milliseconds(7 + 3 * static_cast<int>(number)), number) {
     motion_ = {.random = RandomStream(seed, number + 1),
                .step = trial.step * (1 + 0.7 * static_cast<double>(number)),
                .falls = trial.falls,
                .fails = trial.fails};
-    std::string members, limits;
-    for (std::size_t i = 0; i < trial.robots; ++i) members += fmt::format("{}r{}", i ? ";" : "", i);
-    for (const double it : trial.barriers)
-      limits += fmt::format("{}{}", limits.empty() ? "" : ";", it);
-    const std::string limit = trial.is_delta ? fmt::format("delta=\"{}\"", trial.delta)
-                                             : fmt::format("barriers=\"{}\"", limits);
-    const std::string in =
-        fmt::format(R"(<InStep team="t" as="r{}" {}><Move/></InStep>)", number, limit);
-    const std::string root =
-        trial.repeats ? "<Repeat times=\"3\"><Retry attempts=\"100\">" + in + "</Retry></Repeat>"
-                      : in;
-    auto plugins = std::make_shared<PluginSet>();
-    Diagnostics diagnostics;
-    REQUIRE(plugins->add(move_plugin(), "move", diagnostics));
-    auto loaded = load_text(
-        "t.xml",
-        fmt::format(
-            R"(<root lockstep="1"><team name="t" members="{}"/><BehaviorTree ID="M">{}</BehaviorTree></root>)",
-            members, root),
-        {}, diagnostics, plugins);
-    INFO((diagnostics.all().empty() ? std::string() : diagnostics.all().front().message));
-    REQUIRE(loaded);
-    runnable_ = make_runnable(std::move(*loaded));
-    teams_ = teams_of(runnable_.tree, period_);
   }
 
   void begin(SimulatedNetwork& network, Nanoseconds now) {
-    end(network);
-    clock_.time = now;
-    transport_ = &network.join(teams_, clock_);
-    team_ = std::make_unique<TeamRun>(runnable_.tree, teams_, 1000 * ++processes_ + number_,
-                                      *transport_, clock_);
-    team_->use_here();
     motion_here = &motion_;
-    run_ = std::make_unique<Run>(runnable_.tree, RunOptions{.rate = 100, .virtual_time = true});
-    list_[0] = team_.get();
-    observers_ = std::make_unique<Observers>(runnable_.tree, std::span<Observer* const>(list_));
-    began_ = now;
-    ticks_ = 0;
-    observers_->run_started(run_->ticker(), {.period = period_, .real_time = false});
-    next_ = now;
+    SimulatedRobot::begin(network, now);
     completed_ = 0;
   }
-  void end(SimulatedNetwork& network) {
-    run_.reset();
-    observers_.reset();
-    team_.reset();
-    if (transport_ != nullptr) network.leave(*transport_);
-    transport_ = nullptr;
-  }
 
-  Nanoseconds next() const { return next_; }
-  bool is_over() const { return is_over_; }
-  Truth truth() const { return {clock_.time, completed_, is_in_, motion_.progress}; }
+  Truth truth() const { return {now(), completed_, is_in_, motion_.progress}; }
   // The progress with which the child went on in the last tick; nothing: it did not.
   const std::optional<Going>& went_on() const { return went_on_; }
 
   void tick() {
-    clock_.time = next_;
-    next_ += period_;
-    const Nanoseconds time = clock_.time - began_;
-    Ticker& ticker = run_->ticker();
-    run_->set_now(time);
-    observers_->before_tick(ticker, ticks_, time);
     motion_.was_ticked = false;
-    const NodeIndex leaf = runnable_.tree.leaves[0].node;
-    const bool ran = ticker.status(leaf) == Status::Running;
+    const NodeIndex leaf = tree().leaves[0].node;
+    const bool ran = ticker().status(leaf) == Status::Running;
     const Going before{completed_, ran ? motion_.progress : 0, !ran};
-    const Status status = run_->tick();
-    is_in_ = ticker.status(runnable_.tree.labels[leaf].parent) == Status::Running;
-    if (ticker.status(leaf) != Status::Running && motion_.progress < 1) motion_.progress = 0;
-    went_on_ = motion_.was_ticked ? std::optional(before) : std::nullopt;
-    if (motion_.was_ticked && motion_.progress >= 1) {
-      ++completed_;
-      motion_.progress = 0;
-    }
-    observers_->after_tick(ticker, {.tick = ticks_++, .time = time, .status = status});
-    is_over_ = is_complete(status);
+    SimulatedRobot::tick([&](const Ticker& ticker) {
+      is_in_ = ticker.status(tree().labels[leaf].parent) == Status::Running;
+      if (ticker.status(leaf) != Status::Running && motion_.progress < 1) motion_.progress = 0;
+      went_on_ = motion_.was_ticked ? std::optional(before) : std::nullopt;
+      if (motion_.was_ticked && motion_.progress >= 1) {
+        ++completed_;
+        motion_.progress = 0;
+      }
+    });
   }
-  Nanoseconds period() const { return period_; }
 
  private:
-  const Nanoseconds period_;
-  const std::size_t number_;
   Motion motion_;
-  Runnable runnable_;
-  std::vector<TeamDeclaration> teams_;
-  ManualClock clock_;
-  TeamTransport* transport_ = nullptr;
-  std::unique_ptr<TeamRun> team_;
-  std::unique_ptr<Run> run_;
-  Observer* list_[1] = {nullptr};
-  std::unique_ptr<Observers> observers_;
-  std::uint64_t processes_ = 0, ticks_ = 0;
-  Nanoseconds began_{0}, next_{0};
   int completed_ = 0;
-  bool is_in_ = false, is_over_ = false;
+  bool is_in_ = false;
   std::optional<Going> went_on_;
 };
 

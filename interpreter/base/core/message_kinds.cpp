@@ -276,8 +276,9 @@ std::span<const MessageKind> message_kinds() {
       {"lost-output",
        "An output port is not connected to a blackboard entry, so its value is lost.",
        "Write `port=\"{key}\"`."},
-      {"member-twice", "Two nodes of a tree are in step with one team.",
-       "A robot is a member once. Declare a team for each `InStep`.",
+      {"member-twice", "Two nodes of a tree are in step with one team, or two pools are of one.",
+       "A robot is a member once. Declare a team for each `InStep`, and put the resources into one "
+       "pool.",
        R"xml(<root lockstep="1">
   <team name="table" members="left;right"/>
   <BehaviorTree ID="Main">
@@ -596,7 +597,7 @@ std::span<const MessageKind> message_kinds() {
 )xml"},
       {"unknown-leaf", "A leaf model names a leaf that the tree does not have.",
        "Correct the name or the path."},
-      {"unknown-member", "A node is in step as a member that its team does not have.",
+      {"unknown-member", "A node or a pool names a member that its team does not have.",
        "Write one of the `members` of the team.",
        R"xml(<root lockstep="1">
   <team name="table" members="left;right"/>

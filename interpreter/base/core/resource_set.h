@@ -18,6 +18,8 @@ using ResourceSet = std::uint64_t;
 inline constexpr std::size_t kMaxResources = 50;
 // The most of a pool that has a member that waits for one set while it owns another: both fit.
 inline constexpr std::size_t kMaxExchanged = 26;
+// The most nodes of a tree that use a pool which robots share.
+inline constexpr std::size_t kMostAsked = 8;
 
 // The limit of a member of a pool, in the engine and in recordings, is the set that it owns in a
 // tick; negative: the set that it waits for; 0: neither. One that waits for a set while it owns

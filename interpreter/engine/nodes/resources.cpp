@@ -24,10 +24,37 @@ constexpr Parameter kResourcesParameters[] = {
      .doc = "All names in the pool: left;right. When absent, those that its members name in the "
             "tree.",
      .constant = true},
+    {.name = "team",
+     .type = ValueType::String,
+     .doc = "The pool is shared with the other robots of this team, a <team> in root.",
+     .constant = true},
+    {.name = "as",
+     .type = ValueType::String,
+     .doc = "With `team`: the member that this robot is.",
+     .constant = true},
 };
+static_assert(kResourcesParameters[resources::kTeam].name == "team" &&
+              kResourcesParameters[resources::kAs].name == "as");
+
+std::optional<RuleBreak> rule_of_team_pool(const ParameterValues& given) {
+  const bool is_of_team = given.is_given(resources::kTeam);
+  if (is_of_team && !given.is_given(resources::kAs)) {
+    return RuleBreak{resources::kTeam, "a pool of a team needs the name of this robot",
+                     "add such as as=\"${me}\""};
+  }
+  if (!is_of_team && given.is_given(resources::kAs))
+    return RuleBreak{resources::kAs, "'as' is for a pool of a team", "add team=\"…\""};
+  constexpr int kNames = 1;
+  if (is_of_team && !given.is_given(kNames)) {
+    return RuleBreak{resources::kTeam, "a pool of a team names all of its resources",
+                     "add such as resources=\"north;south\""};
+  }
+  return std::nullopt;
+}
 
 std::optional<RuleBreak> rule_of_resources(const ParameterValues& given) {
   constexpr unsigned kNames = 1;
+  if (auto broken = rule_of_team_pool(given)) return broken;
   return resources::check_list(given, kNames, false);
 }
 

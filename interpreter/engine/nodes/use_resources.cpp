@@ -80,6 +80,17 @@ void tell_granted(NodeContext& context, NodeIndex self) {
   }
 }
 
+// Where robots share the pool, their team grants what this tree does. It does so once for an
+// activation, and what asks it is done then.
+bool is_granted_by_team(NodeContext& context, NodeIndex self) {
+  const auto asker = resources::asker_of(context.tree(), self);
+  if (!asker || context.status(*asker) == Status::Success) return true;
+  if (context.tick(*asker) == Status::Success) return true;
+  auto& use = context.state<ResourceUse>(self);
+  use.limit = limit_of_waiting(use.granted, 0);
+  return false;
+}
+
 // A member that is closed and reached has a SyncProgress inside that is held. That withholds the
 // ticks itself, so that all around it goes on: its barrier, and a Timeout in between.
 Status tick_child(NodeContext& context, NodeIndex self) {
@@ -90,6 +101,10 @@ Status tick_child(NodeContext& context, NodeIndex self) {
   }
   if (use.grant == Grant::Owned) {
     use.owned = use.granted;
+    if (!is_granted_by_team(context, self)) {
+      context.hold_firmly(self + 1);
+      return Status::Running;
+    }
     if (!context.parameters().are_constant(self)) tell_granted(context, self);
   }
   const bool has_run = context.status(self + 1) == Status::Running;

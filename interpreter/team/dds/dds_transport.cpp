@@ -56,6 +56,69 @@ class Ring {
   std::atomic<std::size_t> begin_{0}, end_{0};
 };
 
+// A word as it is sent; the lists of `it` are in this object.
+struct SampleOf {
+  explicit SampleOf(const TeamWord& word) {
+    it.run = word.run;
+    it.number = word.number;
+    it.declaration = word.declaration;
+    it.round = word.round;
+    it.passed = word.passed;
+    it.is_in = word.is_in;
+    it.progress = word.progress;
+    it.period = word.period;
+    it.pool = word.pool.declaration;
+    it.term = word.pool.term;
+    it.decider = word.pool.decider;
+    it.follows = word.pool.follows;
+    it.has_left = word.pool.has_left;
+    if (word.pool.declaration == 0) return;
+    for (std::size_t i = 0; i < asks.size(); ++i) {
+      const PoolWord::Ask& ask = word.pool.asks[i];
+      asks[i] = {.number = ask.number, .owns = ask.owns, .set = ask.set};
+    }
+    for (std::size_t i = 0; i < word.pool.answer_count; ++i)
+      answers[i] = {.run = word.pool.answers[i].run, .number = word.pool.answers[i].number};
+    it.asks._maximum = it.asks._length = kMostAsked;
+    it.asks._buffer = asks.data();
+    it.answers._maximum = PoolWord::kMostAnswers;
+    it.answers._length = word.pool.answer_count;
+    it.answers._buffer = answers.data();
+  }
+  SampleOf(const SampleOf&) = delete;
+  SampleOf& operator=(const SampleOf&) = delete;
+
+  Sample it{};
+  std::array<lockstep_msgs_msg_dds__TeamAsk_, kMostAsked> asks{};
+  std::array<lockstep_msgs_msg_dds__TeamAnswer_, PoolWord::kMostAnswers> answers{};
+};
+
+TeamWord word_of(const Sample& it) {
+  TeamWord word{.run = it.run,
+                .number = it.number,
+                .declaration = it.declaration,
+                .round = it.round,
+                .passed = it.passed,
+                .is_in = it.is_in,
+                .progress = it.progress,
+                .period = it.period};
+  PoolWord& pool = word.pool;
+  pool.declaration = it.pool;
+  pool.term = it.term;
+  pool.decider = it.decider;
+  pool.follows = it.follows;
+  pool.has_left = it.has_left;
+  const std::size_t asks = std::min<std::size_t>(it.asks._length, pool.asks.size());
+  for (std::size_t i = 0; i < asks; ++i) {
+    const auto& ask = it.asks._buffer[i];
+    pool.asks[i] = {.number = ask.number, .owns = ask.owns, .set = ask.set};
+  }
+  pool.answer_count = std::min<std::uint32_t>(it.answers._length, PoolWord::kMostAnswers);
+  for (std::size_t i = 0; i < pool.answer_count; ++i)
+    pool.answers[i] = {.run = it.answers._buffer[i].run, .number = it.answers._buffer[i].number};
+  return word;
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char it : text) {
@@ -292,14 +355,7 @@ class DdsTransport final : public TeamTransport {
                    .member = team.self == it.member
                                  ? HeardWord::kOwnName
                                  : static_cast<std::uint32_t>(other - team.others.begin()),
-                   .word = {.run = it.run,
-                            .number = it.number,
-                            .declaration = it.declaration,
-                            .round = it.round,
-                            .passed = it.passed,
-                            .is_in = it.is_in,
-                            .progress = it.progress,
-                            .period = it.period},
+                   .word = word_of(it),
                    .at = now});
     }
   }
@@ -311,19 +367,11 @@ class DdsTransport final : public TeamTransport {
       for (std::size_t i = 0; i < teams_.size(); ++i) {
         if (!own_[i].take()) continue;
         const TeamWord& word = own_[i].front();
-        Sample sample{};
-        sample.team = teams_[i].team.data();
-        sample.member = teams_[i].self.data();
-        sample.run = word.run;
-        sample.number = word.number;
-        sample.declaration = word.declaration;
-        sample.round = word.round;
-        sample.passed = word.passed;
-        sample.is_in = word.is_in;
-        sample.progress = word.progress;
-        sample.period = word.period;
+        SampleOf sample(word);
+        sample.it.team = teams_[i].team.data();
+        sample.it.member = teams_[i].self.data();
         const std::scoped_lock lock(writes_);
-        if (writer_ > 0) dds_write(writer_, &sample);
+        if (writer_ > 0) dds_write(writer_, &sample.it);
       }
     }
   }

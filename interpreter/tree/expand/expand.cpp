@@ -77,20 +77,46 @@ class Expander {
     if (checked.scripts != Port::kNone) {
       definition_.nodes[place].hooks = bind_hooks(checked.scripts, scope);
     }
-    const CheckedNode* team = nullptr;
+    const CheckedNode* group = nullptr;
     if (checked.type->category == NodeCategory::SubTree) {
       definition_.nodes[place].children = 1;
       enter_subtree(trees_.subtrees[checked.first], checked.name, place, scope);
     } else if (!checked.type->parameters.empty()) {
       definition_.nodes[place].first = bind_ports(checked, scope);
-      const CheckedNode* const group = join_group(place, checked, scope);
-      if (group != nullptr && group->type->is_of_robots) team = group;
+      group = join_group(place, checked, scope);
     }
     for (const std::uint32_t child : children_in(trees_.nodes, from)) {
       add(child, place, scope);
     }
-    if (team != nullptr) add_robots(definition_, trees_, *team, place, report_);
+    if (group != nullptr) add_others(place, *group);
     definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());
+  }
+
+  // What stands for other robots, where the group is one of them or is shared by them.
+  void add_others(std::uint32_t place, const CheckedNode& group) {
+    if (group.type->is_of_robots) return add_robots(definition_, trees_, group, place, report_);
+    if (group.type->synchronization != Synchronization::Resources) return;
+    const std::string_view name = team_of(trees_, definition_.values, group);
+    if (name.empty()) return;
+    const auto team = groups_.find(name);
+    if (team == groups_.end() || !trees_.groups[team->second].type->is_of_robots) {
+      if (unknown_groups_.emplace(group.place.byte, name).second) {
+        report_.at("unknown-group"_code, group.place, fmt::format("unknown team '{}'", brief(name)),
+                   fmt::format("declare it in 'root': <team name=\"{}\" …/>", brief(name)));
+      }
+      return;
+    }
+    const auto [pool, is_first] = pool_of_team_.emplace(team->second, &group);
+    if (!is_first && pool->second != &group) {
+      report_.at("member-twice"_code, group.place,
+                 fmt::format("the team '{}' shares the pool '{}' already", brief(name),
+                             brief(pool->second->name)),
+                 "a team shares one pool: put the resources into that one");
+      return;
+    }
+    const auto number = members_[groups_.find(group.name)->second].size() - 1;
+    add_asker(definition_, trees_, group, trees_.groups[team->second], place,
+              static_cast<std::uint32_t>(number), report_);
   }
 
   void enter_subtree(const CheckedSubTree& subtree, std::string_view name, std::uint32_t place,
@@ -151,7 +177,7 @@ class Expander {
                                brief(definition_.id), brief(group.name)),
                    "a robot is one member, once: declare a team for each");
       }
-      if (group.type->is_of_robots && !members_[i].empty()) continue;
+      if (group.type->is_of_robots && (!members_[i].empty() || pool_of_team_.contains(i))) continue;
       if (members_[i].empty()) {
         if (is_part_ || report_.has_errors()) continue;  // it may be for want of what they refuse
         // A file that has a name declares it for a run alone, and a SubTree gives another one.
@@ -507,6 +533,7 @@ class Expander {
   Scope::Groups groups_;                             // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
+  std::map<std::size_t, const CheckedNode*> pool_of_team_;               // by the place of the team
   StartTexts literals_;                 // those whose type no port gave yet
   std::vector<std::uint32_t> guessed_;  // entries that stand-ins use
   std::vector<Hint> hints_;
