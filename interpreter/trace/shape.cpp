@@ -101,6 +101,11 @@ bool is_robot(const Shape& shape, NodeIndex node) {
   return parent && shape.nodes[*parent].holds_first && node != *parent + 1;
 }
 
+std::optional<NodeIndex> asker_of(const Shape& shape, NodeIndex member) {
+  const NodeIndex asker = shape.nodes[member + 1].end;
+  return asker < shape.nodes[member].end ? std::optional(asker) : std::nullopt;
+}
+
 std::vector<std::string> child_names(const Shape& shape, NodeIndex node) {
   std::vector<std::string> names;
   const bool is_group = shape.nodes[node].is_group();

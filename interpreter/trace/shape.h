@@ -101,6 +101,8 @@ std::vector<NodeIndex> repeating_nodes(const Shape& shape);
 std::vector<std::string> paths_of(const Shape& shape);
 // Whether it stands for another robot of a team.
 bool is_robot(const Shape& shape, NodeIndex node);
+// The leaf that asks robots for what a member of a pool needs; nothing: they do not share the pool.
+std::optional<NodeIndex> asker_of(const Shape& shape, NodeIndex member);
 // What a node calls what it holds: the children of a parallel differ in their last segment.
 std::vector<std::string> child_names(const Shape& shape, NodeIndex node);
 

@@ -32,12 +32,25 @@ TREE = """<root lockstep="1" main_tree_to_execute="Carry">
 """
 
 
+ROAD = """<root lockstep="1">
+  <plugin name="motion"/>
+  <arg name="me"/>
+  <arg name="step" default="0.01"/>
+  <team name="trucks" members="left;right"/>
+  <resources name="roads" team="trucks" as="${me}" resources="road"/>
+  <BehaviorTree ID="Haul">
+    <UseResources pool="roads" resources="road"><Advance name="drive" step="${step}"/></UseResources>
+  </BehaviorTree>
+</root>
+"""
+
+
 class Robot(robots.Robot):
-    def __init__(self, name, folder, *more):
-        tree = f"{folder}/carry.xml"
+    def __init__(self, name, folder, *more, text=TREE):
+        tree = f"{folder}/tree.xml"
         if not os.path.exists(tree):  # another robot may read it now
-            with open(tree, "w", encoding="utf-8") as text:
-                text.write(TREE)
+            with open(tree, "w", encoding="utf-8") as file:
+                file.write(text)
         super().__init__([LOCKSTEP, "run", tree, "--arg", f"me={name}", "--team-domain", DOMAIN, "--team-peer", "127.0.0.1", *more],
                          f"{folder}/{name}-{time.monotonic_ns()}.jsonl")
 
@@ -85,6 +98,21 @@ def test_two_of_one_name_both_hold(folder):
     other.kill()
     left.succeeds()
     right.succeeds()
+
+
+def test_a_road_has_one_owner_also_when_that_is_killed(folder):
+    left = Robot("left", folder, "--arg", "step=0.0001", text=ROAD)
+    left.wait_for("'right' is not heard yet")
+    right = Robot("right", folder, text=ROAD)
+    left.wait_for("drive: started")
+    right.wait_for("'left' has 'road'")
+    left.kill()
+    assert "drive: started" not in right.text
+    again = Robot("left", folder, text=ROAD)
+    right.wait_for("drive: started")
+    again.wait_for("drive: started")
+    right.succeeds()
+    again.succeeds()
 
 
 def test_trees_that_differ_hold(folder):

@@ -110,18 +110,17 @@ void ConsolePlain::tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool 
 }
 
 // "not heard for 0.2 s" is no other reason than the one before, with 0.1 s.
-std::string_view ConsolePlain::kind_of_reason(const Moment& moment, const Leaf& leaf) {
-  const std::string_view reason = moment.reason(leaf.node);
+std::string_view ConsolePlain::kind_of_reason(std::string_view reason) {
   return reason.substr(0, reason.find_first_of("0123456789"));
 }
 
 bool ConsolePlain::fails_otherwise(const Moment& moment, const Leaf& leaf) {
-  return kind_of_reason(moment, leaf) != leaf.reason;
+  return kind_of_reason(moment.reason(leaf.node)) != leaf.reason;
 }
 
 void ConsolePlain::tell_result(const Moment& moment, Leaf& leaf, Status status) {
-  leaf.reason = kind_of_reason(moment, leaf);
   const std::string_view reason = moment.reason(leaf.node);
+  leaf.reason = kind_of_reason(reason);
   const bool has_one = status == Status::Failure && !reason.empty();
   tell(leaf.node,
        has_one ? fmt::format("{}: {}", to_string(status), reason) : std::string(to_string(status)));
@@ -160,9 +159,12 @@ void ConsolePlain::tell_wait(const Moment& moment, Watched& node, std::size_t ch
     wait.held = true;
     wait.since = tick.time;
   }
+  const std::string_view why = kind_of_reason(reason_of(moment, node, child));
+  if (wait.told && wait.why != why) wait.told = false;
   const bool is_soon = wait.last_end && wait.since - *wait.last_end <= kShortWait;
   if (wait.told || (is_soon && tick.time - wait.since < kShortWait)) return;
   wait.told = true;
+  wait.why = why;
   std::string text = waiting(moment, node, child, tick);
   if (wait.since != tick.time) text += fmt::format(", since {:.3f} s", to_seconds(wait.since));
   tell(node.ticks.children()[child], text);
@@ -175,17 +177,27 @@ std::string ConsolePlain::last_word(const Moment& moment, NodeIndex robot, doubl
   return heard_text(progress, moment.time - it->time);
 }
 
+// Of a member of a pool: why other robots do not give it what it waits for.
+std::string_view ConsolePlain::reason_of(const Moment& moment, const Watched& node,
+                                         std::size_t child) const {
+  if (shape_.nodes[node.ticks.node()].synchronization != Synchronization::Resources) return "";
+  const auto asker = asker_of(shape_, node.ticks.children()[child] - 1);
+  return asker ? moment.reason(*asker) : std::string_view();
+}
+
 std::string ConsolePlain::waiting(const Moment& moment, const Watched& node, std::size_t child,
                                   const SynchronizedTick& tick) const {
   const ShapeNode& self = shape_.nodes[node.ticks.node()];
   const std::vector<std::string> names = child_names(shape_, node.ticks.node());
   const auto name_of = [&](std::size_t number) { return names[number]; };
   if (self.synchronization == Synchronization::Resources) {
-    return ownership_text({.resources = self.resources,
-                           .members = node.limits.size(),
-                           .limit = [&](std::size_t number) { return node.limits[number]; },
-                           .name_of = name_of},
-                          child);
+    return ownership_text(
+        {.resources = self.resources,
+         .members = node.limits.size(),
+         .limit = [&](std::size_t number) { return node.limits[number]; },
+         .name_of = name_of,
+         .why = [&](std::size_t) { return std::string(reason_of(moment, node, child)); }},
+        child);
   }
   const auto robot = [&](std::size_t number) -> std::optional<NodeIndex> {
     const NodeIndex it = node.ticks.children()[number];

@@ -51,6 +51,7 @@ class ConsolePlain final : public Observer {
     bool held = false;
     bool told = false;
     Nanoseconds since{0};
+    std::string why = {};  // that was printed, up to the first number in it
     std::optional<Nanoseconds> last_end;
   };
   struct Watched {
@@ -65,7 +66,8 @@ class ConsolePlain final : public Observer {
   void tell_leaf(const Moment& moment, Leaf& leaf, Status now, bool ticked);
   void tell_again(Leaf& leaf, Status status);
   void tell_result(const Moment& moment, Leaf& leaf, Status status);
-  static std::string_view kind_of_reason(const Moment& moment, const Leaf& leaf);
+  static std::string_view kind_of_reason(std::string_view reason);
+  std::string_view reason_of(const Moment& moment, const Watched& node, std::size_t child) const;
   static bool fails_otherwise(const Moment& moment, const Leaf& leaf);
   void tell_waits(const Moment& moment, Watched& node);
   void tell_wait(const Moment& moment, Watched& node, std::size_t child,

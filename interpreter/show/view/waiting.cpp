@@ -84,13 +84,19 @@ std::string ownership_text(const OwnedFrom& pool, std::size_t child) {
   std::string text = owned == 0 ? "" : "owns " + to_text(owned, pool.resources);
   if (!waits(limit)) return text;
   const ResourceSet set = resource_set(limit) & ~owned;
+  bool is_owned = false;
   std::string_view before = owned == 0 ? "waits for " : ", waits for ";
   for (std::size_t other = 0; other < pool.members; ++other) {
     const ResourceSet shared = set & owned_set(pool.limit(other));
     if (shared == 0) continue;
     text += fmt::format("{}{} ({})", std::exchange(before, ", "), to_text(shared, pool.resources),
                         pool.name_of(other));
+    is_owned = true;
   }
+  // Another robot has it, or it is only asked for.
+  if (!is_owned && set != 0) text += fmt::format("{}{}", before, to_text(set, pool.resources));
+  const std::string why = pool.why ? pool.why(child) : "";
+  if (!why.empty()) text += ": " + why;
   return text;
 }
 

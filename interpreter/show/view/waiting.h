@@ -36,6 +36,8 @@ struct OwnedFrom {
   std::size_t members = 0;
   std::function<double(std::size_t child)> limit;  // of the member: base/core/resource_set.h
   std::function<std::string(std::size_t child)> name_of;
+  // Why robots do not give the member what nobody in the tree owns; "" where none share the pool.
+  std::function<std::string(std::size_t child)> why = {};
 };
 
 // "owns left;gripper", "waits for left (Plato/eat)", or "".

@@ -260,6 +260,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
   const RoundChange round{.node = 1, .round = {1, 2}};
   const FactorChange factor{.node = 1, .factor = 0.5};
   const ReasonChange reason{.node = 2, .text = "no object"};
+  const Heard heard{.node = 2, .run = 1, .word = 1, .time = Nanoseconds(0)};
   const GivenAnswer answer{.node = 2, .answer = "yes", .who = "terminal"};
   const NodeIndex succeeded = 1;
   const Fault fault{.node = 2, .message = "threw"};
@@ -279,6 +280,7 @@ std::string sample_tick(std::uint64_t tick, bool is_full) {
                                  .factors = {&factor, 1},
                                  .reasons = {&reason, 1},
                                  .answers = {&answer, 1},
+                                 .heard = {&heard, 1},
                                  .succeeded = {&succeeded, 1},
                                  .moments = {.first = {},
                                              .moments = {&moment, 1},
