@@ -160,6 +160,12 @@ TEST_CASE(
   CHECK(all.code == 0);
   const Outcome why = run_lockstep({"log", "why", directory.path("truck_3.jsonl"), "--at", "70"});
   CHECK(contains(why.out, "'truck_1' has 'narrow_road'"));
+  const Outcome merged = run_lockstep({"log", "merge", directory.path("truck_1.jsonl"),
+                                       directory.path("truck_2.jsonl"), "--offset", "truck_2=0",
+                                       "-o", directory.path("both.jsonl")});
+  CHECK(merged.code == 0);
+  CHECK(contains(run_lockstep({"log", "events", directory.path("both.jsonl")}).out,
+                 "start    trucks/truck_2/Haul/Sequence/UseResources/drive_out"));
   // The one that decides ends in a cut: nobody knows, until it is over.
   const Outcome cut = run_lockstep(
       {"team", road + "1", road + "2", road + "3", "--cut", "1..8", "--timeout", "20"});

@@ -60,6 +60,16 @@ std::vector<Membership> memberships_of(const Shape& shape) {
     if (all.empty() || all.back().team != team) all.push_back({team, self, {}});
     all.back().others.push_back(node);
   }
+  for (const ShapeNode& pool : shape.nodes) {
+    if (pool.synchronization != Synchronization::Resources) continue;
+    for (const NodeIndex child : pool.members) {
+      const auto asker = asker_of(shape, child - 1);
+      if (!asker) continue;
+      const std::string team = port_of(shape.nodes[*asker], "team");
+      if (std::ranges::find(all, team, &Membership::team) == all.end())
+        all.push_back({team, port_of(shape.nodes[*asker], "as"), {}});
+    }
+  }
   return all;
 }
 

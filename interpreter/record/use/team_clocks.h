@@ -14,7 +14,8 @@
 
 namespace lockstep::host {
 
-// That a tree is in a team: as which member, and the nodes that stand for others.
+// That a tree is in a team: as which member, and the nodes that stand for others; none where it
+// only shares a pool.
 struct Membership {
   std::string team, self;
   std::vector<NodeIndex> others;

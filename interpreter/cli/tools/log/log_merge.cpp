@@ -72,7 +72,7 @@ struct RobotFile {
     teams = memberships_of(header);
     if (teams.empty()) {
       print_error(fmt::format("{}: the robot is in no team", printable(path)),
-                  "merge the recordings of runs of trees with a <team> and an InStep");
+                  "merge the recordings of runs of trees with a <team>");
       return kExitUsage;
     }
     name = teams.front().self;
