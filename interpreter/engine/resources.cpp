@@ -62,7 +62,7 @@ Owned owned_by_others(NodeContext& context, NodeIndex node, bool takes_over) {
 bool is_under_way(NodeContext& context, NodeIndex node) {
   if (context.status(node + 1) == Status::Running) return true;
   const auto asker = asker_of(context.tree(), node);
-  return asker && context.status(*asker) != Status::Idle;
+  return asker && context.status(node) == Status::Running && context.status(*asker) != Status::Idle;
 }
 
 // It owns these in this tick, and what it keeps.
@@ -198,6 +198,13 @@ bool keep(NodeContext& context, NodeIndex node) {
   use.limit = static_cast<double>(kept);
   context.state<ResourcePool>(member.group).owned |= kept;
   return false;
+}
+
+void forget_unasked(NodeContext& context, NodeIndex node) {
+  auto& use = context.state<ResourceUse>(node);
+  const auto asker = asker_of(context.tree(), node);
+  const bool waits_for_team = asker && context.status(*asker) != Status::Success;
+  if (waits_for_team && owns(use.limit)) use.owned = 0;
 }
 
 void give_back(NodeContext& context, NodeIndex node) {

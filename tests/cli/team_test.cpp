@@ -176,6 +176,26 @@ TEST_CASE(
   CHECK(contains(alone.out, "truck_2  stopped, 200 ticks, 2.000 s: 'truck_1' is not heard yet"));
 }
 
+TEST_CASE("lockstep team: what is only asked for stands in nobody's way while a barrier holds it") {
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml",
+                     R"x(<root lockstep="1"><plugin name="motion"/><arg name="me"/>
+<team name="t" members="a;b"/><resources name="p" team="t" as="${me}" resources="x"/>
+<barrier name="m" barriers="0.5"/>
+<BehaviorTree ID="M"><Parallel>
+  <SyncProgress barrier="m"><Sequence memory="true">
+    <Advance step="0.5"/><UseResources pool="p" resources="x"><Advance step="0.1"/></UseResources>
+  </Sequence></SyncProgress>
+  <SyncProgress barrier="m"><Sequence memory="true">
+    <Wait seconds="0.3"/><UseResources pool="p" resources="x"><Advance step="0.1"/></UseResources>
+    <Advance step="0.1"/>
+  </Sequence></SyncProgress>
+</Parallel></BehaviorTree></root>
+)x");
+  CHECK(run_lockstep({"team", tree + ",me=a", tree + ",me=b", "--timeout", "9"}).code == 0);
+}
+
 TEST_CASE("lockstep team: the missions of a construction site end, and check has nothing to say") {
   const std::string site = LOCKSTEP_SOURCE_DIR "/trees/construction/";
   const std::vector<std::pair<std::string, std::vector<std::string>>> missions{

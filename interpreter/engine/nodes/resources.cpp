@@ -64,8 +64,10 @@ std::span<std::uint32_t> who_asks(NodeContext& context, NodeIndex self,
   const auto numbers = context.child_states<std::uint32_t>(self);
   std::size_t count = 0;
   for (const Member& member : members) {
+    const bool runs = context.status(member.node) == Status::Running;
+    if (runs) resources::forget_unasked(context, member.node);
     context.state<ResourceUse>(member.node).limit = 0;
-    if (context.status(member.node) != Status::Running) continue;
+    if (!runs) continue;
     const bool asks =
         resources::kept_set(context, member.node) == 0 || !resources::keep(context, member.node);
     if (asks && !is_held_by_parallel(context, member.node) &&  // else a tick that reaches it asks

@@ -125,6 +125,7 @@ bool is_read(NodeContext& context, NodeIndex self) {
 // The priority counts at any time. While its child runs, so does what it owns, if it keeps that, or
 // chooses it again; and what it owned in the last tick, if a script reads that.
 void fold_use_resources(NodeContext& context, NodeIndex self) {
+  resources::forget_unasked(context, self);
   auto& use = context.state<ResourceUse>(self);
   ResourceUse folded{};
   folded.priority = use.priority;
