@@ -47,7 +47,8 @@ int main(int count, char** arguments) {
       }
       dds_return_loan(reader, samples, 1);
     }
-    const bool is_heard = own.round != 0 && dds_time() - heard < DDS_MSECS(50);
+    /* who has completed the round may be gone */
+    const bool is_heard = left >= 1 || (own.round != 0 && dds_time() - heard < DDS_MSECS(50));
     const double barrier = done / 25 * 0.25;
     if (is_heard && (barrier == 0 || left >= barrier)) ++done; /* the motion */
     own.progress = done / 100.0;

@@ -8,9 +8,15 @@ from ctypes.util import find_library
 RELIABLE, TRANSIENT_LOCAL, KEEP_LAST = 1, 1, 0
 
 
-class Word(Structure):
+class List(Structure):
+    _fields_ = [("maximum", c_uint32), ("length", c_uint32), ("buffer", c_void_p), ("release", c_bool)]
+
+
+class Word(Structure):  # all fields of team.idl: those of a shared pool stay 0 here
     _fields_ = [("team", c_char_p), ("member", c_char_p), ("run", c_uint64), ("number", c_uint64), ("declaration", c_uint64),
-                ("round", c_uint32), ("passed", c_uint32), ("is_in", c_bool), ("progress", c_double), ("period", c_double)]
+                ("round", c_uint32), ("passed", c_uint32), ("is_in", c_bool), ("progress", c_double), ("period", c_double),
+                ("pool", c_uint64), ("term", c_uint32), ("decider", c_uint32), ("follows", c_uint64), ("has_left", c_bool),
+                ("asks", List), ("answers", List)]
 
 
 class Info(Structure):
@@ -44,7 +50,8 @@ while own.passed == 0:
             left, heard = 1 if word.passed >= own.round else word.progress if is_in else -1, time.monotonic()
         dds.dds_return_loan(reader, byref(sample), 1)
     barrier = done // 25 * 0.25
-    if time.monotonic() - heard < 0.05 and (barrier == 0 or left >= barrier):
+    is_heard = left >= 1 or time.monotonic() - heard < 0.05  # who has completed the round may be gone
+    if is_heard and (barrier == 0 or left >= barrier):
         done += 1  # the motion
     own.progress = done / 100
     if done == 100:  # the round is over
