@@ -80,6 +80,20 @@ test("a member of a barrier at 0 waits for those that are not reached, and an ex
   assert.deepEqual(model.ownersOf(later, nodes[8]).map(({ place }) => place), [0, 1, 1]);
 });
 
+test("a member of a pool that robots share waits for the robot that has it", () => {
+  const run = new model.Run();
+  run.feed(JSON.stringify({ ...HEADER, nodes: [
+    { index: 0, path: "Test/use", kind: "UseResources", name: "use", parent: null },
+    { index: 1, path: "Test/use/drive", kind: "Go", name: "drive", parent: 0 },
+    { index: 2, path: "Test/use/roads", kind: "TeamResources", name: "roads", parent: 0 },
+    { index: 3, path: "Test/roads", kind: "resources", name: "roads", parent: null, members: [1], resources: ["road"] }] }));
+  run.feed(JSON.stringify({ tick: 0, time_s: 0, nodes: [running(0, 0), running(2, 0)], limits: [[0, -1]],
+    reasons: [[2, "'left' has 'road'"]] }));
+  const moment = new model.Moment(run, 0);
+  assert.equal(model.waitOf(moment, 1).text, "waits for road: 'left' has 'road'");
+  assert.equal(model.isShared(moment, run.shape.nodes[3]), true);
+});
+
 test("a cut of the process is before the first line of the run that continued", () => {
   const resumed = { ...HEADER, first_tick: 3, resumed_after_s: 35.2 };
   const run = runOf(

@@ -137,12 +137,22 @@ function memberLimit(moment: Moment, child: number): number {
   return moment.limit(child - 1);
 }
 
+// The leaf that asks other robots for what a member needs, behind its child; null: they do not share the pool.
+function askerOf(moment: Moment, child: number): number | null {
+  const { nodes } = moment.run.shape;
+  const asker = nodes[child].end;
+  return asker < nodes[child - 1].end ? asker : null;
+}
+export function isShared(moment: Moment, pool: ShapeNode): boolean {
+  return pool.inStep.some((child) => askerOf(moment, child) !== null);
+}
+
 export function owned(moment: Moment, pool: ShapeNode, node: number): string {
   const set = ownedIn(memberLimit(moment, node));
   return set > 0 ? `owns ${resourcesIn(pool, set).join(";")}` : "";
 }
 
-// The owner of each resource of a pool; null: it is free.
+// The owner of each resource of a pool; null: it is free, or a robot may have it that shares the pool.
 export function ownersOf(moment: Moment, pool: ShapeNode): { resource: string; place: number | null }[] {
   const found = pool.resources.map((resource) => ({ resource, place: null as number | null }));
   pool.inStep.forEach((node, place) => {
@@ -176,7 +186,10 @@ function waitForResources(moment: Moment, pool: ShapeNode, node: number): Wait {
     owners.push(other);
     parts.push(`${shared.join(";")} (${pool.names[place]})`);
   });
-  const waits = parts.length ? `waits for ${parts.join(", ")}` : "";
+  const asker = askerOf(moment, node);
+  const why = asker === null ? "" : reasonOf(moment, asker);
+  const what = parts.length > 0 ? parts.join(", ") : wanted.join(";");
+  const waits = what ? `waits for ${what}${why ? `: ${why}` : ""}` : "";
   return { node, keeper: pool.index, for: owners, text: [own, waits].filter((part) => part).join(", ") };
 }
 

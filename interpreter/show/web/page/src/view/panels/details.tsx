@@ -5,7 +5,7 @@ import { shortNumbers } from "../../model/numbers";
 import { reasonOf } from "../../model/reasons";
 import { STATUSES } from "../../model/recording";
 import { valueAt } from "../../model/run";
-import { heardText, marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
+import { heardText, isShared, marksOf, ownersOf, paceText, short, spanOf, waitOf } from "../../model/waiting";
 import { seconds, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../../store/store";
 import { Panel } from "../parts/panel";
@@ -31,7 +31,8 @@ function facts(moment: Moment, node: number): [string, string][] {
   const pace = paceText(moment, node);
   if (pace) rows.push(["Pace", pace]);
   if (it.synchronization === "resources") {
-    for (const { resource, place } of ownersOf(moment, it)) rows.push([resource, place === null ? "free" : it.names[place]]);
+    const other = isShared(moment, it) ? "not of this robot" : "free";
+    for (const { resource, place } of ownersOf(moment, it)) rows.push([resource, place === null ? other : it.names[place]]);
     return rows;
   }
   if (it.synchronization === "absolute") rows.push(["Barriers", marksOf(moment, it).map(short).join(", ") || "none left"]);

@@ -3,7 +3,7 @@ import { tallyBelow } from "../../model/folds";
 import type { Moment } from "../../model/moment";
 import { RUNNING } from "../../model/recording";
 import type { ShapeNode } from "../../model/shape";
-import { ownersOf, short } from "../../model/waiting";
+import { isShared, ownersOf, short } from "../../model/waiting";
 import { kindText, labelOf, sentenceOf, stateOf, symbolOf } from "../../model/words";
 import type { Store } from "../../store/store";
 import { Bar, Race } from "../parts/bar";
@@ -68,13 +68,14 @@ function First({ moment, box }: { moment: Moment; box: Box }) {
   );
 }
 
-// Its progress; of a pool, how much of it is free.
+// Its progress; of a pool, how much of it is free, or belongs to this one of the robots that share it.
 function numberText(moment: Moment, index: number): string {
   const node = moment.run.shape.nodes[index];
   const factor = moment.factor(index);
   const slowed = factor === 1 ? "" : ` ×${factor.toFixed(2)}`;
   if (node.synchronization !== "resources") return moment.progress[index].toFixed(2) + slowed;
-  return `${ownersOf(moment, node).filter(({ place }) => place === null).length} of ${node.resources.length} free`;
+  const free = ownersOf(moment, node).filter(({ place }) => place === null).length, all = node.resources.length;
+  return isShared(moment, node) ? `owns ${all - free} of ${all}` : `${free} of ${all} free`;
 }
 
 // Why it waits, else its kind and its round; what a folded node hides.
