@@ -104,8 +104,8 @@ void TeamPool::hear(const TeamMember& team, std::size_t member, Nanoseconds now)
   }
   if (robot.run != word->run) robot = {.run = word->run};
   robot.has_left = word->pool.has_left;
-  if (!robot.has_left && word->pool.follows != run_) return;
-  robot.follows = true;
+  robot.follows = robot.has_left || word->pool.follows == run_;
+  if (!robot.follows) return;
   robot.is_reachable = !team.is_silent(other_of(member));
   for (std::size_t i = 0; i < kMostAsked; ++i) note(robot.asks[i], word->pool.asks[i]);
 }

@@ -11,7 +11,7 @@
 //   and silence only make others wait.
 //   An answer is for one ask of one process, and each robot takes answers from one process. A
 //   process that begins to decide grants nothing before each other robot has said that it follows
-//   it, and what it owns: nobody takes an answer of an earlier one any more then.
+//   it, and what it owns: then no robot takes an answer of an earlier one.
 //   A new process of a robot owns nothing. What the old one owned is free when it was not heard for
 //   the deadline, since two processes may live.
 //

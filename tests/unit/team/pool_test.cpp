@@ -90,7 +90,7 @@ TEST_CASE("a shared pool: who asks first is first, and gets what was given back"
   CHECK(robots.ticks(4, {kB, 0, kA}) == Owners{true, false, true});
 }
 
-TEST_CASE("a shared pool: what one waits for, nobody gets before it") {
+TEST_CASE("a shared pool: what one waits for, no other robot gets before it") {
   Robots robots(3);
   robots.ticks(3, {0, 0, 0});
   robots.ticks(3, {kA, 0, 0});
@@ -100,11 +100,11 @@ TEST_CASE("a shared pool: what one waits for, nobody gets before it") {
 }
 
 TEST_CASE(
-    "a shared pool: nobody gets anything before all were heard, nor from one that is silent") {
+    "a shared pool: no robot gets anything before all were heard, nor from one that is silent") {
   Robots robots(3);
   CHECK(robots.ticks(20, {kA, kB, 0}, 2) == Owners{false, false, false});
   CHECK(robots.ticks(4, {kA, kB, 0}) == Owners{true, true, false});
-  // The one that decides is cut off: who owns keeps, and nobody else gets it.
+  // The one that decides is cut off: who owns keeps, and no other robot gets it.
   CHECK(robots.ticks(50, {kA, kB, kB}, 0) == Owners{true, true, false});
   CHECK(robots.ticks(50, {0, kB, kA}, 0) == Owners{false, true, false});
   CHECK(robots.ticks(4, {0, kB, kA}) == Owners{false, true, true});
@@ -150,6 +150,22 @@ TEST_CASE("a shared pool: an answer of an old process is not taken") {
   CHECK(robots.processes[1].said.pool.follows == 900);
   robots.tell(0, 1, granted);  // late, and now it is contested
   CHECK_FALSE(robots.processes[1].tick(robots.now + kPeriod, kA));
+}
+
+TEST_CASE("a shared pool: a process that another robot does not follow any more decides nothing") {
+  Robots robots(3);
+  robots.ticks(3, {0, 0, 0});
+  TeamWord other = robots.processes[1].said;
+  other.number += 100;
+  other.pool.follows = 900;  // a second program has the name of the first robot
+  robots.tell(1, 0, other);
+  for (int i = 0; i < 5; ++i) {
+    robots.now += kPeriod;
+    robots.processes[0].tick(robots.now, 0);
+    robots.tell(0, 2, robots.processes[0].said);
+    CHECK_FALSE(robots.processes[2].tick(robots.now, kA));
+    robots.tell(2, 0, robots.processes[2].said);
+  }
 }
 
 TEST_CASE("a shared pool: what a killed process had is free after the deadline, not before") {
