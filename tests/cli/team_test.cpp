@@ -166,7 +166,7 @@ TEST_CASE(
   CHECK(merged.code == 0);
   CHECK(contains(run_lockstep({"log", "events", directory.path("both.jsonl")}).out,
                  "start    trucks/truck_2/Haul/Sequence/UseResources/drive_out"));
-  // The one that decides ends in a cut: nobody knows, until it is over.
+  // The robot that decides ends during a cut, and names the next one when it is over.
   const Outcome cut = run_lockstep(
       {"team", road + "1", road + "2", road + "3", "--cut", "1..8", "--timeout", "20"});
   CHECK(cut.code == 0);
@@ -176,7 +176,33 @@ TEST_CASE(
   CHECK(contains(alone.out, "truck_2  stopped, 200 ticks, 2.000 s: 'truck_1' is not heard yet"));
 }
 
-TEST_CASE("lockstep team: what is only asked for stands in nobody's way while a barrier holds it") {
+TEST_CASE(
+    "check: a file that is included as another name has its own team, or that of the main file") {
+  const TemporaryDirectory directory;
+  const std::string team = "<team name=\"trucks\" members=\"a;b\"/>";
+  const auto part = [&](const std::string& file, const std::string& declared) {
+    directory.file(file,
+                   "<root lockstep=\"1\">" + declared +
+                       R"(<resources name="roads" team="trucks" as="a" resources="road"/>)"
+                       R"(<BehaviorTree ID="Drive"><UseResources pool="roads" resources="road">)"
+                       R"(<Wait seconds="1"/></UseResources></BehaviorTree></root>)");
+  };
+  const auto message = [&](const std::string& file, const std::string& declared) {
+    const std::string main = directory.file(
+        "main.xml",
+        "<root lockstep=\"1\" main_tree_to_execute=\"M\">" + declared + "<include path=\"" + file +
+            "\" as=\"north\"/>" +
+            R"(<BehaviorTree ID="M"><SubTree ID="north.Drive"/></BehaviorTree></root>)");
+    return run_lockstep({"check", main}).err;
+  };
+  part("own.xml", team);
+  part("none.xml", "");
+  CHECK(message("own.xml", "") == "");
+  CHECK(message("none.xml", team) == "");
+  CHECK(contains(message("none.xml", ""), "unknown team 'trucks'"));
+}
+
+TEST_CASE("lockstep team: what is only asked for blocks no other node while a barrier holds it") {
   const TemporaryDirectory directory;
   const std::string tree =
       directory.file("t.xml",

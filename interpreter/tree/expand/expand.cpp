@@ -92,14 +92,26 @@ class Expander {
     definition_.nodes[place].end = static_cast<std::uint32_t>(definition_.nodes.size());
   }
 
+  // The team of that name in the file that declares the pool, else in one that includes it: a file
+  // that is included with as="north" declares "north.trucks".
+  Scope::Groups::const_iterator find_team(std::string_view name, std::string_view pool) const {
+    for (std::string_view space = pool; !space.empty(); space.remove_suffix(1)) {
+      space = space.substr(0, space.rfind('.') + 1);
+      const auto it = groups_.find(std::string(space) + std::string(name));
+      if (it != groups_.end() && trees_.groups[it->second].type->is_of_robots) return it;
+      if (space.empty()) break;
+    }
+    return groups_.end();
+  }
+
   // What stands for other robots, where the group is one of them or is shared by them.
   void add_others(std::uint32_t place, const CheckedNode& group) {
     if (group.type->is_of_robots) return add_robots(definition_, trees_, group, place, report_);
     if (group.type->synchronization != Synchronization::Resources) return;
     const std::string_view name = team_of(trees_, definition_.values, group);
     if (name.empty()) return;
-    const auto team = groups_.find(name);
-    if (team == groups_.end() || !trees_.groups[team->second].type->is_of_robots) {
+    const auto team = find_team(name, group.name);
+    if (team == groups_.end()) {
       if (unknown_groups_.emplace(group.place.byte, name).second) {
         report_.at("unknown-group"_code, group.place, fmt::format("unknown team '{}'", brief(name)),
                    fmt::format("declare it in 'root': <team name=\"{}\" …/>", brief(name)));
