@@ -113,4 +113,16 @@ class SimulatedRobot {
   bool is_over_ = false;
 };
 
+// Of the robots that run, the one whose tick is the next; its number is the count of all if there
+// is none until then.
+template <class Robots, class IsGone>
+std::size_t next_robot(const Robots& robots, Nanoseconds last, IsGone is_gone) {
+  std::size_t next = robots.size();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (robots[i]->is_over() || is_gone(i) || robots[i]->next() > last) continue;
+    if (next == robots.size() || robots[i]->next() < robots[next]->next()) next = i;
+  }
+  return next;
+}
+
 }  // namespace lockstep::host::test

@@ -157,13 +157,9 @@ Outcome try_team(const PoolTrial& trial) {
   Outcome outcome;
   const Nanoseconds last = std::chrono::seconds(20);
   while (true) {
-    Robot* next = nullptr;
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-      if (robots[i]->is_over() || is_gone[i]) continue;
-      if (next == nullptr || robots[i]->next() < next->next()) next = robots[i].get(), number = i;
-    }
-    if (next == nullptr || next->next() > last) break;
+    const std::size_t number = next_robot(robots, last, [&](std::size_t i) { return is_gone[i]; });
+    if (number == robots.size()) break;
+    Robot* const next = robots[number].get();
     if (trial.restarts && random.next_double() < 0.002) {
       next->kill(network);
       is_gone[number] = trial.stays_away && random.next_double() < 0.3;

@@ -179,13 +179,9 @@ Outcome try_team(const TeamTrial& trial, std::uint64_t seed) {
   Outcome outcome;
   const Nanoseconds last = std::chrono::seconds(6);
   while (true) {
-    Robot* next = nullptr;
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-      if (robots[i]->is_over()) continue;
-      if (next == nullptr || robots[i]->next() < next->next()) next = robots[i].get(), number = i;
-    }
-    if (next == nullptr || next->next() > last) break;
+    const std::size_t number = next_robot(robots, last, [](std::size_t) { return false; });
+    if (number == robots.size()) break;
+    Robot* const next = robots[number].get();
     const bool is_new = trial.restarts && random.next_double() < 0.004;
     if (is_new) next->begin(network, next->next() + from_seconds(0.1 * random.next_double()));
     if (is_new) continue;
