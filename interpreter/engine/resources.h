@@ -92,8 +92,8 @@ bool keeps(NodeContext& context, NodeIndex member);
 ResourceSet kept_set(NodeContext& context, NodeIndex member);
 // Before the root is ticked: the member keeps what it has. True: it asks for nothing else.
 bool keep(NodeContext& context, NodeIndex member);
-// After a tick: what a member waits for with its team is not reserved any more if no tick has reached
-// it, so that others of this tree get it. Then its limit is as if it owned that.
+// After a tick: what a member waits for with its team is not reserved any more if no tick has
+// reached it, so that others of this tree get it. Then its limit is as if it owned that.
 void forget_unasked(NodeContext& context, NodeIndex member);
 // The child of a member was skipped without having run: others may have its resources in this tick.
 void give_back(NodeContext& context, NodeIndex member);

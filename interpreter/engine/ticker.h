@@ -68,9 +68,9 @@ class Ticker : public NodeContext {
                : std::span(answers_);
   }
 
-  // Between two ticks: a leaf has done in the last tick what it must not. As after any fault, the
-  // run has one, or goes on: then a leaf that runs fails in its next tick, and one that has
-  // completed keeps its result.
+  // Between two ticks: in the last tick, the leaf did what it must not. The run stops, or it
+  // continues (FaultPolicy). Then a running leaf fails in its next tick, and a completed one keeps
+  // its result.
   void report_fault(NodeIndex leaf, std::string message);
 
   // Halts every running leaf. A leaf with a fault in this halt may not have stopped, so the fault

@@ -79,9 +79,9 @@ struct Fact {
 // What a model says of a leaf, for who names a statement.
 enum class Assumption : std::uint8_t { Result, Ticks, Step, Finish, Held, Writes, Outputs, Fact };
 inline constexpr std::size_t kAssumptions = 8;
-// Who has said it: nobody, then it is what verify assumes of every leaf; else a plugin, or a row.
+// Where it comes from. Default: what verify assumes of every leaf.
 struct SaidBy {
-  enum class Who : std::uint8_t { Nobody, Plugin, Row } who = Who::Nobody;
+  enum class Who : std::uint8_t { Default, Plugin, Row } who = Who::Default;
   Place place = {};  // of the row
 };
 

@@ -392,7 +392,7 @@ std::string LeafAudit::place(const Leaf& leaf, Assumption what) const {
   const SaidBy& by = models_.said[leaf.number][static_cast<std::size_t>(what)];
   if (by.who == SaidBy::Who::Plugin)
     return fmt::format(" (plugin '{}' declares it)", leaf.leaf->type->plugin);
-  if (by.who == SaidBy::Who::Nobody || sources_ == nullptr)
+  if (by.who == SaidBy::Who::Default || sources_ == nullptr)
     return " (assumed of each leaf without a row)";
   const SourceLocation at = sources_->locate(by.place);
   return fmt::format(" ({}:{})", at.file, at.line);

@@ -42,7 +42,7 @@ struct LoopOptions {
   std::function<bool()> property_violated = {};  // likewise
   RunControl* control = nullptr;                 // who may pause the run, and more; or nobody
   StallFail* stall_fail = nullptr;               // who ends standstills, or nobody
-  WatchedLeaves* watched_leaves = nullptr;       // who compares them with a model, or nobody
+  WatchedLeaves* watched_leaves = nullptr;       // compares them with a model; null: none
   CheckpointWriter* checkpoints = nullptr;       // who keeps the run, or nobody
   // The run goes on before these ticks, which rise, as if its process had been cut; then `cut` is
   // called. Only with leaves that may begin again without a halt: those of scripts.

@@ -37,7 +37,8 @@ class CostFinder {
     std::string text;
     for (std::size_t i = 0; i < std::min(nodes.size(), kMostCostNames); ++i)
       text += (i == 0 ? "" : ", ") + tree_.path(nodes[i]);
-    if (nodes.size() > kMostCostNames) text += fmt::format(" and {} more", nodes.size() - kMostCostNames);
+    if (nodes.size() > kMostCostNames)
+      text += fmt::format(" and {} more", nodes.size() - kMostCostNames);
     return text;
   }
 

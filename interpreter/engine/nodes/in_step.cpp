@@ -83,8 +83,8 @@ Others tick_others(NodeContext& context, NodeIndex self) {
   return others;
 }
 
-// Before any of them is ticked: what was heard is of the time before the tick. The number of one
-// that was not heard, for which nobody moves, stays as it was.
+// Before any of them is ticked: what was heard is of the time before the tick. A member that
+// was not heard keeps its number: until it is heard, the child is held.
 double take_snapshot(NodeContext& context, NodeIndex self) {
   const auto progress = context.child_states<double>(self);
   progress[0] = snapshot_of(context, self + 1);

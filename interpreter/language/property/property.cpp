@@ -25,7 +25,7 @@ bool Property::needs_progress(std::size_t place) const {
 //   Sometimes  1: it was so
 //   LeadsTo    0: nothing is owed; else how many ticks ago the oldest debt began, and 1
 //   OnlyAfter  1: what must come before has come
-//   AfterNever 1: what is to be the last has come
+//   AfterNever 1: the first event has come
 //   AtMost     how many ticks in a row it has been so
 //   Until      1: the end has come
 //   Finally    1: it is so after this tick

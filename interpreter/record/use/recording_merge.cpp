@@ -281,7 +281,7 @@ class TeamMerge {
     return found;
   }
 
-  // The moments of a tick are of one robot, so it has a line of its own.
+  // A tick with moments gets a separate line, since all moments of a line belong to one tick.
   bool is_in_line(const Merged& robot, const Merged& first) const {
     if (&robot == &first) return true;
     const bool is_alone = !first.next->moments.empty() || !robot.next->moments.empty();
@@ -388,7 +388,7 @@ class TeamMerge {
     return write_(text += rest);
   }
 
-  // Of all that is not only of this tick.
+  // The whole state: also what no robot has changed in this tick.
   void add_whole(MergedTick& whole, TickEnd& end) {
     for (const auto& [node, text] : state_.reasons) {
       const bool is_new =

@@ -36,7 +36,7 @@ struct OwnedFrom {
   std::size_t members = 0;
   std::function<double(std::size_t child)> limit;  // of the member: base/core/resource_set.h
   std::function<std::string(std::size_t child)> name_of;
-  // Why robots do not give the member what nobody in the tree owns; "" where none share the pool.
+  // Why the other robots do not give the member what it waits for; "" where none share the pool.
   std::function<std::string(std::size_t child)> why = {};
 };
 
