@@ -279,6 +279,15 @@ TEST_CASE("check: a pool of a team that cannot be shared is refused") {
   CHECK(contains(message(pool, R"(<UseResources pool="p" resources="x" on_change="exchange">)"
                                R"(<Wait seconds="1"/></UseResources>)"),
                  "kept until the child ends"));
+  const std::string outer = R"(<UseResources pool="p" resources="y">)";
+  CHECK(contains(
+      message(pool, outer + use + "</UseResources>"),
+      "'UseResources' asks for more of them while this robot has resources of the pool 'p'"));
+  const std::string step = R"(<InStep team="t" as="a" delta="0.1"><Wait seconds="1"/></InStep>)";
+  CHECK(contains(
+      message(pool, outer + step + "</UseResources>"),
+      "'InStep' waits for the other robots while this robot has resources of the pool 'p'"));
+  CHECK(message(pool, R"(<InStep team="t" as="a" delta="0.1">)" + use + "</InStep>") == "");
   std::string nine = "<Parallel>";
   for (int i = 0; i < 9; ++i) nine += use;
   CHECK(contains(message(pool, nine + "</Parallel>"), "more than 8 nodes use the pool 'p'"));

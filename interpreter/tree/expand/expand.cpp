@@ -104,9 +104,35 @@ class Expander {
     return groups_.end();
   }
 
+  // A node inside of one that uses resources which the team shares: another robot may wait for
+  // these while it is waited for.
+  void warn_of_waiting(std::uint32_t place, std::string_view team, std::string_view what,
+                       std::string_view hint) {
+    for (std::uint32_t node = place; definition_.nodes[node].parent != node;) {
+      node = definition_.nodes[node].parent;
+      for (std::size_t i = 0; i < members_.size(); ++i) {
+        const CheckedNode& pool = trees_.groups[i];
+        if (pool.type->synchronization != Synchronization::Resources) continue;
+        if (std::ranges::find(members_[i], node) == members_[i].end()) continue;
+        const auto shared_by = find_team(team_of(trees_, definition_.values, pool), pool.name);
+        if (shared_by == groups_.end() || shared_by->first != team) continue;
+        report_.at("deadlock"_code, definition_.nodes[place].place,
+                   fmt::format("'{}' {} while this robot has resources of the pool '{}', for which "
+                               "another one may wait",
+                               brief(definition_.nodes[place].name), what, brief(pool.name)),
+                   std::string(hint), Severity::Warning);
+        return;
+      }
+    }
+  }
+
   // What stands for other robots, where the group is one of them or is shared by them.
   void add_others(std::uint32_t place, const CheckedNode& group) {
-    if (group.type->is_of_robots) return add_robots(definition_, trees_, group, place, report_);
+    if (group.type->is_of_robots) {
+      warn_of_waiting(place, group.name, "waits for the other robots",
+                      "put the UseResources into the child of this node");
+      return add_robots(definition_, trees_, group, place, report_);
+    }
     if (group.type->synchronization != Synchronization::Resources) return;
     const std::string_view name = team_of(trees_, definition_.values, group);
     if (name.empty()) return;
@@ -126,6 +152,8 @@ class Expander {
                  "a team shares one pool: put the resources into that one");
       return;
     }
+    warn_of_waiting(place, team->first, "asks for more of them",
+                    "name all that it needs in the outer UseResources");
     const auto number = members_[groups_.find(group.name)->second].size() - 1;
     add_asker(definition_, trees_, group, trees_.groups[team->second], place,
               static_cast<std::uint32_t>(number), report_);
