@@ -88,6 +88,13 @@ ModelLeaves::ModelLeaves(const Tree& tree, const LeafModels& models, EntryOf ent
   }
 }
 
+void ModelLeaves::set_outside(OutsideLeaves& outside) {
+  outside_ = &outside;
+  for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+    if (outside.has(i)) slots_[i].kept_progress = &progress_[i];
+  }
+}
+
 void ModelLeaves::restore(const std::vector<LeafState>& states,
                           const std::vector<FactState>& facts) {
   states_ = states;
@@ -104,7 +111,9 @@ void ModelLeaves::restore_again(const std::vector<LeafState>& states,
 
 void ModelLeaves::restore_progress(std::uint32_t leaf) {
   const LeafState& state = states_[leaf];
-  progress_[leaf] = state.phase == Phase::Cut ? kProgressOfNew : rules_[leaf].levels[state.level];
+  progress_[leaf] = is_outside(leaf)            ? outside_->progress(leaf)
+                    : state.phase == Phase::Cut ? kProgressOfNew
+                                                : rules_[leaf].levels[state.level];
   slots_[leaf].error = nullptr;
 }
 
@@ -178,6 +187,7 @@ void ModelLeaves::start(std::uint32_t leaf) {
   chooses_ = leaf;
   stage_ = 0;
   mark(leaf);
+  if (is_outside(leaf)) return outside_->start(leaf);
   set_level(leaf, 0);
   if (!rules_[leaf].is_plain && models_.leaves[leaf].writes == Writes::AtStart) write(leaf);
 }
@@ -322,6 +332,7 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
     mark.clear();
   }
   mark.ticked = true;
+  if (is_outside(leaf)) return tick_outside(leaf);
   chooses_ = leaf;
   stage_ = 0;
   ++state.ticks;
@@ -376,6 +387,16 @@ Status ModelLeaves::tick_as_chosen(std::uint32_t leaf) {
   mark.progress = progress_[leaf];
   if (rule.may_write) may_write(leaf);
   return Status::Running;
+}
+
+// It keeps nothing that a model would: what is outside does.
+Status ModelLeaves::tick_outside(std::uint32_t leaf) {
+  LeafMark& mark = marks_[leaf];
+  mark.result = outside_->tick(leaf);
+  mark.ended = mark.result != Status::Running;
+  mark.progress = mark.ended ? 0 : progress_[leaf];
+  if (mark.ended) states_[leaf] = {};
+  return mark.result;
 }
 
 // Which of its results comes, or behind them how it runs: first whether it ends, then with what.

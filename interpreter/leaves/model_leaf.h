@@ -68,6 +68,18 @@ struct LeafMark {
   }
 };
 
+// Does what some leaves do, in place of their models: those that stand for other robots.
+class OutsideLeaves {
+ public:
+  virtual bool has(std::uint32_t leaf) const = 0;
+  virtual void start(std::uint32_t leaf) = 0;
+  virtual Status tick(std::uint32_t leaf) = 0;
+  virtual double progress(std::uint32_t leaf) const = 0;
+
+ protected:
+  ~OutsideLeaves() = default;
+};
+
 // The leaves of a run.
 class ModelLeaves {
  public:
@@ -78,6 +90,10 @@ class ModelLeaves {
   ModelLeaves(const Tree& tree, const LeafModels& models, EntryOf entry_of, Answers& answers);
   ModelLeaves(const ModelLeaves&) = delete;
   ModelLeaves& operator=(const ModelLeaves&) = delete;
+
+  // Before the first tick. It must outlive this.
+  void set_outside(OutsideLeaves& outside);
+  bool is_outside(std::uint32_t leaf) const { return outside_ != nullptr && outside_->has(leaf); }
 
   // The engine calls these for a leaf, by its number.
   void start(std::uint32_t leaf);
@@ -162,6 +178,7 @@ class ModelLeaves {
   void tell_broken(std::uint32_t leaf, const char* what);
   bool ask(std::uint32_t fact);
   Status tick_as_chosen(std::uint32_t leaf);
+  Status tick_outside(std::uint32_t leaf);
   void write(std::uint32_t leaf);
   // Each output, or not.
   void may_write(std::uint32_t leaf, bool has_succeeded = false);
@@ -205,6 +222,7 @@ class ModelLeaves {
   std::uint32_t stage_ = 0;
   std::string broken_;
   BeforeTickAgain before_tick_again_;
+  OutsideLeaves* outside_ = nullptr;  // null: all are as their models
 };
 
 }  // namespace lockstep::host

@@ -141,6 +141,12 @@ void TeamMember::set_own(bool is_in, double progress, End end) {
   own_.progress = is_in && std::isfinite(progress) ? std::clamp(progress, 0.0, 1.0) : 0.0;
 }
 
+void TeamMember::restore(const Memory& memory) {
+  own_ = memory.own;
+  others_ = memory.others;
+  own_name_heard_ = memory.own_name_heard;
+}
+
 TeamWord TeamMember::word(const PoolWord& pool) {
   ++own_.number;
   own_.pool = pool;

@@ -93,7 +93,7 @@ class TeamMember {
 
   std::uint32_t round() const { return own_.round; }
 
- private:
+  // All that it keeps from one tick to the next, for who goes back to an earlier one.
   struct Run {
     TeamWord word;
     Nanoseconds at{0};
@@ -104,6 +104,15 @@ class TeamMember {
     std::optional<Nanoseconds> nonsense;   // when it was last heard
     Known known;
   };
+  struct Memory {
+    TeamWord own;
+    std::vector<Other> others;
+    std::optional<Nanoseconds> own_name_heard;
+  };
+  Memory memory() const { return {own_, others_, own_name_heard_}; }
+  void restore(const Memory& memory);
+
+ private:
   Where where_of(const Other& other, Nanoseconds now) const;
   bool is_contested(const Other& other, Nanoseconds now) const;
   bool is_in_round(const TeamWord& word) const;

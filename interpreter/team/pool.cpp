@@ -191,6 +191,15 @@ void TeamPool::leave() {
   own_.decider = static_cast<std::uint32_t>(next);
 }
 
+void TeamPool::restore(const Memory& memory) {
+  own_ = memory.own;
+  took_ = memory.took;
+  last_number_ = memory.last_number;
+  decides_in_ = memory.decides_in;
+  robots_ = memory.robots;
+  asks_heard_ = memory.asks_heard;
+}
+
 TeamPool::Obstacle TeamPool::obstacle(const TeamMember& team, std::size_t place) const {
   using What = Obstacle::What;
   const ResourceSet wanted = own_.asks[place].set;

@@ -66,7 +66,6 @@ class TeamPool {
   };
   Obstacle obstacle(const TeamMember& team, std::size_t place) const;
 
- private:
   // What the decider knows of an ask.
   struct Ask {
     PoolWord::Ask said;
@@ -81,6 +80,19 @@ class TeamPool {
     bool is_reachable = false;
     std::array<Ask, kMostAsked> asks = {};
   };
+  // All that it keeps from one tick to the next, for who goes back to an earlier one.
+  struct Memory {
+    PoolWord own;
+    std::array<bool, kMostAsked> took = {};
+    std::uint32_t last_number = 0;
+    std::optional<std::uint32_t> decides_in;
+    std::vector<Robot> robots;
+    std::uint64_t asks_heard = 0;
+  };
+  Memory memory() const { return {own_, took_, last_number_, decides_in_, robots_, asks_heard_}; }
+  void restore(const Memory& memory);
+
+ private:
   struct Waiting {
     std::uint64_t since;
     std::size_t robot, place;

@@ -106,6 +106,10 @@ struct WhyNot {
   char text[64] = "";
 };
 
+lockstep_status to_leaf(Status status) {
+  return static_cast<lockstep_status>(status);
+}
+
 lockstep_status tick_robot(void* self) {
   TeamLeaf& leaf = *static_cast<TeamLeaf*>(self);
   if (find_team(leaf)) {
@@ -114,10 +118,9 @@ lockstep_status tick_robot(void* self) {
     leaf.place = static_cast<std::size_t>(it - others.begin());
   }
   if (const char* const why = why_apart(leaf)) return say(leaf, why, LOCKSTEP_FAILURE);
-  const TeamMember::Known& known = leaf.team->member.known(leaf.place);
-  if (!TeamMember::is_known(known.where)) return say(leaf, WhyNot(known).text, LOCKSTEP_FAILURE);
-  if (known.where == TeamMember::Where::Passed) return LOCKSTEP_SUCCESS;
-  return known.where == TeamMember::Where::InRound ? LOCKSTEP_RUNNING : LOCKSTEP_SKIPPED;
+  const WhyNot why(leaf.team->member.known(leaf.place));
+  if (*why.text != 0) return say(leaf, why.text, LOCKSTEP_FAILURE);
+  return to_leaf(leaf.team->tick_robot(leaf.place));
 }
 
 double robot_progress(void* self) {
@@ -176,7 +179,8 @@ lockstep_status tick_asking(void* self) {
   if (const char* const why = why_apart(leaf)) return say(leaf, why, LOCKSTEP_FAILURE);
   const auto& names = leaf.team->member.declaration().resources;
   const ResourceList list = resource_list(text_of(leaf, kWanted), names);
-  if (leaf.team->pool.ask(leaf.place, all_resources(list.request()))) return LOCKSTEP_SUCCESS;
+  const Status status = leaf.team->tick_asking(leaf.place, all_resources(list.request()));
+  if (status == Status::Success) return LOCKSTEP_SUCCESS;
   return say(leaf, WhyWaiting(*leaf.team, leaf.place).text, LOCKSTEP_RUNNING);
 }
 
@@ -256,11 +260,17 @@ const lockstep_leaf_type kPoolType = [] {
 const lockstep_leaf_type* const kTeamTypes[] = {&kRobotType, &kPoolType};
 
 // A plugin set has a table of its own for each plugin.
+bool is_robot(const NodeType& type) {
+  return type.leaf != nullptr && type.leaf->tick == tick_robot;
+}
+bool is_asking(const NodeType& type) {
+  return type.leaf != nullptr && type.leaf->tick == tick_asking;
+}
 bool is_robot(const LeafNode& leaf) {
-  return leaf.type->leaf->tick == tick_robot;
+  return is_robot(*leaf.type);
 }
 bool is_asking(const LeafNode& leaf) {
-  return leaf.type->leaf->tick == tick_asking;
+  return is_asking(*leaf.type);
 }
 
 template <class T>
@@ -329,6 +339,43 @@ std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period) {
         hash_of_declaration(team.team + '\n' + constant_of<std::string>(tree, leaf, kDeclaration));
   }
   return teams;
+}
+
+bool stands_for_robots(const NodeType& type) {
+  return is_robot(type) || is_asking(type);
+}
+
+std::vector<RobotLeaf> robot_leaves(const Tree& tree) {
+  std::vector<RobotLeaf> found;
+  for (std::uint32_t i = 0; i < tree.leaves.size(); ++i) {
+    const LeafNode& leaf = tree.leaves[i];
+    if (!stands_for_robots(*leaf.type)) continue;
+    RobotLeaf& it = found.emplace_back();
+    it.leaf = i;
+    it.team = constant_of<std::string>(tree, leaf, kTeamName);
+    it.asks = is_asking(leaf);
+    if (!it.asks) {
+      it.other = constant_of<std::string>(tree, leaf, kMemberName);
+      continue;
+    }
+    it.place = static_cast<std::size_t>(constant_of<std::int64_t>(tree, leaf, kPlace));
+    if (tree.ports[leaf.first_port + kWanted].slot == PortBinding::kUnbound)
+      it.wanted = constant_of<std::string>(tree, leaf, kWanted);
+  }
+  return found;
+}
+
+Status TeamRun::Team::tick_robot(std::size_t other) const {
+  using Where = TeamMember::Where;
+  const Where where = member.known(other).where;
+  if (member.is_contested() || !TeamMember::is_known(where)) return Status::Failure;
+  if (where == Where::Passed) return Status::Success;
+  return where == Where::InRound ? Status::Running : Status::Skipped;
+}
+
+Status TeamRun::Team::tick_asking(std::size_t place, ResourceSet set) {
+  if (member.is_contested()) return Status::Failure;
+  return pool.ask(place, set) ? Status::Success : Status::Running;
 }
 
 TeamRun::Team::Team(const TeamDeclaration& declaration, std::uint64_t run, std::vector<Use> nodes)

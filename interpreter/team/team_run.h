@@ -18,6 +18,7 @@ struct lockstep_plugin;
 
 namespace lockstep::host {
 
+struct NodeType;
 struct Tree;
 
 // The teams that the tree declares, in the order of their nodes; `period` is that of its ticks.
@@ -26,6 +27,19 @@ std::vector<TeamDeclaration> teams_of(const Tree& tree, Nanoseconds period);
 // The plugin with the leaves that stand for other robots: TeamMember for one, TeamResources for all
 // that share a pool. It is in a project that has a team.
 const lockstep_plugin& team_plugin();
+bool stands_for_robots(const NodeType& type);
+
+// Such a leaf: in a tree that is compiled.
+struct RobotLeaf {
+  std::uint32_t leaf = 0;  // in Tree::leaves
+  std::string team;
+  bool asks = false;      // for resources; else it stands for one robot
+  std::string other;      // that robot
+  std::size_t place = 0;  // of the node that asks
+  // What that asks for, as text; nothing: an entry has it.
+  std::optional<std::string> wanted = {};
+};
+std::vector<RobotLeaf> robot_leaves(const Tree& tree);
 
 class TeamRun final : public Observer {
  public:
@@ -48,11 +62,20 @@ class TeamRun final : public Observer {
     std::optional<NodeIndex> node = {};  // that is in step
     std::vector<Use> uses;
     TeamPool pool;
+
+    // The result of the leaf that stands for another one, in this tick; Failure: it cannot be
+    // relied on.
+    Status tick_robot(std::size_t other) const;
+    // That of the leaf that asks for resources, once it is ticked.
+    Status tick_asking(std::size_t place, ResourceSet set);
   };
   Team* team(std::string_view name);
   // After the run: "'right': not heard for 2.9 s": what was known of others in the last tick, where
   // that held the robot. "": nothing.
   const std::string& why() const { return why_; }
+
+  const std::deque<Team>& teams() const { return teams_; }
+  std::deque<Team>& teams() { return teams_; }
 
   // By which the recordings of the other members name this run.
   static std::uint32_t short_run(std::uint64_t run) { return static_cast<std::uint32_t>(run); }

@@ -83,6 +83,7 @@ class Stepper {
   Ticker& ticker() { return ticker_; }
   const Ticker& ticker() const { return ticker_; }
   const ModelLeaves& leaves() const { return leaves_; }
+  ModelLeaves& leaves() { return leaves_; }
   // The properties that the tick, or the end in it, has violated, by their place.
   std::span<const std::size_t> violated() const { return watch_.violated(); }
   // A barrier that was passed in the tick before all had reached it. Looked at with cuts only.

@@ -208,18 +208,11 @@ bool Tracer::for_each_tick(StateId from, const std::function<bool(const Stepper&
 LeafScripts Tracer::scripts(const TracedRun& run) {
   LeafScripts scripts;
   scripts.ticks = run.size();
-  // A leaf has a word for each tick of it, and several in a period where nodes ask for them.
-  stepper_.set_before_tick_again([&](ModelLeaves& leaves) {
-    add_words(scripts);
-    leaves.clear_marks();
-  });
-  stepper_.set_before_leaf_again([&](std::uint32_t leaf) { add_word(scripts, leaf); });
+  ScriptWriter writer(tree_, models_, stepper_, scripts);
   play(run, [&](Stepper& stepper, Status, std::size_t tick) {
     if (stepper.was_cut()) add_cut(tick, scripts);
-    add_words(scripts);
+    writer.add_tick();
   });
-  stepper_.set_before_tick_again(nullptr);
-  stepper_.set_before_leaf_again(nullptr);
   return scripts;
 }
 
@@ -231,15 +224,30 @@ void Tracer::add_cut(std::uint64_t tick, LeafScripts& scripts) {
   }
 }
 
-void Tracer::add_words(LeafScripts& scripts) {
-  const std::size_t leaves = stepper_.leaves().marks().size();
-  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) add_word(scripts, leaf);
+// A leaf has a word for each tick of it, and several in a period where nodes ask for them.
+ScriptWriter::ScriptWriter(const Tree& tree, const LeafModels& models, Stepper& stepper,
+                           LeafScripts& scripts)
+    : tree_(tree), models_(models), stepper_(stepper), scripts_(scripts) {
+  stepper.set_before_tick_again([this](ModelLeaves& leaves) {
+    add_tick();
+    leaves.clear_marks();
+  });
+  stepper.set_before_leaf_again([this](std::uint32_t leaf) { add(leaf); });
 }
 
-void Tracer::add_word(LeafScripts& scripts, std::uint32_t leaf) {
-  const LeafMark& mark = stepper_.leaves().marks()[leaf];
-  if (!mark.ticked && !mark.drifted) return;
-  auto& words = scripts.leaves[tree_.path(tree_.leaves[leaf].node)];
+ScriptWriter::~ScriptWriter() {
+  stepper_.set_before_tick_again(nullptr);
+  stepper_.set_before_leaf_again(nullptr);
+}
+
+void ScriptWriter::add_tick() {
+  for (std::uint32_t leaf = 0; leaf < tree_.leaves.size(); ++leaf) add(leaf);
+}
+
+void ScriptWriter::add(std::uint32_t leaf) {
+  const LeafMark& mark = std::as_const(stepper_).leaves().marks()[leaf];
+  if ((!mark.ticked && !mark.drifted) || stepper_.leaves().is_outside(leaf)) return;
+  auto& words = scripts_.leaves[tree_.path(tree_.leaves[leaf].node)];
   if (mark.drifted) {
     words.push_back({.kind = LeafWord::Kind::Held, .progress = mark.held_progress});
   }

@@ -34,6 +34,26 @@ struct TracedPath {
   std::vector<NodeIndex> nodes;  // of each place in the search: the node of the run that is there
 };
 
+// Adds to scripts what the leaves did in the last tick, and from now on what they do within one.
+class ScriptWriter {
+ public:
+  // All must outlive this.
+  ScriptWriter(const Tree& tree, const LeafModels& models, Stepper& stepper, LeafScripts& scripts);
+  ~ScriptWriter();
+  ScriptWriter(const ScriptWriter&) = delete;
+  ScriptWriter& operator=(const ScriptWriter&) = delete;
+
+  void add_tick();
+
+ private:
+  void add(std::uint32_t leaf);
+
+  const Tree& tree_;
+  const LeafModels& models_;
+  Stepper& stepper_;
+  LeafScripts& scripts_;
+};
+
 class Tracer {
  public:
   // All must outlive this.
@@ -82,8 +102,6 @@ class Tracer {
   std::vector<LeafAnswer> moved(std::vector<LeafAnswer> answers,
                                 std::span<const NodeIndex> nodes) const;
   void add_cut(std::uint64_t tick, LeafScripts& scripts);
-  void add_words(LeafScripts& scripts);
-  void add_word(LeafScripts& scripts, std::uint32_t leaf);
   [[noreturn]] void fail(const char* what) const;
 
   const Tree& tree_;

@@ -287,9 +287,10 @@ PlayedLeaves::PlayedLeaves() {
   plugin_.is_local = true;
 }
 
-void PlayedLeaves::take_over(Definition& definition) {
+void PlayedLeaves::take_over(Definition& definition, Stays stays) {
   std::map<const NodeType*, const NodeType*> taken;
   for (DefinitionNode& node : definition.nodes) {
+    if (stays != nullptr && stays(*node.type)) continue;
     if (node.type->asks) {
       node.type = add_asking(definition, node);
     } else if (is_leaf(*node.type)) {

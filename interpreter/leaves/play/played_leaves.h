@@ -29,9 +29,10 @@ class PlayedLeaves final : public RemotePlugin {
   PlayedLeaves& operator=(const PlayedLeaves&) = delete;
 
   // All leaves of the definition are of this plugin from now on, also those that no plugin has, and
-  // nodes that ask a person: each answer is one of their results.
+  // nodes that ask a person: each answer is one of their results. But those of types that stay.
   // This must outlive the definition, and the tree that is made of it.
-  void take_over(Definition& definition);
+  using Stays = bool (*)(const NodeType& type);
+  void take_over(Definition& definition, Stays stays = nullptr);
   // Before a run. A leaf without a script runs for ever; a condition without one fails.
   void set_scripts(LeafScripts scripts) { scripts_ = std::move(scripts); }
   // Before a run: leaves without a script do what these allow, as the run's random numbers choose.

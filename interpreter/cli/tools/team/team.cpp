@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <thread>
 #include <vector>
 
@@ -15,7 +14,7 @@
 #include "cli/command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
-#include "cli/load/load_options.h"
+#include "cli/tools/team/robot_files.h"
 #include "judge/summary/statistics.h"
 #include "record/write/recorder.h"
 #include "run/loop.h"
@@ -67,30 +66,16 @@ class Robot {
  public:
   // An exit code; what is wrong is reported.
   int load(const TeamOptions& options, const std::string& text) {
-    const auto comma = text.find(',');
-    file_ = text.substr(0, comma);
-    LoadCommandOptions load = options.load;
-    for (auto at = comma; at != std::string::npos;) {
-      const auto next = text.find(',', at + 1);
-      load.arguments.push_back(text.substr(at + 1, next - at - 1));
-      at = next;
-    }
-    Diagnostics diagnostics;
-    auto loaded = load_given(file_, load, diagnostics);
-    print_diagnostics(diagnostics, Severity::Warning);
-    if (!loaded) return exit_code_of(loaded.error());
-    runnable_ = make_runnable(std::move(*loaded));
-    const auto period = from_seconds(1 / options.rate);
-    teams_ = teams_of(runnable_.tree, period);
-    if (teams_.empty()) {
-      print_error(fmt::format("{}: its tree is in no team", printable(file_)),
-                  "declare one: <team name=\"…\" members=\"…\"/>, and an InStep that names it");
-      return kExitInvalidTree;
-    }
+    auto loaded = load_robot(text, options.load, std::make_shared<PluginSet>());
+    if (!loaded) return loaded.error();
+    file_ = loaded->file;
+    runnable_ = make_runnable(std::move(loaded->loaded));
+    teams_ = teams_of(runnable_.tree, from_seconds(1 / options.rate));
     return kExitSuccess;
   }
 
-  const std::vector<TeamDeclaration>& teams() const { return teams_; }
+  const TeamsOfRobot& teams() const { return teams_; }
+  const std::string& file() const { return file_; }
   std::string name() const { return teams_.front().self; }
   PluginSet& plugins() const { return *runnable_.plugins; }
 
@@ -142,43 +127,12 @@ class Robot {
  private:
   std::string file_;
   Runnable runnable_;
-  std::vector<TeamDeclaration> teams_;
+  TeamsOfRobot teams_;
   std::optional<TurnClock> clock_;
   std::optional<TeamRun> team_;
   std::optional<Statistics> statistics_;
   std::optional<Recorder> recorder_;
 };
-
-bool have_names(const std::vector<std::unique_ptr<Robot>>& robots) {
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (robots[i]->name() != robots[k]->name()) continue;
-      print_error(fmt::format("two robots are '{}'", printable(robots[i]->name())),
-                  "give each its argument, such as carry.xml,me=left carry.xml,me=right");
-      return false;
-    }
-  }
-  return true;
-}
-
-// The others wait for them until the limit.
-void note_missing(const std::vector<std::unique_ptr<Robot>>& robots) {
-  std::set<std::string> told;
-  for (const auto& robot : robots) {
-    for (const TeamDeclaration& team : robot->teams()) {
-      for (const std::string& name : team.others) {
-        const bool is_there = std::ranges::any_of(robots, [&](const auto& other) {
-          return std::ranges::any_of(other->teams(), [&](const TeamDeclaration& it) {
-            return it.team == team.team && it.self == name;
-          });
-        });
-        if (is_there || !told.insert(team.team + '/' + name).second) continue;
-        print_note(fmt::format("no file is '{}' of the team '{}', so the others wait for it",
-                               printable(name), printable(team.team)));
-      }
-    }
-  }
-}
 
 std::string text_of(const std::vector<std::unique_ptr<Robot>>& robots,
                     const SimulatedNetwork& network) {
@@ -222,8 +176,13 @@ int simulate(const TeamOptions& options) {
     const int failed = robots.emplace_back(std::make_unique<Robot>())->load(options, text);
     if (failed != kExitSuccess) return failed;
   }
-  if (!have_names(robots)) return kExitUsage;
-  note_missing(robots);
+  std::vector<TeamsOfRobot> teams;
+  std::vector<std::string> files;
+  for (const auto& it : robots) {
+    teams.push_back(it->teams());
+    files.push_back(it->file());
+  }
+  if (const int wrong = check_teams(teams, files); wrong != kExitSuccess) return wrong;
   if (!options.starts.empty() && options.starts.size() != robots.size()) {
     print_error("--start: a time for each robot, in their order");
     return kExitUsage;

@@ -25,7 +25,9 @@
 #include "cli/tools/verify/fmea.h"
 #include "cli/tools/verify/probability_report.h"
 #include "cli/tools/verify/save_scenarios.h"
+#include "cli/tools/verify/verify_input.h"
 #include "cli/tools/verify/verify_report.h"
+#include "cli/tools/verify/verify_team.h"
 #include "language/document/file.h"
 #include "language/document/reporter.h"
 #include "run/stop_signals.h"
@@ -41,11 +43,14 @@ namespace {
 // Of --time: the rest is for the questions about what was found. Runs by chance are beyond it.
 constexpr double kTimeOfSearch = 0.85, kTimeOfChance = 0.03;
 
-constexpr std::uint64_t kMostCuts = 100;
+constexpr std::uint64_t kMostCuts = 100, kMostLate = 100;
+constexpr std::uint32_t kUsuallyLate = 1;
 
 struct VerifyOptions {
   LoadCommandOptions load;
   std::string tree, leaves;
+  std::vector<std::string> more;      // trees of other robots
+  std::optional<std::uint32_t> late;  // words of theirs, in ticks
   std::optional<double> rate;
   std::uint64_t states = 5'000'000;
   std::optional<std::uint64_t> memory_mib;
@@ -80,8 +85,9 @@ std::size_t usual_memory() {
 // of a few seconds has none.
 class SearchLine {
  public:
-  ~SearchLine() {
-    if (is_visible_) messages().say("\r\x1b[K");
+  ~SearchLine() { clear(); }
+  void clear() {
+    if (std::exchange(is_visible_, false)) messages().say("\r\x1b[K");
   }
   void show(const SearchProgress& it) {
     show([&](double seconds) {
@@ -112,40 +118,6 @@ class SearchLine {
   bool is_visible_ = false;
 };
 
-// The places of the nodes, and what needs them: the documents go with this.
-class Places {
- public:
-  explicit Places(const Loaded& loaded) : sources_(loaded.project->sources) {
-    for (const DefinitionNode& node : loaded.definition.nodes) places_.push_back(node.place);
-  }
-  std::string text(NodeIndex node) const { return to_text(sources_.locate(places_[node])); }
-  void report(const std::vector<NodeProblem>& problems, Diagnostics& diagnostics) const {
-    const Reporter reporter(sources_, diagnostics);
-    for (const NodeProblem& it : problems)
-      reporter.at("bad-leaf-model"_code, places_[it.node], it.message, it.hint);
-  }
-
- private:
-  const Sources sources_;
-  std::vector<Place> places_;
-};
-
-// Null: none is named. Nothing: it cannot be used, which is reported.
-std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path, std::string& as_text,
-                                                     Diagnostics& diagnostics) {
-  if (path.empty()) return nullptr;
-  constexpr std::size_t kMost = std::size_t{16} << 20u;
-  auto text = read_file(path, kMost, FileKinds::RegularOrPipe);
-  if (!text) {
-    diagnostics.error("unreadable-file"_code, {path}, text.error().message, text.error().hint);
-    return std::nullopt;
-  }
-  as_text = *text;
-  auto file = read_leaf_file(path, std::move(*text), diagnostics);
-  if (file == nullptr) return std::nullopt;
-  return file;
-}
-
 // "2026-11-29T12:00:00Z"
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
@@ -168,6 +140,22 @@ class VerifyCommand {
 
  public:
   explicit VerifyCommand(const VerifyOptions& options) : options_(options) {}
+
+  int run_team() {
+    StopSignals::install();
+    SearchLine line;
+    TeamVerifyOptions team{.load = options_.load,
+                           .robots = options_.more,
+                           .leaves = options_.leaves,
+                           .rate = options_.rate,
+                           .late = options_.late.value_or(kUsuallyLate),
+                           .limits = limits(line),
+                           .search_ended = [&line] { line.clear(); },
+                           .out = options_.out,
+                           .json = options_.json || options_.format == "json"};
+    team.robots.insert(team.robots.begin(), options_.tree);
+    return verify_team(team);
+  }
 
   int run() {
     auto loaded = load();
@@ -447,6 +435,21 @@ class VerifyCommand {
   int code_ = kExitSuccess;
 };
 
+// An option that says nothing of several robots; "": there is none.
+std::string_view not_for_teams(const VerifyOptions& options) {
+  if (options.fmea) return "--fmea";
+  if (options.probability) return "--probability";
+  if (options.cuts != 0) return "--cuts";
+  if (!options.ticket.empty()) return "--ticket";
+  if (!options.save.empty()) return "--save";
+  if (!options.save_model.empty()) return "--save-model";
+  if (!options.only.empty()) return "--only";
+  if (options.compact) return "--compact";
+  if (options.depth) return "--depth";
+  if (!options.properties.texts.empty() || !options.properties.files.empty()) return "--property";
+  return options.format == "junit" ? "--format junit" : "";
+}
+
 int verify(const VerifyOptions& options) {
   keep_stdout_for_results();
   const bool is_of_fmea = options.format == "md" || options.format == "csv";
@@ -482,6 +485,19 @@ int verify(const VerifyOptions& options) {
     print_error("--ticket and --only: a ticket is for all questions", "leave out --only");
     return kExitUsage;
   }
+  if (!options.more.empty()) {
+    if (const std::string_view option = not_for_teams(options); !option.empty()) {
+      print_error(fmt::format("{} is for one tree, and here are several", option),
+                  "verify each of them by itself with it");
+      return kExitUsage;
+    }
+    return VerifyCommand(options).run_team();
+  }
+  if (options.late) {
+    print_error("--late is for the trees of several robots",
+                "name them: lockstep verify left.xml right.xml");
+    return kExitUsage;
+  }
   try {
     return VerifyCommand(options).run();
   } catch (const std::runtime_error& error) {
@@ -494,6 +510,14 @@ int verify(const VerifyOptions& options) {
 std::function<int()> define_verify(CLI::App& app) {
   const auto options = std::make_shared<VerifyOptions>();
   add_tree_argument(app, options->tree, "Tree file; - is stdin");
+  app.add_option("robots", options->more,
+                 "The trees of the other robots of its team, to be verified together; each may "
+                 "have arguments of its own: carry.xml,me=right")
+      ->type_name("TREE.xml[,ARG=VALUE]");
+  app.add_option("--late", options->late,
+                 "Of several robots: each word is heard at most N ticks late (default: 1)")
+      ->type_name("N")
+      ->transform(whole_number(0, kMostLate));
   app.add_option(
          "--leaves", options->leaves,
          "A leaf model: what the leaves may do (default: everything that their contract allows)")
@@ -595,6 +619,21 @@ std::function<int()> define_verify(CLI::App& app) {
 
 }  // namespace
 
+std::optional<std::unique_ptr<LeafFile>> read_leaves(const std::string& path, std::string& as_text,
+                                                     Diagnostics& diagnostics) {
+  if (path.empty()) return nullptr;
+  constexpr std::size_t kMost = std::size_t{16} << 20u;
+  auto text = read_file(path, kMost, FileKinds::RegularOrPipe);
+  if (!text) {
+    diagnostics.error("unreadable-file"_code, {path}, text.error().message, text.error().hint);
+    return std::nullopt;
+  }
+  as_text = *text;
+  auto file = read_leaf_file(path, std::move(*text), diagnostics);
+  if (file == nullptr) return std::nullopt;
+  return file;
+}
+
 extern const Command kVerifyCommand{
     "verify", "Check every behavior of a tree, with any results of its leaves",
     "The verdict goes to stdout, messages go to stderr. Each finding comes with a recording,\n"
@@ -608,6 +647,7 @@ extern const Command kVerifyCommand{
     "Examples:\n"
     "  lockstep verify --example door_pulling\n"
     "  lockstep verify tree.xml --leaves tree.leaves.xml --out findings\n"
+    "  lockstep verify carry.xml,me=left carry.xml,me=right\n"
     "  lockstep run tree.xml --leaves findings/tree.trap.leaves --clock virtual",
     define_verify};
 

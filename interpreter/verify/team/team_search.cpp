@@ -1,0 +1,475 @@
+#include "verify/team/team_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "base/core/resource_set.h"
+#include "base/core/wording.h"
+#include "verify/components.h"
+
+namespace lockstep::host {
+
+// The states and what each turn leads to.
+struct TeamSearch::Graph {
+  struct Edge {
+    StateId to;
+  };
+  std::vector<Edge> edges = {};
+  std::vector<std::size_t> begins = {0};  // of each state that was looked at, and the end
+  std::vector<StateId> found_from = {};
+  std::vector<bool> ends = {};  // all robots have ended
+
+  std::size_t states() const { return found_from.size(); }
+  std::size_t expanded() const { return begins.size() - 1; }
+  std::span<const Edge> edges_of(StateId state) const {
+    if (state >= expanded()) return {};
+    return std::span(edges).subspan(begins[state], begins[state + 1] - begins[state]);
+  }
+  // Of each state: some path leads to an end, or to a state that was not looked at.
+  std::vector<bool> can_end() const {
+    std::vector<std::uint32_t> count(states() + 1);
+    for (const Edge& it : edges) ++count[it.to + 1];
+    for (std::size_t i = 1; i < count.size(); ++i) count[i] += count[i - 1];
+    std::vector<StateId> from(edges.size());
+    std::vector<std::uint32_t> at = count;
+    for (StateId state = 0; state < expanded(); ++state) {
+      for (const Edge& it : edges_of(state)) from[at[it.to]++] = state;
+    }
+    std::vector<bool> can(states());
+    std::vector<StateId> next;
+    const auto add = [&](StateId state) {
+      if (can[state]) return;
+      can[state] = true;
+      next.push_back(state);
+    };
+    for (StateId state = 0; state < states(); ++state) {
+      if (ends[state] || state >= expanded()) add(state);
+    }
+    while (!next.empty()) {
+      const StateId state = next.back();
+      next.pop_back();
+      for (std::uint32_t i = count[state]; i < count[state + 1]; ++i) add(from[i]);
+    }
+    return can;
+  }
+};
+
+TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t late,
+                       const SearchLimits& limits)
+    : trees_(std::move(trees)), rate_(rate), limits_(limits), graph_(std::make_unique<Graph>()) {
+  for (const TeamTree& it : trees_) {
+    TeamNames& names = names_.emplace_back(TeamNames{.teams = it.teams, .others = {}, .asks = {}});
+    for (const TeamDeclaration& team : it.teams) {
+      auto& others = names.others.emplace_back(team.others.size());
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        for (std::size_t robot = 0; robot < trees_.size(); ++robot) {
+          const auto& theirs = trees_[robot].teams;
+          const auto found = std::ranges::find_if(theirs, [&](const TeamDeclaration& other) {
+            return other.team == team.team && other.self == team.others[i];
+          });
+          if (found != theirs.end())
+            others[i] = TeamLink{robot, static_cast<std::size_t>(found - theirs.begin())};
+        }
+      }
+      std::size_t asks = 0;
+      for (const RobotLeaf& leaf : robot_leaves(it.tree)) {
+        if (leaf.asks && leaf.team == team.team) asks = std::max(asks, leaf.place + 1);
+      }
+      names.asks.push_back(asks);
+    }
+  }
+  code_.emplace(names_, from_seconds(1 / rate), late);
+  for (std::size_t robot = 0; robot < trees_.size(); ++robot) {
+    robots_.push_back(std::make_unique<SearchedRobot>(trees_[robot].tree, trees_[robot].models,
+                                                      names_[robot], robot, rate));
+  }
+}
+
+TeamSearch::~TeamSearch() = default;
+
+const std::string& TeamSearch::name(std::size_t robot) const {
+  return names_[robot].teams.front().self;
+}
+
+TeamSearchResult TeamSearch::search() {
+  began_ = monotonic_now();
+  result_.results.resize(robots_.size());
+  std::vector<std::byte> bytes;
+  code_->encode(code_->first(), bytes);
+  store_.add(bytes);
+  graph_->found_from.push_back(0);
+  graph_->ends.push_back(false);
+  for (StateId id = 0; id < store_.size() && !is_over(); ++id) {
+    const TeamState from = code_->decode(store_[id]);
+    if (!graph_->ends[id]) {
+      expand(from, [&](const TeamState& next, const TeamTurn& turn) {
+        ++result_.transitions;
+        code_->encode(next, bytes);
+        const auto [to, is_new] = store_.add(bytes);
+        graph_->edges.push_back({to});
+        if (is_new) {
+          graph_->found_from.push_back(id);
+          graph_->ends.push_back(std::ranges::all_of(next.robots, &RobotState::has_ended));
+        }
+        look({id, from, turn}, next);
+        return true;
+      });
+    }
+    graph_->begins.push_back(graph_->edges.size());
+  }
+  result_.states = store_.size();
+  for (StateId id = static_cast<StateId>(store_.size() - 1); id != 0; id = graph_->found_from[id])
+    ++result_.periods;
+  result_.periods =
+      static_cast<std::uint32_t>((result_.periods + robots_.size() - 1) / robots_.size());
+  for (std::size_t i = 0; i < result_.findings.size(); ++i) {
+    auto& run = result_.findings[i].run;
+    const auto before = run_to(shown_by_[i]);
+    run.insert(run.begin(), before.begin(), before.end());
+  }
+  find_trap();
+  result_.took = monotonic_now() - began_;
+  return result_;
+}
+
+bool TeamSearch::is_over() {
+  const auto stop = [&](SearchEnd end) {
+    result_.end = end;
+    return true;
+  };
+  if (store_.size() > limits_.states) return stop(SearchEnd::States);
+  if (graph_->expanded() % 1024 != 0) return false;
+  const std::size_t memory = store_.memory() + graph_->edges.size() * sizeof graph_->edges[0] +
+                             graph_->states() * kLaterBytesOfState;
+  if (memory > limits_.memory) return stop(SearchEnd::Memory);
+  const Nanoseconds now = monotonic_now();
+  if (limits_.time && now - began_ > *limits_.time) return stop(SearchEnd::Time);
+  if (limits_.stop_signal && (result_.signal = limits_.stop_signal()) != 0)
+    return stop(SearchEnd::Signal);
+  constexpr std::chrono::milliseconds kOften(100);
+  if (limits_.tell && now - told_ > kOften) {
+    told_ = now;
+    limits_.tell({.states = store_.size(),
+                  .waiting = store_.size() - graph_->expanded(),
+                  .transitions = result_.transitions,
+                  .depth = 0,
+                  .memory = memory});
+  }
+  return false;
+}
+
+// --- one turn -----------------------------------------------------------------------------------
+
+// False: `visit` wants no more.
+bool TeamSearch::expand(const TeamState& from, const Visit& visit) {
+  TeamTurn turn{.robot = from.turn};
+  const RobotState& robot = from.robots[turn.robot];
+  if (!robot.runs() && !visit(after_turn(from, turn, robot), turn)) return false;
+  if (robot.has_ended()) return true;
+  turn.ticks = true;
+  turn.begins = !robot.runs();
+  for (auto& heard : deliveries(from)) {
+    turn.hears = std::move(heard);
+    if (!tick(from, turn, visit)) return false;
+  }
+  return true;
+}
+
+bool TeamSearch::tick(const TeamState& from, TeamTurn& turn, const Visit& visit) {
+  SearchedRobot& robot = *robots_[turn.robot];
+  begin_turn(from, turn);
+  do {
+    RobotState after = robot.tick();
+    turn.answers = robot.stepper().answers().asked();
+    if (!visit(after_turn(from, turn, std::move(after)), turn)) return false;
+  } while (robot.next());
+  return true;
+}
+
+void TeamSearch::begin_turn(const TeamState& from, const TeamTurn& turn) {
+  RobotState state = from.robots[turn.robot];
+  for (const TeamTurn::Hears& it : turn.hears) state.teams[it.team].ages[it.other] = it.age;
+  // A period has passed since its last turn.
+  for (TeamPart& part : state.teams) {
+    for (auto& other : part.member.others) {
+      if (other.last) other.last->at -= from_seconds(1 / rate_);
+    }
+  }
+  robots_[turn.robot]->begin_turn(state, turn.begins, words(from, turn));
+}
+
+std::vector<HeardWord> TeamSearch::words(const TeamState& from, const TeamTurn& turn) const {
+  std::vector<HeardWord> heard;
+  for (const TeamTurn::Hears& it : turn.hears) {
+    const TeamLink link = *names_[turn.robot].others[it.team][it.other];
+    TeamWord word = from.robots[link.robot].said[it.age][link.team];
+    word.number = 2;  // newer than the one that was heard last
+    heard.push_back({.team = static_cast<std::uint32_t>(it.team),
+                     .member = static_cast<std::uint32_t>(it.other),
+                     .word = word,
+                     .at = TeamCode::kNow});
+  }
+  return heard;
+}
+
+// All that the robot may have heard until now, of each other one the last word or none.
+std::vector<std::vector<TeamTurn::Hears>> TeamSearch::deliveries(const TeamState& from) const {
+  std::vector<std::vector<TeamTurn::Hears>> all(1);
+  const RobotState& robot = from.robots[from.turn];
+  const TeamNames& names = names_[from.turn];
+  for (std::size_t team = 0; team < names.teams.size(); ++team) {
+    for (std::size_t other = 0; other < names.others[team].size(); ++other) {
+      const auto& link = names.others[team][other];
+      if (!link) continue;
+      const auto& said = from.robots[link->robot].said;
+      const std::uint32_t known = robot.teams[team].ages[other];
+      std::vector<std::uint32_t> may;
+      bool must = false;
+      for (std::uint32_t age = 0; age < std::min<std::size_t>(known, said.size()); ++age) {
+        if (said[age].empty()) continue;
+        may.push_back(age);
+        must |= age == code_->late();
+      }
+      if (may.empty()) continue;
+      std::vector<std::vector<TeamTurn::Hears>> more;
+      for (const auto& it : all) {
+        if (!must) more.push_back(it);
+        for (const std::uint32_t age : may) {
+          more.push_back(it);
+          more.back().push_back({team, other, age});
+        }
+      }
+      all = std::move(more);
+    }
+  }
+  return all;
+}
+
+// What it said is a turn older for all others.
+TeamState TeamSearch::after_turn(const TeamState& from, const TeamTurn& turn,
+                                 RobotState robot) const {
+  TeamState next = from;
+  if (!turn.ticks) {
+    robot.said.insert(robot.said.begin(), std::vector<TeamWord>());
+    robot.said.pop_back();
+  }
+  next.robots[turn.robot] = std::move(robot);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    for (std::size_t team = 0; team < names_[i].teams.size(); ++team) {
+      for (std::size_t other = 0; other < names_[i].others[team].size(); ++other) {
+        const auto& link = names_[i].others[team][other];
+        if (!link || link->robot != turn.robot) continue;
+        std::uint32_t& age = next.robots[i].teams[team].ages[other];
+        age = std::min(age + 1, code_->late() + 1);
+      }
+    }
+  }
+  next.turn = static_cast<std::uint32_t>((turn.robot + 1) % names_.size());
+  return next;
+}
+
+// --- what must never be -------------------------------------------------------------------------
+
+void TeamSearch::look(const Done& done, const TeamState& next) {
+  const TeamTurn& turn = done.turn;
+  const RobotState& robot = next.robots[turn.robot];
+  if (turn.ticks) {
+    if (robot.has_ended()) result_.results[turn.robot].insert(robot.phase);
+    const SearchedRobot& searched = *robots_[turn.robot];
+    if (const Fault* const fault = searched.stepper().ticker().fault()) {
+      add_finding("fault." + name(turn.robot),
+                  fmt::format("{}: leaf '{}' {}", name(turn.robot),
+                              trees_[turn.robot].tree.path(fault->node), fault->message),
+                  done);
+    }
+    look_at_barriers(done);
+    look_at_resources(done, next);
+    look_at_spread(next);
+  }
+  result_.may_all_succeed |= std::ranges::all_of(
+      next.robots, [](const RobotState& it) { return it.phase == RobotState::Phase::Succeeded; });
+}
+
+// It may only go on from a barrier where each other one was at it in this round.
+void TeamSearch::look_at_barriers(const Done& done) {
+  constexpr double kClearly = 1e-6;
+  const TeamTurn& turn = done.turn;
+  const SearchedRobot& robot = *robots_[turn.robot];
+  for (std::size_t team = 0; team < robot.in_step().size(); ++team) {
+    const auto& in_step = robot.in_step()[team];
+    const SearchedRobot::Moved& moved = robot.moved()[team];
+    if (!in_step || !moved.ticked) continue;
+    for (const double barrier : in_step->barriers) {
+      if (moved.from < (in_step->ticks_at_barrier ? barrier + kClearly : barrier)) continue;
+      for (std::size_t i = 0; i < names_[turn.robot].others[team].size(); ++i) {
+        const auto& link = names_[turn.robot].others[team][i];
+        const TeamPart* const other =
+            link ? &done.from.robots[link->robot].teams[link->team] : nullptr;
+        const bool was_there =
+            other != nullptr &&
+            (other->member.own.passed >= moved.round ||
+             (other->round == moved.round && other->reached > barrier - kClearly));
+        if (was_there) continue;
+        add_finding(
+            "barrier-passed." + names_[turn.robot].teams[team].team,
+            fmt::format("{} passes the barrier {} before {} has reached it", name(turn.robot),
+                        barrier, names_[turn.robot].teams[team].others[i]),
+            done);
+      }
+    }
+  }
+}
+
+void TeamSearch::look_at_resources(const Done& done, const TeamState& next) {
+  const auto owned = [&](std::size_t robot, std::size_t team) {
+    ResourceSet set = 0;
+    for (const PoolWord::Ask& it : next.robots[robot].teams[team].pool.own.asks)
+      set |= it.owns ? it.set : 0;
+    return set;
+  };
+  for (std::size_t robot = 0; robot < names_.size(); ++robot) {
+    for (std::size_t team = 0; team < names_[robot].teams.size(); ++team) {
+      const TeamDeclaration& own = names_[robot].teams[team];
+      if (own.pool_hash == 0) continue;
+      result_.has_pool = true;
+      for (std::size_t i = 0; i < own.others.size(); ++i) {
+        const auto& link = names_[robot].others[team][i];
+        if (!link || link->robot < robot) continue;
+        if (names_[link->robot].teams[link->team].pool_hash != own.pool_hash) continue;
+        const ResourceSet both = owned(robot, team) & owned(link->robot, link->team);
+        if (both == 0) continue;
+        add_finding("two-owners." + own.team,
+                    fmt::format("{} and {} both own {}", name(robot), name(link->robot),
+                                to_text(both, own.resources)),
+                    done);
+      }
+    }
+  }
+}
+
+void TeamSearch::look_at_spread(const TeamState& next) {
+  for (std::size_t robot = 0; robot < names_.size(); ++robot) {
+    for (std::size_t team = 0; team < names_[robot].teams.size(); ++team) {
+      if (!robots_[robot]->in_step()[team]) continue;
+      const std::string& name = names_[robot].teams[team].team;
+      auto spread = std::ranges::find(result_.spreads, name, &TeamSearchResult::Spread::team);
+      if (spread == result_.spreads.end())
+        spread = result_.spreads.insert(result_.spreads.end(), {.team = name});
+      const TeamWord& own = next.robots[robot].teams[team].member.own;
+      for (const auto& link : names_[robot].others[team]) {
+        if (!link || !own.is_in) continue;
+        const TeamWord& other = next.robots[link->robot].teams[link->team].member.own;
+        if (!other.is_in || other.round != own.round) continue;
+        spread->largest = std::max(spread->largest, std::abs(own.progress - other.progress));
+      }
+    }
+  }
+}
+
+void TeamSearch::add_finding(std::string name, std::string message, const Done& done) {
+  const bool is_known =
+      std::ranges::any_of(result_.findings, [&](const TeamFinding& it) { return it.name == name; });
+  if (is_known) return;
+  // The run until then is found when the robots are free.
+  result_.findings.push_back(
+      {.name = std::move(name), .message = std::move(message), .run = {done.turn}});
+  shown_by_.push_back(done.state);
+}
+
+// --- what the graph says ------------------------------------------------------------------------
+
+std::vector<TeamTurn> TeamSearch::run_to(StateId state) {
+  std::vector<StateId> path{state};
+  while (path.back() != 0) path.push_back(graph_->found_from[path.back()]);
+  std::ranges::reverse(path);
+  std::vector<TeamTurn> run;
+  std::vector<std::byte> bytes;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const bool is_missing =
+        expand(code_->decode(store_[path[i - 1]]), [&](const TeamState& next, const TeamTurn& it) {
+          code_->encode(next, bytes);
+          if (!store_.is(path[i], bytes)) return true;
+          run.push_back(it);
+          return false;
+        });
+    if (is_missing) throw std::logic_error("an edge of a search is not there any more");
+  }
+  return run;
+}
+
+// From such a state, the runs go on to states that they do not leave: there it can be seen best.
+void TeamSearch::find_trap() {
+  const std::vector<bool> can_end = graph_->can_end();
+  const auto first = std::ranges::find(can_end, false);
+  if (first == can_end.end()) return;
+  result_.can_always_end = false;
+  std::vector<StateId> trapped;
+  for (StateId id = 0; id < can_end.size(); ++id) {
+    if (!can_end[id]) trapped.push_back(id);
+  }
+  Components components(*graph_);
+  components.find(trapped, [](StateId, const Graph::Edge&) { return true; });
+  std::vector<bool> leads_out(components.count());
+  for (const StateId id : trapped) {
+    for (const Graph::Edge& it : graph_->edges_of(id)) {
+      if (components.of(it.to) != components.of(id)) leads_out[components.of(id)] = true;
+    }
+  }
+  const auto last =
+      std::ranges::find_if(trapped, [&](StateId id) { return !leads_out[components.of(id)]; });
+  TeamFinding finding{.name = "deadlock", .message = {}};
+  finding.run = run_to(*last);
+  const std::size_t periods = (finding.run.size() + robots_.size() - 1) / robots_.size();
+  finding.message =
+      fmt::format("after {}, the team can no longer end, whatever the leaves and the network do",
+                  counted(periods, "tick"));
+  finding.more = waits_in(*last);
+  result_.findings.push_back(std::move(finding));
+}
+
+std::vector<std::string> TeamSearch::waits_in(StateId state) {
+  std::vector<std::string> lines;
+  TeamState from = code_->decode(store_[state]);
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    const std::size_t turn = from.turn;
+    const RobotState& robot = from.robots[turn];
+    TeamState after = from;
+    std::string line = robot.has_ended() ? "has ended" : robot.runs() ? "" : "has not begun";
+    // In the order of answers, the last one goes on where a leaf may run.
+    expand(from, [&](const TeamState& next, const TeamTurn& it) {
+      after = next;
+      if (it.ticks && robot.runs()) line = robots_[turn]->why();
+      return true;
+    });
+    lines.push_back(fmt::format("{}: {}", name(turn), line.empty() ? "runs" : line));
+    from = std::move(after);
+  }
+  std::ranges::sort(lines);
+  return lines;
+}
+
+void TeamSearch::play(const std::vector<TeamTurn>& run, const AfterTurn& after) {
+  TeamState state = code_->first();
+  std::vector<std::byte> bytes;
+  for (const TeamTurn& turn : run) {
+    SearchedRobot& robot = *robots_[turn.robot];
+    TeamState next;
+    if (turn.ticks) {
+      begin_turn(state, turn);
+      robot.give(turn.answers);
+      next = after_turn(state, turn, robot.tick());
+    } else {
+      next = after_turn(state, turn, state.robots[turn.robot]);
+    }
+    after(turn, robot);
+    code_->encode(next, bytes);
+    state = code_->decode(bytes);
+  }
+}
+
+}  // namespace lockstep::host
