@@ -16,11 +16,15 @@ struct PoolWord {
     std::uint32_t number = 0;  // rises in a run with each ask; 0: none
     bool owns = false;         // it was granted
     std::uint64_t set = 0;     // base/core/resource_set.h
+
+    friend bool operator==(const Ask&, const Ask&) = default;
   };
   // Of the one that decides: an ask of another one is granted.
   struct Answer {
     std::uint64_t run = 0;  // of the one that has asked
     std::uint32_t number = 0;
+
+    friend bool operator==(const Answer&, const Answer&) = default;
   };
   static constexpr std::size_t kMostAnswers = 16;
 

@@ -7,6 +7,9 @@
 //   Success  it has completed it
 //   Failure  nothing is known of it now, so nobody moves: it is silent, or contradicts itself
 //
+// A child that has completed waits until all others have begun this round, which it ends: who comes
+// later would join the next one, for which this robot may never come.
+//
 // The first tick of an activation only announces it. What others say of this round is looked at
 // from the second one on, when they can know which round that is.
 #include <algorithm>
@@ -148,10 +151,20 @@ Status tick_in_step(NodeContext& context, NodeIndex self) {
     std::uint32_t place = 0;
     context.say(self, place, "waits for a member of the team that is not heard");
   }
+  const bool has_completed = context.status(child) == Status::Success;
   const bool is_held = !others.are_heard || waits_to_begin(context, self, others) ||
                        context.child_states<double>(self)[0] >= held_from;
-  if (is_held && !context.is_guard(child) && context.hold(child)) return Status::Running;
-  const Status status = context.tick(child);
+  if (has_completed) {
+    if (!others.are_heard || !others.have_begun) return Status::Running;
+  } else if (is_held && !context.is_guard(child) && context.hold(child)) {
+    return Status::Running;
+  }
+  const Status status = has_completed ? Status::Success : context.tick(child);
+  if (status == Status::Success && !others.have_begun) {
+    std::uint32_t place = 0;
+    context.say(self, place, "its child has completed: waits for all members to begin");
+    return Status::Running;
+  }
   if (status != Status::Running && !context.faulted()) context.halt_running_children(self);
   return status;
 }

@@ -154,9 +154,8 @@ class Expander {
     }
     warn_of_waiting(place, team->first, "asks for more of them",
                     "name all that it needs in the outer UseResources");
-    const auto number = members_[groups_.find(group.name)->second].size() - 1;
-    add_asker(definition_, trees_, group, trees_.groups[team->second], place,
-              static_cast<std::uint32_t>(number), report_);
+    add_asker(definition_, trees_, group, trees_.groups[team->second], place, askers_[&group]++,
+              report_);
   }
 
   void enter_subtree(const CheckedSubTree& subtree, std::string_view name, std::uint32_t place,
@@ -574,8 +573,9 @@ class Expander {
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
   std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
   std::map<std::size_t, const CheckedNode*> pool_of_team_;               // by the place of the team
-  StartTexts literals_;                 // those whose type no port gave yet
-  std::vector<std::uint32_t> guessed_;  // entries that stand-ins use
+  std::map<const CheckedNode*, std::uint32_t> askers_;  // how many nodes use it, of such pools
+  StartTexts literals_;                                 // those whose type no port gave yet
+  std::vector<std::uint32_t> guessed_;                  // entries that stand-ins use
   std::vector<Hint> hints_;
   std::map<std::uint32_t, Hint> first_hints_;                           // by their entry
   std::set<std::pair<std::string_view, std::string_view>> told_hints_;  // node, port

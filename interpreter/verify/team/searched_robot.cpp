@@ -1,5 +1,7 @@
 #include "verify/team/searched_robot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -106,8 +108,25 @@ RobotState SearchedRobot::tick() {
 }
 
 std::string SearchedRobot::why() {
-  team_.run_ended(moments_.now(stepper_.ticker()), {});
-  return team_.why();
+  const Moment& moment = moments_.now(stepper_.ticker());
+  team_.run_ended(moment, {});
+  if (!team_.why().empty()) return team_.why();
+  for (std::size_t i = 0; i < in_step_.size(); ++i) {
+    const auto& in_step = in_step_[i];
+    const bool waits = in_step && moment.status(in_step->node) == Status::Running &&
+                       !moment.ticked(in_step->node + 1);
+    if (!waits) continue;
+    const TeamMember& member = team_.teams()[i].member;
+    for (std::size_t other = 0; other < member.declaration().others.size(); ++other) {
+      const TeamMember::Known& known = member.known(other);
+      const std::string& name = member.declaration().others[other];
+      if (known.where == TeamMember::Where::NotBegun)
+        return fmt::format("waits for '{}', which has not begun", name);
+      if (known.progress < moment.used(in_step->node)[0])
+        return fmt::format("waits for '{}', which is at {}", name, known.progress);
+    }
+  }
+  return "";
 }
 
 void SearchedRobot::start(std::uint32_t leaf) {

@@ -83,7 +83,16 @@ TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t l
       names.asks.push_back(asks);
     }
   }
-  code_.emplace(names_, from_seconds(1 / rate), late);
+  const Nanoseconds period = from_seconds(1 / rate);
+  code_.emplace(names_, period, late);
+  for (const TeamNames& names : names_) {
+    for (const TeamDeclaration& it : names.teams) {
+      const auto periods = it.deadline.count() == 0
+                               ? kPeriodsOfSilence
+                               : std::max<std::int64_t>(kFewestPeriods, it.deadline / period);
+      may_be_silent_ |= late + 1 > periods;
+    }
+  }
   for (std::size_t robot = 0; robot < trees_.size(); ++robot) {
     robots_.push_back(std::make_unique<SearchedRobot>(trees_[robot].tree, trees_[robot].models,
                                                       names_[robot], robot, rate));
@@ -100,30 +109,35 @@ TeamSearchResult TeamSearch::search() {
   began_ = monotonic_now();
   result_.results.resize(robots_.size());
   std::vector<std::byte> bytes;
-  code_->encode(code_->first(), bytes);
-  store_.add(bytes);
-  graph_->found_from.push_back(0);
-  graph_->ends.push_back(false);
+  for (std::uint32_t order = 0; order < code_->orders().size(); ++order) {
+    TeamState first = code_->first();
+    first.order = order;
+    code_->encode(std::move(first), bytes);
+    graph_->found_from.push_back(store_.add(bytes).first);  // from itself
+    graph_->ends.push_back(false);
+  }
   for (StateId id = 0; id < store_.size() && !is_over(); ++id) {
     const TeamState from = code_->decode(store_[id]);
     if (!graph_->ends[id]) {
-      expand(from, [&](const TeamState& next, const TeamTurn& turn) {
+      expand(from, [&](TeamState&& next, const TeamTurn& turn) {
         ++result_.transitions;
-        code_->encode(next, bytes);
+        look({id, from, turn}, next);
+        const bool ends = std::ranges::all_of(next.robots, &RobotState::has_ended);
+        code_->encode(std::move(next), bytes);
         const auto [to, is_new] = store_.add(bytes);
         graph_->edges.push_back({to});
         if (is_new) {
           graph_->found_from.push_back(id);
-          graph_->ends.push_back(std::ranges::all_of(next.robots, &RobotState::has_ended));
+          graph_->ends.push_back(ends);
         }
-        look({id, from, turn}, next);
         return true;
       });
     }
     graph_->begins.push_back(graph_->edges.size());
   }
   result_.states = store_.size();
-  for (StateId id = static_cast<StateId>(store_.size() - 1); id != 0; id = graph_->found_from[id])
+  for (auto id = static_cast<StateId>(store_.size() - 1); graph_->found_from[id] != id;
+       id = graph_->found_from[id])
     ++result_.periods;
   result_.periods =
       static_cast<std::uint32_t>((result_.periods + robots_.size() - 1) / robots_.size());
@@ -167,7 +181,7 @@ bool TeamSearch::is_over() {
 
 // False: `visit` wants no more.
 bool TeamSearch::expand(const TeamState& from, const Visit& visit) {
-  TeamTurn turn{.robot = from.turn};
+  TeamTurn turn{.robot = code_->robot_of(from)};
   const RobotState& robot = from.robots[turn.robot];
   if (!robot.runs() && !visit(after_turn(from, turn, robot), turn)) return false;
   if (robot.has_ended()) return true;
@@ -220,20 +234,30 @@ std::vector<HeardWord> TeamSearch::words(const TeamState& from, const TeamTurn& 
 // All that the robot may have heard until now, of each other one the last word or none.
 std::vector<std::vector<TeamTurn::Hears>> TeamSearch::deliveries(const TeamState& from) const {
   std::vector<std::vector<TeamTurn::Hears>> all(1);
-  const RobotState& robot = from.robots[from.turn];
-  const TeamNames& names = names_[from.turn];
+  const std::size_t number = code_->robot_of(from);
+  const RobotState& robot = from.robots[number];
+  const TeamNames& names = names_[number];
   for (std::size_t team = 0; team < names.teams.size(); ++team) {
     for (std::size_t other = 0; other < names.others[team].size(); ++other) {
       const auto& link = names.others[team][other];
       if (!link) continue;
       const auto& said = from.robots[link->robot].said;
       const std::uint32_t known = robot.teams[team].ages[other];
+      const auto& last = robot.teams[team].member.others[other].last;
       std::vector<std::uint32_t> may;
       bool must = false;
-      for (std::uint32_t age = 0; age < std::min<std::size_t>(known, said.size()); ++age) {
+      // From the oldest one on: of words that are alike, the newest stands for all.
+      const TeamWord* before = last ? &last->word : nullptr;
+      for (auto age = static_cast<std::uint32_t>(std::min<std::size_t>(known, said.size()));
+           age-- > 0;) {
         if (said[age].empty()) continue;
+        const TeamWord& word = said[age][link->team];
+        const bool is_alike =
+            !may_be_silent_ && before != nullptr && TeamCode::are_alike(*before, word);
+        must |= age == code_->late() || (is_alike && may.empty());
+        if (is_alike && !may.empty()) may.pop_back();
         may.push_back(age);
-        must |= age == code_->late();
+        before = &word;
       }
       if (may.empty()) continue;
       std::vector<std::vector<TeamTurn::Hears>> more;
@@ -269,7 +293,7 @@ TeamState TeamSearch::after_turn(const TeamState& from, const TeamTurn& turn,
       }
     }
   }
-  next.turn = static_cast<std::uint32_t>((turn.robot + 1) % names_.size());
+  next.turn = static_cast<std::uint32_t>((from.turn + 1) % names_.size());
   return next;
 }
 
@@ -385,14 +409,15 @@ void TeamSearch::add_finding(std::string name, std::string message, const Done& 
 
 std::vector<TeamTurn> TeamSearch::run_to(StateId state) {
   std::vector<StateId> path{state};
-  while (path.back() != 0) path.push_back(graph_->found_from[path.back()]);
+  while (graph_->found_from[path.back()] != path.back())
+    path.push_back(graph_->found_from[path.back()]);
   std::ranges::reverse(path);
   std::vector<TeamTurn> run;
   std::vector<std::byte> bytes;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const bool is_missing =
-        expand(code_->decode(store_[path[i - 1]]), [&](const TeamState& next, const TeamTurn& it) {
-          code_->encode(next, bytes);
+        expand(code_->decode(store_[path[i - 1]]), [&](TeamState&& next, const TeamTurn& it) {
+          code_->encode(std::move(next), bytes);
           if (!store_.is(path[i], bytes)) return true;
           run.push_back(it);
           return false;
@@ -436,13 +461,13 @@ std::vector<std::string> TeamSearch::waits_in(StateId state) {
   std::vector<std::string> lines;
   TeamState from = code_->decode(store_[state]);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    const std::size_t turn = from.turn;
+    const std::size_t turn = code_->robot_of(from);
     const RobotState& robot = from.robots[turn];
     TeamState after = from;
     std::string line = robot.has_ended() ? "has ended" : robot.runs() ? "" : "has not begun";
     // In the order of answers, the last one goes on where a leaf may run.
-    expand(from, [&](const TeamState& next, const TeamTurn& it) {
-      after = next;
+    expand(from, [&](TeamState&& next, const TeamTurn& it) {
+      after = std::move(next);
       if (it.ticks && robot.runs()) line = robots_[turn]->why();
       return true;
     });
@@ -467,7 +492,7 @@ void TeamSearch::play(const std::vector<TeamTurn>& run, const AfterTurn& after) 
       next = after_turn(state, turn, state.robots[turn.robot]);
     }
     after(turn, robot);
-    code_->encode(next, bytes);
+    code_->encode(std::move(next), bytes);
     state = code_->decode(bytes);
   }
 }

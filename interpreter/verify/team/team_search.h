@@ -1,7 +1,8 @@
 // Runs the trees of a team together, from every state that they can reach with every answer of
 // their leaves and every delay of their words: breadth first.
 //
-// Each robot begins in any period, and has one turn in each period from then on. A word is heard in
+// Each robot begins in any period, and has one turn in each period from then on, in any order that
+// does not change. A word is heard in
 // that period or in a later one, at most `late` turns of its robot after it was said, or a newer
 // one in its place. A robot that has ended says nothing more.
 #pragma once
@@ -45,6 +46,7 @@ struct TeamFinding {
   std::string name, message;
   std::vector<std::string> more = {};
   std::vector<TeamTurn> run = {};  // that shows it
+  std::string accepted = {};       // why the leaf model accepts it; "": it does not
 };
 
 struct TeamSearchResult {
@@ -86,7 +88,7 @@ class TeamSearch {
 
  private:
   struct Graph;
-  using Visit = std::function<bool(const TeamState& next, const TeamTurn& turn)>;
+  using Visit = std::function<bool(TeamState&& next, const TeamTurn& turn)>;
 
   bool expand(const TeamState& from, const Visit& visit);
   bool tick(const TeamState& from, TeamTurn& turn, const Visit& visit);
@@ -115,6 +117,7 @@ class TeamSearch {
   const double rate_;
   const SearchLimits limits_;
   std::optional<TeamCode> code_;
+  bool may_be_silent_ = false;  // words may be so late that a robot is
   std::vector<std::unique_ptr<SearchedRobot>> robots_;
   StateStore store_;
   std::unique_ptr<Graph> graph_;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 namespace lockstep::host {
 namespace {
@@ -57,19 +59,15 @@ class TeamReader {
   std::size_t at_ = 0;
 };
 
-// Brings numbers to 1, 2, 3, ... in their order; 0 stays.
+// Brings numbers, of which none is 0, to 1, 2, 3, ... in their order.
 template <class T>
 void rank(const std::vector<T*>& numbers) {
   std::vector<T> all;
-  for (const T* it : numbers) {
-    if (*it != 0) all.push_back(*it);
-  }
+  for (const T* it : numbers) all.push_back(*it);
   std::ranges::sort(all);
   const auto rest = std::ranges::unique(all);
   all.erase(rest.begin(), rest.end());
-  for (T* it : numbers) {
-    if (*it != 0) *it = static_cast<T>(std::ranges::lower_bound(all, *it) - all.begin()) + 1;
-  }
+  for (T* it : numbers) *it = static_cast<T>(std::ranges::lower_bound(all, *it) - all.begin()) + 1;
 }
 
 // The words of a member of a team that anyone still knows.
@@ -104,42 +102,50 @@ TeamCode::TeamCode(std::span<const TeamNames> names, Nanoseconds period, std::ui
       members.push_back({robot, team});
     }
   }
-}
-
-TeamWord TeamCode::fresh_word(TeamLink of) const {
-  const TeamDeclaration& team = names_[of.robot].teams[of.team];
-  TeamWord word = TeamMember(team, run_of(of.robot)).memory().own;
-  word.pool = TeamPool(team, run_of(of.robot)).memory().own;
-  word.number = 1;
-  return word;
-}
-
-RobotState TeamCode::fresh(std::size_t robot) const {
-  RobotState state;
-  for (const TeamDeclaration& team : names_[robot].teams) {
-    state.teams.push_back({.member = TeamMember(team, run_of(robot)).memory(),
-                           .pool = TeamPool(team, run_of(robot)).memory(),
-                           .ages = std::vector<std::uint32_t>(team.others.size(), late_ + 1)});
+  for (std::size_t robot = 0; robot < names_.size(); ++robot) {
+    RobotState& state = first_.robots.emplace_back();
+    auto& words = words_.emplace_back();
+    for (const TeamDeclaration& team : names_[robot].teams) {
+      const TeamPart& part = state.teams.emplace_back(
+          TeamPart{.member = TeamMember(team, run_of(robot)).memory(),
+                   .pool = TeamPool(team, run_of(robot)).memory(),
+                   .ages = std::vector<std::uint32_t>(team.others.size(), late_ + 1)});
+      TeamWord& word = words.emplace_back(part.member.own);
+      word.pool = part.pool.own;
+      word.number = 1;
+    }
+    state.said.resize(late_ + 1);
   }
-  state.said.resize(late_ + 1);
-  return state;
+  std::vector<std::size_t> order(names_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  do {
+    orders_.push_back(order);
+  } while (order.size() <= kMostInAnyOrder &&
+           std::next_permutation(order.begin() + 1, order.end()));
 }
 
-TeamState TeamCode::first() const {
-  TeamState state;
-  for (std::size_t robot = 0; robot < names_.size(); ++robot) state.robots.push_back(fresh(robot));
-  return state;
+bool TeamCode::are_alike(const TeamWord& one, const TeamWord& other) {
+  const auto all = [](const TeamWord& it) {
+    return std::tie(it.round, it.passed, it.is_in, it.progress, it.pool.term, it.pool.decider,
+                    it.pool.follows, it.pool.has_left);
+  };
+  const auto answers = [](const TeamWord& it) {
+    return std::span(it.pool.answers).first(it.pool.answer_count);
+  };
+  return all(one) == all(other) && one.pool.asks == other.pool.asks &&
+         std::ranges::equal(answers(one), answers(other));
 }
 
-void TeamCode::encode(TeamState state, std::vector<std::byte>& into) const {
+void TeamCode::encode(TeamState&& state, std::vector<std::byte>& into) const {
   normalize(state);
   into.clear();
+  into.reserve(512);
   TeamWriter writer(into);
   code(writer, state);
 }
 
 TeamState TeamCode::decode(std::span<const std::byte> from) const {
-  TeamState state = first();
+  TeamState state = first_;
   TeamReader reader(from);
   code(reader, state);
   return state;
@@ -147,6 +153,7 @@ TeamState TeamCode::decode(std::span<const std::byte> from) const {
 
 template <class Coder>
 void TeamCode::code(Coder& coder, TeamState& state) const {
+  coder.number(state.order);
   coder.number(state.turn);
   for (std::size_t robot = 0; robot < names_.size(); ++robot)
     code(coder, state.robots[robot], names_[robot]);
@@ -252,7 +259,7 @@ void TeamCode::code(Coder& coder, TeamWord& word, std::size_t asks) const {
 void TeamCode::normalize(TeamState& state) const {
   for (std::size_t robot = 0; robot < state.robots.size(); ++robot) {
     RobotState& it = state.robots[robot];
-    if (it.phase == RobotState::Phase::Waiting) it = fresh(robot);
+    if (it.phase == RobotState::Phase::Waiting) it = first_.robots[robot];
     for (std::size_t team = 0; team < it.teams.size(); ++team) {
       TeamPart& part = it.teams[team];
       const TeamDeclaration& declaration = names_[robot].teams[team];
@@ -303,20 +310,25 @@ void TeamCode::normalize_rounds(TeamState& state, std::span<const TeamLink> team
 }
 
 void TeamCode::normalize_asks(TeamState& state, std::span<const TeamLink> team) const {
+  std::vector<std::uint32_t*> numbers;
+  const auto add = [&](std::uint32_t& number) {
+    if (number != 0) numbers.push_back(&number);
+  };
   for (const TeamLink& of : team) {
     if (names_[of.robot].teams[of.team].pool_hash == 0) continue;
-    std::vector<std::uint32_t*> numbers;
+    const std::size_t asks = names_[of.robot].asks[of.team];
     const auto add_asks = [&](PoolWord& word) {
-      for (PoolWord::Ask& it : word.asks) numbers.push_back(&it.number);
+      for (std::size_t i = 0; i < asks; ++i) add(word.asks[i].number);
     };
     const auto add_answers = [&](PoolWord& word) {
       for (std::size_t i = 0; i < word.answer_count; ++i) {
-        if (word.answers[i].run == run_of(of.robot)) numbers.push_back(&word.answers[i].number);
+        if (word.answers[i].run == run_of(of.robot)) add(word.answers[i].number);
       }
     };
+    numbers.clear();
     TeamPool::Memory& own = state.robots[of.robot].teams[of.team].pool;
     add_asks(own.own);
-    numbers.push_back(&own.last_number);
+    add(own.last_number);
     for_each_word(state, names_, of, [&](TeamWord& it) { add_asks(it.pool); });
     for (const TeamLink& by : team) {
       TeamPool::Memory& pool = state.robots[by.robot].teams[by.team].pool;
@@ -324,18 +336,19 @@ void TeamCode::normalize_asks(TeamState& state, std::span<const TeamLink> team) 
       for_each_word(state, names_, by, [&](TeamWord& it) { add_answers(it.pool); });
       for (TeamPool::Robot& robot : pool.robots) {
         if (robot.run != run_of(of.robot)) continue;
-        for (TeamPool::Ask& it : robot.asks)
-          numbers.push_back(&it.said.number), numbers.push_back(&it.granted);
+        for (std::size_t i = 0; i < asks; ++i)
+          add(robot.asks[i].said.number), add(robot.asks[i].granted);
       }
     }
     rank(numbers);
     std::vector<std::uint64_t*> since;
     for (TeamPool::Robot& robot : own.robots) {
-      for (TeamPool::Ask& it : robot.asks) since.push_back(&it.since);
+      for (TeamPool::Ask& it : robot.asks) {
+        if (it.since != 0) since.push_back(&it.since);
+      }
     }
-    own.asks_heard = 0;
     rank(since);
-    for (const std::uint64_t* it : since) own.asks_heard = std::max(own.asks_heard, *it);
+    own.asks_heard = since.size();
   }
 }
 

@@ -1,5 +1,6 @@
 // The state of a team between two turns of its robots, as bytes that can be compared. In each
-// period, each robot has one turn, in the order of the list: it hears words, and ticks its tree.
+// period, each robot has one turn: it hears words, and ticks its tree. The turns come in an order
+// that does not change.
 //
 // Numbers that only grow are brought to the smallest ones with the same order: rounds of the team,
 // asks for resources. So a team that works in a loop has finitely many states.
@@ -54,8 +55,9 @@ struct RobotState {
 };
 
 struct TeamState {
-  std::vector<RobotState> robots;
-  std::uint32_t turn = 0;  // of this robot
+  std::vector<RobotState> robots = {};
+  std::uint32_t order = 0;  // of turns: TeamCode::orders
+  std::uint32_t turn = 0;   // the place in it
 };
 
 class TeamCode {
@@ -67,10 +69,17 @@ class TeamCode {
   // The run of a robot, as its words have it.
   static std::uint64_t run_of(std::size_t robot) { return robot + 1; }
 
-  TeamState first() const;
-  void encode(TeamState state, std::vector<std::byte>& into) const;
+  const TeamState& first() const { return first_; }
+  // The orders in which robots may have their turns, from the first robot on: all of them, or of
+  // more robots than kMostInAnyOrder that of the list.
+  static constexpr std::size_t kMostInAnyOrder = 5;
+  const std::vector<std::vector<std::size_t>>& orders() const { return orders_; }
+  std::size_t robot_of(const TeamState& state) const { return orders_[state.order][state.turn]; }
+  void encode(TeamState&& state, std::vector<std::byte>& into) const;
   TeamState decode(std::span<const std::byte> from) const;
   std::uint32_t late() const { return late_; }
+  // Whether all later words of its robot can be heard in the same ways after either of them.
+  static bool are_alike(const TeamWord& one, const TeamWord& other);
 
  private:
   void normalize(TeamState& state) const;
@@ -84,13 +93,15 @@ class TeamCode {
   void code(Coder& coder, TeamPart& part, const TeamNames& names, std::size_t team) const;
   template <class Coder>
   void code(Coder& coder, TeamWord& word, std::size_t asks) const;
-  TeamWord fresh_word(TeamLink of) const;
-  RobotState fresh(std::size_t robot) const;
+  const TeamWord& fresh_word(TeamLink of) const { return words_[of.robot][of.team]; }
 
   const std::span<const TeamNames> names_;
   const Nanoseconds period_;
   const std::uint32_t late_;
   std::vector<std::vector<TeamLink>> teams_;  // of the robots, the members of each
+  std::vector<std::vector<TeamWord>> words_;  // the first ones
+  TeamState first_;
+  std::vector<std::vector<std::size_t>> orders_;
 };
 
 }  // namespace lockstep::host

@@ -8,67 +8,139 @@
 #include "base/core/wording.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/tools/verify/verify_input.h"
+#include "team/team_run.h"
+#include "tree/pace.h"
+#include "verify/verifiable.h"
 
 namespace lockstep::host {
-
-tl::expected<LoadedRobot, int> load_robot(const std::string& text, LoadCommandOptions load,
-                                          std::shared_ptr<PluginSet> plugins) {
-  const auto comma = text.find(',');
-  const std::string file = text.substr(0, comma);
-  for (auto at = comma; at != std::string::npos;) {
-    const auto next = text.find(',', at + 1);
-    load.arguments.push_back(text.substr(at + 1, next - at - 1));
-    at = next;
-  }
-  Diagnostics diagnostics;
-  auto loaded = load_given(file, load, diagnostics, std::move(plugins));
-  print_diagnostics(diagnostics, Severity::Warning);
-  if (!loaded) return tl::unexpected(exit_code_of(loaded.error()));
-  return LoadedRobot{file, std::move(*loaded)};
-}
-
 namespace {
 
-bool is_member(const TeamsOfRobot& robot, const std::string& team, const std::string& name) {
-  return std::ranges::any_of(
-      robot, [&](const TeamDeclaration& it) { return it.team == team && it.self == name; });
+// "carry.xml,me=left".
+std::string take_arguments(const std::string& text, std::vector<std::string>& arguments) {
+  const auto comma = text.find(',');
+  for (auto at = comma; at != std::string::npos;) {
+    const auto next = text.find(',', at + 1);
+    arguments.push_back(text.substr(at + 1, next - at - 1));
+    at = next;
+  }
+  return text.substr(0, comma);
 }
 
-void note_missing(std::span<const TeamsOfRobot> robots) {
+bool is_member(const RobotOfTeam& robot, const std::string& team, const std::string& name) {
+  return std::ranges::any_of(
+      robot.teams, [&](const TeamDeclaration& it) { return it.team == team && it.self == name; });
+}
+
+// A search cannot know what an entry has in a robot that asks for it.
+void add_problems(const Tree& tree, std::vector<NodeProblem>& problems) {
+  for (const RobotLeaf& it : robot_leaves(tree)) {
+    if (!it.asks || it.wanted) continue;
+    problems.push_back({tree.labels[tree.leaves[it.leaf].node].parent,
+                        "an entry says which shared resources it uses, so robots cannot be "
+                        "verified together",
+                        "name them here"});
+  }
+}
+
+bool is_at(const Diagnostic& one, const Diagnostic& other) {
+  return one.code.text() == other.code.text() && one.location.file == other.location.file &&
+         one.location.line == other.location.line && one.location.column == other.location.column;
+}
+
+// Whether there are errors. A row of the leaf model need not fit all robots.
+bool report(const std::vector<Diagnostics>& said) {
+  const auto is_said_by_all = [&](const Diagnostic& wanted) {
+    return std::ranges::all_of(said, [&](const Diagnostics& all) {
+      return std::ranges::any_of(all.all(),
+                                 [&](const Diagnostic& it) { return is_at(it, wanted); });
+    });
+  };
+  bool has_errors = false;
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    Diagnostics kept;
+    for (const Diagnostic& it : said[i].all()) {
+      const bool is_of_row = it.code.text() == "unknown-leaf";
+      if (!is_of_row || (i == 0 && is_said_by_all(it))) kept.add(it);
+    }
+    has_errors |= kept.has_errors();
+    print_diagnostics(kept, Severity::Warning);
+  }
+  return has_errors;
+}
+
+}  // namespace
+
+int TeamOfRobots::load(const TeamFiles& files) {
+  std::unique_ptr<LeafFile> model;
+  if (!files.leaves.empty()) {
+    Diagnostics diagnostics;
+    std::string text;
+    auto read = read_leaves(files.leaves, text, diagnostics);
+    print_diagnostics(diagnostics, Severity::Warning);
+    if (!read || diagnostics.has_errors()) return kExitInvalidTree;
+    model = std::move(*read);
+  }
+  if (model != nullptr) rate_ = model->rate.value_or(rate_);
+  rate_ = files.rate.value_or(rate_);
+  std::vector<Diagnostics> said(files.robots.size());
+  for (std::size_t i = 0; i < files.robots.size(); ++i) {
+    RobotOfTeam& robot = robots_.emplace_back();
+    LoadCommandOptions load = files.load;
+    robot.file = take_arguments(files.robots[i], load.arguments);
+    Diagnostics diagnostics;
+    auto loaded = load_given(robot.file, load, diagnostics);
+    print_diagnostics(diagnostics, Severity::Warning);
+    if (!loaded) return exit_code_of(loaded.error());
+    if (model != nullptr || files.uses_model) {
+      use_model(robot, std::move(*loaded), model.get(), said[i]);
+    } else {
+      robot.runnable = make_runnable(std::move(*loaded));
+    }
+    robot.teams = teams_of(robot.runnable.tree, from_seconds(1 / rate_));
+  }
+  return report(said) ? kExitInvalidTree : check();
+}
+
+void TeamOfRobots::use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file,
+                             Diagnostics& said) {
+  const Places places(loaded);
+  robot.played.take_over(loaded.definition, stands_for_robots);
+  robot.paces = paces(loaded.definition);
+  ignore_pace(loaded.definition);
+  robot.runnable = make_runnable(std::move(loaded));
+  std::vector<NodeProblem> problems = not_verifiable(robot.runnable.tree);
+  add_problems(robot.runnable.tree, problems);
+  robot.models = make_models(robot.runnable.tree, file, said, problems);
+  places.report(problems, said);
+}
+
+int TeamOfRobots::check() const {
+  for (const RobotOfTeam& it : robots_) {
+    if (!it.teams.empty()) continue;
+    print_error(fmt::format("{}: its tree is in no team", printable(it.file)),
+                "declare one: <team name=\"…\" members=\"…\"/>, and an InStep that names it");
+    return kExitInvalidTree;
+  }
   std::set<std::string> told;
-  for (const TeamsOfRobot& robot : robots) {
-    for (const TeamDeclaration& team : robot) {
+  for (const RobotOfTeam& robot : robots_) {
+    for (const TeamDeclaration& team : robot.teams) {
+      const auto count = std::ranges::count_if(
+          robots_, [&](const RobotOfTeam& it) { return is_member(it, team.team, team.self); });
+      if (count > 1) {
+        print_error(fmt::format("two robots are '{}'", printable(team.self)),
+                    "give each its argument, such as carry.xml,me=left carry.xml,me=right");
+        return kExitUsage;
+      }
       for (const std::string& name : team.others) {
         const bool is_there = std::ranges::any_of(
-            robots, [&](const auto& other) { return is_member(other, team.team, name); });
+            robots_, [&](const RobotOfTeam& it) { return is_member(it, team.team, name); });
         if (is_there || !told.insert(team.team + '/' + name).second) continue;
         print_note(fmt::format("no file is '{}' of the team '{}', so the others wait for it",
                                printable(name), printable(team.team)));
       }
     }
   }
-}
-
-}  // namespace
-
-int check_teams(std::span<const TeamsOfRobot> robots, std::span<const std::string> files) {
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (!robots[i].empty()) continue;
-    print_error(fmt::format("{}: its tree is in no team", printable(files[i])),
-                "declare one: <team name=\"…\" members=\"…\"/>, and an InStep that names it");
-    return kExitInvalidTree;
-  }
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      for (const TeamDeclaration& it : robots[i]) {
-        if (!is_member(robots[k], it.team, it.self)) continue;
-        print_error(fmt::format("two robots are '{}'", printable(it.self)),
-                    "give each its argument, such as carry.xml,me=left carry.xml,me=right");
-        return kExitUsage;
-      }
-    }
-  }
-  note_missing(robots);
   return kExitSuccess;
 }
 

@@ -1,27 +1,54 @@
-// The robots of a team as a command takes them: a tree file of each, with arguments of its own.
+// The robots of a team as a command takes them: a tree file of each, with arguments of its own, and
+// a leaf model of all.
 #pragma once
 
-#include <span>
+#include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/load/load_options.h"
+#include "leaves/models.h"
+#include "leaves/play/played_leaves.h"
 #include "team/member.h"
 
 namespace lockstep::host {
 
-struct LoadedRobot {
-  std::string file;
-  Loaded loaded;
-};
-// Of "carry.xml,me=left". Otherwise an exit code; what is wrong is reported.
-tl::expected<LoadedRobot, int> load_robot(const std::string& text, LoadCommandOptions load,
-                                          std::shared_ptr<PluginSet> plugins);
+struct RobotOfTeam {
+  std::string file = {};  // of its tree
+  Runnable runnable = {};
+  std::vector<TeamDeclaration> teams = {};  // at least one
+  // With a leaf model: its leaves, but those that stand for other robots.
+  PlayedLeaves played = {};
+  LeafModels models = {};
+  bool paces = false;
 
-// The teams of one robot, and the file that declares them.
-using TeamsOfRobot = std::vector<TeamDeclaration>;
-// An exit code: no robot is without a team, and no two have one name. It notes who is missing: the
-// others wait for them.
-int check_teams(std::span<const TeamsOfRobot> robots, std::span<const std::string> files);
+  const std::string& name() const { return teams.front().self; }
+};
+
+struct TeamFiles {
+  LoadCommandOptions load = {};
+  std::vector<std::string> robots = {};  // FILE[,ARGUMENT=VALUE...]
+  std::string leaves = {};               // a leaf model for all of them; "": none
+  std::optional<double> rate = {};       // nothing: that of the leaf model
+  bool uses_model = false;               // also one that says nothing
+};
+
+class TeamOfRobots {
+ public:
+  // An exit code; what is wrong is reported: a robot that is in no team, two with one name.
+  int load(const TeamFiles& files);
+
+  std::deque<RobotOfTeam>& robots() { return robots_; }
+  const std::deque<RobotOfTeam>& robots() const { return robots_; }
+  double rate() const { return rate_; }
+
+ private:
+  static void use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file, Diagnostics& said);
+  int check() const;
+
+  std::deque<RobotOfTeam> robots_;
+  double rate_ = kModelRate;
+};
 
 }  // namespace lockstep::host

@@ -29,6 +29,7 @@ namespace {
 struct TeamOptions {
   LoadCommandOptions load;
   std::vector<std::string> robots;  // FILE[,ARGUMENT=VALUE...]
+  std::string leaves;               // a leaf model; "": those of plugins
   double rate = 100;
   std::uint64_t seed = 0;
   std::optional<double> timeout;
@@ -61,37 +62,30 @@ std::optional<NetworkOptions> network_options(const TeamOptions& options) {
   return network;
 }
 
-// One of them, from its file to its end.
+// One of them, until its end.
 class Robot {
  public:
-  // An exit code; what is wrong is reported.
-  int load(const TeamOptions& options, const std::string& text) {
-    auto loaded = load_robot(text, options.load, std::make_shared<PluginSet>());
-    if (!loaded) return loaded.error();
-    file_ = loaded->file;
-    runnable_ = make_runnable(std::move(loaded->loaded));
-    teams_ = teams_of(runnable_.tree, from_seconds(1 / options.rate));
-    return kExitSuccess;
+  explicit Robot(RobotOfTeam& robot, bool uses_model) : robot_(robot) {
+    if (uses_model) robot.played.set_models(robot.runnable.tree, robot.models);
   }
 
-  const TeamsOfRobot& teams() const { return teams_; }
-  const std::string& file() const { return file_; }
-  std::string name() const { return teams_.front().self; }
-  PluginSet& plugins() const { return *runnable_.plugins; }
+  const std::string& name() const { return robot_.name(); }
+  PluginSet& plugins() const { return *robot_.runnable.plugins; }
 
   void connect(SimulatedNetwork& network, Turns& turns, std::size_t number,
                const TeamOptions& options) {
     clock_.emplace(turns, number);
     const std::uint64_t run = options.seed << 8u | (number + 1);  // of another seed, another one
-    team_.emplace(runnable_.tree, teams_, run, network.join(teams_, *clock_), *clock_);
-    const Shape shape = shape_of(runnable_.tree);
+    team_.emplace(robot_.runnable.tree, robot_.teams, run, network.join(robot_.teams, *clock_),
+                  *clock_);
+    const Shape shape = shape_of(robot_.runnable.tree);
     statistics_.emplace(shape);
     if (options.record.empty()) return;
     RecorderOptions recorder;
     recorder.path = options.record + '/' + name() + ".jsonl";
-    recorder.run = {.tree_file = file_, .rate_hz = options.rate, .seed = options.seed};
-    recorder.run.arguments = values_of(runnable_.arguments);
-    recorder.run.values = runnable_.values;
+    recorder.run = {.tree_file = robot_.file, .rate_hz = options.rate, .seed = options.seed};
+    recorder.run.arguments = values_of(robot_.runnable.arguments);
+    recorder.run.values = robot_.runnable.values;
     recorder.run.run = TeamRun::short_run(run);
     recorder_.emplace(shape, std::move(recorder));
   }
@@ -101,7 +95,7 @@ class Robot {
     turns.enter(number, from_seconds(start));
     {
       team_->use_here();
-      Run run(runnable_.tree,
+      Run run(robot_.runnable.tree,
               {.seed = options.seed + number, .rate = options.rate, .virtual_time = true});
       LoopOptions loop;
       loop.rate = options.rate;
@@ -125,9 +119,7 @@ class Robot {
   std::string recording_error() const { return recorder_ ? recorder_->error() : ""; }
 
  private:
-  std::string file_;
-  Runnable runnable_;
-  TeamsOfRobot teams_;
+  RobotOfTeam& robot_;
   std::optional<TurnClock> clock_;
   std::optional<TeamRun> team_;
   std::optional<Statistics> statistics_;
@@ -171,18 +163,15 @@ int simulate(const TeamOptions& options) {
   keep_stdout_for_results();
   const auto network_of = network_options(options);
   if (!network_of) return kExitUsage;
+  TeamOfRobots team;
+  const int wrong = team.load({.load = options.load,
+                               .robots = options.robots,
+                               .leaves = options.leaves,
+                               .rate = options.rate});
+  if (wrong != kExitSuccess) return wrong;
   std::vector<std::unique_ptr<Robot>> robots;
-  for (const std::string& text : options.robots) {
-    const int failed = robots.emplace_back(std::make_unique<Robot>())->load(options, text);
-    if (failed != kExitSuccess) return failed;
-  }
-  std::vector<TeamsOfRobot> teams;
-  std::vector<std::string> files;
-  for (const auto& it : robots) {
-    teams.push_back(it->teams());
-    files.push_back(it->file());
-  }
-  if (const int wrong = check_teams(teams, files); wrong != kExitSuccess) return wrong;
+  for (RobotOfTeam& it : team.robots())
+    robots.push_back(std::make_unique<Robot>(it, !options.leaves.empty()));
   if (!options.starts.empty() && options.starts.size() != robots.size()) {
     print_error("--start: a time for each robot, in their order");
     return kExitUsage;
@@ -224,6 +213,9 @@ std::function<int()> define_team(CLI::App& app) {
                  "The tree file of each robot, with arguments of its own: carry.xml,me=left")
       ->required()
       ->type_name("FILE[,ARG=VALUE]");
+  app.add_option("--leaves", options->leaves,
+                 "A leaf model: the leaves of all robots do what it allows, by chance")
+      ->type_name("FILE");
   app.add_option("--rate", options->rate, "Ticks per second, of each")
       ->check(number_between(0.001, 100000))
       ->capture_default_str();

@@ -144,16 +144,17 @@ class VerifyCommand {
   int run_team() {
     StopSignals::install();
     SearchLine line;
-    TeamVerifyOptions team{.load = options_.load,
-                           .robots = options_.more,
-                           .leaves = options_.leaves,
-                           .rate = options_.rate,
+    TeamVerifyOptions team{.files = {.load = options_.load,
+                                     .robots = options_.more,
+                                     .leaves = options_.leaves,
+                                     .rate = options_.rate,
+                                     .uses_model = true},
                            .late = options_.late.value_or(kUsuallyLate),
                            .limits = limits(line),
                            .search_ended = [&line] { line.clear(); },
                            .out = options_.out,
                            .json = options_.json || options_.format == "json"};
-    team.robots.insert(team.robots.begin(), options_.tree);
+    team.files.robots.insert(team.files.robots.begin(), options_.tree);
     return verify_team(team);
   }
 

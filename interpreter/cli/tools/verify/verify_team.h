@@ -2,20 +2,15 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "cli/load/load_options.h"
+#include "cli/tools/team/robot_files.h"
 #include "verify/search_limits.h"
 
 namespace lockstep::host {
 
 struct TeamVerifyOptions {
-  LoadCommandOptions load;
-  std::vector<std::string> robots;  // FILE[,ARGUMENT=VALUE...]
-  std::string leaves;               // of all robots; "": none
-  std::optional<double> rate;
+  TeamFiles files;
   std::uint32_t late = 0;
   SearchLimits limits;
   std::function<void()> search_ended;
