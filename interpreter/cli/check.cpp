@@ -21,6 +21,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "language/document/file.h"
+#include "team/team_run.h"
 #include "verify/check/advice.h"
 
 namespace lockstep::host {
@@ -177,6 +178,41 @@ class Told {
   std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>> told_;
 };
 
+// Robots of a team run different trees, which must declare it in the same way. Where files are
+// checked together, one may be of another mission with a team of that name: so it is only noted.
+class TeamsOfFiles {
+ public:
+  void compare(const Loaded& loaded, Diagnostics& diagnostics) {
+    const Sources& sources = loaded.project->sources;
+    for (const DefinitionNode& node : loaded.definition.nodes) {
+      if (!stands_for_robots(*node.type)) continue;
+      const auto* const team = loaded.definition.constant(node, "team");
+      const auto* const declaration = loaded.definition.constant(node, "declaration");
+      if (declaration == nullptr) continue;  // it is for resources
+      const SourceLocation place = sources.locate(node.place);
+      const auto& name = std::get<std::string>(*team);
+      const auto& text = std::get<std::string>(*declaration);
+      const auto [known, is_new] = known_.emplace(name, Known{place, text});
+      if (is_new || known->second.text == text || known->second.place.file == place.file) continue;
+      diagnostics.note(
+          "team-differs"_code, place,
+          fmt::format("the team '{}' is declared in another way than at {}: '{}' here, "
+                      "'{}' there",
+                      brief(name), to_text(known->second.place), brief(text),
+                      brief(known->second.text)),
+          "robots with these trees do not move together");
+      return;
+    }
+  }
+
+ private:
+  struct Known {
+    SourceLocation place;
+    std::string text;
+  };
+  std::map<std::string, Known> known_;
+};
+
 // The files, each with what it takes from the others.
 struct CheckedFiles {
   Checked checked;
@@ -255,6 +291,7 @@ class Checking {
     std::string cuts;
     if (loaded) {
       if (options_.cuts) cuts = cuts_text(loaded->definition);
+      teams_.compare(*loaded, diagnostics);
       add_advice(*loaded->project, std::move(loaded->definition), AdviceEffort::Certain,
                  diagnostics);
     }
@@ -281,6 +318,7 @@ class Checking {
   const CheckWriter write_;
   std::vector<MendableMessage> all_;
   Told told_;
+  TeamsOfFiles teams_;
   int worst_ = kExitSuccess, written_ = kExitSuccess;
 };
 

@@ -292,3 +292,165 @@ TEST_CASE("check: a pool of a team that cannot be shared is refused") {
   for (int i = 0; i < 9; ++i) nine += use;
   CHECK(contains(message(pool, nine + "</Parallel>"), "more than 8 nodes use the pool 'p'"));
 }
+
+namespace {
+
+// What the leaves of these robots do: a motion that ends.
+const std::string kMotions =
+    "<leaves lockstep=\"1\" rate=\"10\"><leaf of=\"Advance\" result=\"success\"/></leaves>\n";
+
+Outcome verify(std::vector<std::string> robots, const TemporaryDirectory& directory,
+               std::vector<std::string> more = {}) {
+  std::vector<std::string> call{"verify", "--out", directory.path("")};
+  for (const std::string& it : robots) call.push_back(it);
+  for (const std::string& it : more) call.push_back(it);
+  return run_lockstep(call);
+}
+
+std::vector<std::string> both(const std::string& tree) {
+  return {tree + ",me=left", tree + ",me=right"};
+}
+
+}  // namespace
+
+TEST_CASE("lockstep verify: the trees of a team are verified together") {
+  const TemporaryDirectory directory;
+  const std::string leaves = directory.file("m.leaves.xml", kMotions);
+  for (const char* const late : {"0", "1", "2"}) {
+    INFO(late);
+    const Outcome good = verify(both(kCarry), directory, {"--leaves", leaves, "--late", late});
+    CHECK(good.code == 0);
+    CHECK(contains(good.out, "2 robots, leaf model"));
+    CHECK(contains(good.out, "  left                       success\n"));
+    CHECK(contains(good.out, "  can always end             yes\n"));
+    CHECK(contains(good.out, "  barriers passed too early  never\n"));
+    CHECK(contains(good.out, "verified for all behaviors that are assumed\n"));
+  }
+  const Outcome as_json = verify(both(kCarry), directory, {"--leaves", leaves, "--json"});
+  const auto parsed = parse_json(as_json.out);
+  CHECK(parsed["results"]["right"].dump() == "[\"success\"]");
+  CHECK(parsed["facts"]["can always end"] == "yes");
+  CHECK(parsed["findings"].empty());
+}
+
+TEST_CASE(
+    "lockstep verify: a team of which one robot may fail can no longer end, with recordings") {
+  const TemporaryDirectory directory;
+  const Outcome alone = verify(both(kCarry), directory);
+  CHECK(alone.code == 1);
+  CHECK(contains(alone.out, "finding deadlock: after "));
+  CHECK(contains(alone.out, "    left: has ended\n    right: 'left': not heard for 0."));
+  const Outcome events =
+      run_lockstep({"log", "events", directory.path("carry.deadlock.left.jsonl")});
+  CHECK(contains(events.out, "failure  Carry/InStep/lift"));
+  const Outcome merged = run_lockstep({"log", "merge", directory.path("carry.deadlock.left.jsonl"),
+                                       directory.path("carry.deadlock.right.jsonl"), "--out",
+                                       directory.path("team.jsonl")});
+  CHECK(merged.code == 0);
+
+  // What the user intends is accepted, and with give_up the other one fails as well.
+  const std::string accepting =
+      directory.file("a.leaves.xml",
+                     "<leaves lockstep=\"1\"><accept finding=\"deadlock\" because=\"a person "
+                     "comes\"/></leaves>\n");
+  const Outcome accepted = verify(both(kCarry), directory, {"--leaves", accepting});
+  CHECK(accepted.code == 0);
+  CHECK(contains(accepted.out, "    accepted: a person comes\n"));
+  std::string text = read_file(kCarry);
+  text.replace(text.find("barriers="), 0, "give_up=\"2\" ");
+  const Outcome gives_up = verify(both(directory.file("carry.xml", text)), directory);
+  CHECK(gives_up.code == 0);
+  CHECK(contains(gives_up.out, "  left                       success, failure\n"));
+}
+
+TEST_CASE("lockstep verify: robots that wait for each other, or declare their team differently") {
+  const TemporaryDirectory directory;
+  const std::string leaves = directory.file("m.leaves.xml", kMotions);
+  const std::string head =
+      "<root lockstep=\"1\" main_tree_to_execute=\"M\"><plugin name=\"motion\"/>"
+      "<arg name=\"me\" default=\"left\"/><team name=\"t\" members=\"left;right\"/>"
+      "<resources name=\"p\" team=\"t\" as=\"${me}\" resources=\"aisle;door\"/>"
+      "<BehaviorTree ID=\"M\"><SubTree ID=\"${me}\"/></BehaviorTree>";
+  const std::string in_step =
+      "<InStep team=\"t\" as=\"${me}\" barriers=\"0.5\"><Advance/></InStep>";
+  const auto uses = [](const std::string& inside, const std::string& what = "aisle") {
+    return "<UseResources pool=\"p\" resources=\"" + what + "\">" + inside + "</UseResources>";
+  };
+  const auto tree = [&](const std::string& left, const std::string& right) {
+    return directory.file("t.xml", head + "<BehaviorTree ID=\"left\">" + left +
+                                       "</BehaviorTree><BehaviorTree ID=\"right\">" + right +
+                                       "</BehaviorTree></root>\n");
+  };
+  const std::string sequence = "<Sequence memory=\"true\">";
+  const Outcome cross =
+      verify(both(tree(uses(in_step), sequence + uses("<Advance/>") + in_step + "</Sequence>")),
+             directory, {"--leaves", leaves});
+  CHECK(cross.code == 1);
+  CHECK(contains(cross.out,
+                 "    left: waits for 'right', which has not begun\n"
+                 "    right: 'left' has 'aisle'\n"));
+  CHECK(contains(cross.out, "  two owners of a resource   never\n"));
+  const Outcome right = verify(both(tree(sequence + uses("<Advance/>") + in_step + "</Sequence>",
+                                         sequence + in_step + uses("<Advance/>") + "</Sequence>")),
+                               directory, {"--leaves", leaves});
+  INFO(right.out + right.err);
+  CHECK(right.code == 0);
+  // A node inside of another one asks for itself.
+  const Outcome nested = verify(both(tree(uses(uses("<Advance/>", "door")), uses("<Advance/>"))),
+                                directory, {"--leaves", leaves});
+  INFO(nested.out);
+  CHECK(nested.code == 0);
+
+  std::string other = read_file(kCarry);
+  other.replace(other.find("0.25;0.5"), 8, "0.25;0.6");
+  const Outcome stranger =
+      verify({kCarry + ",me=left", directory.file("other.xml", other) + ",me=right"}, directory,
+             {"--leaves", leaves});
+  CHECK(stranger.code == 1);
+  CHECK(contains(stranger.out, "left: 'right': its tree declares the team in another way"));
+}
+
+TEST_CASE("lockstep verify: what says nothing of several robots is refused") {
+  const TemporaryDirectory directory;
+  for (const std::string option : {"--fmea", "--probability", "--cuts=1", "--compact"}) {
+    INFO(option);
+    const Outcome outcome = verify(both(kCarry), directory, {option});
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "is for one tree, and here are several"));
+  }
+  CHECK(contains(verify({kCarry}, directory, {"--late", "2"}).err,
+                 "for the trees of several robots"));
+  CHECK(contains(verify({kCarry, kCarry}, directory).err, "two robots are 'left'"));
+  const std::string leaves = directory.file(
+      "m.leaves.xml", "<leaves lockstep=\"1\"><leaf of=\"Advanc\" result=\"success\"/></leaves>\n");
+  const Outcome unknown = verify(both(kCarry), directory, {"--leaves", leaves});
+  CHECK(unknown.code == 3);
+  CHECK(contains(unknown.err, "the tree has no leaf of type 'Advanc'"));
+}
+
+TEST_CASE("lockstep team: with a leaf model, the leaves do what it allows") {
+  const TemporaryDirectory directory;
+  const std::string leaves = directory.file(
+      "m.leaves.xml",
+      "<leaves lockstep=\"1\"><leaf of=\"Advance\" result=\"failure\" ticks=\"3\"/></leaves>\n");
+  const Outcome outcome = team({"--leaves", leaves, "--timeout", "5"});
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.out, "failure, "));
+}
+
+TEST_CASE("lockstep check: trees that declare a team differently are noted") {
+  const TemporaryDirectory directory;
+  const auto tree = [&](const char* name, const char* barriers) {
+    return directory.file(
+        name, tree_with("<InStep team=\"table\" as=\"" + std::string(name).substr(0, 4) +
+                            "\" barriers=\"" + barriers + "\"><Wait seconds=\"1\"/></InStep>",
+                        "left;righ"));
+  };
+  const std::string left = tree("left.xml", "0.5"), right = tree("righ.xml", "0.6");
+  const Outcome outcome = run_lockstep({"check", left, right, "--strict"});
+  CHECK(outcome.code == 0);
+  CHECK(
+      contains(outcome.err + outcome.out, "the team 'table' is declared in another way than at "));
+  const Outcome same = run_lockstep({"check", left, tree("righ.xml", "0.5")});
+  CHECK(!contains(same.err + same.out, "in another way"));
+}

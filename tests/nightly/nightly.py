@@ -23,7 +23,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/results"))
 import results  # noqa: E402
 
-TREES, SMALL_TREES, SOAK_MINUTES, TEAM_MINUTES, MUTANTS = 200_000, 500_000, 60, 20, 60
+TREES, SMALL_TREES, SOAK_MINUTES, TEAM_MINUTES, MUTANTS, TEAMS = 200_000, 500_000, 60, 20, 60, 3_000
 CUT_RUNS, CUT_RUNS_ON_THE_WALL_CLOCK = 20_000, 2_000
 HEAD = """\
 # Nightly
@@ -113,6 +113,9 @@ STEPS = {
     "cuts": (f"{CUT_RUNS + CUT_RUNS_ON_THE_WALL_CLOCK:,} runs of random trees that are killed and continue", cut_runs, is_here),
     "team": (f"eight robots in step, against eight alone, for {TEAM_MINUTES} minutes",
              one("python3", "tests/team/load.py", "build/release/lockstep", str(TEAM_MINUTES)), is_here),
+    "teams verified": (f"{TEAMS:,} random teams: `verify` of all robots against what they do",
+                       lambda _: iter([("all", ("python3", "tests/team/verify_judge.py", "build/release/lockstep", str(TEAMS),
+                                                str(int(time.time()) // 86400 * TEAMS), "8"))]), is_here),
     "soak": (f"random faults at 1 kHz for {SOAK_MINUTES} minutes", one("./dev", "soak", str(SOAK_MINUTES)), is_here),
     "bench": ("the benchmarks, which neither pass nor fail", one("./dev", "bench"), is_here),
 }

@@ -46,7 +46,7 @@ class Team:
 
     def in_step(self, team, inside):
         waits = self.waits[team] if self.chance.random() < 0.97 else self.some_waits()
-        give_up = 'give_up="1"' if self.chance.random() < 0.3 else ""
+        give_up = 'give_up="1"' if self.chance.random() < 0.1 else ""
         return f'<InStep team="{team}" as="${{me}}" {waits} {give_up}>{inside}</InStep>'
 
     def uses(self, inside):
@@ -59,13 +59,13 @@ class Team:
             if self.chance.random() < 0.03:
                 continue
             inside = self.leaf()
-            if self.has_pool and self.chance.random() < 0.3:
+            if self.has_pool and self.chance.random() < 0.1:
                 inside = self.uses(inside)
             node = self.in_step(team, inside)
             if self.has_pool and self.chance.random() < 0.1:
                 node = self.uses(node)
             nodes.append(node)
-        if self.has_pool and self.chance.random() < 0.7:
+        if self.has_pool and self.chance.random() < 0.97:
             nodes.append(self.uses(self.leaf()))
         if self.chance.random() < 0.3:
             nodes.append(self.leaf())
@@ -79,7 +79,7 @@ class Team:
         members = ";".join(self.names)
         for team in self.teams:
             text += f'<team name="{team}" members="{members}"/>'
-        if self.has_pool:
+        if self.has_pool:  # of which each robot that does not use it is a stranger
             text += f'<resources name="pool" team="{self.teams[0]}" as="${{me}}" resources="x;y"/>'
         text += '<BehaviorTree ID="Main"><SubTree ID="${me}"/></BehaviorTree>'
         for name in self.names:

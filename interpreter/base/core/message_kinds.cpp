@@ -524,6 +524,11 @@ std::span<const MessageKind> message_kinds() {
        "With `increment=\"0\"` the first members of a pool always win, and a later one may wait "
        "indefinitely.",
        "Remove `increment`."},
+      {"team-differs",
+       "Two of the checked files declare a team with the same name in different ways: other "
+       "members, barriers or delta. Robots with these trees do not move together.",
+       "Declare it in the same way in both. Where the files are of different missions, nothing is "
+       "wrong."},
       {"too-deep", "Elements are nested too deeply.", "Divide the tree into subtrees."},
       {"too-large", "A file, a value or a tree exceeds a limit.",
        "Divide it. reliability.md lists the limits."},

@@ -130,7 +130,7 @@ class Expander {
   void add_others(std::uint32_t place, const CheckedNode& group) {
     if (group.type->is_of_robots) {
       warn_of_waiting(place, group.name, "waits for the other robots",
-                      "put the UseResources into the child of this node");
+                      "use them between two barriers, and verify the trees of all robots together");
       return add_robots(definition_, trees_, group, place, report_);
     }
     if (group.type->synchronization != Synchronization::Resources) return;

@@ -77,10 +77,11 @@ RobotState SearchedRobot::tick() {
   const Status status = stepper_.tick();
   const Moment& moment = moments_.after_tick(stepper_.ticker(), 0, Nanoseconds(0));
   for (std::size_t i = 0; i < in_step_.size(); ++i) {
-    moved_[i].ticked = false;
-    if (!in_step_[i] || !moment.ticked(in_step_[i]->node + 1)) continue;
-    moved_[i].ticked = true;
-    moved_[i].from = moment.used(in_step_[i]->node)[0];
+    if (!in_step_[i]) continue;
+    const NodeIndex node = in_step_[i]->node;
+    moved_[i].runs = moment.status(node) == Status::Running;
+    moved_[i].ticked = moment.ticked(node + 1);
+    moved_[i].from = moment.used(node)[0];
   }
   team_.after_tick(moment, {.tick = 0, .time = Nanoseconds(0), .status = status});
   const bool ends = status != Status::Running || stepper_.ticker().faulted();
@@ -112,17 +113,14 @@ std::string SearchedRobot::why() {
   team_.run_ended(moment, {});
   if (!team_.why().empty()) return team_.why();
   for (std::size_t i = 0; i < in_step_.size(); ++i) {
-    const auto& in_step = in_step_[i];
-    const bool waits = in_step && moment.status(in_step->node) == Status::Running &&
-                       !moment.ticked(in_step->node + 1);
-    if (!waits) continue;
+    if (!moved_[i].runs || moved_[i].ticked) continue;
     const TeamMember& member = team_.teams()[i].member;
     for (std::size_t other = 0; other < member.declaration().others.size(); ++other) {
       const TeamMember::Known& known = member.known(other);
       const std::string& name = member.declaration().others[other];
       if (known.where == TeamMember::Where::NotBegun)
         return fmt::format("waits for '{}', which has not begun", name);
-      if (known.progress < moment.used(in_step->node)[0])
+      if (known.progress < moved_[i].from)
         return fmt::format("waits for '{}', which is at {}", name, known.progress);
     }
   }

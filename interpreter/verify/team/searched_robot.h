@@ -55,11 +55,11 @@ class SearchedRobot final : private OutsideLeaves {
   // Of the last tick.
   const Stepper& stepper() const { return stepper_; }
   Stepper& stepper() { return stepper_; }
-  // The round in which the robot was when it was ticked, by team; and whether the child of the node
-  // that is in step got a tick then, and with which progress before it.
+  // The round in which the robot was when it was ticked, by team; and whether the node that is in
+  // step runs, with which progress its child was before the tick, and whether it got one.
   struct Moved {
     std::uint32_t round = 0;
-    bool ticked = false;
+    bool runs = false, ticked = false;
     double from = 0;
   };
   const std::vector<Moved>& moved() const { return moved_; }

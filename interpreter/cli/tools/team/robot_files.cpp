@@ -37,7 +37,7 @@ void add_problems(const Tree& tree, std::vector<NodeProblem>& problems) {
   for (const RobotLeaf& it : robot_leaves(tree)) {
     if (!it.asks || it.wanted) continue;
     problems.push_back({tree.labels[tree.leaves[it.leaf].node].parent,
-                        "an entry says which shared resources it uses, so robots cannot be "
+                        "an entry names the shared resources that it uses, so robots cannot be "
                         "verified together",
                         "name them here"});
   }
