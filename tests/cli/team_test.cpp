@@ -333,6 +333,20 @@ TEST_CASE("lockstep verify: the trees of a team are verified together") {
   CHECK(parsed["findings"].empty());
 }
 
+TEST_CASE("lockstep verify: each round of a team has its own barriers") {
+  const TemporaryDirectory directory;
+  const std::string leaves = directory.file("m.leaves.xml", kMotions);
+  std::string text = read_file(kCarry);
+  text.replace(text.find("<InStep"), 0, "<Repeat times=\"2\">");
+  text.replace(text.find("</InStep>"), 9, "</InStep></Repeat>");
+  const Outcome twice =
+      verify(both(directory.file("carry.xml", text)), directory, {"--leaves", leaves});
+  INFO(twice.out + twice.err);
+  CHECK(twice.code == 0);
+  CHECK(contains(twice.out, "  can always end             yes\n"));
+  CHECK(contains(twice.out, "  barriers passed too early  never\n"));
+}
+
 TEST_CASE(
     "lockstep verify: a team of which one robot may fail can no longer end, with recordings") {
   const TemporaryDirectory directory;

@@ -34,6 +34,7 @@ class Team:
         self.late = self.chance.choice([0, 1]) if len(self.names) == 2 else 0
         self.teams = ["one", "two"][: self.chance.choice([1, 2])]
         self.has_pool = self.chance.random() < 0.5
+        self.repeated = [team for team in self.teams if self.chance.random() < 0.2]
         # Mostly all have the same barriers: else nobody moves.
         self.waits = {team: self.some_waits() for team in self.teams}
 
@@ -47,7 +48,8 @@ class Team:
     def in_step(self, team, inside):
         waits = self.waits[team] if self.chance.random() < 0.97 else self.some_waits()
         give_up = 'give_up="1"' if self.chance.random() < 0.1 else ""
-        return f'<InStep team="{team}" as="${{me}}" {waits} {give_up}>{inside}</InStep>'
+        node = f'<InStep team="{team}" as="${{me}}" {waits} {give_up}>{inside}</InStep>'
+        return f'<Repeat times="2">{node}</Repeat>' if team in self.repeated else node
 
     def uses(self, inside):
         wanted = self.chance.choice(["x", "y", "x;y"])
