@@ -66,12 +66,9 @@ class PortChecker {
  private:
   void find_unknown() const {
     for (const Attribute& attribute : element_.attributes) {
-      if (attribute.name == "name" || attribute.name == "ID") continue;
       if (!names_port(attribute.name)) {
         check_mark(attribute, report_);
-      } else if (matches_any(node_.type->more_parameters, attribute.name)) {
-        continue;
-      } else if (!has(attribute.name) && !report_.counted_only(Severity::Error)) {
+      } else if (is_unknown(attribute.name) && !report_.counted_only(Severity::Error)) {
         report_.at(
             "unknown-port"_code, attribute.place,
             fmt::format("'{}' has no port '{}'", brief(node_.type->id), brief(attribute.name)),
@@ -80,9 +77,11 @@ class PortChecker {
     }
   }
 
-  bool has(std::string_view name) const {
-    return std::ranges::find(node_.type->parameters, name, &Parameter::name) !=
-           node_.type->parameters.end();
+  bool is_unknown(std::string_view name) const {
+    return name != "name" && name != "ID" && names_port(name) &&
+           !matches_any(node_.type->more_parameters, name) &&
+           std::ranges::find(node_.type->parameters, name, &Parameter::name) ==
+               node_.type->parameters.end();
   }
 
   // Only a leaf of ours has ports with a '.', and then some of those that its element may have.
@@ -155,8 +154,7 @@ class PortChecker {
   // An unknown attribute means this port: one error is enough.
   bool is_misspelled(const Parameter& missing) const {
     return std::ranges::any_of(element_.attributes, [&](const Attribute& attribute) {
-      return names_port(attribute.name) && attribute.name != "name" && !has(attribute.name) &&
-             nearest(attribute.name, names()) == missing.name;
+      return is_unknown(attribute.name) && nearest(attribute.name, names()) == missing.name;
     });
   }
 
@@ -241,6 +239,17 @@ Remapping remapping(std::string_view name, std::string_view value, Place place) 
   return {name, key.empty() ? value : key, !key.empty(), place};
 }
 
+// The attribute that the model does not have, and that may mean this port; null: there is none.
+const Attribute* misspelled(const NodeElement& element, const Model& model, std::string_view port) {
+  std::vector<std::string_view> names;
+  for (const ModelPort& it : model.ports) names.push_back(it.name);
+  const auto it = std::ranges::find_if(element.attributes, [&](const Attribute& attribute) {
+    return is_port_name(attribute.name) && attribute.name != "name" && attribute.name != "ID" &&
+           model.port(attribute.name) == nullptr && nearest(attribute.name, names) == port;
+  });
+  return it == element.attributes.end() ? nullptr : &*it;
+}
+
 // Adds the ports that the model declares and the element does not give.
 void add_defaults(const NodeElement& element, const Model& model, const Reporter& report,
                   std::string_view id, CheckedTrees& trees) {
@@ -250,7 +259,15 @@ void add_defaults(const NodeElement& element, const Model& model, const Reporter
       auto& it =
           trees.remappings.emplace_back(remapping(port.name, *port.default_value, element.place));
       it.is_written = false;
-    } else if (!report.counted_only(Severity::Error)) {
+    } else if (report.counted_only(Severity::Error)) {
+      continue;
+    } else if (const Attribute* wrong = misspelled(element, model, port.name)) {
+      report.at("unknown-port"_code, wrong->place,
+                fmt::format("the model of the SubTree '{}' has no port '{}'", brief(id),
+                            brief(wrong->name)),
+                fmt::format("did you mean '{}'?; the model declares it without a default",
+                            brief(port.name)));
+    } else {
       report.at("missing-port"_code, element.place,
                 fmt::format("the SubTree '{}' needs the port '{}'", brief(id), brief(port.name)),
                 "its model in TreeNodesModel declares it without a default; _autoremap=\"true\" "

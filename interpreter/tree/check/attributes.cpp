@@ -81,15 +81,17 @@ class AttributeChecker {
  private:
   void find_unknown() const {
     for (const Attribute& attribute : element_.attributes) {
-      const std::string_view name = attribute.name;
-      const bool names_type = element_.is_explicit && name == "ID";
-      if (is_common_attribute(name) || names_type || parameter(name) || is_hook(name)) continue;
-      if (matches_any(node_.type->more_parameters, name)) continue;
-      if (report_.counted_only(Severity::Error)) continue;
+      if (!is_unknown(attribute.name) || report_.counted_only(Severity::Error)) continue;
       report_.at("unknown-port"_code, attribute.place,
-                 fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(name)),
+                 fmt::format("'{}' has no parameter '{}'", node_.type->id, brief(attribute.name)),
                  unknown_hint(attribute));
     }
+  }
+
+  bool is_unknown(std::string_view name) const {
+    const bool names_type = element_.is_explicit && name == "ID";
+    return !is_common_attribute(name) && !names_type && parameter(name) == nullptr &&
+           !is_hook(name) && !matches_any(node_.type->more_parameters, name);
   }
 
   void check_parameters() {
@@ -212,12 +214,9 @@ class AttributeChecker {
   // An unknown attribute means this parameter: one error is enough.
   bool is_misspelled(const Parameter& missing) const {
     return std::ranges::any_of(element_.attributes, [&](const Attribute& attribute) {
-      if (is_common_attribute(attribute.name) || parameter(attribute.name) ||
-          is_hook(attribute.name)) {
-        return false;
-      }
-      return foreign_attribute_name(foreign_tag(), attribute.name) == missing.name ||
-             nearest(attribute.name, names()) == missing.name;
+      return is_unknown(attribute.name) &&
+             (foreign_attribute_name(foreign_tag(), attribute.name) == missing.name ||
+              nearest(attribute.name, names()) == missing.name);
     });
   }
 
