@@ -89,7 +89,9 @@ std::optional<Definition> resolve(const Project& project, const Catalog& catalog
   trees.team_resources = known.find(kTeamResources);
   const bool has_content = project.documents.front()->elements().size() > 1;
   const auto main = choose_main(trees, has_content, options, report);
-  const bool is_expandable = check_references(trees, report);
+  std::vector<std::string_view> others(options.elsewhere.begin(), options.elsewhere.end());
+  others.insert(others.end(), project.library_trees.begin(), project.library_trees.end());
+  const bool is_expandable = check_references(trees, report, std::move(others));
   if (is_expandable && !main && options.may_lack_main) check_unused(trees, {}, report);
   if (!is_expandable || !main) return std::nullopt;
   Definition definition =

@@ -99,6 +99,49 @@ TEST_CASE("a program that knows only the JSON of check mends a tree with five mi
   CHECK(run_lockstep({"run", tree, "--clock", "virtual"}).code == 0);
 }
 
+// The mistakes that tests/public_trees makes in trees that others wrote.
+TEST_CASE(
+    "check has an edit for what is misspelt in a tree of BehaviorTree.CPP, a model or another "
+    "file") {
+  const TemporaryDirectory directory;
+  directory.file("other.xml",
+                 R"(<root BTCPP_format="4"><BehaviorTree ID="Grasp"><Fly/></BehaviorTree></root>)");
+  struct Mistake {
+    std::string root, node, title;
+  };
+  const std::string four = R"(BTCPP_format="4")", three;
+  const Mistake mistakes[] = {
+      {four, R"(<Gota target="1"/>)", "Replace 'Gota' by 'Goto'"},
+      {four, R"(<Goto GotoPlaec="a"/>)", "Replace 'GotoPlaec' by 'GotoPlace'"},
+      {four, R"(<Goto target="near"/>)", "Write target=\"1\""},
+      {four, R"(<ParallelAbsolute barriers="1;0.5"><Fly/><Fly/></ParallelAbsolute>)",
+       "Write barriers=\"0.5;1\""},
+      {four, R"(<SubTree ID="Gasp"/>)", "Replace 'Gasp' by 'Grasp'"},
+      {four, R"(<SubTree ID="Lift" tepic="a" height="1"/>)", "Replace 'tepic' by 'topic'"},
+      {four, R"(<SubTree ID="Lift" hieght="1"/>)", "Replace 'hieght' by 'height'"},
+      {three, R"(<SequenceStr><Fly/></SequenceStr>)", "Replace 'SequenceStr' by 'SequenceStar'"},
+      {three, R"(<RetryUntilSuccesful num_attempts="few"><Fly/></RetryUntilSuccesful>)",
+       "Write num_attempts=\"1\""},
+  };
+  for (const auto& [root, node, title] : mistakes) {
+    directory.file(
+        "tree.xml",
+        "<root main_tree_to_execute=\"Main\" " + root + "><BehaviorTree ID=\"Main\">" + node +
+            R"(</BehaviorTree><BehaviorTree ID="Lift"><Fly to="{topic}" at="{height}"/></BehaviorTree>
+<TreeNodesModel><Action ID="Goto"><input_port name="target" type="int"/>
+<input_port name="GotoPlace"/></Action>
+<SubTree ID="Lift"><input_port name="topic" default="all"/><input_port name="height"/></SubTree>
+</TreeNodesModel></root>)");
+    const Outcome outcome = run_lockstep({"check", "--format", "json", directory.path("")});
+    INFO(node << outcome.out << outcome.err);
+    std::vector<std::string> titles;
+    for (const auto& message : parse_json(outcome.out))
+      for (const auto& edit : message["edits"]) titles.push_back(edit["title"]);
+    REQUIRE_FALSE(titles.empty());
+    CHECK(std::ranges::find(titles, title) != titles.end());
+  }
+}
+
 TEST_CASE("check --checkpoint lists what leaves do after a cut") {
   const TemporaryDirectory directory;
   const auto check = [&](const std::string& nodes, const std::string& option = "--checkpoint") {

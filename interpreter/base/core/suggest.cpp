@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "base/core/typo.h"
 #include "base/core/wording.h"
 
 namespace lockstep::host {
@@ -96,6 +97,12 @@ std::vector<std::string_view> nearest_ones(std::string_view word,
 }
 
 }  // namespace
+
+bool is_typo_of(std::string_view word, std::string_view known) {
+  const std::size_t limit = std::min(1 + word.size() / 8, kMostEdits);
+  if (word.size() > kLongestWord || difference(word.size(), known.size()) > limit) return false;
+  return EditDistance(word).to(known, limit) <= limit;
+}
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
   const auto best = nearest_ones(word, candidates);

@@ -9,7 +9,8 @@
 namespace lockstep::host::btcpp {
 namespace {
 
-constexpr LanguageReader kReader{.read = read_trees, .is_old_name = is_old_name, .hints = &kHints};
+constexpr LanguageReader kReader{
+    .read = read_trees, .is_old_name = is_old_name, .old_names = old_names, .hints = &kHints};
 
 }  // namespace
 

@@ -107,4 +107,12 @@ bool is_old_name(std::string_view id) {
   return !node_since_4(id).empty() || !hint_for_gone(id).empty();
 }
 
+std::vector<std::string_view> old_names(const Document& document) {
+  const Attribute* format = document.find_attribute(0, "BTCPP_format");
+  std::vector<std::string_view> names;
+  if (format != nullptr && format->value == "4") return names;
+  for (const Renamed& it : kNodes) names.push_back(it.before);
+  return names;
+}
+
 }  // namespace lockstep::host::btcpp

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/core/node_type.h"
-#include "language/document/element.h"
+#include "language/document/document.h"
 #include "language/document/reporter.h"
 
 namespace lockstep::host::btcpp {
@@ -34,5 +34,8 @@ std::string_view hint_for_gone(std::string_view id);
 
 // Whether it is one of both.
 bool is_old_name(std::string_view id);
+
+// The names of nodes before version 4, in a document that is older.
+std::vector<std::string_view> old_names(const Document& document);
 
 }  // namespace lockstep::host::btcpp

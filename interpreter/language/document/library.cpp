@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 
 #include "base/core/pre_order.h"
 #include "base/core/wording.h"
@@ -123,6 +124,13 @@ std::span<const std::string> Library::files_with(std::string_view tree,
   if (trees == files_with_.end()) return {};
   const auto files = trees->second.find(tree);
   return files == trees->second.end() ? std::span<const std::string>() : files->second;
+}
+
+std::vector<std::string> Library::trees(const LanguageRules& rules) const {
+  const auto found = files_with_.find(&rules);
+  if (found == files_with_.end()) return {};
+  const auto ids = std::views::keys(found->second);
+  return {ids.begin(), ids.end()};
 }
 
 std::vector<std::string> Library::models(const LanguageRules& rules) const {

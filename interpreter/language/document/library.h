@@ -30,6 +30,7 @@ class Library {
 
   // The files of a language that have a tree.
   std::span<const std::string> files_with(std::string_view tree, const LanguageRules& rules) const;
+  std::vector<std::string> trees(const LanguageRules& rules) const;
   // Empty: none.
   std::vector<std::string> models(const LanguageRules& rules) const;
 

@@ -226,7 +226,11 @@ void Loader::add_missing(std::string_view tree, Place place, std::size_t documen
   const std::string prefix = project_->prefixes[document];
   if (!trees_.insert(prefix + std::string(tree)).second) return;
   const auto files = library_->files_with(tree, *project_->rules);
-  if (files.empty()) return;
+  if (files.empty()) {
+    if (project_->library_trees.empty())
+      project_->library_trees = library_->trees(*project_->rules);
+    return;
+  }
   if (files.size() > 1) {
     const std::vector<std::string_view> names(files.begin(), files.end());
     report_.at_value("duplicate-tree"_code, place,

@@ -52,6 +52,8 @@ struct Project {
     std::uint32_t document;
   };
   std::vector<NamedFile> named;
+  // The trees of the Library, if a SubTree names one that no file has: it may mean one of them.
+  std::vector<std::string> library_trees;
   std::vector<DeclaredArgument> arguments;
 };
 

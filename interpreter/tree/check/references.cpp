@@ -14,8 +14,11 @@ namespace {
 // Depth-first over the graph of trees, with an explicit stack: a chain of subtrees may be long.
 class ReferenceChecker {
  public:
-  ReferenceChecker(const CheckedTrees& trees, const Reporter& report)
-      : trees_(trees), report_(report) {}
+  ReferenceChecker(const CheckedTrees& trees, const Reporter& report,
+                   std::vector<std::string_view> elsewhere)
+      : trees_(trees), report_(report), all_ids_(std::move(elsewhere)) {
+    all_ids_.insert(all_ids_.begin(), trees.ids.begin(), trees.ids.end());
+  }
 
   bool check() {
     for (const std::string_view id : trees_.ids) {
@@ -112,9 +115,10 @@ class ReferenceChecker {
     // As the file has it, also where it is included under a name.
     const std::string_view space = trees_.trees.at(chain_.back()).space;
     const std::string_view id = id_in(space, subtree.id);
+    std::string hint = space.empty() ? did_you_mean(id, all_ids_) : "";
+    if (hint.empty()) hint = suggest(id, ids_of(space), "trees in this project");
     report_.at_value("unknown-tree"_code, subtree.place,
-                     fmt::format("unknown tree '{}'", brief(id)),
-                     suggest(id, ids_of(space), "trees in this project"));
+                     fmt::format("unknown tree '{}'", brief(id)), std::move(hint));
   }
 
   void contains_itself(const CheckedSubTree& subtree) {
@@ -140,6 +144,7 @@ class ReferenceChecker {
   const Reporter& report_;
   mutable std::string_view space_;
   mutable std::vector<std::string_view> own_ids_;  // those of that space
+  std::vector<std::string_view> all_ids_;          // also those of other files
   std::map<std::string_view, Visit> visits_;
   std::vector<std::string_view> chain_;
   bool expandable_ = true;
@@ -147,8 +152,9 @@ class ReferenceChecker {
 
 }  // namespace
 
-bool check_references(const CheckedTrees& trees, const Reporter& report) {
-  return ReferenceChecker(trees, report).check();
+bool check_references(const CheckedTrees& trees, const Reporter& report,
+                      std::vector<std::string_view> elsewhere) {
+  return ReferenceChecker(trees, report, std::move(elsewhere)).check();
 }
 
 }  // namespace lockstep::host

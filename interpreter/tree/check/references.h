@@ -11,8 +11,10 @@ namespace lockstep::host {
 
 // Reports references to unknown trees, trees that contain themselves (with the chain), and trees
 // that are larger or deeper than kMaxNodes or kMaxDepth once expanded, or whose paths are too long.
-// False when a tree contains itself or exceeds a limit: it cannot be expanded then.
-bool check_references(const CheckedTrees& trees, const Reporter& report);
+// False when a tree contains itself or exceeds a limit: it cannot be expanded then. `elsewhere`:
+// trees of other files, which may be meant.
+bool check_references(const CheckedTrees& trees, const Reporter& report,
+                      std::vector<std::string_view> elsewhere = {});
 
 // The ID of a tree as its file has it, without that of Project::prefixes.
 inline std::string_view id_in(std::string_view space, std::string_view id) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
+#include <ranges>
 #include <set>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "base/core/identifier.h"
 #include "base/core/pre_order.h"
 #include "base/core/suggest.h"
+#include "base/core/typo.h"
 #include "base/core/value_types.h"
 #include "base/core/wording.h"
 #include "tree/check/node_check.h"
@@ -289,6 +292,23 @@ class Builder {
                     "write PORT=VALUE, or ID.PORT=VALUE for one leaf");
   }
 
+  std::vector<std::string_view> find_known_ids() const {
+    std::vector<std::string_view> ids = catalog_.ids();
+    if (project_.rules->reader->old_names != nullptr)
+      std::ranges::copy(project_.rules->reader->old_names(*project_.documents.front()),
+                        std::back_inserter(ids));
+    return ids;
+  }
+
+  // A leaf with a model is meant only where a few letters differ: others may lack a model.
+  std::vector<std::string_view> known_ids_near(std::string_view id) const {
+    std::vector<std::string_view> ids = known_ids_;
+    constexpr std::size_t kMostModels = 1000;  // a file may have a million
+    for (const auto& [known, model] : models_.nodes | std::views::take(kMostModels))
+      if (is_typo_of(id, known)) ids.push_back(known);
+    return ids;
+  }
+
   std::vector<std::string_view> unknown_ids() const {
     std::vector<std::string_view> ids;
     for (const auto& [id, use] : uses_) ids.push_back(id);
@@ -318,7 +338,7 @@ class Builder {
   void tell(std::string_view id, Place place, bool has_model, bool is_guessed) const {
     std::string hint =
         has_model ? "the model in the file is used as a hint" : hint_for_other_tools(id, catalog_);
-    const std::string near = hint.empty() ? did_you_mean(id, known_ids_) : "";
+    const std::string near = hint.empty() ? did_you_mean(id, known_ids_near(id)) : "";
     if (hint.empty()) hint = near;
     const Severity severity = near.empty() ? Severity::Note : Severity::Warning;
     if (report_.counted_only(severity)) return;
@@ -343,8 +363,13 @@ class Builder {
                        "here it stands for an action", severity);
       return;
     }
+    auto known = ids_in(use.space, trees_);
+    if (use.space.empty()) {
+      std::ranges::copy(elsewhere_, std::back_inserter(known));
+      std::ranges::copy(project_.library_trees, std::back_inserter(known));
+    }
     report_.at_value("unknown-tree"_code, use.place, fmt::format("unknown tree '{}'", brief(id)),
-                     join_hints(did_you_mean(id, ids_in(use.space, trees_)),
+                     join_hints(did_you_mean(id, known),
                                 "if another file has it, include that file; until then it stands "
                                 "for an action"),
                      severity);
@@ -470,7 +495,7 @@ class Builder {
   Catalog& catalog_;
   const Reporter& report_;
   std::shared_ptr<StandIns> made_ = std::make_shared<StandIns>();
-  const std::vector<std::string_view> known_ids_ = catalog_.ids();
+  const std::vector<std::string_view> known_ids_ = find_known_ids();
   std::set<std::string_view> trees_, ids_, used_outputs_;
   std::string_view space_;  // of the document whose uses are found
   std::map<std::string_view, Use> uses_;

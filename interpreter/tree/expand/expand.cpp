@@ -171,10 +171,13 @@ class Expander {
     for (const Remapping& it : remappings) {
       const bool may_be_used = trees_.names_at_run_time || scope.used(it.key);
       if (!it.is_written || may_be_used || report_.counted_only(Severity::Warning)) continue;
+      auto keys = scope.open_keys();
+      for (const Remapping& other : remappings)  // what has only the default of the model
+        if (!other.is_written) keys.push_back(other.key);
       report_.at(
           "unused-entry"_code, it.place,
           fmt::format("the tree '{}' does not use '{{{}}}'", brief(subtree.id), brief(it.key)),
-          suggest(it.key, scope.open_keys(), "it also uses"), Severity::Warning);
+          suggest(it.key, keys, "it also uses"), Severity::Warning);
     }
   }
 

@@ -32,6 +32,22 @@ std::string_view between(std::string_view text, std::string_view before, std::st
   return end == text.npos ? std::string_view() : text.substr(0, end);
 }
 
+bool is_of_word(char it) {
+  return is_identifier(std::string_view(&it, 1)) || (it >= '0' && it <= '9');
+}
+
+// Not as a part of a longer word.
+std::size_t find_whole(std::string_view text, std::string_view word) {
+  if (word.empty()) return text.npos;
+  for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || !is_of_word(text[at - 1]) || !is_of_word(word.front());
+    const bool ends = end == text.size() || !is_of_word(text[end]) || !is_of_word(word.back());
+    if (begins && ends) return at;
+  }
+  return text.npos;
+}
+
 // A long name has only its first letters in a message.
 bool is_cut(std::string_view word) {
   return word.ends_with("\u2026");
@@ -64,6 +80,7 @@ class Mending {
         {"missing-port", &Mending::add_missing},
         {"needs-entry", &Mending::name_entry},
         {"no-main-tree", &Mending::choose_tree},
+        {"old-model", &Mending::replace_value},
         {"unknown-attribute", &Mending::remove_attribute},
         {"unknown-group", &Mending::declare_group},
         {"unknown-port", &Mending::remove_attribute},
@@ -119,7 +136,8 @@ class Mending {
         TextEdit edit;
         edit.replace(found->begin, found->end, escaped(right));
         add_end_tag(*found, right, edit);
-        add(fmt::format("Replace '{}' by '{}'", wrong, right), std::move(edit),
+        const auto there = tree_.text.substr(found->begin, found->end - found->begin);
+        add(fmt::format("Replace '{}' by '{}'", there, right), std::move(edit),
             is_only ? Sure::Yes : Sure::No);
         break;
       }
@@ -128,12 +146,13 @@ class Mending {
 
   // In the tag or the value that begins there.
   std::optional<ByteRange> find_word(std::string_view word) const {
-    // A path has the names of trees before that of the entry.
-    for (const std::string_view it : {word, word.substr(word.rfind('/') + 1)}) {
+    // A path has the names of trees before that of the entry. A SubTree has the key as a name.
+    const bool is_entry = word.size() > 2 && word.front() == '{' && word.back() == '}';
+    for (const std::string_view it : {word, word.substr(word.rfind('/') + 1),
+                                      is_entry ? word.substr(1, word.size() - 2) : ""}) {
       const std::string_view there = tree_.text.substr(place_.begin, place_.end - place_.begin);
-      const auto at = there.find(it);
-      if (!it.empty() && at != there.npos)
-        return ByteRange{place_.begin + at, place_.begin + at + it.size()};
+      const auto at = find_whole(there, it);
+      if (at != there.npos) return ByteRange{place_.begin + at, place_.begin + at + it.size()};
     }
     return find_in_values(word);
   }
@@ -242,13 +261,25 @@ class Mending {
   void replace_value() {
     const TolerantAttribute* const it = attribute();
     if (it == nullptr || !mends_.empty()) return;
-    const Parameter* const parameter = parameter_of(type_of(tree_, *element(), catalog_), it->name);
-    if (parameter != nullptr && parameter->type != ValueType::String) {
+    const auto right = between(message_.hint, "write '", "'");
+    if (!right.empty() && !is_cut(right)) set_value(*it, right, Sure::No);
+    const Parameter parameter = parameter_for(it->name);
+    if (parameter.type != ValueType::String) {
       const std::string number = number_in(it->value);
       if (!number.empty()) set_value(*it, number, Sure::No);
     }
-    const std::string value = value_for(*element(), it->name);
+    const std::string value = value_for(parameter);
     if (!value.empty()) set_value(*it, value, Sure::No);
+  }
+
+  // A node that the catalog does not have, such as one with a model, has what the message calls it.
+  Parameter parameter_for(std::string_view name) const {
+    const Parameter* const it = parameter_of(type_of(tree_, *element(), catalog_), name);
+    if (it != nullptr) return *it;
+    for (const ValueType type : {ValueType::Bool, ValueType::Int, ValueType::Double})
+      if (message_.message.find(fmt::format("is not {}", expected_text(type))) != std::string::npos)
+        return {.name = name, .type = type, .doc = {}};
+    return {.name = name, .type = ValueType::String, .doc = {}};
   }
 
   void name_entry() {
@@ -296,7 +327,7 @@ class Mending {
     const std::string_view wrong = words.front();
     std::string right(wrong);
     for (char& it : right)
-      if (!is_identifier(std::string_view(&it, 1)) && !(it >= '0' && it <= '9')) it = '_';
+      if (!is_of_word(it)) it = '_';
     const auto found = find_word(wrong);
     if (!found || right == wrong) return;
     TextEdit edit;
