@@ -89,6 +89,14 @@ def btcpp_is_missing():
     return "" if checkout_of_btcpp().exists() else "no checkout of BehaviorTree.CPP in BTCPP_CHECKOUT"
 
 
+def public_trees():
+    return pathlib.Path(os.environ.get("PUBLIC_TREES", SOURCE.parent / "public_trees"))
+
+
+def public_trees_are_missing():
+    return "" if public_trees().exists() else "no folder with sets of public trees in PUBLIC_TREES"
+
+
 def ros2_is_missing():
     found = subprocess.run(["tests/ros2/run.sh", "--found"], cwd=SOURCE, capture_output=True, text=True)
     return found.stdout.strip() if found.returncode else ""
@@ -108,6 +116,9 @@ STEPS = {
                        one("tests/mutants/mutants.py", "tests/mutants/resume.txt"), is_here),
     "btcpp": ("the tests of BehaviorTree.CPP over the headers of lockstep",
               lambda _: iter([("all", ("./dev", "test-btcpp", str(checkout_of_btcpp())))]), btcpp_is_missing),
+    "public trees": ("a mistake in each of the trees in a folder of public repositories, which `check` must find and mend",
+                     lambda _: iter([("all", ("python3", "tests/public_trees/public_trees.py", "build/release/lockstep",
+                                              str(public_trees()), "--list"))]), public_trees_are_missing),
     "ros2": ("leaves against real servers of ROS 2", one("./dev", "test-ros2"), ros2_is_missing),
     "python": ("the Python module with Python 3.9", one("./dev", "test-python"), is_here),
     "cuts": (f"{CUT_RUNS + CUT_RUNS_ON_THE_WALL_CLOCK:,} runs of random trees that are killed and continue", cut_runs, is_here),
@@ -199,7 +210,7 @@ class Nightly:
                     for count in re.findall(r"stat::number_of_executed_units: (\d+)", self.log(step, part))]
         if executed:
             words.append(f"{sum(executed):,} executions")
-        words += [line for part in parts for line in re.findall(r"^(\d+ passed, \d+ failed|\d+ of \d+ mutants .*)$",
+        words += [line for part in parts for line in re.findall(r"^(\d+ passed, \d+ failed|\d+ of \d+ mutants .*|.* mistakes found, .*)$",
                                                                 self.log(step, part), re.MULTILINE)[-1:]]
         return "; ".join(words)
 
