@@ -9,6 +9,7 @@
 
 #include "language/pipeline.h"
 #include "run/run.h"
+#include "support/trials.h"
 
 namespace lockstep::host::test {
 namespace {
@@ -93,9 +94,9 @@ bool ends(const Tree& tree) {
   return false;
 }
 
-TEST_CASE("held nodes: a random tree is warned of if it stands still, and only then") {
-  int warned = 0, silent = 0;
-  for (std::uint32_t seed = 0; warned < 40 || silent < 120; ++seed) {
+TEST_CASE("held nodes: a random tree is warned of if it stands still, and only then", "[trials]") {
+  std::uint64_t warned = 0, silent = 0;
+  for (std::uint32_t seed = 0; warned < trials(10) || silent < trials(30); ++seed) {
     RandomTree tree(seed);
     INFO("seed " << seed << "\n" << tree.text());
     Pipeline pipeline(tree.text());

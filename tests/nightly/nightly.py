@@ -23,7 +23,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/results"))
 import results  # noqa: E402
 
-TREES, SMALL_TREES, SOAK_MINUTES, TEAM_MINUTES, MUTANTS, TEAMS = 200_000, 500_000, 60, 20, 60, 3_000
+TREES, SMALL_TREES, TIMES, SOAK_MINUTES, TEAM_MINUTES, MUTANTS, TEAMS = 200_000, 500_000, 20, 60, 20, 60, 3_000
 CUT_RUNS, CUT_RUNS_ON_THE_WALL_CLOCK = 20_000, 2_000
 HEAD = """\
 # Nightly
@@ -74,6 +74,12 @@ def random_trees(command, count):
     return lambda _: iter([("all", ("./dev", command, str(count), str(int(time.time()) // 86400 * count)))])
 
 
+def more_trials(_):
+    """Of the test programs with tests that are tagged so (support/trials.h)."""
+    for program in sorted({file.parent.name for file in (SOURCE / "tests").glob("*/*_test.cpp") if '"[trials]")' in file.read_text()}):
+        yield program, ("env", f"LOCKSTEP_TRIALS={TIMES}", f"build/release/tests/test_{program}", "[trials]")
+
+
 def cut_runs(_):
     command = ("python3", "tests/reliability/cuts.py", "build/release/lockstep", "build/release/plugins")
     yield "virtual clock", (*command, str(CUT_RUNS))
@@ -110,6 +116,7 @@ STEPS = {
     "tidy": ("clang-tidy over all sources, and unused includes", one("./dev", "tidy"), is_here),
     "property": (f"{TREES:,} random trees against the reference interpreters", random_trees("property", TREES), is_here),
     "judge": (f"{SMALL_TREES:,} small trees: `verify` against all their runs", random_trees("judge", SMALL_TREES), is_here),
+    "trials": (f"the other tests of random trees, with {TIMES} times as many", more_trials, is_here),
     "mutants": (f"{MUTANTS} changes of the engine, each of which a test must notice",
                 one("tests/mutants/mutants.py", str(MUTANTS)), is_here),
     "resume mutants": ("breaks of the rules of resuming, each of which a test must notice",

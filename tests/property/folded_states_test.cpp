@@ -10,6 +10,7 @@
 
 #include "property/comparison.h"
 #include "property/reference.h"
+#include "support/trials.h"
 #include "verify/search.h"
 
 namespace lockstep::host::test {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr int kPast = 2, kFuture = 3;  // ticks
 constexpr std::size_t kMostLeaves = 2, kMostRuns = 20000;
-constexpr std::uint64_t kSeeds = 6000;
+const std::uint64_t kFoldedSeeds = trials(1500);
 
 // Of these, verify has no state more than can be told apart within kFuture. Others count and wait
 // longer, or are kept in a state that could be that of another.
@@ -157,9 +158,9 @@ std::optional<std::size_t> count_by_search(const Tree& tree, double period) {
 
 }  // namespace
 
-TEST_CASE("verify has as many states as the reference interpreter can tell apart") {
-  int compared = 0, exact = 0;
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+TEST_CASE("verify has as many states as the reference interpreter can tell apart", "[trials]") {
+  std::uint64_t compared = 0, exact = 0;
+  for (std::uint64_t seed = 0; seed < kFoldedSeeds; ++seed) {
     Trial trial = random_trial(seed);
     const auto leaves = scripted(trial.plan);
     if (leaves.empty() || leaves.size() > kMostLeaves || !trial.writes.empty()) continue;
@@ -176,8 +177,8 @@ TEST_CASE("verify has as many states as the reference interpreter can tell apart
     ++exact;
     CHECK(*found == *expected);
   }
-  CHECK(compared > 100);  // or the generator makes no small trees any more
-  CHECK(exact > 100);
+  CHECK(compared > kFoldedSeeds / 60);  // or the generator makes no small trees any more
+  CHECK(exact > kFoldedSeeds / 60);
 }
 
 }  // namespace lockstep::host::test

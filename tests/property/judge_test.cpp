@@ -18,13 +18,14 @@
 #include "property/reference.h"
 #include "run/shape_of.h"
 #include "support/tree_text.h"
+#include "support/trials.h"
 #include "verify/verdict.h"
 
 namespace lockstep::host::test {
 namespace {
 
 // ./dev judge sets others.
-constexpr std::uint64_t kTrees = 2000;  // of each language
+const std::uint64_t kJudgedTrees = trials(500);  // of each language
 constexpr std::size_t kProperties = 3;
 constexpr Nanoseconds kPeriod = from_seconds(kJudgedPeriod);
 constexpr double kRate = 1 / kJudgedPeriod;
@@ -289,7 +290,8 @@ std::string report(JudgedTrial trial, std::uint64_t seed, int cuts) {
 }
 
 // `cuts`: of the process, in a run.
-void judge_all(JudgedTrial (*make)(std::uint64_t), int cuts = 0, std::uint64_t usual = kTrees) {
+void judge_all(JudgedTrial (*make)(std::uint64_t), int cuts = 0,
+               std::uint64_t usual = kJudgedTrees) {
   const char* const count = std::getenv("LOCKSTEP_JUDGED_TREES");
   const char* const first = std::getenv("LOCKSTEP_JUDGED_SEED");
   const std::uint64_t trees = count == nullptr ? usual : std::stoull(count) / 2;
@@ -312,7 +314,7 @@ void judge_all(JudgedTrial (*make)(std::uint64_t), int cuts = 0, std::uint64_t u
 
 }  // namespace
 
-TEST_CASE("verify says of small trees what a judge finds by trying everything") {
+TEST_CASE("verify says of small trees what a judge finds by trying everything", "[trials]") {
   judge_all(judged_trial);
 }
 
@@ -334,11 +336,11 @@ JudgedTrial judged_trial_with_cuts(std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("verify --cuts says of small trees what a judge finds by trying everything") {
-  judge_all(judged_trial_with_cuts, 1, 1000);
+TEST_CASE("verify --cuts says of small trees what a judge finds by trying everything", "[trials]") {
+  judge_all(judged_trial_with_cuts, 1, kJudgedTrees / 2);
 }
 
-TEST_CASE("verify says of small trees for BehaviorTree.CPP what a judge finds") {
+TEST_CASE("verify says of small trees for BehaviorTree.CPP what a judge finds", "[trials]") {
   judge_all(judged_btcpp_trial);
 }
 

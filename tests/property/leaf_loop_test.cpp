@@ -10,11 +10,12 @@
 #include "property/comparison.h"
 #include "support/scripted_types.h"
 #include "support/step_clock.h"
+#include "support/trials.h"
 
 namespace lockstep::host::test {
 namespace {
 
-constexpr std::uint64_t kLoopTrees = 5000;
+const std::uint64_t kLoopTrees = trials(1250);
 constexpr int kLoopTicks = 30;
 
 struct LoopTick {
@@ -82,14 +83,15 @@ void check_trial(const Trial& trial, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("leaves in a loop do what they do alone, on random trees") {
+TEST_CASE("leaves in a loop do what they do alone, on random trees", "[trials]") {
   for (std::uint64_t seed = 0; seed < kLoopTrees; ++seed) {
     check_trial(random_trial(seed), seed);
     check_trial(random_group_trial(seed), seed);
   }
 }
 
-TEST_CASE("leaves in a loop do what they do alone, on random trees for BehaviorTree.CPP") {
+TEST_CASE("leaves in a loop do what they do alone, on random trees for BehaviorTree.CPP",
+          "[trials]") {
   for (std::uint64_t seed = 1; seed <= kLoopTrees; ++seed) {
     const law::Document document = law::random_document(seed);
     INFO("seed " << seed << ": " << law::to_xml(document));

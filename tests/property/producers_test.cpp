@@ -12,12 +12,13 @@
 #include "record/read/recording_reader.h"
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
+#include "support/trials.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kProducerTrees = 1500;
+const std::uint64_t kProducerTrees = trials(300);
 
 // What a Moment says of a node; of its children only if the node has asked them.
 struct SeenNodeOfMoment {
@@ -151,7 +152,7 @@ void compare(WatchedRun& run, std::uint64_t ticks, SeenCounts& counts) {
 
 }  // namespace
 
-TEST_CASE("the Moments of a run of a random tree are those of its recording") {
+TEST_CASE("the Moments of a run of a random tree are those of its recording", "[trials]") {
   SeenCounts counts;
   for (std::uint64_t seed = 0; seed < kProducerTrees; ++seed) {
     const Trial trial = random_trial(seed);
@@ -159,16 +160,17 @@ TEST_CASE("the Moments of a run of a random tree are those of its recording") {
     WatchedRun run(tree_text(trial.plan), leaves_text(trial.plan));
     compare(run, static_cast<std::uint64_t>(trial.ticks), counts);
   }
-  CHECK(counts.ticks > 9'000);
-  CHECK(counts.within > 100);
-  CHECK(counts.used > 10'000);
-  CHECK(counts.left_out > 100);
-  CHECK(counts.succeeded > 30);
-  CHECK(counts.waiting > 100);
+  CHECK(counts.ticks > 6 * kProducerTrees);
+  CHECK(counts.within > kProducerTrees / 15);
+  CHECK(counts.used > 6 * kProducerTrees);
+  CHECK(counts.left_out > kProducerTrees / 15);
+  CHECK(counts.succeeded > kProducerTrees / 50);
+  CHECK(counts.waiting > kProducerTrees / 15);
 }
 
 // Their ticks have several moments where a child completes at once.
-TEST_CASE("the Moments of a run of a random tree for BehaviorTree.CPP are those of its recording") {
+TEST_CASE("the Moments of a run of a random tree for BehaviorTree.CPP are those of its recording",
+          "[trials]") {
   SeenCounts counts;
   for (std::uint64_t seed = 1; seed <= kProducerTrees; ++seed) {
     const law::Document document = law::random_document(seed);
@@ -176,8 +178,8 @@ TEST_CASE("the Moments of a run of a random tree for BehaviorTree.CPP are those 
     WatchedRun run(law::tree_of(document), law::leaves_text(document));
     compare(run, 12, counts);
   }
-  CHECK(counts.ticks > 3'000);
-  CHECK(counts.within > 100);
+  CHECK(counts.ticks > 3 * kProducerTrees / 2);
+  CHECK(counts.within > kProducerTrees / 15);
 }
 
 }  // namespace lockstep::host::test

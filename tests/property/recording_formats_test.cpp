@@ -22,12 +22,13 @@
 #include "record/write/recorder.h"
 #include "run/shape_of.h"
 #include "support/json.h"
+#include "support/trials.h"
 #include "unit/recording/watched_run.h"
 
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kTrees = 200;
+const std::uint64_t kFormatTrees = trials(50);
 
 using nlohmann::json;
 
@@ -318,10 +319,10 @@ std::string file_text(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("each format of a recording of a random tree says the same, tick by tick") {
+TEST_CASE("each format of a recording of a random tree says the same, tick by tick", "[trials]") {
   Counts counts;
   std::size_t parts = 0, moments = 0;
-  for (std::uint64_t seed = 0; seed < kTrees; ++seed) {
+  for (std::uint64_t seed = 0; seed < kFormatTrees; ++seed) {
     const Trial trial = random_trial(seed);
     INFO("seed " << seed << ": " << tree_text(trial.plan) << ", " << leaves_text(trial.plan));
     // Each fourth is for BehaviorTree.CPP: its ticks may have several moments.
@@ -379,11 +380,11 @@ TEST_CASE("each format of a recording of a random tree says the same, tick by ti
       return std::tie(a.topic, a.time, a.content) == std::tie(b.topic, b.time, b.content);
     }));
   }
-  CHECK(counts.changes > 10 * kTrees);
-  CHECK(counts.progress > kTrees);
-  CHECK(counts.entries > kTrees);
-  CHECK(parts > 2 * kTrees);
-  CHECK(moments > 20);
+  CHECK(counts.changes > 10 * kFormatTrees);
+  CHECK(counts.progress > kFormatTrees);
+  CHECK(counts.entries > kFormatTrees);
+  CHECK(parts > 2 * kFormatTrees);
+  CHECK(moments > kFormatTrees / 10);
 }
 
 }  // namespace lockstep::host::test

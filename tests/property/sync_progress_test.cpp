@@ -5,11 +5,12 @@
 #include "engine/synchronized.h"
 #include "property/random_tree.h"
 #include "support/scripted_run.h"
+#include "support/trials.h"
 
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kSyncProgressTrees = 10000;
+const std::uint64_t kSyncProgressTrees = trials(2500);
 
 // A barrier or a pool. A member of a pool asks later where a parallel has held it.
 bool has_group(const Plan& plan) {
@@ -103,8 +104,8 @@ bool compare(const Trial& trial, const Plan& parallel) {
 
 }  // namespace
 
-TEST_CASE("SyncProgress on all children of one Parallel is a synchronized parallel") {
-  int compared = 0;
+TEST_CASE("SyncProgress on all children of one Parallel is a synchronized parallel", "[trials]") {
+  std::uint64_t compared = 0;
   std::uint64_t seed = 0;
   for (; compared < kSyncProgressTrees && seed < 10 * kSyncProgressTrees; ++seed) {
     const Trial trial = random_trial(seed);

@@ -6,6 +6,7 @@
 
 #include "property/comparison.h"
 #include "property/reference.h"
+#include "support/trials.h"
 #include "verify/search.h"
 
 namespace lockstep::host::test {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int kVerifyTicks = 3;
 constexpr std::size_t kMostLeaves = 2;
-constexpr std::uint64_t kSeeds = 12000;
+const std::uint64_t kVerifySeeds = trials(3000);
 
 using Results =
     std::array<std::optional<std::uint32_t>, kStatuses.size()>;  // the first tick of each
@@ -95,9 +96,10 @@ std::optional<Results> by_search(const Tree& tree, double period) {
 
 }  // namespace
 
-TEST_CASE("verify finds the results that the reference interpreter has with all scripts") {
-  int compared = 0;
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+TEST_CASE("verify finds the results that the reference interpreter has with all scripts",
+          "[trials]") {
+  std::uint64_t compared = 0;
+  for (std::uint64_t seed = 0; seed < kVerifySeeds; ++seed) {
     for (Trial trial : {random_trial(seed), random_group_trial(seed)}) {
       const std::size_t leaves = leaves_of(trial.plan).size();
       if (leaves == 0 || leaves > kMostLeaves || !trial.writes.empty()) continue;
@@ -112,7 +114,7 @@ TEST_CASE("verify finds the results that the reference interpreter has with all 
       CHECK(*found == *expected);
     }
   }
-  CHECK(compared > 100);  // or the generator makes no small trees any more
+  CHECK(compared > kVerifySeeds / 120);  // or the generator makes no small trees any more
 }
 
 }  // namespace lockstep::host::test
