@@ -24,7 +24,7 @@ const std::string kR1 =
     "<ParallelRelative name=\"point\" delta=\"0.2\">"
     "<Advance name=\"arm\" step=\"0.1\"/><Advance name=\"head\" step=\"0.3\"/></ParallelRelative>";
 
-std::string record(const TemporaryDirectory& directory, const std::string& node) {
+std::string recorded_log(const TemporaryDirectory& directory, const std::string& node) {
   const std::string tree = directory.file("tree.xml", tree_text(node));
   const std::string file = directory.path("run.jsonl");
   const Outcome outcome =
@@ -56,7 +56,7 @@ bool is_svg(const std::string& file) {
 TEST_CASE("log measure gives the numbers of the worked traces") {
   const TemporaryDirectory directory;
   SECTION("absolute: two barriers") {
-    const std::string recording = record(directory, kA1);
+    const std::string recording = recorded_log(directory, kA1);
     CHECK(measure(recording, "progress-distance") == Approx(2.1));
     // base: 0 .3 .6 .6 .6 .6 .9 1, so its step from .6 to .9
     CHECK(measure(recording, "step-length") == Approx(0.3));
@@ -67,7 +67,7 @@ TEST_CASE("log measure gives the numbers of the worked traces") {
     CHECK(measure(recording, "predictability:arm@1") == 10);
   }
   SECTION("relative: delta 0.2") {
-    const std::string recording = record(directory, kR1);
+    const std::string recording = recorded_log(directory, kR1);
     CHECK(measure(recording, "progress-distance") == Approx(2.3));
     CHECK(measure(recording, "duration") == Approx(0.1));
   }
@@ -75,7 +75,7 @@ TEST_CASE("log measure gives the numbers of the worked traces") {
 
 TEST_CASE("log measure prints a table, of what a study measures") {
   const TemporaryDirectory directory;
-  const Outcome outcome = plot_log({"measure", record(directory, kA1)});
+  const Outcome outcome = plot_log({"measure", recorded_log(directory, kA1)});
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
   CHECK(outcome.out ==
@@ -87,9 +87,9 @@ TEST_CASE("log measure prints a table, of what a study measures") {
 
 TEST_CASE("log measure: what was not reached has no value, a far target has a gap") {
   const TemporaryDirectory directory;
-  const std::string recording =
-      record(directory, "<Fallback><Sequence><Advance name=\"leap\" step=\"1\"/><AlwaysFailure/>" +
-                            kA1 + "</Sequence><AlwaysSuccess/></Fallback>");
+  const std::string recording = recorded_log(
+      directory, "<Fallback><Sequence><Advance name=\"leap\" step=\"1\"/><AlwaysFailure/>" + kA1 +
+                     "</Sequence><AlwaysSuccess/></Fallback>");
   const std::vector<std::string> measures{"measure",   recording,
                                           "--measure", "progress-distance",
                                           "--measure", "step-length",
@@ -115,7 +115,7 @@ TEST_CASE("log measure: what was not reached has no value, a far target has a ga
 
 TEST_CASE("log measure tells which name it does not know") {
   const TemporaryDirectory directory;
-  const std::string recording = record(directory, kA1);
+  const std::string recording = recorded_log(directory, kA1);
   const std::pair<std::string, std::string> wrong[] = {
       {"speed", "unknown measure 'speed', did you mean 'spread'?"},
       {"color", "unknown measure 'color', there are: progress-distance[[K1:K2]][:PATH], "},
@@ -153,9 +153,9 @@ TEST_CASE("log measure tells which name it does not know") {
 TEST_CASE("log measure: the end of a path must mean one node") {
   const TemporaryDirectory directory;
   const std::string recording =
-      record(directory,
-             "<Parallel><Sequence name=\"a\"><Advance name=\"arm\"/></Sequence>"
-             "<Sequence name=\"b\"><Advance name=\"arm\"/></Sequence></Parallel>");
+      recorded_log(directory,
+                   "<Parallel><Sequence name=\"a\"><Advance name=\"arm\"/></Sequence>"
+                   "<Sequence name=\"b\"><Advance name=\"arm\"/></Sequence></Parallel>");
   CHECK(measure(recording, "predictability:a/arm@0.5") == 50);
   const Outcome outcome = plot_log({"measure", recording, "--measure", "predictability:arm@0.5"});
   CHECK(outcome.code == 2);
@@ -164,7 +164,7 @@ TEST_CASE("log measure: the end of a path must mean one node") {
 
 TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
   const TemporaryDirectory directory;
-  const std::string recording = record(directory, GENERATE(kA1, kR1));
+  const std::string recording = recorded_log(directory, GENERATE(kA1, kR1));
   const Outcome svg = plot_log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(svg.code == 0);
   CHECK(svg.err.empty());
@@ -182,7 +182,7 @@ TEST_CASE("log plot draws an SVG or a PNG, with data and script beside it") {
 TEST_CASE("log plot draws a file for each synchronized node, or for the one that is named") {
   const TemporaryDirectory directory;
   const std::string recording =
-      record(directory, "<Sequence memory=\"true\">" + kA1 + kR1 + "</Sequence>");
+      recorded_log(directory, "<Sequence memory=\"true\">" + kA1 + kR1 + "</Sequence>");
   const Outcome both = plot_log({"plot", recording, "--out", directory.path("x.svg")});
   CHECK(both.code == 0);
   CHECK(both.out == directory.path("x-pull.svg") + "\n" + directory.path("x-point.svg") + "\n");
@@ -198,12 +198,12 @@ TEST_CASE("log plot draws a file for each synchronized node, or for the one that
 
 TEST_CASE("log plot says what it cannot draw") {
   const TemporaryDirectory directory;
-  const std::string plain = record(directory, "<Parallel><Advance name=\"arm\"/></Parallel>");
+  const std::string plain = recorded_log(directory, "<Parallel><Advance name=\"arm\"/></Parallel>");
   const Outcome none = plot_log({"plot", plain, "--out", directory.path("x.svg")});
   CHECK(none.code == 2);
   CHECK(contains(none.err, "the recording has no synchronized node"));
   CHECK(!std::filesystem::exists(directory.path("x.gp")));
-  const std::string recording = record(directory, kA1);
+  const std::string recording = recorded_log(directory, kA1);
   const Outcome format = plot_log({"plot", recording, "--out", directory.path("x.pdf")});
   CHECK(format.code == 2);
   CHECK(contains(format.err, "expected a name that ends in .svg or .png"));
@@ -219,7 +219,7 @@ TEST_CASE("log plot says what it cannot draw") {
 
 TEST_CASE("log plot refuses a picture that nobody could read") {
   const TemporaryDirectory directory;
-  const std::string recording = record(directory, kA1);
+  const std::string recording = recorded_log(directory, kA1);
   const auto plot = [&](const std::string& option, const std::string& pixels) {
     return plot_log({"plot", recording, "--out", directory.path("x.svg"), option, pixels});
   };
@@ -257,7 +257,7 @@ TEST_CASE("log plot of a large recording takes what its picture needs, not what 
 
 TEST_CASE("log plot without gnuplot names the package and leaves the data") {
   const TemporaryDirectory directory;
-  const std::string recording = record(directory, kA1);
+  const std::string recording = recorded_log(directory, kA1);
   const Outcome outcome =
       run({.arguments = {"log", "plot", recording, "--out", directory.path("x.svg")},
            .environment = {{"PATH", directory.path("")}}});
@@ -270,7 +270,7 @@ TEST_CASE("log plot without gnuplot names the package and leaves the data") {
 // A gnuplot that tells its number and then draws for ever.
 TEST_CASE("gnuplot does not outlive log plot") {
   const TemporaryDirectory directory;
-  const std::string recording = record(directory, kA1);
+  const std::string recording = recorded_log(directory, kA1);
   const std::string pipe = directory.path("pipe");
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   const std::string endless =
@@ -298,7 +298,7 @@ TEST_CASE("gnuplot does not outlive log plot") {
 
 TEST_CASE("gnuplot is not looked for in relative directories of PATH") {
   const TemporaryDirectory directory;
-  const std::string recording = record(directory, kA1);
+  const std::string recording = recorded_log(directory, kA1);
   const std::string mark = directory.path("mark");
   const std::string fake = directory.file("gnuplot", "#!/bin/sh\n: > '" + mark + "'\n");
   REQUIRE(chmod(fake.c_str(), 0700) == 0);
@@ -312,7 +312,7 @@ TEST_CASE("gnuplot is not looked for in relative directories of PATH") {
 
 TEST_CASE("log measure and log plot read what a cut recording has") {
   const TemporaryDirectory directory;
-  std::string text = read_file(record(directory, kA1));
+  std::string text = read_file(recorded_log(directory, kA1));
   text.resize(text.size() * 3 / 4);
   const std::string cut = directory.file("cut.jsonl", text);
   for (const Outcome& outcome :

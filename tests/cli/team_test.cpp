@@ -20,7 +20,7 @@ Outcome team(std::vector<std::string> more) {
   return run_lockstep(call);
 }
 
-std::string tree_with(const std::string& inside, const std::string& members = "left;right") {
+std::string tree_of_team(const std::string& inside, const std::string& members = "left;right") {
   return "<root lockstep=\"1\"><team name=\"table\" members=\"" + members +
          "\"/><BehaviorTree ID=\"M\">" + inside + "</BehaviorTree></root>\n";
 }
@@ -107,19 +107,20 @@ TEST_CASE("check reports teams that cannot be") {
   };
   const std::string step =
       R"(<InStep team="table" as="left" delta="0.1"><Wait seconds="1"/></InStep>)";
-  CHECK(check(tree_with(step)) == "");
-  CHECK(contains(
-      check(tree_with(R"(<InStep team="table" as="lef" delta="0.1"><Wait seconds="1"/></InStep>)")),
-      "'lef' is not a member of the team 'table'"));
-  CHECK(contains(check(tree_with(step, "left;left")), "the member 'left' is given twice"));
-  CHECK(contains(check(tree_with(step, "left")), "a team has at least two members"));
-  CHECK(contains(check(tree_with("<Sequence>" + step + step + "</Sequence>")),
+  CHECK(check(tree_of_team(step)) == "");
+  CHECK(contains(check(tree_of_team(
+                     R"(<InStep team="table" as="lef" delta="0.1"><Wait seconds="1"/></InStep>)")),
+                 "'lef' is not a member of the team 'table'"));
+  CHECK(contains(check(tree_of_team(step, "left;left")), "the member 'left' is given twice"));
+  CHECK(contains(check(tree_of_team(step, "left")), "a team has at least two members"));
+  CHECK(contains(check(tree_of_team("<Sequence>" + step + step + "</Sequence>")),
                  "two nodes of 'M' are in step with the team 'table'"));
-  CHECK(contains(check(tree_with(
+  CHECK(contains(check(tree_of_team(
                      R"(<InStep team="tabel" as="left" delta="0.1"><Wait seconds="1"/></InStep>)")),
                  "unknown team 'tabel'"));
-  CHECK(contains(check(tree_with(R"(<InStep team="table" as="left"><Wait seconds="1"/></InStep>)")),
-                 "'barriers', 'barrier_count' or 'delta' is missing"));
+  CHECK(contains(
+      check(tree_of_team(R"(<InStep team="table" as="left"><Wait seconds="1"/></InStep>)")),
+      "'barriers', 'barrier_count' or 'delta' is missing"));
 }
 
 TEST_CASE("in a tree for BehaviorTree.CPP, InStep is what it is in lockstep's language") {
@@ -456,9 +457,9 @@ TEST_CASE("lockstep check: trees that declare a team differently are noted") {
   const TemporaryDirectory directory;
   const auto tree = [&](const char* name, const char* barriers) {
     return directory.file(
-        name, tree_with("<InStep team=\"table\" as=\"" + std::string(name).substr(0, 4) +
-                            "\" barriers=\"" + barriers + "\"><Wait seconds=\"1\"/></InStep>",
-                        "left;righ"));
+        name, tree_of_team("<InStep team=\"table\" as=\"" + std::string(name).substr(0, 4) +
+                               "\" barriers=\"" + barriers + "\"><Wait seconds=\"1\"/></InStep>",
+                           "left;righ"));
   };
   const std::string left = tree("left.xml", "0.5"), right = tree("righ.xml", "0.6");
   const Outcome outcome = run_lockstep({"check", left, right, "--strict"});

@@ -9,7 +9,7 @@ using namespace lockstep::host::test;
 
 namespace {
 
-const std::string kTree =
+const std::string kTicketTree =
     "<root lockstep=\"1\" main_tree_to_execute=\"Main\"><arg name=\"s\" default=\"1\"/><include "
     "path=\"part.xml\"/>"
     "<BehaviorTree ID=\"Main\"><SubTree ID=\"Part\"/></BehaviorTree></root>\n";
@@ -34,7 +34,7 @@ const std::string kOther =
 
 struct TicketFiles {
   TemporaryDirectory directory;
-  std::string tree = directory.file("tree.xml", kTree);
+  std::string tree = directory.file("tree.xml", kTicketTree);
   std::string part = directory.file("part.xml", kPart);
   std::string ticket = directory.file("ticket.json", "");
 
@@ -70,7 +70,7 @@ TEST_CASE("a tree that is changed by one character after the ticket is refused")
   TicketFiles files;
   REQUIRE(files.verify().code == 0);
   SECTION("in the file") {
-    files.directory.file("tree.xml", kTree + " ");
+    files.directory.file("tree.xml", kTicketTree + " ");
     const Outcome outcome = files.play();
     CHECK(outcome.code == 3);
     CHECK(contains(outcome.err, "this is not the tree that was proved"));

@@ -35,7 +35,7 @@ class Shell {
 };
 
 // One line for each command that writes results.
-const std::vector<std::string> kCommands = {
+const std::vector<std::string> kWritingCommands = {
     "check tree.xml",
     "check --format json tree.xml",
     "show tree.xml",
@@ -56,7 +56,7 @@ const std::vector<std::string> kCommands = {
 
 TEST_CASE("results that a full disk does not take are an error of every command") {
   const Shell shell;
-  for (const std::string& command : kCommands) {
+  for (const std::string& command : kWritingCommands) {
     INFO(command);
     const Outcome outcome = shell.call("lockstep " + command + " >/dev/full");
     CHECK(outcome.code == 2);
@@ -68,7 +68,7 @@ TEST_CASE("results that a full disk does not take are an error of every command"
 TEST_CASE("results that nobody wants to read end every command quietly, as SIGPIPE would") {
   const Shell shell;
   const DeadEnd gone(DeadEnd::Reader::Gone);
-  for (const std::string& command : kCommands) {
+  for (const std::string& command : kWritingCommands) {
     INFO(command);
     const Outcome both = shell.call("lockstep " + command + " >&" + gone.number() + " 2>&1");
     CHECK(both.code == 141);

@@ -10,11 +10,11 @@
 namespace lockstep::host::test {
 namespace {
 
-struct Row {
+struct Circle {
   std::string_view claim, barriers, tree, circle;
 };
 
-std::string document(const Row& row) {
+std::string document(const Circle& row) {
   return fmt::format(
       "<root lockstep=\"1\"><plugin name=\"motion\"/>{}<BehaviorTree ID=\"T\">{}</BehaviorTree>"
       "</root>",
@@ -28,7 +28,7 @@ constexpr std::string_view kCoarseAndLate =
 constexpr std::string_view kTwo =
     R"(<barrier name="g" barriers="0.5"/><barrier name="h" barriers="0.5"/>)";
 
-constexpr Row kRows[] = {
+constexpr Circle kCircles[] = {
     {"a member is inside of what an outer barrier holds", kCoarseAndFine, R"(<Parallel>
        <SyncProgress name="c1" barrier="coarse"><SyncProgress name="f1" barrier="fine">
          <Advance step="0.05"/></SyncProgress></SyncProgress>
@@ -180,7 +180,7 @@ std::string circle_of(const Pipeline& pipeline) {
 }
 
 TEST_CASE("held nodes: a circle is warned of, and stands still, and what ends is not") {
-  for (const Row& row : kRows) {
+  for (const Circle& row : kCircles) {
     INFO(row.claim);
     Pipeline pipeline(document(row));
     pipeline.advise();
@@ -190,7 +190,7 @@ TEST_CASE("held nodes: a circle is warned of, and stands still, and what ends is
 }
 
 TEST_CASE("held nodes: the hint explains the circle, with places") {
-  Pipeline pipeline(document(kRows[0]));
+  Pipeline pipeline(document(kCircles[0]));
   pipeline.advise();
   REQUIRE(pipeline.diagnostics().all().size() == 1);
   const Diagnostic& told = pipeline.diagnostics().all().front();
@@ -216,7 +216,7 @@ std::string with_inner(std::string_view around, std::string_view barriers, std::
 }
 
 TEST_CASE("held nodes: the hint says what comes before whom in a Sequence") {
-  Pipeline pipeline(document(kRows[4]));
+  Pipeline pipeline(document(kCircles[4]));
   pipeline.advise();
   REQUIRE(pipeline.diagnostics().all().size() == 1);
   CHECK(pipeline.diagnostics().all().front().hint ==

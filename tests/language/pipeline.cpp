@@ -16,7 +16,7 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr int kMaxTicks = 100;
+constexpr int kMaxPipelineTicks = 100;
 
 std::string whole_document(std::string_view xml) {
   if (xml.find("<root") != std::string_view::npos) return std::string(xml);
@@ -91,7 +91,7 @@ std::string Pipeline::run() const {
   int tick = 0;
   {
     Run run(*tree_, {});
-    while (status == Status::Running && tick < kMaxTicks && run.fault() == nullptr) {
+    while (status == Status::Running && tick < kMaxPipelineTicks && run.fault() == nullptr) {
       status = run.tick(tick++ * run.period());
     }
     if (run.fault() != nullptr) return "fault: " + run.fault()->message;

@@ -11,12 +11,12 @@
 namespace lockstep::host::test {
 namespace {
 
-struct Row {
+struct AdviceRow {
   std::string_view claim, declared, tree, told, run, options = {};
 };
 
-void check_rows(std::span<const Row> rows) {
-  for (const Row& row : rows) {
+void check_rows(std::span<const AdviceRow> rows) {
+  for (const AdviceRow& row : rows) {
     INFO(row.claim);
     Pipeline pipeline(
         fmt::format("<root lockstep=\"1\"><plugin name=\"motion\"/><plugin name=\"robot\"/>{}"
@@ -33,7 +33,7 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
   constexpr std::string_view kPool = R"(<resources name="pool"/>)";
   constexpr std::string_view kBoth =
       R"(<resources name="pool"/><barrier name="b" barriers="0.5"/>)";
-  constexpr Row kRows[] = {
+  constexpr AdviceRow kRows[] = {
       {"children of a synchronized node", kPool, R"(<ParallelRelative delta="0.2">
 <UseResources name="u1" pool="pool" resources="A" keep="true"><Advance step="0.05"/></UseResources>
 <UseResources name="u2" pool="pool" resources="A"><Advance step="0.05"/></UseResources>
@@ -127,7 +127,7 @@ TEST_CASE("keep: members that are held for each other while one keeps what both 
 }
 
 TEST_CASE("keep: without it and with increment=0, the first in the tree always wins") {
-  constexpr Row kRows[] = {
+  constexpr AdviceRow kRows[] = {
       {"the first in the tree always wins, though its child is held",
        R"(<resources name="pool" increment="0"/><barrier name="b" barriers="0.5"/>)", R"(<Parallel>
 <UseResources pool="pool" resources="A"><Parallel>
@@ -146,7 +146,7 @@ TEST_CASE("fairness is not promised to members of a pool that are held") {
   constexpr std::string_view kPool = R"(<resources name="pool"/>)";
   constexpr std::string_view kBoth =
       R"(<resources name="pool"/><barrier name="b" barriers="0.5"/>)";
-  constexpr Row kRows[] = {
+  constexpr AdviceRow kRows[] = {
       {"below a synchronized node", kPool, R"(<Parallel><ParallelRelative name="r" delta="0.1">
 <UseResources name="u1" pool="pool" resources="A"><Advance step="0.1"/></UseResources>
 <Advance step="0.1"/></ParallelRelative>
@@ -183,7 +183,7 @@ TEST_CASE("fairness is not promised to members of a pool that are held") {
 TEST_CASE("members that may never run: the others wait for them for ever") {
   constexpr std::string_view kWait = R"(<barrier name="b" barriers="0.5"/>)";
   constexpr std::string_view kIgnore = R"(<barrier name="b" barriers="0.5" idle="ignore"/>)";
-  constexpr Row kRows[] = {
+  constexpr AdviceRow kRows[] = {
       {"a branch", kWait, R"(<Parallel>
 <SyncProgress barrier="b"><Advance step="0.1"/></SyncProgress>
 <IfThenElse name="if"><IsOpen open="false"/><SyncProgress name="m" barrier="b"><Advance step="0.1"/>
@@ -258,7 +258,7 @@ TEST_CASE("members that begin again after a failure: a barrier that ignores idle
   constexpr std::string_view kIgnore = R"(<barrier name="b" barriers="0.5" idle="ignore"/>)";
   constexpr std::string_view kNote =
       "3:1 note: after a failure of 'm', 'b' does not wait for it while 'w' runs";
-  constexpr Row kRows[] = {
+  constexpr AdviceRow kRows[] = {
       {"a Wait in front of it", kIgnore,
        R"(<Parallel><Retry attempts="9"><Sequence memory="true"><Wait name="w" seconds="0.03"/>
 <SyncProgress name="m" barrier="b"><Advance step="0.1"/></SyncProgress></Sequence></Retry>

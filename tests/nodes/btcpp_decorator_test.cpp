@@ -72,7 +72,7 @@ constexpr TickRow kNames[] = {
    "Sequence(Inverter(WasEntryUpdated[entry={n}]) Script[code=n=1] WasEntryUpdated[entry=n])", "", "S[]"},
 };
 
-constexpr TickRow kHooks[] = {
+constexpr TickRow kBtcppHooks[] = {
   {"_failureIf, _successIf and _skipIf give the result without a tick, asked in this order",
    "Sequence(a[_skipIf=1 _successIf=1] Inverter(b[_successIf=1 _failureIf=1 _skipIf=1]) c[_skipIf=1] d)",
    "a=F b=R c=F d=S", "S[d]"},
@@ -131,7 +131,7 @@ TEST_CASE("BehaviorTree.CPP: names and scripts that are in entries") {
 }
 
 TEST_CASE("BehaviorTree.CPP: scripts around a node") {
-  check_rows(kHooks, FaultPolicy::Stop, btcpp::kRules);
+  check_rows(kBtcppHooks, FaultPolicy::Stop, btcpp::kRules);
   check_rows(kTolerated, FaultPolicy::Fail, btcpp::kRules);
 }
 

@@ -9,7 +9,7 @@
 namespace lockstep::host::test {
 namespace {
 
-const KnownPlugin kKnown(kControlNodes);
+const KnownPlugin kFailingKnown(kControlNodes);
 
 struct FailingRow {
   std::string_view law, tree, leaves;

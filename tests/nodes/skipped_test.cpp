@@ -30,7 +30,7 @@ constexpr TickRow kOrdered[] = {
    "Fallback(a b)", "a=K b=F", "F[a b]"},
 };
 
-constexpr TickRow kParallels[] = {
+constexpr TickRow kSkippedParallels[] = {
   {"Parallel: the others decide",
    "Parallel(a b)", "a=K b=S", "S[a b]"},
   {"Parallel is skipped when all its children were in one tick",
@@ -59,7 +59,7 @@ constexpr TickRow kParallels[] = {
    "R[a b] R[a b] R[a] pause[b] S[b] resume[b]"},
 };
 
-constexpr TickRow kDecorators[] = {
+constexpr TickRow kSkippedDecorators[] = {
   {"Inverter passes it on", "Inverter(a)", "a=K", "K[a]"},
   {"ForceSuccess passes it on", "ForceSuccess(a)", "a=K", "K[a]"},
   {"ForceFailure passes it on", "ForceFailure(a)", "a=K", "K[a]"},
@@ -107,11 +107,11 @@ TEST_CASE("a skipped child of Sequence and Fallback") {
 }
 
 TEST_CASE("a skipped child of the parallels") {
-  check_rows(kParallels);
+  check_rows(kSkippedParallels);
 }
 
 TEST_CASE("a skipped child of other nodes") {
-  check_rows(kDecorators);
+  check_rows(kSkippedDecorators);
 }
 
 TEST_CASE("a skipped member of a barrier or a pool") {

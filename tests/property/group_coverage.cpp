@@ -9,8 +9,8 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr long kOften = 200;
-constexpr long kSeldom = 20;
+constexpr long kOftenInGroups = 200;
+constexpr long kSeldomInGroups = 20;
 constexpr double kMostRefused = 0.05;
 
 constexpr std::array kOftenSeen{
@@ -135,8 +135,8 @@ void GroupCoverage::check() const {
     INFO("how often: " << what);
     CHECK((seen == seen_.end() ? 0 : seen->second) >= times);
   };
-  for (const char* what : kOftenSeen) at_least(kOften, what);
-  for (const char* what : kSeldomSeen) at_least(kSeldom, what);
+  for (const char* what : kOftenSeen) at_least(kOftenInGroups, what);
+  for (const char* what : kSeldomSeen) at_least(kSeldomInGroups, what);
   double refused = 0;
   for (const auto& [message, trees] : refusals_) {
     UNSCOPED_INFO(trees << " refused: " << message);

@@ -8,9 +8,7 @@
 namespace lockstep::host::test {
 namespace {
 
-using Strings = std::vector<std::string>;
-
-Strings study(const Strings& more) {
+Strings compared_study(const Strings& more) {
   Strings arguments{kPaper + "example5.xml",
                     "--runs",
                     "40",
@@ -73,7 +71,7 @@ TEST_CASE("seconds and ticks of the same runs have the same p, whatever the rate
 
 TEST_CASE("two cells that differ are found to differ, in either order") {
   const StudyCase it;
-  it.make(study({}), "out");
+  it.make(compared_study({}), "out");
   const auto json = compared(it, "out", "0", "1");
   CHECK(json["paired"] == false);
   CHECK(json["test"] == "Mann-Whitney");
@@ -104,7 +102,7 @@ TEST_CASE("two cells that differ are found to differ, in either order") {
 
 TEST_CASE("the cells of a paired study are compared run by run") {
   const StudyCase it;
-  it.make(study({"--paired"}), "out");
+  it.make(compared_study({"--paired"}), "out");
   const auto json = compared(it, "out", "1", "2");
   CHECK(json["test"] == "Wilcoxon signed-rank");
   const auto& distance = json["measures"][0];
@@ -132,7 +130,7 @@ TEST_CASE("the cells of a paired study are compared run by run") {
 TEST_CASE("the differences of paired cells vary less") {
   const StudyCase it;
   const auto variance = [&](const Strings& more, const std::string& out) {
-    it.make(study(more), out);
+    it.make(compared_study(more), out);
     const auto values = column(it.read(out, "runs.csv"), "progress-distance Example5/parallel");
     double sum = 0, squares = 0;
     for (std::size_t run = 0; run < 40; ++run) {
@@ -147,7 +145,7 @@ TEST_CASE("the differences of paired cells vary less") {
 
 TEST_CASE("a comparison is a table") {
   const StudyCase it;
-  it.make(study({"--paired"}), "out");
+  it.make(compared_study({"--paired"}), "out");
   const Outcome outcome = compare(it, "out", {"--cells", "0", "2"});
   const auto all = lines(outcome.out);
   REQUIRE(all.size() == 8);
@@ -216,7 +214,7 @@ TEST_CASE("what has no value in a cell is compared with nothing") {
 
 TEST_CASE("a comparison that cannot be made is refused") {
   const StudyCase it;
-  it.make(study({}), "out");
+  it.make(compared_study({}), "out");
   const auto refused = [&](const Strings& more, const std::string& why) {
     const Outcome outcome = compare(it, "out", more);
     INFO(outcome.err);

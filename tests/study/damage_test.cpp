@@ -12,7 +12,6 @@ namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
 
 // Four runs of 100 ticks, with all kinds of columns.
 const Strings kMeasured{
@@ -20,7 +19,7 @@ const Strings kMeasured{
     "--measure",   "step-length", "--measure", "predictability:a1@0.6=10", "--grid",    "rate=100",
     "--max-ticks", "100"};
 
-Strings study() {
+Strings damaged_study() {
   Strings arguments{kPaper + "example5.xml", "--arg", "noise=0"};
   arguments.insert(arguments.end(), kMeasured.begin(), kMeasured.end());
   return arguments;
@@ -123,7 +122,7 @@ void check_refused(const StudyCase& it, const Damage& damage, const std::string&
   fs::copy(it.path("whole"), it.path("bad"));
   replace_first(it.path("bad/" + name), damage);
   const std::string before = it.bytes("bad");
-  auto arguments = study();
+  auto arguments = damaged_study();
   arguments.emplace_back("--resume");
   for (const Outcome& outcome : {it.study(arguments, "bad"), it.merge({"bad"}, "merged")}) {
     INFO(outcome.err);
@@ -138,7 +137,7 @@ void check_refused(const StudyCase& it, const Damage& damage, const std::string&
 
 TEST_CASE("a row that no run of the study can have given is refused") {
   const StudyCase it;
-  it.make(study(), "whole");
+  it.make(damaged_study(), "whole");
   const auto rows = lines(it.read("whole", "runs.csv"));
   REQUIRE(rows.at(1).ends_with(",100,success,7.999999999999974,1,0.050000000000000044,50,0"));
   for (const Damage& damage : kRowDamages) check_refused(it, damage, "runs.csv");
@@ -146,14 +145,14 @@ TEST_CASE("a row that no run of the study can have given is refused") {
 
 TEST_CASE("a study.json that lockstep cannot have written is refused") {
   const StudyCase it;
-  it.make(study(), "whole");
+  it.make(damaged_study(), "whole");
   for (const Damage& damage : kPlanDamages) check_refused(it, damage, "study.json");
 }
 
 TEST_CASE("a study file that is a pipe or a directory is refused, and not waited for") {
   const StudyCase it;
-  it.make(study(), "whole");
-  auto arguments = study();
+  it.make(damaged_study(), "whole");
+  auto arguments = damaged_study();
   arguments.emplace_back("--resume");
   for (const std::string name : {"runs.csv", "study.json"}) {
     for (const bool is_pipe : {true, false}) {
@@ -175,11 +174,11 @@ TEST_CASE("a study file that is a pipe or a directory is refused, and not waited
 
 TEST_CASE("a line without an end is read no further than a row can be long") {
   const StudyCase it;
-  it.make(study(), "whole");
+  it.make(damaged_study(), "whole");
   const std::string rows = it.read("whole", "runs.csv");
   std::ofstream(it.path("whole/runs.csv"), std::ios::binary)
       << rows << std::string(std::size_t{64} << 20u, '1') << '\n';
-  auto arguments = study();
+  auto arguments = damaged_study();
   arguments.emplace_back("--resume");
   const Outcome outcome = it.study(arguments, "whole");
   CHECK(outcome.code == 2);
@@ -195,18 +194,18 @@ TEST_CASE("a study writes through no symbolic link") {
   fs::create_directory(it.path("out"));
   SECTION("study.json.new") {
     fs::create_symlink(victim, it.path("out/study.json.new"));
-    it.make(study(), "out");
+    it.make(damaged_study(), "out");
   }
   SECTION("summary.csv.new") {
-    it.make(study(), "out");
+    it.make(damaged_study(), "out");
     fs::create_symlink(victim, it.path("out/summary.csv.new"));
-    auto arguments = study();
+    auto arguments = damaged_study();
     arguments.emplace_back("--resume");
     it.make(arguments, "out");
   }
   SECTION("runs.csv") {
     fs::create_symlink(it.path("nowhere"), it.path("out/runs.csv"));
-    CHECK(it.study(study(), "out").code == 2);
+    CHECK(it.study(damaged_study(), "out").code == 2);
     CHECK_FALSE(fs::exists(it.path("nowhere")));
     CHECK_FALSE(fs::exists(it.path("out/study.json")));
   }

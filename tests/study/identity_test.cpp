@@ -15,7 +15,6 @@ namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
 
 // 4 cells of 23 runs: neither chunks nor shards come out even.
 const Strings kStudy{kPaper + "example5.xml",
@@ -29,15 +28,6 @@ const Strings kStudy{kPaper + "example5.xml",
                      "progress-distance",
                      "--measure",
                      "predictability:a1@0.6=60"};
-
-Strings with(Strings arguments, const Strings& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 }  // namespace
 

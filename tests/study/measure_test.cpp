@@ -11,8 +11,6 @@
 namespace lockstep::host::test {
 namespace {
 
-using Strings = std::vector<std::string>;
-
 // A synchronized node over two Advance leaves 'a' and 'b'.
 std::string pair_of(const std::string& node, const std::string& a, const std::string& b) {
   const std::string tag = node.substr(0, node.find(' '));

@@ -12,9 +12,8 @@ namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
 
-Strings study(const std::string& rows, const Strings& more = {}) {
+Strings rows_study(const std::string& rows, const Strings& more = {}) {
   Strings arguments{kPaper + "example5.xml",
                     "--runs",
                     "4003",
@@ -39,10 +38,6 @@ std::string all(const StudyCase& it, const std::string& out, const std::string& 
   return it.read(out, file_of(rows)) + it.read(out, "summary.csv") + it.read(out, "study.json");
 }
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 std::string decompressed(const std::string& path) {
   DecompressedFile file(path);
   return {std::istreambuf_iterator<char>(file.text()), {}};
@@ -52,8 +47,8 @@ std::string decompressed(const std::string& path) {
 
 TEST_CASE("rows: compressed they are the same rows, and the summary is the same") {
   const StudyCase it;
-  it.make(study("csv"), "csv");
-  it.make(study("zst"), "zst");
+  it.make(rows_study("csv"), "csv");
+  it.make(rows_study("zst"), "zst");
   CHECK(decompressed(it.path("zst/runs.csv.zst")) == it.read("csv", "runs.csv"));
   CHECK(it.read("zst", "summary.csv") == it.read("csv", "summary.csv"));
   CHECK(2 * fs::file_size(it.path("zst/runs.csv.zst")) < fs::file_size(it.path("csv/runs.csv")));
@@ -94,8 +89,8 @@ TEST_CASE("rows: a run in which a measure has no value counts for none of its nu
 
 TEST_CASE("rows: without them, quartiles are as near as promised and all else is the same") {
   const StudyCase it;
-  it.make(study("csv"), "csv");
-  it.make(study("none"), "none");
+  it.make(rows_study("csv"), "csv");
+  it.make(rows_study("none"), "none");
   CHECK_FALSE(fs::exists(it.path("none/runs.csv")));
   const std::string with = it.read("csv", "summary.csv"), without = it.read("none", "summary.csv");
   for (const char* name : {"min", "max", "mean", "n", "runs", "success", "success-low"})
@@ -113,25 +108,25 @@ TEST_CASE("rows: threads, parts and interruptions change nothing") {
   for (const std::string rows : {"zst", "none"}) {
     INFO(rows);
     const StudyCase it;
-    it.make(study(rows, {"--jobs", "1"}), "one");
+    it.make(rows_study(rows, {"--jobs", "1"}), "one");
     const std::string expected = all(it, "one", rows);
-    it.make(study(rows, {"--jobs", "3"}), "three");
+    it.make(rows_study(rows, {"--jobs", "3"}), "three");
     CHECK(all(it, "three", rows) == expected);
     Strings parts;
     for (const char* part : {"1/3", "2/3", "3/3"}) {
       parts.push_back(std::string("part") + part[0]);
-      it.make(study(rows, {"--shard", part}), parts.back());
+      it.make(rows_study(rows, {"--shard", part}), parts.back());
     }
     CHECK(it.merge(parts, "merged").code == 0);
     CHECK(all(it, "merged", rows) == expected);
     // After an end, there is nothing to do.
-    it.make(study(rows, {"--resume"}), "one");
+    it.make(rows_study(rows, {"--resume"}), "one");
     CHECK(all(it, "one", rows) == expected);
     // What is cut off is made again.
     const std::string results = it.read("one", file_of(rows));
     for (const std::size_t size : {results.size() - 1, results.size() / 2, std::size_t{3}}) {
       write(it.path("one/") + file_of(rows), results.substr(0, size));
-      it.make(study(rows, {"--resume"}), "one");
+      it.make(rows_study(rows, {"--resume"}), "one");
       CHECK(all(it, "one", rows) == expected);
     }
   }
@@ -139,7 +134,7 @@ TEST_CASE("rows: threads, parts and interruptions change nothing") {
 
 TEST_CASE("rows: a cell that has begun goes on") {
   const StudyCase it;
-  it.make(study("none"), "out");
+  it.make(rows_study("none"), "out");
   it.make({kPaper + "example5.xml", "--runs", "2000", "--grid", "noise=0,0.05", "--measure",
            "progress-distance", "--measure", "ticks", "--rows", "none"},
           "some");
@@ -147,25 +142,25 @@ TEST_CASE("rows: a cell that has begun goes on") {
   const std::string whole = it.read("out", "cells.jsonl"), expected = all(it, "out", "none");
   write(it.path("out/cells.jsonl"), whole.substr(0, whole.find('\n') + 1));
   write(it.path("out/cell.json"), lines(it.read("some", "cells.jsonl")).at(1) + '\n');
-  it.make(study("none", {"--resume"}), "out");
+  it.make(rows_study("none", {"--resume"}), "out");
   CHECK(all(it, "out", "none") == expected);
   // Left behind by a kill: the cell has ended.
   write(it.path("out/cells.jsonl"), whole.substr(0, whole.find('\n') + 1));
   write(it.path("out/cell.json"), whole.substr(0, whole.find('\n') + 1));
-  it.make(study("none", {"--resume"}), "out");
+  it.make(rows_study("none", {"--resume"}), "out");
   CHECK(all(it, "out", "none") == expected);
 }
 
 TEST_CASE("rows: damage is refused") {
   const StudyCase it;
-  it.make(study("none"), "out");
+  it.make(rows_study("none"), "out");
   const std::string good = it.read("out", "cells.jsonl");
   const auto refused = [&](const std::string& from, const std::string& to) {
     INFO(from);
     std::string bad = good;
     bad.replace(bad.find(from), from.size(), to);
     write(it.path("out/cells.jsonl"), bad);
-    const Outcome outcome = it.study(study("none", {"--resume"}), "out");
+    const Outcome outcome = it.study(rows_study("none", {"--resume"}), "out");
     CHECK(outcome.code == 2);
     CHECK(contains(outcome.err, "cells.jsonl', line 1: "));
   };
@@ -178,13 +173,13 @@ TEST_CASE("rows: damage is refused") {
 
 TEST_CASE("rows: what needs them says so") {
   const StudyCase it;
-  it.make(study("none"), "none");
+  it.make(rows_study("none"), "none");
   const Outcome compared = run_lockstep({"study", "compare", it.path("none"), "--cells", "0", "1"});
   CHECK(compared.code == 2);
   CHECK(contains(compared.err, "has no rows, which the tests need\n  hint: make it without"));
-  CHECK(contains(it.study(study("none", {"--until-ci", "5%"}), "until").err,
+  CHECK(contains(it.study(rows_study("none", {"--until-ci", "5%"}), "until").err,
                  "--rows none: with --until-ci the values of all runs"));
-  CHECK(contains(it.study(study("csv", {"--resume"}), "none").err, "its 'rows' differs"));
+  CHECK(contains(it.study(rows_study("csv", {"--resume"}), "none").err, "its 'rows' differs"));
   CHECK_FALSE(fs::exists(it.path("none/runs.csv")));
 }
 

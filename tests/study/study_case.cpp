@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <sstream>
 
 namespace lockstep::host::test {
@@ -26,6 +27,15 @@ Outcome StudyCase::merge(std::vector<std::string> parts, const std::string& out)
 
 std::string StudyCase::bytes(const std::string& out) const {
   return read(out, "runs.csv") + read(out, "summary.csv") + read(out, "study.json");
+}
+
+Strings with(Strings arguments, const Strings& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
 }
 
 std::vector<std::string> fields(const std::string& line) {

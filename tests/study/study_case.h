@@ -7,6 +7,7 @@
 namespace lockstep::host::test {
 
 inline const std::string kPaper = LOCKSTEP_SOURCE_DIR "/trees/paper/";
+using Strings = std::vector<std::string>;
 
 class StudyCase {
  public:
@@ -31,6 +32,8 @@ class StudyCase {
   TemporaryDirectory directory_;
 };
 
+Strings with(Strings arguments, const Strings& more);
+void write(const std::string& path, const std::string& text);
 // The fields of a line of CSV without quotes.
 std::vector<std::string> fields(const std::string& line);
 // A column of a CSV file, by its name.

@@ -12,22 +12,12 @@ namespace lockstep::host::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Strings = std::vector<std::string>;
 
 // Without noise 100 runs are enough, with 0.01 some more, with 0.2 there are none too many.
-Strings study(const Strings& more = {"--until-ci", "5%"}) {
+Strings until_study(const Strings& more = {"--until-ci", "5%"}) {
   Strings arguments{kPaper + "example5.xml", "--runs", "400", "--grid", "noise=0,0.01,0.2"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-Strings with(Strings arguments, const Strings& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
 }
 
 std::map<double, std::size_t> runs_of_cells(const std::string& runs_csv) {
@@ -40,8 +30,8 @@ std::map<double, std::size_t> runs_of_cells(const std::string& runs_csv) {
 
 TEST_CASE("until a precision, each cell has the runs that it needs, the first of a longer study") {
   const StudyCase it;
-  it.make(study({}), "all");
-  const Outcome outcome = it.study(study(), "out");
+  it.make(until_study({}), "all");
+  const Outcome outcome = it.study(until_study(), "out");
   CHECK(outcome.code == 0);
   const auto runs = runs_of_cells(it.read("out", "runs.csv"));
   CHECK(runs.at(0) == 100);
@@ -71,7 +61,7 @@ TEST_CASE("until a precision, the narrower one needs more runs, and every measur
   const StudyCase it;
   const auto runs_with = [&](const Strings& more) {
     fs::remove_all(it.path("out"));
-    it.make(study(with({"--grid", "barrier_count=5"}, more)), "out");
+    it.make(until_study(with({"--grid", "barrier_count=5"}, more)), "out");
     return runs_of_cells(it.read("out", "runs.csv")).at(1);
   };
   CHECK(runs_with({"--until-ci", "5%"}) == 100);
@@ -93,7 +83,7 @@ TEST_CASE("until a precision, the bytes are the same on any number of threads") 
        {Strings{"--until-ci", "2%"}, Strings{"--until-ci", "2%", "--paired"}}) {
     for (const std::string jobs : {"1", "2", "7", "64"}) {
       fs::remove_all(it.path(jobs));
-      it.make(study(with(more, {"--jobs", jobs})), jobs);
+      it.make(until_study(with(more, {"--jobs", jobs})), jobs);
       CHECK(it.bytes(jobs) == it.bytes("1"));
     }
   }
@@ -101,7 +91,7 @@ TEST_CASE("until a precision, the bytes are the same on any number of threads") 
 
 TEST_CASE("until a precision, a study cut at any byte goes on to the same bytes") {
   const StudyCase it;
-  it.make(study(), "whole");
+  it.make(until_study(), "whole");
   const std::string rows = it.read("whole", "runs.csv");
   const auto line = [&](std::size_t number) {
     std::size_t at = 0;
@@ -116,7 +106,7 @@ TEST_CASE("until a precision, a study cut at any byte goes on to the same bytes"
     fs::remove(it.path("cut/summary.csv"));
     write(it.path("cut/runs.csv"), rows.substr(0, cut));
     INFO("cut at " << cut);
-    it.make(with(study(), {"--resume", "--jobs", "3"}), "cut");
+    it.make(with(until_study(), {"--resume", "--jobs", "3"}), "cut");
     CHECK(it.bytes("cut") == it.bytes("whole"));
   }
 }
@@ -140,8 +130,8 @@ TEST_CASE("until a precision, a study that a signal ends goes on to the same byt
 
 TEST_CASE("until a precision, a file in which a cell ends too early or too late is refused") {
   const StudyCase it;
-  it.make(study({}), "all");
-  it.make(study(), "whole");
+  it.make(until_study({}), "all");
+  it.make(until_study(), "whole");
   const auto rows = lines(it.read("whole", "runs.csv")), all = lines(it.read("all", "runs.csv"));
   const auto refused = [&](std::size_t from, std::size_t to, const std::string& instead,
                            const std::string& why) {
@@ -154,7 +144,7 @@ TEST_CASE("until a precision, a file in which a cell ends too early or too late 
     fs::copy(it.path("whole"), it.path("bad"));
     write(it.path("bad/runs.csv"), text);
     for (const Outcome& outcome :
-         {it.merge({"bad"}, "merged"), it.study(with(study(), {"--resume"}), "bad")}) {
+         {it.merge({"bad"}, "merged"), it.study(with(until_study(), {"--resume"}), "bad")}) {
       INFO(outcome.err);
       CHECK(outcome.code == 2);
       CHECK(contains(outcome.err, why));
@@ -172,14 +162,14 @@ TEST_CASE("until a precision, a file in which a cell ends too early or too late 
 
 TEST_CASE("until a precision, there are no parts, and another precision is another study") {
   const StudyCase it;
-  it.make(study(), "out");
-  const Outcome part = it.study(study({"--until-ci", "5%", "--shard", "1/2"}), "part");
+  it.make(until_study(), "out");
+  const Outcome part = it.study(until_study({"--until-ci", "5%", "--shard", "1/2"}), "part");
   CHECK(part.code == 2);
   CHECK(contains(part.err, "--until-ci: such a study has no parts"));
   CHECK_FALSE(fs::exists(it.path("part")));
   for (const Strings& other :
        {Strings{}, Strings{"--until-ci", "6%"}, Strings{"--until-ci", "5"}}) {
-    const Outcome outcome = it.study(with(study(other), {"--resume"}), "out");
+    const Outcome outcome = it.study(with(until_study(other), {"--resume"}), "out");
     CHECK(outcome.code == 2);
     CHECK(contains(outcome.err, "its 'until_ci' differs"));
   }
@@ -189,7 +179,7 @@ TEST_CASE("until a precision, there are no parts, and another precision is anoth
 
 TEST_CASE("until a precision, cells of one study may have another number of pairs") {
   const StudyCase it;
-  it.make(study({"--until-ci", "5%", "--paired"}), "out");
+  it.make(until_study({"--until-ci", "5%", "--paired"}), "out");
   const Outcome outcome =
       run_lockstep({"study", "compare", it.path("out"), "--json", "--cells", "0", "2"});
   INFO(outcome.err);

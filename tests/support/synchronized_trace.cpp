@@ -11,7 +11,7 @@
 namespace lockstep::host::test {
 namespace {
 
-struct Outcome {
+struct TraceOutcome {
   std::string who;
   std::vector<std::vector<double>> progress;
   double distance = 0;
@@ -38,9 +38,9 @@ std::string who_is_ticked(const Ticker& ticker) {
   return who;
 }
 
-Outcome play(const SynchronizedTrace& trace, std::size_t ticks) {
+TraceOutcome play(const SynchronizedTrace& trace, std::size_t ticks) {
   ScriptedRun run(trace.tree, trace.leaves);
-  Outcome outcome;
+  TraceOutcome outcome;
   const auto node = synchronized_nodes(run.tree()).front();
   for (std::size_t tick = 0; tick < ticks && outcome.status == Status::Running; ++tick) {
     outcome.status = run.tick(tick * std::chrono::milliseconds(100));
@@ -52,7 +52,7 @@ Outcome play(const SynchronizedTrace& trace, std::size_t ticks) {
   return outcome;
 }
 
-void check_progress(std::string_view expected, const Outcome& outcome) {
+void check_progress(std::string_view expected, const TraceOutcome& outcome) {
   for (const auto& tick : outcome.progress) {
     for (const double progress : tick) {
       CHECK(take_number(expected) == Approx(progress).margin(1e-9));
@@ -69,7 +69,7 @@ void check_traces(std::span<const SynchronizedTrace> traces) {
     INFO(trace.name << ": " << trace.tree << ", " << trace.leaves);
     const auto ticks =
         static_cast<std::size_t>(std::count(trace.who.begin(), trace.who.end(), ' '));
-    const Outcome outcome = play(trace, ticks + 1);
+    const TraceOutcome outcome = play(trace, ticks + 1);
     CHECK(outcome.who == trace.who);
     CHECK(outcome.status == Status::Success);
     CHECK(outcome.distance == Approx(trace.distance).margin(1e-9));

@@ -9,12 +9,12 @@
 namespace lockstep::host::test {
 namespace {
 
-struct Row {
+struct AdviceRow {
   std::string_view claim, tree, said;
 };
 
 // clang-format off
-constexpr Row kRows[] = {
+constexpr AdviceRow kAdviceRows[] = {
   {"what may run is not spoken of", "Fallback[memory=true](a Sequence(c? b))", ""},
   {"behind what never fails", "Fallback(AlwaysSuccess a)",
    "'a' can never run, whatever the leaves do: 'AlwaysSuccess' before it never fails\n"},
@@ -92,7 +92,7 @@ std::string said_of(std::string_view text) {
 }  // namespace
 
 TEST_CASE("check says what is certain, whatever the leaves do, and what may wait for ever") {
-  for (const Row& row : kRows) {
+  for (const AdviceRow& row : kAdviceRows) {
     INFO(row.claim << ": " << row.tree);
     CHECK(said_of(row.tree) == row.said);
   }

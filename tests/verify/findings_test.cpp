@@ -7,15 +7,15 @@
 namespace lockstep::host::test {
 namespace {
 
-constexpr auto kFull = R"(<leaf path="*" finish="full"/>)";
+constexpr auto kEachFull = R"(<leaf path="*" finish="full"/>)";
 constexpr auto kFullSuccess = R"(<leaf path="*" finish="full" result="success"/>)";
 
-struct Row {
+struct FindingsRow {
   std::string_view claim, tree, rows, findings;
 };
 
 // clang-format off
-constexpr Row kRows[] = {
+constexpr FindingsRow kFindingsRows[] = {
   {"a Sequence of two leaves has none", "Sequence[memory=true](a b)", "", ""},
   {"but without memory: the first leaf begins again in each tick, and may halt the second",
    "Sequence(a b)", "", "cycle"},
@@ -37,10 +37,10 @@ constexpr Row kRows[] = {
    "resources[name=p]", kFullSuccess, ""},
   {"a member that need not run",
    "Parallel(SyncProgress[barrier=g](a) Fallback[memory=true](b SyncProgress[barrier=g](c))) "
-   "barrier[name=g barriers=.5]", kFull, "trap"},
+   "barrier[name=g barriers=.5]", kEachFull, "trap"},
   {"not where the barrier leaves out who is idle",
    "Parallel(SyncProgress[barrier=g](a) Fallback[memory=true](b SyncProgress[barrier=g](c))) "
-   "barrier[name=g barriers=.5 idle=ignore]", kFull, ""},
+   "barrier[name=g barriers=.5 idle=ignore]", kEachFull, ""},
   {"a circle through a synchronized node",
    "Parallel(ParallelRelative[delta=.1](SyncProgress[barrier=g](a) "
    "Sequence[memory=true](b SyncProgress[barrier=h](c))) "
@@ -75,7 +75,7 @@ constexpr Row kRows[] = {
 }  // namespace
 
 TEST_CASE("each kind of finding") {
-  for (const Row& row : kRows) {
+  for (const FindingsRow& row : kFindingsRows) {
     INFO(row.claim);
     const Verified it(row.tree, row.rows);
     CHECK(it.found.is_complete());
@@ -89,7 +89,7 @@ TEST_CASE("each kind of finding") {
 }
 
 TEST_CASE("a trap says who waits for whom") {
-  const Verified it(kRows[2].tree, kRows[2].rows);
+  const Verified it(kFindingsRows[2].tree, kFindingsRows[2].rows);
   const Finding* trap = it.finding("trap");
   REQUIRE(trap != nullptr);
   REQUIRE_FALSE(trap->more.empty());

@@ -6,7 +6,7 @@
 namespace lockstep::host::test {
 namespace {
 
-struct Row {
+struct PropertyRow {
   std::string_view property, tree, rows, verdict;  // "holds", or the ticks to the violation
 };
 
@@ -16,7 +16,7 @@ constexpr auto kWaits =
 constexpr auto kFull = R"(<leaf path="*" finish="full" result="success"/>)";
 
 // clang-format off
-const Row kRows[] = {
+const PropertyRow kPropertyRows[] = {
   {"never b.running", "Sequence[memory=true](a b)", "", "1"},
   {"never b.running", "Sequence[memory=true](a b)", R"(<leaf path="*/a" result="failure"/>)", "holds"},
   {"never b.success and a.idle", "Sequence[memory=true](a b)", "", "holds"},
@@ -78,7 +78,7 @@ std::string verdict_of(const Verified& it) {
 }  // namespace
 
 TEST_CASE("properties of all behaviors") {
-  for (const Row& row : kRows) {
+  for (const PropertyRow& row : kPropertyRows) {
     INFO(row.property << " of " << row.tree << ' ' << row.rows);
     CHECK(verdict_of(Verified(row.tree, row.rows, {}, 10, {std::string(row.property)})) ==
           row.verdict);
@@ -137,9 +137,10 @@ TEST_CASE("an output that nothing has given a value has one when its leaf succee
 }
 
 TEST_CASE("a property may name a fact of the leaf file") {
-  constexpr auto kRows = R"(<fact name="charged" changes="never"/><leaf path="*/c" fact="charged"/>
+  constexpr auto kPropertyRows =
+      R"(<fact name="charged" changes="never"/><leaf path="*/c" fact="charged"/>
     <leaf path="*/a" result="success" sets="charged=true"/>)";
-  const Verified it("Sequence[memory=true](Fallback[memory=true](c? a) b)", kRows, {}, 10,
+  const Verified it("Sequence[memory=true](Fallback[memory=true](c? a) b)", kPropertyRows, {}, 10,
                     {"never b.running and {fact:charged} != true", "never {fact:charged} == false",
                      "{fact:charged} == true only after c.ticked"});
   CHECK(it.findings() == "property/never {fact:charged} == false");

@@ -31,8 +31,8 @@ std::string tree(std::string_view id, std::string_view node) {
 // A project of these trees, before its subtrees are expanded.
 struct Checked {
   explicit Checked(const std::string& inside)
-      : project(load_project_text("t.xml", "<root lockstep=\"1\">" + inside + "</root>", {},
-                                  diagnostics)) {
+      : project(load_project_text("t.xml", "<root lockstep=\"1\">" + inside + "</root>",
+                                  Arguments(), diagnostics)) {
     trees = check_trees(*project, catalog, diagnostics);
     may_expand = check_references(trees, {project->sources, diagnostics});
   }
@@ -122,8 +122,8 @@ TEST_CASE("a project asks for at most 256 plugins") {
   for (const bool beyond : {false, true}) {
     Diagnostics diagnostics;
     const auto project = load_project_text(
-        "t.xml", "<root lockstep=\"1\">" + plugins(kMaxPlugins + (beyond ? 1 : 0)) + "</root>", {},
-        diagnostics);
+        "t.xml", "<root lockstep=\"1\">" + plugins(kMaxPlugins + (beyond ? 1 : 0)) + "</root>",
+        Arguments(), diagnostics);
     CHECK(requested_plugins(*project, diagnostics).size() == kMaxPlugins);
     CHECK(diagnostics.all().size() == (beyond ? 1 : 0));
     if (beyond) CHECK(diagnostics.all()[0].message == "more than 256 plugins");

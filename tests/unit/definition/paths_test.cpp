@@ -15,7 +15,7 @@ namespace {
 std::vector<std::string> paths(const std::string& inside) {
   Diagnostics diagnostics;
   const auto project = load_project_text(
-      "t.xml", "<root lockstep=\"1\" main_tree_to_execute=\"T\">" + inside + "</root>", {},
+      "t.xml", "<root lockstep=\"1\" main_tree_to_execute=\"T\">" + inside + "</root>", Arguments(),
       diagnostics);
   REQUIRE(project != nullptr);
   const auto definition = resolve(*project, make_catalog(PluginSet()), {}, diagnostics);

@@ -45,7 +45,7 @@ Resolved resolved(const std::string& main, const std::string& sub) {
                                  "<BehaviorTree ID='Sub'><All>" +
                                      sub + "</All></BehaviorTree>\n<BehaviorTree ID='Main'><All>" +
                                      main + "</All></BehaviorTree></root>",
-                                 {}, it.diagnostics);
+                                 Arguments(), it.diagnostics);
   REQUIRE(it.project);
   Catalog catalog = make_catalog({}, btcpp::kRules);
   catalog.add(&kLeaf);
@@ -70,7 +70,7 @@ Lines entries(const std::string& main, const std::string& sub = "<Use/>") {
   return lines;
 }
 
-struct Row {
+struct EntriesRow {
   std::string law, main, sub;
   Lines entries;
 };
@@ -78,7 +78,7 @@ struct Row {
 }  // namespace
 
 TEST_CASE("the first port with a type decides the type of an entry") {
-  const Row rows[] = {
+  const EntriesRow rows[] = {
       {"a port declares", "<Use int='{a}'/>", "", {"a: int"}},
       {"again", "<Use int='{a}'/><Use int='{a}'/>", "", {"a: int"}},
       {"another type",
@@ -105,14 +105,14 @@ TEST_CASE("the first port with a type decides the type of an entry") {
       {"whatever comes first", "<Use _post='a := 1'/><Use int='{a}'/>", "", {"a: int"}},
       {"blanks around", "<Use text=' {a} '/>", "", {"a: string"}},
   };
-  for (const Row& row : rows) {
+  for (const EntriesRow& row : rows) {
     INFO(row.law);
     CHECK(entries(row.main) == row.entries);
   }
 }
 
 TEST_CASE("a SubTree has a board, and its attributes remap it or give start values") {
-  const Row rows[] = {
+  const EntriesRow rows[] = {
       {"a board",
        "<SubTree ID='Sub'/><Use int='{a}'/>",
        "<Use real='{a}'/>",
@@ -163,7 +163,7 @@ TEST_CASE("a SubTree has a board, and its attributes remap it or give start valu
        "<Use int='{a}'/><Use real='{a}'/>",
        {"'{a}' is a double for 'real', but an int elsewhere"}},
   };
-  for (const Row& row : rows) {
+  for (const EntriesRow& row : rows) {
     INFO(row.law);
     Lines sorted = entries(row.main, row.sub);
     Lines expected = row.entries;

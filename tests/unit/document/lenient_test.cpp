@@ -21,7 +21,7 @@ Lines told_of(const std::string& text) {
   return told(diagnostics);
 }
 
-std::string value_of(const std::string& text) {
+std::string attribute_of(const std::string& text) {
   Diagnostics diagnostics;
   const auto document = Document::parse("f", text, diagnostics);
   REQUIRE(document);
@@ -43,8 +43,9 @@ TEST_CASE("the attributes of the root say in which language a text is") {
 }
 
 TEST_CASE("values with '<' and '&' are as they are written, and places stay exact") {
-  CHECK(value_of("<root><A x='a < b && c & d &lt; &foo;'/></root>") == "a < b && c & d < &foo;");
-  CHECK(value_of("<root><A x='a\t b\n&#10;c'/></root>") == "a\t b\n\nc");
+  CHECK(attribute_of("<root><A x='a < b && c & d &lt; &foo;'/></root>") ==
+        "a < b && c & d < &foo;");
+  CHECK(attribute_of("<root><A x='a\t b\n&#10;c'/></root>") == "a\t b\n\nc");
   CHECK(told_of("<root><A x='a < b'\n  y='&&' y=''/></root>") ==
         Lines{"f:2:10: attribute 'y' is given twice"});
 }
@@ -91,7 +92,7 @@ TEST_CASE("more texts than anybody reads are not told") {
 TEST_CASE("in a document for BehaviorTree.CPP, ${name} is text unless it is declared") {
   Diagnostics diagnostics;
   const auto project = load_project_text(
-      "f", "<root><arg name='a' default='1'/><A x='${a} ${b} $${a} $${b} ${'/></root>", {},
+      "f", "<root><arg name='a' default='1'/><A x='${a} ${b} $${a} $${b} ${'/></root>", Arguments(),
       diagnostics);
   REQUIRE(project);
   CHECK(told(diagnostics).empty());
@@ -105,8 +106,8 @@ TEST_CASE("files of ROS packages are where the user says, else in AMENT_PREFIX_P
   files.write("a.xml", "<root/>");
   const RosPackages packages{.given = {{"here", files / "."}}, .prefixes = {files / "install"}};
   const auto load = [&](const std::string& include, Diagnostics& diagnostics) {
-    return load_project_text("f", "<root><include " + include + "/></root>", {}, diagnostics,
-                             packages);
+    return load_project_text("f", "<root><include " + include + "/></root>", Arguments(),
+                             diagnostics, packages);
   };
   Diagnostics good;
   CHECK(load("ros_pkg='arms' path='trees/a.xml'", good)->documents.size() == 2);

@@ -190,7 +190,7 @@ TEST_CASE("an <include> is what it may be") {
   for (const auto& [element, expected] : rows) {
     INFO(element);
     Diagnostics diagnostics;
-    load_project_text("f", "<root lockstep='1'>" + element + "</root>", {}, diagnostics);
+    load_project_text("f", "<root lockstep='1'>" + element + "</root>", Arguments(), diagnostics);
     const auto lines = told(diagnostics);
     CHECK(std::count(lines.begin(), lines.end(), expected) == 1);
   }
@@ -198,8 +198,8 @@ TEST_CASE("an <include> is what it may be") {
 
 TEST_CASE("only directly in the root an element loads something") {
   Diagnostics diagnostics;
-  load_project_text("f", "<root lockstep='1'><T><include path='none.xml'/><arg/></T></root>", {},
-                    diagnostics);
+  load_project_text("f", "<root lockstep='1'><T><include path='none.xml'/><arg/></T></root>",
+                    Arguments(), diagnostics);
   CHECK(told(diagnostics).empty());
 }
 

@@ -10,11 +10,11 @@ using namespace std::string_literals;
 
 namespace {
 
-struct Row {
+struct WellFormedRow {
   std::string law, text, told;
 };
 
-void check(const Row& row) {
+void check(const WellFormedRow& row) {
   Diagnostics diagnostics;
   Document::parse("f", row.text, diagnostics);
   INFO(row.law << ": " << row.text);
@@ -31,7 +31,7 @@ std::string nested(std::size_t depth) {
 }  // namespace
 
 TEST_CASE("what is not XML is reported with its exact place") {
-  const Row rows[] = {
+  const WellFormedRow rows[] = {
       {"mismatch", "<r>\n <A>\n  <B/>\n </C>\n</r>",
        "f:4:2: '</C>' closes '<A>', opened at line 2"},
       {"case counts", "<r></R>", "f:1:4: '</R>' closes '<r>', opened at line 1"},
@@ -109,7 +109,7 @@ TEST_CASE("what is not XML is reported with its exact place") {
 }
 
 TEST_CASE("what is not text in UTF-8 is reported with its exact place") {
-  const Row rows[] = {
+  const WellFormedRow rows[] = {
       {"UTF-16, low byte first", "\xff\xfe<\0r\0"s, "f:1:1: the file is in UTF-16"},
       {"UTF-16, high byte first", "\xfe\xff\0<\0r"s, "f:1:1: the file is in UTF-16"},
       {"NUL", "<r>\n \0</r>"s, "f:2:2: NUL byte: this is not text in UTF-8"},

@@ -31,14 +31,14 @@ Before strict(ValueType type, Value value = {}) {
   return {.typing = Typing::Strict, .type = type, .value = std::move(value)};
 }
 
-struct Row {
+struct AssignmentRow {
   Before before;
   std::string script;
   std::string after;  // "value*writes", or the error
 };
 
-void check(std::span<const Row> rows) {
-  for (const Row& row : rows) {
+void check(std::span<const AssignmentRow> rows) {
+  for (const AssignmentRow& row : rows) {
     INFO(row.script);
     ScriptBoard board(std::make_shared<ScriptEnums>(ScriptEnums{{"RED", 2}}));
     const Before& it = row.before;
@@ -68,7 +68,7 @@ std::string refused(const std::string& what, const std::string& type) {
 }  // namespace
 
 TEST_CASE(":= makes a missing entry without a type, others need it") {
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {kMissing, "x := 5", "5*1"},
       {kMissing, "x := 'a'", "'a'*1"},
       {kMissing, "x := true", "1.0*1"},
@@ -89,7 +89,7 @@ TEST_CASE(":= makes a missing entry without a type, others need it") {
 }
 
 TEST_CASE("an entry keeps its kind") {
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {any(std::int64_t{1}), "x = 7", "7*1"},
       {any(std::int64_t{1}), "x = 7.0", "7*1"},
       {any(std::int64_t{1}), "x := 2.5", refused("2.5", "int")},
@@ -122,7 +122,7 @@ TEST_CASE("an entry keeps its kind") {
 }
 
 TEST_CASE("a text becomes a value of the declared type") {
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {declared(ValueType::Int), "x = '12'", "12*1"},
       {declared(ValueType::Int, std::int64_t{1}), "x = '12'", "12*1"},
       {declared(ValueType::Int), "x = 'a'", refused("the text 'a'", "int")},
@@ -138,7 +138,7 @@ TEST_CASE("a text becomes a value of the declared type") {
 }
 
 TEST_CASE("an empty entry of a type takes any value but a text, which is converted, as it is") {
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {declared(ValueType::Int), "x := 3", "3*1"},
       {declared(ValueType::Int), "x := 3.0", "3.0*1"},
       {declared(ValueType::Int), "x := 3.7", "3.7*1"},
@@ -157,7 +157,7 @@ TEST_CASE("an empty entry of a type takes any value but a text, which is convert
 }
 
 TEST_CASE("+= and its like calculate and then assign") {
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {any(std::int64_t{5}), "x += 1", "6*1"},
       {any(std::int64_t{5}), "x /= 2", refused("2.5", "int")},
       {any(std::int64_t{5}), "x *= 2", "10*1"},
@@ -206,7 +206,7 @@ TEST_CASE("each assignment is a write, and its value is what is stored") {
 }
 
 TEST_CASE("a strict entry holds values of its type only") {
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {strict(ValueType::Int), "x := 3", "3*1"},
       {strict(ValueType::Int), "x = 3.0", "3*1"},
       {strict(ValueType::Int, std::int64_t{1}), "x = 2.5", refused("2.5", "int")},
@@ -226,7 +226,7 @@ TEST_CASE("a strict entry holds values of its type only") {
 TEST_CASE("a script makes no text of more than a megabyte") {
   const std::string half(Evaluator::kLongestText / 2, 'a');
   const std::string error = " makes a text of more than 1048576 bytes";
-  const Row rows[] = {
+  const AssignmentRow rows[] = {
       {any(half + "a"), "x := x .. x", "'..'" + error},
       {any(half + "a"), "x := x + x", "'+'" + error},
       {any(half + "a"), "x += x", "'+='" + error},

@@ -24,7 +24,7 @@ std::optional<Change> change_of(const std::string& script) {
 
 const std::vector<Value>& numbers() {
   constexpr auto kExact = std::int64_t{1} << 53;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
   static const std::vector<Value> list{std::int64_t{0},
                                        std::int64_t{7},
                                        std::int64_t{-3},
@@ -37,7 +37,7 @@ const std::vector<Value>& numbers() {
                                        2.5,
                                        -1e300,
                                        1e308,
-                                       kInfinity,
+                                       kEndless,
                                        -1.0 / 3,
                                        4.0,
                                        true,

@@ -9,7 +9,7 @@
 namespace lockstep::host {
 namespace {
 
-constexpr auto kPeriod = std::chrono::milliseconds(100);
+constexpr auto kTickPeriod = std::chrono::milliseconds(100);
 
 // What the loop does with a run that may be paused.
 struct HookedRun {
@@ -18,7 +18,7 @@ struct HookedRun {
     int ticks = 0;
     take_orders();
     while (!control.is_paused() && !has_ended(status)) {
-      run.set_now(now += kPeriod);
+      run.set_now(now += kTickPeriod);
       status = run.tick(now);
       control.count_tick(run.ticker());
       ++ticks;

@@ -52,9 +52,9 @@ struct Writes : Observer {
 };
 
 // No tick comes to the nodes that read them.
-constexpr const char* kTree =
+constexpr const char* kFeedTree =
     "Sequence(a Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](b c))";
-constexpr const char* kLeaves = "a=R b=R c=R";
+constexpr const char* kFeedLeaves = "a=R b=R c=R";
 
 std::vector<double> list(std::initializer_list<double> numbers) {
   return numbers;
@@ -74,7 +74,7 @@ struct Shown final : Observer {
 };
 
 TEST_CASE("a snapshot has the value of each entry, and the tick of its last change") {
-  WatchedRun run(kTree, kLeaves);
+  WatchedRun run(kFeedTree, kFeedLeaves);
   Writes writes(run);
   writes.values = {{1, {"plan", list({0.5, 1})}},
                    {2, {"plan", list({0.5, 1})}},  // the same value is no change
@@ -126,7 +126,7 @@ TEST_CASE("the last snapshot has what leaves log when they are halted, and what 
 
 TEST_CASE("a replay has the entries and logs of the live snapshots, forward and back") {
   const TemporaryPath file;
-  WatchedRun run(kTree, kLeaves);
+  WatchedRun run(kFeedTree, kFeedLeaves);
   Writes writes(run);
   for (std::uint64_t tick = 1; tick < 40; tick += 3) {
     writes.values.insert({tick, {"plan", list({0.01 * static_cast<double>(tick), 1})}});
@@ -166,9 +166,9 @@ TEST_CASE("a replay has the entries and logs of the live snapshots, forward and 
 
 // --- what is drawn -------------------------------------------------------------------------------
 
-struct Board {
+struct ShownBoard {
   // Each with its value and the tick of its last change.
-  explicit Board(const std::vector<std::pair<std::string, EntryState>>& entries) {
+  explicit ShownBoard(const std::vector<std::pair<std::string, EntryState>>& entries) {
     shape.nodes.push_back({.path = "Test/wait", .kind = "Wait", .name = "wait"});
     complete(shape);
     for (const auto& [key, state] : entries) {
@@ -191,17 +191,17 @@ EntryState at(std::uint64_t tick, const std::string& text) {
 }
 
 TEST_CASE("below the tree are the five entries that changed last, and how many more there are") {
-  Board board({{"a", at(3, "1")}, {"b", at(9, "2")}, {"c", {}}, {"d", at(3, "4")}});
+  ShownBoard board({{"a", at(3, "1")}, {"b", at(9, "2")}, {"c", {}}, {"d", at(3, "4")}});
   CHECK(board.below() ==
         "b = 2  tick 9\n"
         "a = 1  tick 3\n"
         "d = 4  tick 3\n");
-  board = Board({{"a", at(1, "1")},
-                 {"b", at(2, "2")},
-                 {"c", at(3, "3")},
-                 {"d", at(4, "4")},
-                 {"e", at(5, "5")},
-                 {"f", at(6, "6")}});
+  board = ShownBoard({{"a", at(1, "1")},
+                      {"b", at(2, "2")},
+                      {"c", at(3, "3")},
+                      {"d", at(4, "4")},
+                      {"e", at(5, "5")},
+                      {"f", at(6, "6")}});
   CHECK(board.below() ==
         "f = 6  tick 6\n"
         "e = 5  tick 5\n"
@@ -215,24 +215,23 @@ TEST_CASE("below the tree are the five entries that changed last, and how many m
         "... 4 more entries\n");
   CHECK(board.below({.width = 40, .height = 4}).empty());
   CHECK(board.below({.width = 40, .height = 1}).empty());
-  CHECK(Board({{"c", {}}, {"d", {}}}).below().empty());
+  CHECK(ShownBoard({{"c", {}}, {"d", {}}}).below().empty());
 }
 
 TEST_CASE("a value fits into one line of the terminal, whatever it is") {
-  const Board board({{"text", at(8, "two\nlines \x1b[2J")},
-                     {"long", {.is_long = true, .changed = 7}},
-                     {"list", at(6, "0.1;0.2;0.3;0.4;0.5")}});
+  const ShownBoard board({{"text", at(8, "two\nlines \x1b[2J")},
+                          {"long", {.is_long = true, .changed = 7}},
+                          {"list", at(6, "0.1;0.2;0.3;0.4;0.5")}});
   CHECK(board.below({.width = 24, .height = 24}) ==
         "text = two\\x0Alines \\...\n"
         "long = (too long to b...\n"
         "list = 0.1;0.2;0.3;0....\n");
-  CHECK(
-      Board({{"k", at(1, "v")}, {"none", {}}}).below({.width = 40, .height = 24, .color = true}) ==
-      "k = v\x1b[2m  tick 1\x1b[0m\n");
+  CHECK(ShownBoard({{"k", at(1, "v")}, {"none", {}}})
+            .below({.width = 40, .height = 24, .color = true}) == "k = v\x1b[2m  tick 1\x1b[0m\n");
 }
 
 TEST_CASE("entries take no room from the nodes of the tree") {
-  Board board({{"a", at(1, "1")}, {"b", at(2, "2")}});
+  ShownBoard board({{"a", at(1, "1")}, {"b", at(2, "2")}});
   for (int i = 0; i < 3; ++i) {
     board.shape.nodes.push_back({.path = "Test/c", .kind = "Wait", .name = "c"});
     board.snapshot.nodes.emplace_back();
@@ -247,7 +246,7 @@ TEST_CASE("entries take no room from the nodes of the tree") {
 }
 
 TEST_CASE("logs are drawn below the entries where they are asked for") {
-  Board board({{"a", at(1, "1")}});
+  ShownBoard board({{"a", at(1, "1")}});
   for (const char* text : {"one", "two", "three"}) {
     board.snapshot.logs.add({"Test/a", "info", text});
   }
@@ -263,7 +262,7 @@ TEST_CASE("logs are drawn below the entries where they are asked for") {
 
 TEST_CASE("the live view shows entries below the tree") {
   TextFile out;
-  WatchedRun run(kTree, kLeaves);
+  WatchedRun run(kFeedTree, kFeedLeaves);
   Writes writes(run);
   writes.values = {{2, {"plan", list({0.5, 1})}}};
   ConsoleLive live(shape_of(run.run.tree()), {.color = false, .unicode = false}, out.outlet());

@@ -36,12 +36,12 @@ struct Taker final : Observer {
 };
 
 // Nodes that change in each tick, so that the ring is full sooner or later.
-constexpr const char* kFeedTree = "Repeat(ParallelAbsolute[barriers=.5](a b))";
-constexpr const char* kFeedLeaves = "a=RRS... b+.3";
+constexpr const char* kChangingTree = "Repeat(ParallelAbsolute[barriers=.5](a b))";
+constexpr const char* kChangingLeaves = "a=RRS... b+.3";
 
 TEST_CASE("the statuses that were passed on are those of the run") {
   for (const std::uint64_t ticks : {1u, 7u, 50'000u}) {
-    WatchedRun run(kFeedTree, kFeedLeaves);
+    WatchedRun run(kChangingTree, kChangingLeaves);
     Taker taker(run.run.tree(), ticks);
     run.watch({&taker}, 100'002);
     CHECK(taker.looks >= static_cast<int>(100'000 / ticks));

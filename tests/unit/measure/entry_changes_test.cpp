@@ -10,7 +10,7 @@ namespace lockstep::host::test {
 namespace {
 
 // Two entries that are read by nodes: 0 is 'pause', 1 is 'plan'.
-struct Board {
+struct WatchedBoard {
   Tree tree =
       tree_from_text("Parallel(Wait[seconds={pause}] ParallelAbsolute[barriers={plan}](a))");
   Blackboard board{tree};
@@ -31,7 +31,7 @@ std::string text_of(std::span<const EntryChange> changes) {
 }  // namespace
 
 TEST_CASE("entries: one is shown when it has another value than in the last line") {
-  Board it;
+  WatchedBoard it;
   EntryChanges changes({0, 1});
   CHECK(text_of(changes.changes(it.board.entries)).empty());  // nobody has written anything
   it.set(0, 0.5);
@@ -48,7 +48,7 @@ TEST_CASE("entries: one is shown when it has another value than in the last line
 }
 
 TEST_CASE("entries: one that was written between ticks is marked until a line has it") {
-  Board it;
+  WatchedBoard it;
   EntryChanges changes({0, 1});
   it.set(0, 0.5);
   it.set(1, std::vector<double>{1});
@@ -74,7 +74,7 @@ TEST_CASE("entries: one that was written between ticks is marked until a line ha
 }
 
 TEST_CASE("entries: only those that were asked for, numbered in their order") {
-  Board it;
+  WatchedBoard it;
   EntryChanges changes({1});
   it.set(0, 0.5);
   it.set(1, std::vector<double>{0.5});
@@ -83,7 +83,7 @@ TEST_CASE("entries: only those that were asked for, numbered in their order") {
 }
 
 TEST_CASE("entries: a value of more than 256 bytes is only named, each time it is written") {
-  Board it;
+  WatchedBoard it;
   EntryChanges changes({0, 1});
   it.set(0, std::string(EntryChanges::kLongest, 'x'));
   CHECK(changes.changes(it.board.entries)[0].text->size() == EntryChanges::kLongest);

@@ -30,19 +30,19 @@ std::string watch(std::string_view tree, std::string_view leaves, int ticks, dou
   return reports;
 }
 
-constexpr const char* kTree = "ParallelAbsolute[barriers=.5;1](a b)";
+constexpr const char* kStallTree = "ParallelAbsolute[barriers=.5;1](a b)";
 
 TEST_CASE("a child that stands still while another waits for it is reported once") {
   // b reaches the barrier with its second tick and is held from tick 2 on.
-  CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.35) == "a@6 since 2;");
+  CHECK(watch(kStallTree, "a=R.2R b+.25", 20, 0.35) == "a@6 since 2;");
 }
 
 TEST_CASE("exactly the limit is not longer than the limit") {
-  CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.4) == "a@7 since 2;");
+  CHECK(watch(kStallTree, "a=R.2R b+.25", 20, 0.4) == "a@7 since 2;");
 }
 
 TEST_CASE("a child that advances is no standstill") {
-  CHECK(watch(kTree, "a+.01 b+.25", 40, 0.35) == "");
+  CHECK(watch(kStallTree, "a+.01 b+.25", 40, 0.35) == "");
 }
 
 TEST_CASE("nobody stands in the way when nobody is held") {
@@ -61,7 +61,7 @@ TEST_CASE("a standstill that becomes a circle is reported again") {
 }
 
 TEST_CASE("a standstill that goes on after progress is a new one") {
-  CHECK(watch(kTree, "a=R.2RRRRRRRRR.3R b+.25", 30, 0.35) == "a@6 since 2;a@14 since 10;");
+  CHECK(watch(kStallTree, "a=R.2RRRRRRRRR.3R b+.25", 30, 0.35) == "a@6 since 2;a@14 since 10;");
 }
 
 TEST_CASE(
@@ -90,7 +90,7 @@ TEST_CASE("a new activation has no best yet") {
 }
 
 TEST_CASE("who is held is not to blame") {
-  CHECK(watch(kTree, "a=R.2R b+.25", 20, 0.35).find("b@") == std::string::npos);
+  CHECK(watch(kStallTree, "a=R.2R b+.25", 20, 0.35).find("b@") == std::string::npos);
 }
 
 TEST_CASE("time before anybody waited does not count") {

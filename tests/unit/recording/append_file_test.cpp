@@ -177,7 +177,7 @@ TEST_CASE("a compressed file that cannot grow can be read up to a whole line") {
 
 // What a process does that must not take this one with it; its exit code, or -1.
 template <class Function>
-int in_child(Function function) {
+int code_of_child(Function function) {
   const pid_t child = fork();
   if (child == 0) {
     alarm(20);
@@ -204,7 +204,7 @@ void save_and_exit(int) {
 
 TEST_CASE("what was pushed before a crash is in the file") {
   const TemporaryPath path;
-  const int code = in_child([&]() -> int {
+  const int code = code_of_child([&]() -> int {
     AppendFile file(path.path());
     file.push(packet(lines(0, 1000)));
     crash();
@@ -215,7 +215,7 @@ TEST_CASE("what was pushed before a crash is in the file") {
 
 TEST_CASE("what was pushed before a crash is in a compressed file, and goes on in its frame") {
   const TemporaryPath path;
-  const int code = in_child([&]() -> int {
+  const int code = code_of_child([&]() -> int {
     AppendFile file(path.path(), AppendFile::kQueue, {.compression = Compression::Zstd});
     file.write(packet(lines(0, 1000)));
     file.push(packet(lines(1000, 2000)));
@@ -229,7 +229,7 @@ TEST_CASE("a crash handler compresses by itself when the thread does not answer"
   const TemporaryPath path;
   AppendFile file(path.path(), AppendFile::kQueue, {.compression = Compression::Zstd});
   file.write(packet(lines(0, 10)));
-  const int code = in_child([&]() -> int {
+  const int code = code_of_child([&]() -> int {
     file.push(packet(lines(10, 1000)));
     crash();
   });
@@ -241,7 +241,7 @@ TEST_CASE("a crash handler writes by itself when the thread does not answer") {
   const TemporaryPath path;
   AppendFile file(path.path());
   // A fork has the file and its queue, but not the thread.
-  const int code = in_child([&]() -> int {
+  const int code = code_of_child([&]() -> int {
     file.push(packet(lines(0, 1000)));
     crash();
   });
@@ -252,7 +252,7 @@ TEST_CASE("a crash handler writes by itself when the thread does not answer") {
 TEST_CASE("a crash handler does not wait forever, not even where it writes by itself") {
   BlockedDisk disk;
   AppendFile file(disk.path());
-  CHECK(in_child([&]() -> int {
+  CHECK(code_of_child([&]() -> int {
           file.push(packet(lines(0, 2000)));  // more than the pipe takes
           crash();
         }) == kSaved);

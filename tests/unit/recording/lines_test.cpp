@@ -22,7 +22,6 @@ namespace lockstep::host {
 namespace {
 
 using lines::Field;
-using lines::Object;
 using lines::Tuple;
 using nlohmann::ordered_json;
 
@@ -79,7 +78,7 @@ std::string page_types() {
     }
     text += fmt::format("export type {} = [{}];\n", it.name, list);
   }
-  for (const Object& it : lines::kObjects) {
+  for (const lines::Object& it : lines::kObjects) {
     text += fmt::format("\nexport interface {} {{\n", it.name);
     for (const Field& field : it.fields) {
       const char* sign = field.has == lines::kMaybe ? "?" : "";
@@ -88,7 +87,7 @@ std::string page_types() {
     text += "}\n";
   }
   text += "\nexport type Line =";
-  for (const Object& it : std::span(lines::kObjects).first(lines::kKinds)) {
+  for (const lines::Object& it : std::span(lines::kObjects).first(lines::kKinds)) {
     text += fmt::format("{} {}", it.name == lines::kObjects[0].name ? "" : " |", it.name);
   }
   return text + ";\n";
@@ -111,7 +110,7 @@ ordered_json schema(const Tuple& tuple) {
   return {{"type", "array"}, {"items", items}, {"minItems", count}, {"maxItems", count}};
 }
 
-ordered_json schema(const Object& object) {
+ordered_json schema(const lines::Object& object) {
   ordered_json required, properties;
   for (const Field& it : object.fields) {
     if (it.has == lines::kAlways) required.push_back(it.key);
@@ -123,13 +122,13 @@ ordered_json schema(const Object& object) {
 // Each definition on a line.
 std::string whole_schema() {
   ordered_json kinds, names, definitions;
-  for (const Object& it : std::span(lines::kObjects).first(lines::kKinds)) {
+  for (const lines::Object& it : std::span(lines::kObjects).first(lines::kKinds)) {
     kinds.push_back(schema(it.name));
   }
   for (const StatusRow& row : kStatuses) names.push_back(row.name);
   definitions["StatusName"] = {{"enum", names}};
   for (const Tuple& it : lines::kTuples) definitions[std::string(it.name)] = schema(it);
-  for (const Object& it : lines::kObjects) definitions[std::string(it.name)] = schema(it);
+  for (const lines::Object& it : lines::kObjects) definitions[std::string(it.name)] = schema(it);
   std::string text;
   for (const auto& it : definitions.items()) {
     text += fmt::format("{}\n    \"{}\": {}", text.empty() ? "" : ",", it.key(), it.value().dump());
@@ -152,7 +151,7 @@ std::string notation(std::string_view type) {
   return text + "]`";
 }
 
-std::string table(const Object& object) {
+std::string markdown_table(const lines::Object& object) {
   std::string text = "| Key | Meaning |\n|---|---|\n";
   for (const Field& it : object.fields) {
     std::string meaning(it.meaning);
@@ -165,15 +164,15 @@ std::string table(const Object& object) {
 
 // Between <!-- lines: NAME --> and <!-- /lines -->, each on a line.
 std::string with_tables(std::string text) {
-  for (const Object& it : {lines::kHeader, lines::kHeaderNode, lines::kHeaderEntry, lines::kTick,
-                           lines::kLost, lines::kContinued, lines::kEnd}) {
+  for (const lines::Object& it : {lines::kHeader, lines::kHeaderNode, lines::kHeaderEntry,
+                                  lines::kTick, lines::kLost, lines::kContinued, lines::kEnd}) {
     const std::string begin = fmt::format("<!-- lines: {} -->\n", it.name);
     const auto at = text.find(begin);
     const auto end = text.find("<!-- /lines -->", at);
     INFO(begin);
     REQUIRE(end != std::string::npos);
     const std::size_t from = at + begin.size();
-    text.replace(from, end - from, table(it));
+    text.replace(from, end - from, markdown_table(it));
   }
   return text;
 }
@@ -208,7 +207,7 @@ void fill(std::vector<ShapeNode>&) {}  // sample_header
 void fill(std::vector<ShapeEntry>&) {}
 
 template <class Record>
-Record filled(const Object& object) {
+Record filled(const lines::Object& object) {
   Record record;
   lines::each_member(object, record, [](const Field&, auto& value) { fill(value); });
   return record;
@@ -350,10 +349,10 @@ TEST_CASE("record/lines.h: what is made from the table is not stale") {
 TEST_CASE("record/lines.h: the writer writes each key of the table") {
   std::vector<ordered_json> all = sample();
   std::set<std::string> missing, written;
-  for (const Object& object : lines::kObjects) {
+  for (const lines::Object& object : lines::kObjects) {
     for (const Field& it : object.fields) missing.insert(fmt::format("{}.{}", object.name, it.key));
   }
-  each_object(all, [&](const Object& object, const ordered_json& value) {
+  each_object(all, [&](const lines::Object& object, const ordered_json& value) {
     for (const Field& it : object.fields) {
       INFO(object.name << "." << it.key);
       CHECK((it.has == lines::kMaybe || value.contains(std::string(it.key))));
@@ -375,7 +374,7 @@ TEST_CASE("record/lines.h: the reader checks each key of the table") {
   std::vector<ordered_json> all = sample();
   REQUIRE(error_of(all) == "");
   const ordered_json wrong = ordered_json::array({ordered_json::object()});
-  each_object(all, [&](const Object& object, ordered_json& value) {
+  each_object(all, [&](const lines::Object& object, ordered_json& value) {
     for (const Field& it : object.fields) {
       const std::string key(it.key);
       if (!value.contains(key) || passed_over.contains(it.key)) continue;

@@ -43,7 +43,7 @@ struct Outcome {
   RecordingOutcome outcome;
 };
 
-Outcome read(const std::string& text) {
+Outcome read_text(const std::string& text) {
   std::istringstream in(text);
   RecordingReader reader(in, "r");
   Outcome reading;
@@ -174,7 +174,7 @@ struct Counts {
 };
 
 void check(const std::string& damaged, std::size_t at, Counts& counts) {
-  const Outcome reading = read(damaged);
+  const Outcome reading = read_text(damaged);
   if (!reading.outcome.error.empty()) {
     ++counts.refused;
     if (is_placed(reading.outcome.error, line_of(damaged, at))) return;
@@ -187,7 +187,7 @@ void check(const std::string& damaged, std::size_t at, Counts& counts) {
 }  // namespace
 
 TEST_CASE("the recording that is damaged below is right") {
-  const Outcome reading = read(kRecording);
+  const Outcome reading = read_text(kRecording);
   CHECK(reading.outcome.error == "");
   CHECK(reading.outcome.cut == "");
   CHECK(reading.ticks.size() == 3);
@@ -230,8 +230,8 @@ TEST_CASE("a recording that lacks a line, or has one twice, is refused") {
       twice += i == line ? lines[i] + lines[i] : lines[i];
     }
     INFO(lines[line]);
-    CHECK(is_placed(read(twice).outcome.error, line + 2));
-    const RecordingOutcome outcome = read(without).outcome;
+    CHECK(is_placed(read_text(twice).outcome.error, line + 2));
+    const RecordingOutcome outcome = read_text(without).outcome;
     if (line + 1 < lines.size())
       CHECK(is_placed(outcome.error, line + 1));
     else
@@ -242,7 +242,7 @@ TEST_CASE("a recording that lacks a line, or has one twice, is refused") {
 TEST_CASE("what remains of a recording that is cut anywhere is read exactly") {
   for (std::size_t size = kRecording.find('\n'); size < kRecording.size() - 1; ++size) {
     const std::string cut = kRecording.substr(0, size);
-    const Outcome reading = read(cut);
+    const Outcome reading = read_text(cut);
     REQUIRE(reading.outcome.error == "");
     REQUIRE(reading.outcome.cut != "");
     REQUIRE(same(reading, cut));

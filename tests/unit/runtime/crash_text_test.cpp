@@ -11,7 +11,7 @@ namespace {
 
 const CallSite& kCrashedLeaf =
     CallSite::of({.path = "Main/arm", .id = "Advance", .plugin = "motion"});
-const CallSite& kPlugin = CallSite::of_plugin("motion");
+const CallSite& kMotion = CallSite::of_plugin("motion");
 
 CallMark::Look in(const CallSite& site, PluginFunction function) {
   return {.site = &site, .function = function};
@@ -44,9 +44,9 @@ TEST_CASE("a crash is reported with the function it was in") {
   Crash before_ticks = segv(in(kCrashedLeaf, F::Start));
   before_ticks.tick = CallMark::kNoTick;
   CHECK(first_line(before_ticks) == begin + "crashed in its start function" + end);
-  CHECK(first_line(segv(in(kPlugin, F::Init))) ==
+  CHECK(first_line(segv(in(kMotion, F::Init))) ==
         "lockstep: error: the plugin 'motion' crashed in its init function" + end);
-  CHECK(first_line(segv(in(kPlugin, F::Load))) ==
+  CHECK(first_line(segv(in(kMotion, F::Load))) ==
         "lockstep: error: the plugin 'motion' crashed in the loading of its shared object" + end);
 }
 
@@ -88,9 +88,9 @@ TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to 
   CHECK(said(kCrashedLeaf).find("hint: it is a bug in lockstep") != std::string::npos);
   CHECK(said(kCrashedLeaf).find("the last call was to the leaf 'Main/arm'") != std::string::npos);
   // A plugin that was only opened is not blamed.
-  CHECK(said(kPlugin).find("hint: it is a bug in lockstep") != std::string::npos);
-  CHECK(said(kPlugin).find("motion") == std::string::npos);
-  CHECK(said(kPlugin).find("--isolate") == std::string::npos);
+  CHECK(said(kMotion).find("hint: it is a bug in lockstep") != std::string::npos);
+  CHECK(said(kMotion).find("motion") == std::string::npos);
+  CHECK(said(kMotion).find("--isolate") == std::string::npos);
 }
 
 TEST_CASE("a crash in a study is reported with its run") {

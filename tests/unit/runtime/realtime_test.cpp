@@ -39,7 +39,7 @@ bool may_be_realtime() {
 }
 
 // What `say` returns in a child process; "" when that does not end well.
-std::string in_child(const std::function<std::string()>& say) {
+std::string said_in_child(const std::function<std::string()>& say) {
   int ends[2];
   if (pipe(ends) != 0) return {};
   const pid_t child = fork();
@@ -117,12 +117,13 @@ TEST_CASE("who may gets a real-time priority, locked memory and exact timers") {
   }
   const std::string expected =
       std::string("no problem\nfifo 80 exact") + (kMemoryIsLocked ? " locked" : " pageable");
-  CHECK(in_child([] { return state_after({.realtime = true}); }) == expected);
+  CHECK(said_in_child([] { return state_after({.realtime = true}); }) == expected);
 }
 
 TEST_CASE("the priority can be chosen") {
   if (!may_be_realtime()) return;
-  const std::string all = in_child([] { return state_after({.realtime = true, .priority = 42}); });
+  const std::string all =
+      said_in_child([] { return state_after({.realtime = true, .priority = 42}); });
   CHECK_THAT(all, Catch::StartsWith("no problem\nfifo 42 "));
 }
 
@@ -131,16 +132,16 @@ TEST_CASE("a child of a real-time thread is an ordinary one") {
     WARN("without CAP_SYS_NICE no thread is real-time here");
     return;
   }
-  CHECK(in_child([] {
+  CHECK(said_in_child([] {
           const auto problems = apply_realtime({.realtime = true});
           if (!problems.empty()) return problems[0].message;
-          return in_child(
+          return said_in_child(
               [] { return std::to_string(sched_getscheduler(0) & ~SCHED_RESET_ON_FORK); });
         }) == std::to_string(SCHED_OTHER));
 }
 
 TEST_CASE("who may not get real time reads which privilege is missing and who gives it") {
-  const std::string all = in_child([] {
+  const std::string all = said_in_child([] {
     become_nobody();
     return state_after({.realtime = true});
   });
@@ -159,7 +160,7 @@ TEST_CASE("who may not get real time reads which privilege is missing and who gi
 
 TEST_CASE("a thread is bound to the cpu that was asked for, and to nothing else") {
   const int cpu = last_allowed_cpu();
-  const std::string bound = in_child([cpu] {
+  const std::string bound = said_in_child([cpu] {
     const std::string said = state_after({.processors = only(cpu)});
     const cpu_set_t now = allowed_cpus();
     return said + (CPU_COUNT(&now) == 1 && CPU_ISSET(cpu, &now) ? " bound" : " not bound");
@@ -171,7 +172,7 @@ TEST_CASE("a cpu that is not there or not allowed is refused with those that are
   const int cpu = last_allowed_cpu();
   const std::string hint = "allowed is " + std::to_string(cpu) + "\n";
   const auto refusal = [cpu](int asked) {
-    return in_child([cpu, asked] {
+    return said_in_child([cpu, asked] {
       const auto problems = apply_realtime({.processors = only(cpu)});
       if (!problems.empty()) return problems[0].message;
       return told(apply_realtime({.processors = only(asked)}));

@@ -12,13 +12,13 @@
 namespace lockstep::host::test {
 namespace {
 
-void last_words() {
+void last_line() {
   static_cast<void>(!write(STDERR_FILENO, "last words\n", 11));
 }
 
 TEST_CASE("stop signals: the first is noted, and the same again at once is no second one") {
   const Ended ended = in_child([] {
-    StopSignals::install(last_words);
+    StopSignals::install(last_line);
     raise(SIGTERM);  // as timeout(1) sends it
     raise(SIGTERM);
     _exit(StopSignals::received());
@@ -30,7 +30,7 @@ TEST_CASE("stop signals: the first is noted, and the same again at once is no se
 TEST_CASE("stop signals: a second one of a person ends the process, after its last words") {
   for (const int number : {SIGINT, SIGQUIT, SIGTERM}) {
     const Ended ended = in_child([number] {
-      StopSignals::install(last_words);
+      StopSignals::install(last_line);
       raise(SIGHUP);
       raise(SIGUSR1);  // no person's
       raise(number);
@@ -66,7 +66,7 @@ TEST_CASE("stop signals: what a plugin or nohup has chosen stays") {
 TEST_CASE("stop signals: they end a child that a plugin forks off") {
   const Ended ended = in_child([] {
     ForkGuard::arm([] {});
-    StopSignals::install(last_words);
+    StopSignals::install(last_line);
     int status = 0;
     const pid_t child = fork();
     if (child == 0) {

@@ -27,7 +27,7 @@ void begin_run() {
   lab.leaves.clear();
 }
 
-struct Outcome {
+struct RunOutcome {
   StopReason reason;
   RunResult result;
   int signal;
@@ -36,17 +36,17 @@ struct Outcome {
   std::optional<Fault> fault;
   std::string values;
 
-  friend bool operator==(const Outcome&, const Outcome&) = default;
+  friend bool operator==(const RunOutcome&, const RunOutcome&) = default;
 };
 
-Outcome outcome(const RunEnd& end, std::span<const double> values) {
+RunOutcome outcome(const RunEnd& end, std::span<const double> values) {
   std::string text;
   for (const double value : values) text += std::to_string(value) + " ";
   return {end.reason,       end.result(),     end.signal, end.ticks,
           end.time.count(), end.last.count(), end.fault,  text};
 }
 
-Outcome looped(const StudyCell& cell, std::span<const MeasureSpec> measures, int (*stop)()) {
+RunOutcome looped(const StudyCell& cell, std::span<const MeasureSpec> measures, int (*stop)()) {
   begin_run();
   RunMeasures measured(shape_of(cell.tree), measures, cell.rate);
   Run run(cell.tree, {.rate = cell.rate, .virtual_time = true});
@@ -58,25 +58,25 @@ Outcome looped(const StudyCell& cell, std::span<const MeasureSpec> measures, int
 }
 
 // Also in a run that is not the first.
-Outcome studied(const StudyCell& cell, std::span<const MeasureSpec> measures, int (*stop)()) {
+RunOutcome studied(const StudyCell& cell, std::span<const MeasureSpec> measures, int (*stop)()) {
   StudyRun run(cell, measures, kMaxTicks, stop);
-  std::optional<Outcome> last;
+  std::optional<RunOutcome> last;
   for (int i = 0; i < 2; ++i) {
     begin_run();
     const RunEnd end = run.run(0);
-    const Outcome now = outcome(end, run.values());
+    const RunOutcome now = outcome(end, run.values());
     if (last) CHECK(now == *last);
     last = now;
   }
   return *last;
 }
 
-Outcome same_in_both(const StudyCell& cell, int (*stop)() = nullptr) {
+RunOutcome same_in_both(const StudyCell& cell, int (*stop)() = nullptr) {
   std::vector<MeasureSpec> measures;
   for (const char* text : {"progress-distance", "spread", "duration", "ticks", "success"}) {
     measures.push_back(parse_measure(text).value());
   }
-  const Outcome one = studied(cell, measures, stop);
+  const RunOutcome one = studied(cell, measures, stop);
   CHECK(one == looped(cell, measures, stop));
   return one;
 }
@@ -85,7 +85,7 @@ std::string in_tree(const std::string& nodes) {
   return R"(<root lockstep="1"><BehaviorTree ID="T">)" + nodes + "</BehaviorTree></root>";
 }
 
-Outcome same_in_both(const std::string& nodes, int (*stop)() = nullptr) {
+RunOutcome same_in_both(const std::string& nodes, int (*stop)() = nullptr) {
   CAPTURE(nodes);
   return same_in_both({.tree = compiled(in_tree(nodes)), .rate = kRate}, stop);
 }
@@ -101,12 +101,12 @@ TEST_CASE("a run of a study is that of the loop on the virtual clock") {
   CHECK(same_in_both(R"(<Wait seconds="9"/>)").reason == StopReason::MaxTicks);
   CHECK(same_in_both(R"(<AlwaysSuccess skip_if="true"/>)").result == RunResult::Skipped);
 
-  const Outcome stopped = same_in_both(R"(<Wait seconds="9"/>)", stop_at_third_look);
+  const RunOutcome stopped = same_in_both(R"(<Wait seconds="9"/>)", stop_at_third_look);
   CHECK(stopped.reason == StopReason::Signal);
   CHECK(stopped.signal == SIGINT);
   CHECK(stopped.ticks == 2);
 
-  const Outcome faulty = same_in_both(
+  const RunOutcome faulty = same_in_both(
       R"(<Sequence><Script code="n := 0"/><Repeat times="{n}"><AlwaysSuccess/></Repeat></Sequence>)");
   CHECK(faulty.reason == StopReason::Fault);
   CHECK(faulty.ticks == 1);
@@ -120,7 +120,7 @@ TEST_CASE("a run of a study whose leaf cannot be created is that of the loop") {
   lab.leaf_that_fails = 1;
   const std::string leaf =
       R"(<Lab flag="true" count="{n}" speed="{v}" text="{t}" list="{l}" result="{r}"/>)";
-  const Outcome faulty = same_in_both(
+  const RunOutcome faulty = same_in_both(
       StudyCell{.tree = compiled(in_tree("<Sequence>" + leaf + leaf + "</Sequence>"), plugins)});
   CHECK(faulty.reason == StopReason::Fault);
   CHECK(faulty.ticks == 0);

@@ -12,7 +12,7 @@
 namespace lockstep::host::test {
 namespace {
 
-struct Fixture {
+struct RingFixture {
   std::unique_ptr<LogRing> ring = std::make_unique<LogRing>();
   LogRingWriter writer{*ring};
   LogRingReader reader{*ring};
@@ -28,7 +28,7 @@ struct Fixture {
 };
 
 TEST_CASE("log ring: lines come out as they went in, also where it wraps") {
-  Fixture it;
+  RingFixture it;
   for (std::uint32_t line = 0; line < 1000; ++line) {
     const std::string text(line % 997, static_cast<char>('a' + line % 26));
     it.writer.append(line, 1, text);
@@ -39,7 +39,7 @@ TEST_CASE("log ring: lines come out as they went in, also where it wraps") {
 }
 
 TEST_CASE("log ring: what does not fit is counted, and nothing else is lost") {
-  Fixture it;
+  RingFixture it;
   const std::string text(1000, 'x');
   std::uint32_t written = 0;
   bool called = false;
@@ -53,7 +53,7 @@ TEST_CASE("log ring: what does not fit is counted, and nothing else is lost") {
 }
 
 TEST_CASE("log ring: as many lines come out as are asked for, the others later") {
-  Fixture it;
+  RingFixture it;
   for (std::uint32_t line = 0; line < 5; ++line) it.writer.append(line, 1, "x");
   CHECK(it.drain(2) == std::vector<std::string>{"0 1 x", "1 1 x"});
   CHECK_FALSE(it.reader.empty());
@@ -62,7 +62,7 @@ TEST_CASE("log ring: as many lines come out as are asked for, the others later")
 }
 
 TEST_CASE("log ring: a long line is cut") {
-  Fixture it;
+  RingFixture it;
   it.writer.append(0, 0, std::string(1 << 20, 'x'));
   const auto lines = it.drain();
   REQUIRE(lines.size() == 1);
@@ -70,7 +70,7 @@ TEST_CASE("log ring: a long line is cut") {
 }
 
 TEST_CASE("log ring: many writers do not mix their lines") {
-  Fixture it;
+  RingFixture it;
   std::vector<std::thread> writers;
   for (std::uint32_t writer = 0; writer < 4; ++writer) {
     writers.emplace_back([&it, writer] {
@@ -93,7 +93,7 @@ TEST_CASE("log ring: many writers do not mix their lines") {
 TEST_CASE("log ring: nonsense is skipped") {
   RandomStream random(2, 2);
   for (int round = 0; round < 200; ++round) {
-    Fixture it;
+    RingFixture it;
     for (std::byte& byte : it.ring->bytes) byte = static_cast<std::byte>(random.next());
     it.ring->written.store(random.next() >> (random.next() % 64));
     it.drain();
