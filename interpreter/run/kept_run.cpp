@@ -13,6 +13,7 @@
 #include "engine/tree.h"
 #include "run/checkpoint/run_bytes.h"
 #include "run/cut_text.h"
+#include "team/team_run.h"
 
 namespace lockstep::host {
 namespace {
@@ -141,9 +142,12 @@ std::optional<Problem> KeptRun::begin(Run& run,
                                       std::function<void(const std::string& error)> on_error) {
   if (run.fault() != nullptr) return std::nullopt;
   if (from_) go_on(run);
+  if (from_ && team_ != nullptr && !team_->resume_rounds(from_->rounds))
+    return Problem{"the checkpoint has no rounds of these teams"};
   writer_.emplace(std::move(file_), CheckpointOptions{.sync = options_.sync,
                                                       .period = run.period(),
                                                       .real_time = options_.real_time,
+                                                      .team = team_,
                                                       .on_error = std::move(on_error)});
   const InEngine scope(run.blackboard().lock.get());
   if (writer_->begin(run.ticker(), facts_, before().ticks, from_ ? from_->resumes + 1 : 0)) {

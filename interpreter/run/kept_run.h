@@ -46,6 +46,8 @@ class KeptRun {
       KeepOptions options, std::vector<std::pair<std::string, std::string>> identity,
       const Tree& tree);
 
+  // Before `begin`: the teams of the robot. It must outlive this.
+  void set_team(TeamRun& team) { team_ = &team; }
   // Before the first tick of a new run: as it was at the cut, if it goes on. Returns once the file
   // has it, or why it cannot. The file stays as it was where a leaf could not be created.
   std::optional<Problem> begin(Run& run, std::function<void(const std::string& error)> on_error);
@@ -80,6 +82,7 @@ class KeptRun {
 
   const KeepOptions options_;
   const Tree& tree_;
+  TeamRun* team_ = nullptr;  // null: the robot is in none
   CheckpointFacts facts_;
   std::unique_ptr<CheckpointFile> file_;  // until the writer has it
   std::optional<Checkpoint> from_;        // what the run goes on from

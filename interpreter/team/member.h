@@ -92,6 +92,12 @@ class TeamMember {
   TeamWord word(const PoolWord& pool = {});
 
   std::uint32_t round() const { return own_.round; }
+  std::uint32_t passed() const { return own_.passed; }
+  // Before the first tick of a process that continues a run after a cut: where that was.
+  void resume(std::uint32_t round, std::uint32_t passed) {
+    own_.round = round;
+    own_.passed = passed;
+  }
 
   // All that it keeps from one tick to the next, for who goes back to an earlier one.
   struct Run {

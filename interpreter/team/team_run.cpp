@@ -419,6 +419,21 @@ TeamRun::Team* TeamRun::team(std::string_view name) {
   return it == teams_.end() ? nullptr : &*it;
 }
 
+void TeamRun::keep_rounds(std::vector<std::uint32_t>& into) const {
+  into.clear();
+  for (const Team& it : teams_) {
+    into.push_back(it.member.round());
+    into.push_back(it.member.passed());
+  }
+}
+
+bool TeamRun::resume_rounds(std::span<const std::uint32_t> rounds) {
+  if (rounds.size() != 2 * teams_.size()) return false;
+  for (std::size_t i = 0; i < teams_.size(); ++i)
+    teams_[i].member.resume(rounds[2 * i], rounds[2 * i + 1]);
+  return true;
+}
+
 std::string TeamRun::find_why() const {
   for (const Team& it : teams_) {
     if (it.member.is_contested()) return kOwnName;

@@ -77,6 +77,12 @@ class TeamRun final : public Observer {
   const std::deque<Team>& teams() const { return teams_; }
   std::deque<Team>& teams() { return teams_; }
 
+  // For a process that continues the run after a cut: the rounds of all teams, two numbers of each.
+  // Does not allocate where `into` has room.
+  void keep_rounds(std::vector<std::uint32_t>& into) const;
+  // Before the first tick of that. False: they are of other teams.
+  bool resume_rounds(std::span<const std::uint32_t> rounds);
+
   // By which the recordings of the other members name this run.
   static std::uint32_t short_run(std::uint64_t run) { return static_cast<std::uint32_t>(run); }
 

@@ -93,11 +93,14 @@ TEST_CASE("lockstep team: a member that no file plays is named") {
   CHECK_FALSE(contains(team({}).err, "no file is"));
 }
 
-TEST_CASE("run: a run in a team is not kept") {
+TEST_CASE("run: a run that shares resources with other robots is not kept") {
   const TemporaryDirectory directory;
-  const Outcome kept = run_lockstep({"run", kCarry, "--checkpoint", directory.path("c")});
+  const Outcome kept =
+      run_lockstep({"run", LOCKSTEP_SOURCE_DIR "/trees/construction/narrow_road.xml",
+                    "--checkpoint", directory.path("c")});
   CHECK(kept.code == 2);
-  CHECK(contains(kept.err, "--checkpoint: a run in a team cannot be kept"));
+  CHECK(contains(kept.err,
+                 "--checkpoint: a run that shares resources with other robots cannot be kept"));
 }
 
 TEST_CASE("check reports teams that cannot be") {

@@ -88,6 +88,21 @@ def test_a_robot_that_is_started_again_joins(folder):
     again.succeeds()
 
 
+def test_a_robot_that_is_killed_continues_in_its_round(folder):
+    text = TREE.replace("<InStep", '<Repeat times="3"><InStep').replace("</InStep>", "</InStep></Repeat>")
+    kept = ("--checkpoint", f"{folder}/right.checkpoint", "--resume")
+    left = Robot("left", folder, "--arg", "step=0.02", text=text)
+    right = Robot("right", folder, "--arg", "step=0.02", *kept)
+    right.wait_for("lift: success")  # of the first round
+    right.wait_for("lift: started")
+    right.kill()
+    left.wait_for("right: failure: not heard for")
+    again = Robot("right", folder, "--arg", "step=0.02", *kept)
+    again.wait_for("resumed after")
+    left.succeeds()
+    again.succeeds()
+
+
 def test_two_of_one_name_both_hold(folder):
     left, right = Robot("left", folder), Robot("right", folder)
     right.wait_for("lift: started")

@@ -1,5 +1,6 @@
 #include "cli/run/connected_team.h"
 
+#include <algorithm>
 #include <random>
 
 #include "run/loading/plugins.h"
@@ -22,9 +23,12 @@ Result<std::unique_ptr<ConnectedTeam>> ConnectedTeam::open(
     return tl::unexpected(Problem{"--clock virtual: the other robots of the team have another time",
                                   "`lockstep team` simulates all of them"});
   }
-  if (!options.keep.file.empty()) {
-    return tl::unexpected(Problem{"--checkpoint: a run in a team cannot be kept",
-                                  "the round that its team does would be lost with the process"});
+  const bool shares =
+      std::ranges::any_of(teams, [](const TeamDeclaration& it) { return !it.resources.empty(); });
+  if (!options.keep.file.empty() && shares) {
+    return tl::unexpected(
+        Problem{"--checkpoint: a run that shares resources with other robots cannot be kept",
+                "another robot may own them when it continues"});
   }
   std::unique_ptr<ConnectedTeam> team(new ConnectedTeam);
   TeamNetworkOptions network = options.team;

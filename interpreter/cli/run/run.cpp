@@ -238,6 +238,7 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
     }
     team_ = std::move(*team);
     if (team_ != nullptr) team_->run().use_here();
+    if (team_ != nullptr && kept_) kept_->set_team(team_->run());
     return true;
   }
 

@@ -34,7 +34,8 @@ struct Checkpoint {
   Nanoseconds written{0};     // since 1970
   std::string boot;           // boot_id()
   std::string note;
-  std::string run;  // append_bytes()
+  std::vector<std::uint32_t> rounds;  // of a robot in teams: TeamRun::keep_rounds
+  std::string run;                    // append_bytes()
 };
 
 // The difference that matters most: "the text of 'door.xml'", and its two values. Nothing: none.

@@ -9,6 +9,7 @@
 #include "base/system/own_thread.h"
 #include "engine/tree.h"
 #include "run/checkpoint/run_bytes.h"
+#include "team/team_run.h"
 
 namespace lockstep::host {
 namespace {
@@ -101,6 +102,7 @@ bool CheckpointWriter::fill(Snapshot& snapshot, Ticker& ticker) {
   }
   head_.time = ticker.now();
   head_.written = wall_time();
+  if (options_.team != nullptr) options_.team->keep_rounds(head_.rounds);
   snapshot.bytes.clear();
   append_head(head_, snapshot.bytes);
   snapshot.lasting = snapshot.bytes.size();

@@ -20,10 +20,13 @@
 
 namespace lockstep::host {
 
+class TeamRun;
+
 struct CheckpointOptions {
   Nanoseconds sync = std::chrono::milliseconds(100);  // at most so often
   Nanoseconds period{0};                              // of ticks
   bool real_time = true;
+  const TeamRun* team = nullptr;  // must outlive this; null: the robot is in none
   // Once, on the tick thread: nothing is kept any more.
   std::function<void(const std::string& error)> on_error = {};
 };

@@ -74,6 +74,23 @@ TEST_CASE("a new process joins the earliest round of the others") {
   CHECK(member.known(1).progress == 0.9);
 }
 
+TEST_CASE("a process that continues a run is in the rounds of that, whatever the others do") {
+  TeamMember member(left_of(), 9);
+  member.resume(4, 3);
+  CHECK(member.word().round == 4);
+  CHECK(member.word().passed == 3);
+  // The other one has not completed the third round yet, which a new process would join.
+  member.hear(0, word_of(2, 1, 3, true, 0.9, 2), 10ms);
+  member.set_own(true, 0.5, End::None);
+  member.look(10ms);
+  CHECK(member.round() == 4);
+  CHECK(where(member) == Where::NotBegun);
+  member.hear(0, word_of(2, 2, 4, true, 0.1, 3), 20ms);
+  member.look(20ms);
+  CHECK(where(member) == Where::InRound);
+  CHECK(member.known(0).progress == 0.1);
+}
+
 TEST_CASE("what was heard of an earlier round opens nothing") {
   TeamMember member = in_round(1);
   member.set_own(false, 0, End::Success);
