@@ -97,6 +97,13 @@ TEST_CASE("one node in full, and did you mean") {
   CHECK(contains(unknown.err, "did you mean 'Sequence'?"));
 }
 
+TEST_CASE("a node of BehaviorTree.CPP is shown by its name") {
+  const Outcome outcome = run_lockstep({"nodes", "Switch2"});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.starts_with("Switch2"));
+  CHECK(contains(outcome.out, "variable"));
+}
+
 TEST_CASE("a plugin that is refused ends nodes and schema with 4") {
   for (const std::string command : {"nodes", "schema"}) {
     const Outcome missing = run_lockstep({command, "--plugin", "/nonexistent.so"});

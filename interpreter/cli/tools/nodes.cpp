@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "base/core/language.h"
 #include "base/core/suggest.h"
 #include "cli/checks.h"
 #include "cli/command.h"
@@ -13,6 +14,7 @@
 #include "cli/load/catalog_loading.h"
 #include "cli/load/load_options.h"
 #include "describe/node_reference.h"
+#include "run/shape_of.h"
 
 namespace lockstep::host {
 namespace {
@@ -32,6 +34,16 @@ std::string models(NodeTypes types) {
     if (is_extension || !type->plugin.empty()) unknown_there.push_back(type);
   }
   return nodes_as_models(unknown_there);
+}
+
+// A node with this name that another language has; null: none.
+const NodeType* find_elsewhere(std::string_view id) {
+  for (const LanguageRules* const rules : languages()) {
+    const auto types = built_in_types(*rules);
+    const auto it = std::ranges::find(types, id, &NodeType::id);
+    if (it != types.end()) return *it;
+  }
+  return nullptr;
 }
 
 std::string as_text(const NodesOptions& options, NodeTypes types) {
@@ -54,7 +66,8 @@ int nodes(const NodesOptions& options) {
     return code;
   }
   if (options.id.empty()) return write_results(as_text(options, catalog.types()));
-  const NodeType* const type = catalog.find(options.id);
+  const NodeType* type = catalog.find(options.id);
+  if (type == nullptr) type = find_elsewhere(options.id);
   if (type == nullptr) {
     std::string hint = did_you_mean(options.id, catalog.ids());
     if (hint.empty())
@@ -85,7 +98,8 @@ extern const Command kNodesCommand{
     "Exit code: 0 listed, 2 unknown node or usage, 4 plugin refused,\n"
     "6 a plugin crashed or hung.\n"
     "With --plugin, text and markdown have the leaves of these plugins only; json and btcpp have "
-    "all.\n"
+    "all. The list is of lockstep's own language; a node of BehaviorTree.CPP is shown by its "
+    "name.\n"
     "\n"
     "Examples:\n"
     "  lockstep nodes\n"
