@@ -7,6 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "verify/packed_numbers.h"
+
 namespace lockstep::host {
 namespace {
 
@@ -17,13 +19,8 @@ class TeamWriter {
   explicit TeamWriter(std::vector<std::byte>& into) : into_(into) {}
 
   template <class T>
-  void number(T& value) {
-    auto rest = static_cast<std::uint64_t>(value);
-    while (rest >= 0x80) {
-      into_.push_back(static_cast<std::byte>(rest | 0x80));
-      rest >>= 7u;
-    }
-    into_.push_back(static_cast<std::byte>(rest));
+  void number(const T& value) {
+    put_number(into_, static_cast<std::uint64_t>(value));
   }
   void real(double& value) {
     const auto bits = std::bit_cast<std::array<std::byte, sizeof value>>(value);
@@ -41,22 +38,15 @@ class TeamReader {
 
   template <class T>
   void number(T& value) {
-    std::uint64_t all = 0;
-    for (unsigned shift = 0;; shift += 7) {
-      const auto next = std::to_integer<std::uint64_t>(from_[at_++]);
-      all |= (next & 0x7f) << shift;
-      if (next < 0x80) break;
-    }
-    value = static_cast<T>(all);
+    value = static_cast<T>(take_number(from_));
   }
   void real(double& value) {
-    std::memcpy(&value, &from_[at_], sizeof value);
-    at_ += sizeof value;
+    std::memcpy(&value, from_.data(), sizeof value);
+    from_ = from_.subspan(sizeof value);
   }
 
  private:
   std::span<const std::byte> from_;
-  std::size_t at_ = 0;
 };
 
 // Brings numbers, of which none is 0, to 1, 2, 3, ... in their order.
