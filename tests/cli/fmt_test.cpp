@@ -64,6 +64,24 @@ TEST_CASE("fmt keeps the mode of a file, a link to it, its byte order mark and i
   CHECK((state.st_mode & 0777u) == 0640u);
 }
 
+TEST_CASE("fmt leaves a file alone whose layout no command could read") {
+  const TemporaryDirectory directory;
+  constexpr int kDepth = 200, kLeaves = 180'000;
+  std::string text = "<root lockstep=\"1\"><BehaviorTree ID=\"A\">",
+              end = "</BehaviorTree></root>\n";
+  for (int i = 0; i < kDepth; ++i) {
+    text += "<Sequence>";
+    end = "</Sequence>" + end;
+  }
+  for (int i = 0; i < kLeaves; ++i) text += "<AlwaysSuccess/>";
+  text += end;
+  const std::string file = directory.file("deep.xml", text);
+  const Outcome outcome = run_lockstep({"fmt", file});
+  CHECK(outcome.code == 3);
+  CHECK(contains(outcome.err, "it would be larger than 64 MiB"));
+  CHECK((read_file(file) == text));
+}
+
 TEST_CASE("fmt takes folders, and leaves files of other programs alone") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("a.xml", kUgly);

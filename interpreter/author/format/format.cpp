@@ -1,6 +1,8 @@
 #include "author/format/format.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "author/edit/element_text.h"
@@ -231,9 +233,13 @@ Result<TextEdit> format(const Document& document, const FormatOptions& options) 
   }
   TextEdit edit = gaps.take();
   if (edit.empty()) return edit;
+  std::string text = edit.apply(document.source()->text());
+  if (text.size() > Document::kMaxBytes) {
+    return problem("cannot be formatted: it would be larger than 64 MiB, and no command reads it",
+                   "divide it into files, with <include path=\"…\"/>");
+  }
   Diagnostics diagnostics;
-  const auto after = Document::parse(document.source()->path(),
-                                     edit.apply(document.source()->text()), diagnostics);
+  const auto after = Document::parse(document.source()->path(), std::move(text), diagnostics);
   if (after == nullptr || !has_same_elements(document, *after)) {
     return problem("cannot be formatted: its meaning would change",
                    "this is a bug in lockstep; please report it with the file");
