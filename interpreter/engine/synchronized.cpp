@@ -90,6 +90,12 @@ std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node
   return absolute::begins_at_zero(list) ? list.subspan(1) : list;
 }
 
+bool has_barrier_at_zero(const Tree& tree, NodeIndex node) {
+  if (!is_constant(tree, node, Synchronization::Absolute)) return false;
+  const Cell& cell = cell_of(tree, node, holding(tree, node).barriers);
+  return absolute::begins_at_zero(
+      std::span(tree.numbers).subspan(cell.list.first, cell.list.count));
+}
 std::uint32_t entry_of_barriers(const Tree& tree, NodeIndex node) {
   return tree.ports[bound_of(tree, node)->first_port + holding(tree, node).barriers].slot;
 }

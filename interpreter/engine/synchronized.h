@@ -119,6 +119,8 @@ const BoundNode* bound_of(const Tree& tree, NodeIndex node);
 // The barriers of a ParallelAbsolute, rising, and the delta of a ParallelRelative. Nothing for
 // other nodes, and where an entry gives any parameter.
 std::optional<std::span<const double>> barriers(const Tree& tree, NodeIndex node);
+// Whether there is one at 0, which is not among those: where children begin together.
+bool has_barrier_at_zero(const Tree& tree, NodeIndex node);
 std::optional<double> delta(const Tree& tree, NodeIndex node);
 // Of a node with barriers that are constant.
 bool ticks_at_barrier(const Tree& tree, NodeIndex node);

@@ -25,8 +25,8 @@ void TeamPool::give_back(std::size_t place) {
 
 const TeamWord* TeamPool::trusted(const TeamMember& team, std::size_t other) const {
   const TeamWord* const word = team.heard(other);
-  const bool is_trusted =
-      word != nullptr && !team.is_contested(other) && word->pool.declaration == own_.declaration;
+  const bool is_trusted = word != nullptr && !team.is_contested(other) &&
+                          (word->pool.declaration == own_.declaration || takes_no_part(*word));
   return is_trusted ? word : nullptr;
 }
 
@@ -48,7 +48,7 @@ void TeamPool::look(const TeamMember& team, Nanoseconds now) {
 void TeamPool::find_decider(const TeamMember& team) {
   for (std::size_t other = 0; other < declaration_.others.size(); ++other) {
     const TeamWord* const word = trusted(team, other);
-    if (word == nullptr || word->pool.term <= own_.term) continue;
+    if (word == nullptr || takes_no_part(*word) || word->pool.term <= own_.term) continue;
     if (word->pool.decider >= robots_.size()) continue;
     own_.term = word->pool.term;
     own_.decider = word->pool.decider;
@@ -64,20 +64,21 @@ void TeamPool::find_decider(const TeamMember& team) {
 // The decider had left before it heard that it decides, and this one is the next that has not.
 bool TeamPool::is_next(const TeamMember& team) const {
   const TeamWord* const decider = trusted(team, other_of(own_.decider));
-  if (decider == nullptr || !decider->pool.has_left || decider->pool.term >= own_.term)
-    return false;
+  if (decider == nullptr) return false;
+  const bool has_left = decider->pool.has_left && decider->pool.term < own_.term;
+  if (!has_left && !takes_no_part(*decider)) return false;
   for (std::size_t i = 1; i < robots_.size(); ++i) {
     const std::size_t member = (own_.decider + i) % robots_.size();
     if (member == declaration_.place) return true;
     const TeamWord* const word = trusted(team, other_of(member));
-    if (word == nullptr || !word->pool.has_left) return false;
+    if (word == nullptr || (!word->pool.has_left && !takes_no_part(*word))) return false;
   }
   return false;
 }
 
 void TeamPool::follow(const TeamMember& team) {
   const TeamWord* const word = trusted(team, other_of(own_.decider));
-  if (word == nullptr || word->pool.term != own_.term) return;
+  if (word == nullptr || takes_no_part(*word) || word->pool.term != own_.term) return;
   own_.follows = word->run;
   for (std::size_t i = 0; i < word->pool.answer_count; ++i) {
     const PoolWord::Answer& answer = word->pool.answers[i];
@@ -103,7 +104,7 @@ void TeamPool::hear(const TeamMember& team, std::size_t member, Nanoseconds now)
     if (now - robot.next_since <= team.deadline()) return;
   }
   if (robot.run != word->run) robot = {.run = word->run};
-  robot.has_left = word->pool.has_left;
+  robot.has_left = word->pool.has_left || takes_no_part(*word);
   robot.follows = robot.has_left || word->pool.follows == run_;
   if (!robot.follows) return;
   robot.is_reachable = !team.is_silent(other_of(member));
@@ -116,7 +117,8 @@ void TeamPool::note(Ask& ask, const PoolWord::Ask& said) {
   ask.said = said;
 }
 
-// Those that have waited longest first. What they wait for, no other robot gets before.
+// Those that have waited longest first. What they wait for, no other robot gets before, unless
+// they wait for that robot: it may need more to give back what it owns.
 void TeamPool::decide() {
   if (!std::ranges::all_of(robots_, &Robot::follows)) return;
   waiting_.clear();
@@ -133,17 +135,23 @@ void TeamPool::decide() {
     Ask& ask = robots_[it->robot].asks[it->place];
     ResourceSet by_others = 0;
     for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
-      if (robot == it->robot) continue;
-      for (const Ask& other : robots_[robot].asks) {
-        if (other.said.owns || other.granted != 0) by_others |= other.said.set;
-      }
+      if (robot != it->robot) by_others |= owned_by(robot);
     }
+    const ResourceSet own = owned_by(it->robot);
     for (auto before = waiting_.begin(); before != it; ++before) {
-      if (before->robot != it->robot)
-        by_others |= robots_[before->robot].asks[before->place].said.set;
+      const ResourceSet wanted = robots_[before->robot].asks[before->place].said.set;
+      if (before->robot != it->robot && (wanted & own) == 0) by_others |= wanted;
     }
     if ((by_others & ask.said.set) == 0) grant(it->robot, ask);
   }
+}
+
+ResourceSet TeamPool::owned_by(std::size_t robot) const {
+  ResourceSet set = 0;
+  for (const Ask& it : robots_[robot].asks) {
+    if (it.said.owns || it.granted != 0) set |= it.said.set;
+  }
+  return set;
 }
 
 void TeamPool::grant(std::size_t member, Ask& ask) {
@@ -221,6 +229,13 @@ TeamPool::Obstacle TeamPool::obstacle(const TeamMember& team, std::size_t place)
     if (team.is_contested(other)) return {What::Contested, other, 0};
     if (word->pool.declaration != own_.declaration) return {What::Stranger, other, 0};
     if (team.is_silent(other)) return {What::Silent, other, 0};
+  }
+  for (std::size_t other = 0; other < others; ++other) {
+    const TeamWord* const word = team.heard(other);
+    if (word == nullptr || word->pool.declaration != own_.declaration) continue;
+    for (const PoolWord::Ask& it : word->pool.asks) {
+      if (it.number != 0 && (it.set & wanted) != 0) return {What::Wanted, other, it.set & wanted};
+    }
   }
   return {};
 }

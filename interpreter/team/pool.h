@@ -15,8 +15,9 @@
 //   A new process of a robot owns nothing. What the old one owned is free when it was not heard for
 //   the deadline, since two processes may live.
 //
-// Who has waited longest is first: what it waits for is granted to no other robot before. Nodes of
-// one robot never compete here: the pool of its own tree has decided between them.
+// Who has waited longest is first: what it waits for is granted to no other robot before, but to
+// one for which it waits. Nodes of one robot never compete here: the pool of its own tree has
+// decided between them. A robot whose tree uses no pool of the team takes no part.
 #pragma once
 
 #include <array>
@@ -55,6 +56,7 @@ class TeamPool {
     enum class What : std::uint8_t {
       None,       // it was only asked for
       Owned,      // by another robot
+      Wanted,     // by another robot, too, which may have waited longer
       Unheard,    // the decider, or by the decider: it has not been heard yet
       Silent,     // the decider is
       Contested,  // the same: two robots have its name, or it contradicts itself
@@ -62,7 +64,7 @@ class TeamPool {
     };
     What what = What::None;
     std::size_t other = 0;  // who: its place in `others`
-    ResourceSet set = 0;    // what it owns of it
+    ResourceSet set = 0;    // what it owns of it, or asks for
   };
   Obstacle obstacle(const TeamMember& team, std::size_t place) const;
 
@@ -104,6 +106,9 @@ class TeamPool {
     return member < declaration_.place ? member : member - 1;
   }
   const TeamWord* trusted(const TeamMember& team, std::size_t other) const;
+  // Its tree uses no pool of the team, so it owns nothing and decides nothing.
+  static bool takes_no_part(const TeamWord& word) { return word.pool.declaration == 0; }
+  ResourceSet owned_by(std::size_t robot) const;
   void find_decider(const TeamMember& team);
   bool is_next(const TeamMember& team) const;
   void follow(const TeamMember& team);

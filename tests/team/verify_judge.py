@@ -43,6 +43,8 @@ class Team:
                                    'delta="0.5"'])
 
     def leaf(self):
+        if self.chance.random() < 0.1:
+            return f'<Wait seconds="{self.chance.choice([0.2, 0.5, 0.6])}"/>'
         return "<Sure/>" if self.chance.random() < 0.93 else "<Unsure/>"
 
     def in_step(self, team, inside):
@@ -66,6 +68,8 @@ class Team:
             node = self.in_step(team, inside)
             if self.has_pool and self.chance.random() < 0.1:
                 node = self.uses(node)
+            if self.chance.random() < 0.1:
+                node = f'<Timeout seconds="{self.chance.choice([0.4, 0.9, 1.5])}">{node}</Timeout>'
             nodes.append(node)
         if self.has_pool and self.chance.random() < 0.97:
             nodes.append(self.uses(self.leaf()))

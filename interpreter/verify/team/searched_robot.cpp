@@ -42,6 +42,7 @@ SearchedRobot::SearchedRobot(const Tree& tree, const LeafModels& models, const T
     in_step = InStep{.node = *team.node, .barriers = {}, .ticks_at_barrier = false};
     if (!list) continue;
     in_step->barriers.assign(list->begin(), list->end());
+    if (has_barrier_at_zero(tree, *team.node)) in_step->barriers.push_back(0);
     in_step->ticks_at_barrier = ticks_at_barrier(tree, *team.node);
   }
   stepper_.leaves().set_outside(*this);

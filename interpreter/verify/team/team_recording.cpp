@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -44,7 +45,7 @@ class ReplayedRobot {
   }
   void tick(Nanoseconds now, std::vector<HeardWord> heard) {
     clock_.time = now;
-    for (HeardWord& it : heard) it.at = now;
+    for (HeardWord& it : heard) it.at += now;
     transport_.given = std::move(heard);
     run_->set_now(time_);
     observers_->before_tick(run_->ticker(), ticks_, time_);
@@ -107,6 +108,20 @@ class ReplayedRobot {
   bool has_ended_ = false;
 };
 
+// Whether the word that is heard in this turn came long before it: its robot is silent a tick
+// earlier then, in a later turn.
+bool comes_early(const std::vector<TeamTurn>& run, std::size_t turn, const TeamTurn::Hears& heard) {
+  const auto is_of = [&](const auto& it) {
+    return it.team == heard.team && it.other == heard.other;
+  };
+  for (std::size_t i = turn + 1; i < run.size(); ++i) {
+    if (run[i].robot != run[turn].robot) continue;
+    if (std::ranges::any_of(run[i].hears, is_of)) return false;
+    if (std::ranges::any_of(run[i].silent, is_of)) return true;
+  }
+  return false;
+}
+
 std::vector<LeafScripts> scripts_of(TeamSearch& search, const TeamFinding& finding,
                                     const std::vector<TeamTree>& trees, double rate) {
   std::vector<LeafScripts> scripts(trees.size());
@@ -132,31 +147,39 @@ Result<std::string> record_team(TeamSearch& search, const TeamFinding& finding,
   const auto scripts = scripts_of(search, finding, trees, rate);
   std::vector<std::unique_ptr<ReplayedRobot>> replayed;
   for (std::size_t i = 0; i < robots.size(); ++i) {
+    replayed.emplace_back();
+    if (robots[i].path.empty()) continue;
     robots[i].played.set_scripts(scripts[i]);
-    replayed.push_back(std::make_unique<ReplayedRobot>(robots[i], trees[i], i, finding, rate));
+    replayed.back() = std::make_unique<ReplayedRobot>(robots[i], trees[i], i, finding, rate);
     if (!replayed.back()->error().empty()) return problem(replayed.back()->error());
   }
   std::string wrong;
   std::size_t turns = 0;
   search.play(finding.run, [&](const TeamTurn& turn, SearchedRobot& searched) {
+    const std::size_t number = turns++;
+    if (replayed[turn.robot] == nullptr) return;
     ReplayedRobot& robot = *replayed[turn.robot];
-    const auto period = static_cast<std::int64_t>(turns++ / robots.size());
+    const auto period = static_cast<std::int64_t>(number / robots.size());
+    const Nanoseconds length = from_seconds(1 / rate);
     if (!turn.ticks) return robot.say_nothing();
     if (turn.begins) robot.begin();
     std::vector<HeardWord> heard;
     for (const TeamTurn::Hears& it : turn.hears) {
       const TeamLink link = search.link(turn.robot, it);
-      heard.push_back({.team = static_cast<std::uint32_t>(it.team),
-                       .member = static_cast<std::uint32_t>(it.other),
-                       .word = replayed[link.robot]->said(it.age, link.team)});
+      heard.push_back(
+          {.team = static_cast<std::uint32_t>(it.team),
+           .member = static_cast<std::uint32_t>(it.other),
+           .word = replayed[link.robot]->said(it.age, link.team),
+           .at = comes_early(finding.run, number, it) ? -almost(length) : Nanoseconds(0)});
     }
-    robot.tick(period * from_seconds(1 / rate), std::move(heard));
+    robot.tick(period * length, std::move(heard));
     if (!wrong.empty()) return;
     wrong = difference(robot.ticker(), searched.stepper().ticker());
     if (!wrong.empty())
       wrong = fmt::format("in period {}, {}: {}", period, search.name(turn.robot), wrong);
   });
   for (const auto& it : replayed) {
+    if (it == nullptr) continue;
     it->stop();
     if (!it->error().empty()) return problem(it->error());
   }

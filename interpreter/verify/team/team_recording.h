@@ -12,7 +12,7 @@
 namespace lockstep::host {
 
 struct RecordedRobot {
-  std::string file, path;  // of its tree, and of the recording
+  std::string file, path;  // of its tree, and of the recording; "": it does not begin
   const Runnable& runnable;
   PlayedLeaves& played;  // the leaves of the tree
 };

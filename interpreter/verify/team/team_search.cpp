@@ -13,6 +13,12 @@
 #include "verify/components.h"
 
 namespace lockstep::host {
+namespace {
+
+// So many transitions are between two looks at limits.
+constexpr std::uint64_t kOften = 1024;
+
+}  // namespace
 
 // The states and what each turn leads to.
 struct TeamSearch::Graph {
@@ -59,9 +65,13 @@ struct TeamSearch::Graph {
   }
 };
 
-TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t late,
+TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t late, bool must_end,
                        const SearchLimits& limits)
-    : trees_(std::move(trees)), rate_(rate), limits_(limits), graph_(std::make_unique<Graph>()) {
+    : trees_(std::move(trees)),
+      rate_(rate),
+      must_end_(must_end),
+      limits_(limits),
+      graph_(std::make_unique<Graph>()) {
   for (const TeamTree& it : trees_) {
     TeamNames& names = names_.emplace_back(TeamNames{.teams = it.teams, .others = {}, .asks = {}});
     for (const TeamDeclaration& team : it.teams) {
@@ -86,11 +96,12 @@ TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t l
   const Nanoseconds period = from_seconds(1 / rate);
   code_.emplace(names_, period, late);
   for (const TeamNames& names : names_) {
+    auto& deadlines = deadlines_.emplace_back();
     for (const TeamDeclaration& it : names.teams) {
-      const auto periods = it.deadline.count() == 0
-                               ? kPeriodsOfSilence
-                               : std::max<std::int64_t>(kFewestPeriods, it.deadline / period);
-      may_be_silent_ |= late + 1 > periods;
+      deadlines.push_back(it.deadline.count() == 0
+                              ? kPeriodsOfSilence
+                              : std::max<std::int64_t>(kFewestPeriods, it.deadline / period));
+      may_be_silent_ |= late + 1 > deadlines.back();
     }
   }
   for (std::size_t robot = 0; robot < trees_.size(); ++robot) {
@@ -101,8 +112,13 @@ TeamSearch::TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t l
 
 TeamSearch::~TeamSearch() = default;
 
-const std::string& TeamSearch::name(std::size_t robot) const {
-  return names_[robot].teams.front().self;
+std::optional<double> TeamSearch::begin_of(const std::vector<TeamTurn>& run,
+                                           std::size_t robot) const {
+  const auto begins = [&](const TeamTurn& it) { return it.robot == robot && it.begins; };
+  const auto it = std::ranges::find_if(run, begins);
+  if (it == run.end()) return std::nullopt;
+  return static_cast<double>((it - run.begin()) / static_cast<std::ptrdiff_t>(names_.size())) /
+         rate_;
 }
 
 TeamSearchResult TeamSearch::search() {
@@ -116,48 +132,50 @@ TeamSearchResult TeamSearch::search() {
     graph_->found_from.push_back(store_.add(bytes).first);  // from itself
     graph_->ends.push_back(false);
   }
-  for (StateId id = 0; id < store_.size() && !is_over(); ++id) {
+  for (StateId id = 0; id < store_.size() && !is_full() && !is_stopped(); ++id) {
     const TeamState from = code_->decode(store_[id]);
-    if (!graph_->ends[id]) {
-      expand(from, [&](TeamState&& next, const TeamTurn& turn) {
-        ++result_.transitions;
-        look({id, from, turn}, next);
-        const bool ends = std::ranges::all_of(next.robots, &RobotState::has_ended);
-        code_->encode(std::move(next), bytes);
-        const auto [to, is_new] = store_.add(bytes);
-        graph_->edges.push_back({to});
-        if (is_new) {
-          graph_->found_from.push_back(id);
-          graph_->ends.push_back(ends);
-        }
-        return true;
-      });
-    }
+    const auto visit = [&](TeamState&& next, const TeamTurn& turn) {
+      ++result_.transitions;
+      look({id, from, turn}, next);
+      const bool ends = std::ranges::all_of(next.robots, &RobotState::has_ended);
+      code_->encode(std::move(next), bytes);
+      const auto [to, is_new] = store_.add(bytes);
+      graph_->edges.push_back({to});
+      if (is_new) {
+        graph_->found_from.push_back(id);
+        graph_->ends.push_back(ends);
+      }
+      return result_.transitions % kOften != 0 || !is_stopped();
+    };
+    if (!graph_->ends[id] && !expand(from, visit)) break;  // it is one that was not looked at
     graph_->begins.push_back(graph_->edges.size());
   }
+  graph_->edges.resize(graph_->begins.back());
   result_.states = store_.size();
-  for (auto id = static_cast<StateId>(store_.size() - 1); graph_->found_from[id] != id;
-       id = graph_->found_from[id])
-    ++result_.periods;
-  result_.periods =
-      static_cast<std::uint32_t>((result_.periods + robots_.size() - 1) / robots_.size());
+  result_.periods = periods_to(static_cast<StateId>(store_.size() - 1));
   for (std::size_t i = 0; i < result_.findings.size(); ++i) {
     auto& run = result_.findings[i].run;
     const auto before = run_to(shown_by_[i]);
     run.insert(run.begin(), before.begin(), before.end());
   }
-  find_trap();
+  if (must_end_) find_trap();
   result_.took = monotonic_now() - began_;
   return result_;
 }
 
-bool TeamSearch::is_over() {
+bool TeamSearch::is_full() {
+  const bool is = store_.size() > limits_.states;
+  if (is) result_.end = SearchEnd::States;
+  return is;
+}
+
+bool TeamSearch::is_stopped() {
+  if (result_.transitions < looks_at_) return false;
+  looks_at_ = result_.transitions + kOften;
   const auto stop = [&](SearchEnd end) {
     result_.end = end;
     return true;
   };
-  if (store_.size() > limits_.states) return stop(SearchEnd::States);
-  if (graph_->expanded() % 1024 != 0) return false;
   const std::size_t memory = store_.memory() + graph_->edges.size() * sizeof graph_->edges[0] +
                              graph_->states() * kLaterBytesOfState;
   if (memory > limits_.memory) return stop(SearchEnd::Memory);
@@ -165,16 +183,23 @@ bool TeamSearch::is_over() {
   if (limits_.time && now - began_ > *limits_.time) return stop(SearchEnd::Time);
   if (limits_.stop_signal && (result_.signal = limits_.stop_signal()) != 0)
     return stop(SearchEnd::Signal);
-  constexpr std::chrono::milliseconds kOften(100);
-  if (limits_.tell && now - told_ > kOften) {
+  constexpr std::chrono::milliseconds kTells(100);
+  if (limits_.tell && now - told_ > kTells) {
     told_ = now;
     limits_.tell({.states = store_.size(),
                   .waiting = store_.size() - graph_->expanded(),
                   .transitions = result_.transitions,
-                  .depth = 0,
+                  .depth = periods_to(static_cast<StateId>(graph_->expanded())),
                   .memory = memory});
   }
   return false;
+}
+
+// Of the run that has found it.
+std::uint32_t TeamSearch::periods_to(StateId state) const {
+  std::size_t turns = 0;
+  for (; graph_->found_from[state] != state; state = graph_->found_from[state]) ++turns;
+  return static_cast<std::uint32_t>((turns + robots_.size() - 1) / robots_.size());
 }
 
 // --- one turn -----------------------------------------------------------------------------------
@@ -189,7 +214,10 @@ bool TeamSearch::expand(const TeamState& from, const Visit& visit) {
   turn.begins = !robot.runs();
   for (auto& heard : deliveries(from)) {
     turn.hears = std::move(heard);
-    if (!tick(from, turn, visit)) return false;
+    for (auto& silent : silences(from, turn)) {
+      turn.silent = std::move(silent);
+      if (!tick(from, turn, visit)) return false;
+    }
   }
   return true;
 }
@@ -214,6 +242,8 @@ void TeamSearch::begin_turn(const TeamState& from, const TeamTurn& turn) {
       if (other.last) other.last->at -= from_seconds(1 / rate_);
     }
   }
+  for (const TeamTurn::Silent& it : turn.silent)
+    state.teams[it.team].member.others[it.other].last->at -= almost(from_seconds(1 / rate_));
   robots_[turn.robot]->begin_turn(state, turn.begins, words(from, turn));
 }
 
@@ -229,6 +259,34 @@ std::vector<HeardWord> TeamSearch::words(const TeamState& from, const TeamTurn& 
                      .at = TeamCode::kNow});
   }
   return heard;
+}
+
+// Each choice of those that may be silent already; of too many, all or none.
+std::vector<std::vector<TeamTurn::Silent>> TeamSearch::silences(const TeamState& from,
+                                                                const TeamTurn& turn) const {
+  constexpr std::size_t kMost = 6;
+  std::vector<TeamTurn::Silent> may;
+  const RobotState& robot = from.robots[turn.robot];
+  for (std::size_t team = 0; team < robot.teams.size(); ++team) {
+    const auto& others = robot.teams[team].member.others;
+    for (std::size_t other = 0; other < others.size(); ++other) {
+      const bool hears = std::ranges::any_of(
+          turn.hears, [&](const auto& it) { return it.team == team && it.other == other; });
+      if (!others[other].last || hears) continue;
+      const Nanoseconds age = TeamCode::kNow - others[other].last->at + from_seconds(1 / rate_);
+      if (age / from_seconds(1 / rate_) == deadlines_[turn.robot][team])
+        may.push_back({team, other});
+    }
+  }
+  if (may.size() > kMost) return {{}, may};
+  std::vector<std::vector<TeamTurn::Silent>> all;
+  for (std::size_t choice = 0; choice < std::size_t{1} << may.size(); ++choice) {
+    auto& silent = all.emplace_back();
+    for (std::size_t i = 0; i < may.size(); ++i) {
+      if ((choice >> i & 1U) != 0) silent.push_back(may[i]);
+    }
+  }
+  return all;
 }
 
 // All that the robot may have heard until now, of each other one the last word or none.
@@ -328,8 +386,11 @@ void TeamSearch::look_at_barriers(const Done& done) {
     const auto& in_step = robot.in_step()[team];
     const SearchedRobot::Moved& moved = robot.moved()[team];
     if (!in_step || !moved.ticked) continue;
+    result_.has_barriers |= !in_step->barriers.empty();
     for (const double barrier : in_step->barriers) {
-      if (moved.from < (in_step->ticks_at_barrier ? barrier + kClearly : barrier)) continue;
+      // At 0, children begin together.
+      const bool ticks = in_step->ticks_at_barrier && barrier > 0;
+      if (moved.from < (ticks ? barrier + kClearly : barrier)) continue;
       for (std::size_t i = 0; i < names_[turn.robot].others[team].size(); ++i) {
         const auto& link = names_[turn.robot].others[team][i];
         const TeamPart* const other =

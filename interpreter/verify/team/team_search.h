@@ -22,6 +22,7 @@ namespace lockstep::host {
 
 // One robot to be searched. All must outlive the search.
 struct TeamTree {
+  std::string name;
   const Tree& tree;
   const LeafModels& models;
   std::vector<TeamDeclaration> teams;
@@ -35,10 +36,14 @@ struct TeamTurn {
   struct Hears {
     std::size_t team, other;
     std::uint32_t age;  // of the word, in turns of the other one
-
-    friend bool operator==(const Hears&, const Hears&) = default;
   };
   std::vector<Hears> hears = {};
+  // Whose last word came so long before the tick in which it was heard that they are silent now. A
+  // word comes at any time between two ticks, so this may as well be in the next one.
+  struct Silent {
+    std::size_t team, other;
+  };
+  std::vector<Silent> silent = {};
   std::vector<LeafAnswer> answers = {};
 };
 
@@ -63,20 +68,27 @@ struct TeamSearchResult {
   };
   std::vector<Spread> spreads = {};  // of the teams that are in step
   bool has_pool = false;
+  bool has_barriers = false;  // that were looked at
   std::vector<TeamFinding> findings = {};
 
   bool is_complete() const { return end == SearchEnd::Complete; }
 };
 
+// How long before a tick a word may come that is heard in it.
+constexpr Nanoseconds almost(Nanoseconds period) {
+  return period - Nanoseconds(1);
+}
+
 class TeamSearch {
  public:
-  TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t late,
+  TeamSearch(std::vector<TeamTree> trees, double rate, std::uint32_t late, bool must_end,
              const SearchLimits& limits);
   ~TeamSearch();
 
   TeamSearchResult search();
-  // Of a robot: its own name, that of its first team.
-  const std::string& name(std::size_t robot) const;
+  // When a robot begins in a run, in seconds; nothing: never.
+  std::optional<double> begin_of(const std::vector<TeamTurn>& run, std::size_t robot) const;
+  const std::string& name(std::size_t robot) const { return trees_[robot].name; }
   // Who said what is heard.
   TeamLink link(std::size_t robot, const TeamTurn::Hears& heard) const {
     return *names_[robot].others[heard.team][heard.other];
@@ -93,6 +105,8 @@ class TeamSearch {
   bool expand(const TeamState& from, const Visit& visit);
   bool tick(const TeamState& from, TeamTurn& turn, const Visit& visit);
   void begin_turn(const TeamState& from, const TeamTurn& turn);
+  std::vector<std::vector<TeamTurn::Silent>> silences(const TeamState& from,
+                                                      const TeamTurn& turn) const;
   std::vector<std::vector<TeamTurn::Hears>> deliveries(const TeamState& from) const;
   std::vector<HeardWord> words(const TeamState& from, const TeamTurn& turn) const;
   TeamState after_turn(const TeamState& from, const TeamTurn& turn, RobotState robot) const;
@@ -110,20 +124,25 @@ class TeamSearch {
   std::vector<std::string> waits_in(StateId state);
   std::vector<TeamTurn> run_to(StateId state);
   void add_finding(std::string name, std::string message, const Done& done);
-  bool is_over();
+  bool is_full();
+  bool is_stopped();
+  std::uint32_t periods_to(StateId state) const;
 
   std::vector<TeamTree> trees_;
   std::vector<TeamNames> names_;
   const double rate_;
+  const bool must_end_;  // a team that cannot end is a finding
   const SearchLimits limits_;
   std::optional<TeamCode> code_;
-  bool may_be_silent_ = false;  // words may be so late that a robot is
+  bool may_be_silent_ = false;                        // words may be so late that a robot is
+  std::vector<std::vector<std::int64_t>> deadlines_;  // of robots and teams, in whole periods
   std::vector<std::unique_ptr<SearchedRobot>> robots_;
   StateStore store_;
   std::unique_ptr<Graph> graph_;
   std::vector<StateId> shown_by_;  // of each finding: from this state, its run has one turn
   TeamSearchResult result_;
   Nanoseconds began_{0}, told_{0};
+  std::uint64_t looks_at_ = 0;  // limits, from so many transitions on
 };
 
 }  // namespace lockstep::host

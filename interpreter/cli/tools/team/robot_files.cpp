@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "base/core/wording.h"
@@ -16,9 +17,11 @@
 namespace lockstep::host {
 namespace {
 
-// "carry.xml,me=left".
+// "carry.xml,me=left"; but the name of a file may have a comma.
 std::string take_arguments(const std::string& text, std::vector<std::string>& arguments) {
-  const auto comma = text.find(',');
+  std::error_code none;
+  const bool is_file = std::filesystem::is_regular_file(text, none);
+  const auto comma = is_file ? std::string::npos : text.find(',');
   for (auto at = comma; at != std::string::npos;) {
     const auto next = text.find(',', at + 1);
     arguments.push_back(text.substr(at + 1, next - at - 1));
@@ -81,7 +84,7 @@ int TeamOfRobots::load(const TeamFiles& files) {
     if (!read || diagnostics.has_errors()) return kExitInvalidTree;
     model = std::move(*read);
   }
-  if (model != nullptr) rate_ = model->rate.value_or(rate_);
+  rate_ = model != nullptr ? model->rate.value_or(files.usual_rate) : files.usual_rate;
   rate_ = files.rate.value_or(rate_);
   std::vector<Diagnostics> said(files.robots.size());
   for (std::size_t i = 0; i < files.robots.size(); ++i) {
@@ -99,7 +102,19 @@ int TeamOfRobots::load(const TeamFiles& files) {
     }
     robot.teams = teams_of(robot.runnable.tree, from_seconds(1 / rate_));
   }
-  return report(said) ? kExitInvalidTree : check();
+  if (report(said)) return kExitInvalidTree;
+  const int wrong = check();
+  if (wrong == kExitSuccess) label();
+  return wrong;
+}
+
+void TeamOfRobots::label() {
+  for (RobotOfTeam& it : robots_) {
+    const TeamDeclaration& team = it.teams.front();
+    const auto count = std::ranges::count_if(
+        robots_, [&](const RobotOfTeam& other) { return other.teams.front().self == team.self; });
+    it.label = count > 1 ? team.team + '.' + team.self : team.self;
+  }
 }
 
 void TeamOfRobots::use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file,

@@ -23,15 +23,16 @@ struct RobotOfTeam {
   LeafModels models = {};
   bool paces = false;
 
-  const std::string& name() const { return teams.front().self; }
+  std::string label = {};  // its name; with its team, if others have that too
 };
 
 struct TeamFiles {
   LoadCommandOptions load = {};
   std::vector<std::string> robots = {};  // FILE[,ARGUMENT=VALUE...]
   std::string leaves = {};               // a leaf model for all of them; "": none
-  std::optional<double> rate = {};       // nothing: that of the leaf model
-  bool uses_model = false;               // also one that says nothing
+  std::optional<double> rate = {};       // nothing: that of the leaf model, or the usual one
+  double usual_rate = kModelRate;
+  bool uses_model = false;  // also one that says nothing
 };
 
 class TeamOfRobots {
@@ -46,6 +47,7 @@ class TeamOfRobots {
  private:
   static void use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file, Diagnostics& said);
   int check() const;
+  void label();
 
   std::deque<RobotOfTeam> robots_;
   double rate_ = kModelRate;

@@ -26,11 +26,13 @@
 namespace lockstep::host {
 namespace {
 
+constexpr double kUsualRate = 100;
+
 struct TeamOptions {
   LoadCommandOptions load;
   std::vector<std::string> robots;  // FILE[,ARGUMENT=VALUE...]
   std::string leaves;               // a leaf model; "": those of plugins
-  double rate = 100;
+  std::optional<double> rate;       // nothing: that of the leaf model, or kUsualRate
   std::uint64_t seed = 0;
   std::optional<double> timeout;
   std::optional<std::uint64_t> max_ticks;
@@ -69,7 +71,7 @@ class Robot {
     if (uses_model) robot.played.set_models(robot.runnable.tree, robot.models);
   }
 
-  const std::string& name() const { return robot_.name(); }
+  const std::string& name() const { return robot_.label; }
   PluginSet& plugins() const { return *robot_.runnable.plugins; }
 
   void connect(SimulatedNetwork& network, Turns& turns, std::size_t number,
@@ -83,7 +85,7 @@ class Robot {
     if (options.record.empty()) return;
     RecorderOptions recorder;
     recorder.path = options.record + '/' + name() + ".jsonl";
-    recorder.run = {.tree_file = robot_.file, .rate_hz = options.rate, .seed = options.seed};
+    recorder.run = {.tree_file = robot_.file, .rate_hz = *options.rate, .seed = options.seed};
     recorder.run.arguments = values_of(robot_.runnable.arguments);
     recorder.run.values = robot_.runnable.values;
     recorder.run.run = TeamRun::short_run(run);
@@ -96,9 +98,9 @@ class Robot {
     {
       team_->use_here();
       Run run(robot_.runnable.tree,
-              {.seed = options.seed + number, .rate = options.rate, .virtual_time = true});
+              {.seed = options.seed + number, .rate = *options.rate, .virtual_time = true});
       LoopOptions loop;
-      loop.rate = options.rate;
+      loop.rate = *options.rate;
       loop.max_ticks = options.max_ticks.value_or(kMostVirtualTicks);
       loop.stop_signal = StopSignals::received;
       if (options.timeout) loop.timeout = from_seconds(*options.timeout);
@@ -159,7 +161,7 @@ std::string json_of(const std::vector<std::unique_ptr<Robot>>& robots,
   return json.printable(2) + '\n';
 }
 
-int simulate(const TeamOptions& options) {
+int simulate(TeamOptions options) {
   keep_stdout_for_results();
   const auto network_of = network_options(options);
   if (!network_of) return kExitUsage;
@@ -167,8 +169,10 @@ int simulate(const TeamOptions& options) {
   const int wrong = team.load({.load = options.load,
                                .robots = options.robots,
                                .leaves = options.leaves,
-                               .rate = options.rate});
+                               .rate = options.rate,
+                               .usual_rate = kUsualRate});
   if (wrong != kExitSuccess) return wrong;
+  options.rate = team.rate();
   std::vector<std::unique_ptr<Robot>> robots;
   for (RobotOfTeam& it : team.robots())
     robots.push_back(std::make_unique<Robot>(it, !options.leaves.empty()));
@@ -216,9 +220,9 @@ std::function<int()> define_team(CLI::App& app) {
   app.add_option("--leaves", options->leaves,
                  "A leaf model: the leaves of all robots do what it allows, by chance")
       ->type_name("FILE");
-  app.add_option("--rate", options->rate, "Ticks per second, of each")
-      ->check(number_between(0.001, 100000))
-      ->capture_default_str();
+  app.add_option("--rate", options->rate,
+                 "Ticks per second, of each (default: that of the leaf model, otherwise 100)")
+      ->check(number_between(0.001, 100000));
   app.add_option("--seed", options->seed, "Of the random numbers of the network and the leaves")
       ->transform(whole_number())
       ->capture_default_str();

@@ -222,6 +222,11 @@ class VerifyCommand {
       diagnostics_.note("mocked-node"_code, {},
                         "verify --mock takes nodes that no plugin has for leaves");
     }
+    if (const auto comma = options_.tree.find(','); comma != std::string::npos) {
+      diagnostics_.note("bad-argument"_code, {},
+                        "one tree takes its arguments as options: --arg " +
+                            printable(options_.tree.substr(comma + 1)));
+    }
     print_diagnostics(diagnostics_, Severity::Note);
     code_ = exit_code_of(loaded.error());
     return loaded;
@@ -447,6 +452,8 @@ std::string_view not_for_teams(const VerifyOptions& options) {
   if (!options.only.empty()) return "--only";
   if (options.compact) return "--compact";
   if (options.depth) return "--depth";
+  if (options.values != kUsualValues) return "--values";
+  if (!options.symmetry) return "--no-symmetry";
   if (!options.properties.texts.empty() || !options.properties.files.empty()) return "--property";
   return options.format == "junit" ? "--format junit" : "";
 }
@@ -613,7 +620,8 @@ std::function<int()> define_verify(CLI::App& app) {
   add_mock_option(app, options->load);
   add_load_options(app, options->load);
   add_program_option(app, options->load.plugins);
-  constexpr const char* kOfExperts[] = {"--compact", "--no-symmetry", "--values", "--sign"};
+  constexpr const char* kOfExperts[] = {"--compact", "--no-symmetry", "--values",
+                                        "--sign",    "--on-resume",   "--depth"};
   only_in_help_all(app, kOfExperts);
   return [options] { return verify(*options); };
 }

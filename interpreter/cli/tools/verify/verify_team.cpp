@@ -32,13 +32,21 @@ class TeamVerification {
   int run() {
     if (const int wrong = team_.load(options_.files); wrong != kExitSuccess) return wrong;
     std::vector<TeamTree> trees;
-    for (RobotOfTeam& it : team_.robots()) trees.push_back({it.runnable.tree, it.models, it.teams});
-    TeamSearch search(trees, team_.rate(), options_.late, options_.limits);
+    for (RobotOfTeam& it : team_.robots())
+      trees.push_back({it.label, it.runnable.tree, it.models, it.teams});
+    for (const RobotOfTeam& it : team_.robots()) {
+      must_end_ &= it.models.tree_ends;
+      has_facts_ |= !it.models.facts.empty();
+      if (it.runnable.properties.empty()) continue;
+      print_note(fmt::format("{}: its properties are not looked at", printable(it.file)),
+                 "verify this tree by itself");
+    }
+    TeamSearch search(trees, team_.rate(), options_.late, must_end_, options_.limits);
     found_ = search.search();
     for (TeamFinding& it : found_.findings) it.accepted = why_accepted(it);
     options_.search_ended();
     const bool has_files = write_files(search, trees);
-    const int failed = write_results(options_.json ? as_json(search) : as_text(search));
+    const int failed = write_results(options_.json ? as_json() : as_text(search));
     if (!internal_error_.empty()) {
       print_error(internal_error_,
                   "this is a bug in lockstep: please report it with the trees and the leaf model");
@@ -58,10 +66,13 @@ class TeamVerification {
       if (!finding.accepted.empty()) continue;
       for (std::size_t i = 0; i < team_.robots().size(); ++i) {
         RobotOfTeam& robot = team_.robots()[i];
-        files.push_back(stem() + '.' + finding.name + '.' + search.name(i) + ".jsonl");
-        if (options_.out != ".")
-          files.back() = (std::filesystem::path(options_.out) / files.back()).string();
-        recorded.push_back({robot.file, files.back(), robot.runnable, robot.played});
+        std::string path;  // "": it has not begun
+        if (search.begin_of(finding.run, i)) {
+          path = stem() + '.' + finding.name + '.' + robot.label + ".jsonl";
+          if (options_.out != ".") path = (std::filesystem::path(options_.out) / path).string();
+          files.push_back(path);
+        }
+        recorded.push_back({robot.file, path, robot.runnable, robot.played});
       }
       const auto wrong = record_team(search, finding, trees, recorded, team_.rate());
       if (!wrong) {
@@ -75,6 +86,20 @@ class TeamVerification {
       }
     }
     return true;
+  }
+
+  // Where robots share a pool only, their recordings do not have when they heard each other.
+  std::string offsets(const TeamSearch& search, const TeamFinding& finding) const {
+    std::string text;
+    std::optional<double> first;
+    for (std::size_t i = 0; i < team_.robots().size(); ++i) {
+      const auto begin = search.begin_of(finding.run, i);
+      if (!begin) continue;
+      if (!found_.spreads.empty()) return "";
+      if (first) text += fmt::format(" --offset {}={:.6g}", search.name(i), *begin - *first);
+      first = first ? first : begin;
+    }
+    return text;
   }
 
   std::string stem() const {
@@ -110,22 +135,27 @@ class TeamVerification {
     return "verified for all behaviors that are assumed";
   }
 
-  std::vector<VerdictLine> facts(const TeamSearch& search) const {
+  std::vector<VerdictLine> facts() const {
+    const bool is_all = found_.is_complete();
+    const std::string so_far = is_all ? "" : " so far";
+    const auto not_yet = [&](const char* no) { return std::string(is_all ? no : "not known"); };
     std::vector<VerdictLine> lines;
     for (std::size_t i = 0; i < team_.robots().size(); ++i) {
       std::string text;
       for (const RobotState::Phase it : found_.results[i])
         text += (text.empty() ? "" : ", ") + std::string(word_of(it));
-      lines.push_back({search.name(i), text.empty() ? "never ends" : text});
+      lines.push_back(
+          {team_.robots()[i].label, text.empty() ? not_yet("never ends") : text + so_far});
     }
-    const auto yes = [&](bool is) { return std::string(is ? "yes" : "NO"); };
-    lines.push_back({"all may succeed", yes(found_.may_all_succeed)});
-    lines.push_back({"can always end", yes(found_.can_always_end)});
+    lines.push_back({"all may succeed", found_.may_all_succeed ? "yes" : not_yet("NO")});
+    lines.push_back({"can always end", !must_end_               ? "not asked: <tree ends=\"no\"/>"
+                                       : !found_.can_always_end ? "NO"
+                                                                : not_yet("yes")});
     for (const auto& it : found_.spreads)
-      lines.push_back({"largest spread of " + it.team, fmt::format("{:.4g}", it.largest)});
-    if (found_.has_pool) lines.push_back({"two owners of a resource", has("two-owners")});
-    if (!found_.spreads.empty())
-      lines.push_back({"barriers passed too early", has("barrier-passed")});
+      lines.push_back({"largest spread of " + it.team, fmt::format("{:.4g}", it.largest) + so_far});
+    if (found_.has_pool) lines.push_back({"two owners of a resource", has("two-owners") + so_far});
+    if (found_.has_barriers)
+      lines.push_back({"barriers passed too early", has("barrier-passed") + so_far});
     return lines;
   }
 
@@ -142,7 +172,7 @@ class TeamVerification {
       for (const std::string& line :
            assumptions(it.runnable.tree, without_robots(it), team_.rate(), it.paces)) {
         if (by[line].empty()) all.push_back(line);
-        by[line].push_back(it.name());
+        by[line].push_back(it.label);
       }
     }
     for (std::string& it : all) {
@@ -155,6 +185,7 @@ class TeamVerification {
       all.push_back(fmt::format("in each period the robots tick in {}, which does not change",
                                 any ? "any order" : "the order of their files"));
     }
+    if (has_facts_) all.push_back("each robot has facts of its own");
     all.push_back(options_.late == 0
                       ? "each word is heard in the next tick of the other robots"
                       : fmt::format("each word is heard at most {} late, or a newer one",
@@ -167,7 +198,10 @@ class TeamVerification {
     LeafModels models = robot.models;
     for (const RobotLeaf& it : robot_leaves(robot.runnable.tree)) {
       const NodeType& type = *robot.runnable.tree.leaves[it.leaf].type;
-      models.leaves[it.leaf].can_run = false;
+      LeafModel& model = models.leaves[it.leaf];
+      if (model.levels.size() > 1 && models.unstated_steps > 0) --models.unstated_steps;
+      model.can_run = false;
+      model.parts = 0;
       std::erase_if(models.declared,
                     [&](const std::string& line) { return line.starts_with(type.id); });
     }
@@ -185,7 +219,7 @@ class TeamVerification {
                     found_.is_complete() ? std::string("complete")
                                          : fmt::format("stopped by {}", limit_of(found_.end)),
                     to_seconds(found_.took));
-    const auto lines = facts(search);
+    const auto lines = facts();
     std::size_t width = 0;
     for (const VerdictLine& it : lines) width = std::max(width, it.name.size());
     for (const VerdictLine& it : lines)
@@ -202,13 +236,13 @@ class TeamVerification {
       if (!std::exchange(says_how, false)) continue;
       text += "       lockstep log merge";
       for (const std::string& it : files_[i]) text += ' ' + shell_word(it);
-      text += " --out team.jsonl\n       lockstep replay team.jsonl\n";
+      text += offsets(search, finding) + " --out team.jsonl\n       lockstep replay team.jsonl\n";
     }
     text += fmt::format("  assumed: {}\n", joined(assumed(), "; "));
     return text + conclusion() + '\n';
   }
 
-  std::string as_json(const TeamSearch& search) const {
+  std::string as_json() const {
     Json json = Json::object();
     json["trees"] = Json(options_.files.robots);
     if (!options_.files.leaves.empty()) json["leaves"] = options_.files.leaves;
@@ -224,7 +258,7 @@ class TeamVerification {
     for (std::size_t i = 0; i < team_.robots().size(); ++i) {
       Json all = Json::array();
       for (const RobotState::Phase it : found_.results[i]) all.push_back(std::string(word_of(it)));
-      results[search.name(i)] = std::move(all);
+      results[team_.robots()[i].label] = std::move(all);
     }
     json["results"] = std::move(results);
     Json findings = Json::array();
@@ -239,7 +273,7 @@ class TeamVerification {
     }
     json["findings"] = std::move(findings);
     Json all = Json::object();
-    for (const VerdictLine& it : facts(search)) all[it.name] = it.text;
+    for (const VerdictLine& it : facts()) all[it.name] = it.text;
     json["facts"] = std::move(all);
     json["assumed"] = Json(assumed());
     return json.printable(2) + '\n';
@@ -247,6 +281,7 @@ class TeamVerification {
 
   const TeamVerifyOptions& options_;
   TeamOfRobots team_;
+  bool must_end_ = true, has_facts_ = false;
   TeamSearchResult found_;
   std::vector<std::vector<std::string>> files_;  // of each finding
   std::string internal_error_;
