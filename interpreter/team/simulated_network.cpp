@@ -47,6 +47,7 @@ class SimulatedNetwork::Link final : public TeamTransport {
       : network_(network), teams_(std::move(teams)), last_(teams_.size()), clock_(clock) {}
 
   bool take(HeardWord& into) override {
+    if (!std::exchange(has_begun_, true)) forget_gone();
     send_again();
     if (coming_.empty() || coming_.front().at > clock_.now()) return false;
     into = coming_.front();
@@ -73,6 +74,18 @@ class SimulatedNetwork::Link final : public TeamTransport {
   }
 
  private:
+  // A network has the last word of a robot that runs for who comes later, and nothing of one that
+  // has ended.
+  void forget_gone() {
+    const auto is_of_one = [](const auto& from, const HeardWord& word) {
+      return std::ranges::any_of(from, [&](const HeardWord& it) {
+        return it.word.pool.has_left && it.team == word.team && it.member == word.member;
+      });
+    };
+    const std::deque<HeardWord> all = coming_;
+    std::erase_if(coming_, [&](const HeardWord& it) { return is_of_one(all, it); });
+    std::erase_if(lost_, [](const Lost& it) { return it.word.word.pool.has_left; });
+  }
   // What was lost is sent again after a time, as networks for robots do: the last word of each.
   void send_again() {
     constexpr Nanoseconds kAgain = std::chrono::milliseconds(100);
@@ -102,6 +115,7 @@ class SimulatedNetwork::Link final : public TeamTransport {
   std::vector<TeamWord> last_;
   Clock& clock_;
   std::deque<HeardWord> coming_;
+  bool has_begun_ = false;
   std::vector<Lost> lost_;
 };
 

@@ -1,6 +1,8 @@
 // A network between runs of one process, on a clock that they share: for `lockstep team` and for
 // tests. Everything comes from the seed, so that the same run comes again.
 //
+// A run that begins hears the last word of each robot that runs, and nothing of one that has ended.
+//
 // Each run is in a thread of its own, and one of them goes on at a time: the one whose next tick is
 // the earliest, of several the first. TurnClock gives them their turns.
 #pragma once

@@ -428,6 +428,83 @@ TEST_CASE("lockstep verify: robots that wait for each other, or declare their te
   CHECK(contains(stranger.out, "left: 'right': its tree declares the team in another way"));
 }
 
+TEST_CASE("lockstep verify: a word may come at any time between two ticks") {
+  // `right` waits for ever if it gives up in its last tick but one, before `left` is silent for
+  // that whole tick.
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "c.xml",
+      "<root lockstep=\"1\" main_tree_to_execute=\"M\"><arg name=\"me\" default=\"left\"/>"
+      "<team name=\"t\" members=\"left;right\"/>"
+      "<BehaviorTree ID=\"M\"><SubTree ID=\"${me}\"/></BehaviorTree><BehaviorTree ID=\"left\">"
+      "<InStep team=\"t\" as=\"left\" barriers=\"0\" give_up=\"1\"><AlwaysFailure/></InStep>"
+      "</BehaviorTree><BehaviorTree ID=\"right\"><Sequence memory=\"true\">"
+      "<Script code=\"done := false; began := false\"/><Fallback memory=\"true\">"
+      "<InStep team=\"t\" as=\"right\" barriers=\"0\" give_up=\"0.1\"><Sequence memory=\"true\">"
+      "<Script code=\"began := true\"/><Wait seconds=\"0.6\"/><Script code=\"done := true\"/>"
+      "<AlwaysFailure/></Sequence></InStep><WaitUntil code=\"done == true or began == false\"/>"
+      "</Fallback></Sequence></BehaviorTree></root>\n");
+  const Outcome played = run_lockstep({"team", tree + ",me=left", tree + ",me=right", "--rate",
+                                       "10", "--latency", "0.04", "--timeout", "60"});
+  CHECK(contains(played.out, "right  stopped"));
+  const Outcome outcome = verify(both(tree), directory, {"--late", "0"});
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.out, "finding deadlock: "));
+}
+
+TEST_CASE("lockstep verify: what is not looked at, and not known yet") {
+  const TemporaryDirectory directory;
+  const Outcome stopped = verify(both(kCarry), directory, {"--states", "5"});
+  CHECK(stopped.code == 124);
+  CHECK(contains(stopped.out, "  left                       not known\n"));
+  CHECK(contains(stopped.out, "  can always end             not known\n"));
+  CHECK(contains(stopped.out, "  barriers passed too early  never so far\n"));
+  const std::string endless =
+      directory.file("e.leaves.xml",
+                     "<leaves lockstep=\"1\"><tree ends=\"no\"/><fact name=\"light\"/></leaves>\n");
+  std::string text = read_file(kCarry);
+  text.replace(text.find("<BehaviorTree"), 0, "<property name=\"p\">never lift.failure</property>");
+  const Outcome outcome =
+      verify(both(directory.file("carry.xml", text)), directory, {"--leaves", endless});
+  CHECK(outcome.code == 0);
+  CHECK(contains(outcome.out, "not asked: <tree ends=\"no\"/>"));
+  CHECK(contains(outcome.out, "each robot has facts of its own"));
+  CHECK(contains(outcome.err, "carry.xml: its properties are not looked at"));
+}
+
+TEST_CASE("a robot gets more of a shared pool although one that waits for it has waited longer") {
+  const TemporaryDirectory directory;
+  const auto tree = [&](const std::string& a, const std::string& b) {
+    return directory.file(
+        "n.xml",
+        "<root lockstep=\"1\" main_tree_to_execute=\"M\"><plugin name=\"motion\"/>"
+        "<arg name=\"me\" default=\"left\"/><team name=\"t\" members=\"left;right\"/>"
+        "<resources name=\"p\" team=\"t\" as=\"${me}\" resources=\"x;y\"/>"
+        "<BehaviorTree ID=\"M\"><SubTree ID=\"${me}\"/></BehaviorTree><BehaviorTree ID=\"left\">" +
+            a + "</BehaviorTree><BehaviorTree ID=\"right\">" + b + "</BehaviorTree></root>\n");
+  };
+  const std::string part = "<Advance step=\"0.1\"/>";
+  const auto uses = [](const std::string& what, const std::string& inside) {
+    return "<UseResources pool=\"p\" resources=\"" + what + "\">" + inside + "</UseResources>";
+  };
+  const std::string nested =
+      uses("x", "<Sequence memory=\"true\">" + part + uses("y", part) + "</Sequence>");
+  const auto play = [&](const std::string& file) {
+    return run_lockstep({"team", file + ",me=left", file + ",me=right", "--timeout", "20"});
+  };
+  CHECK(play(tree(nested, uses("x;y", part))).code == 0);
+  // One whose tree uses nothing of the pool takes no part in it, also where it is the first member.
+  const std::string in_step =
+      "<InStep team=\"t\" as=\"${me}\" barriers=\"0.5\">" + part + "</InStep>";
+  const std::string both_of =
+      "<Sequence memory=\"true\">" + in_step + uses("x", part) + "</Sequence>";
+  for (const bool is_first : {true, false}) {
+    const Outcome outcome = play(tree(is_first ? both_of : in_step, is_first ? in_step : both_of));
+    INFO(outcome.out + outcome.err);
+    CHECK(outcome.code == 0);
+  }
+}
+
 TEST_CASE("lockstep verify: what says nothing of several robots is refused") {
   const TemporaryDirectory directory;
   for (const std::string option : {"--fmea", "--probability", "--cuts=1", "--compact"}) {
@@ -454,6 +531,14 @@ TEST_CASE("lockstep team: with a leaf model, the leaves do what it allows") {
   const Outcome outcome = team({"--leaves", leaves, "--timeout", "5"});
   CHECK(outcome.code == 1);
   CHECK(contains(outcome.out, "failure, "));
+  // The rate is that of the model, and a robot that comes later hears nothing of one that is gone.
+  const std::string slow =
+      directory.file("s.leaves.xml",
+                     "<leaves lockstep=\"1\" rate=\"10\"><leaf of=\"Advance\" result=\"failure\" "
+                     "ticks=\"3\"/></leaves>\n");
+  const Outcome late = team({"--leaves", slow, "--timeout", "5", "--start", "0", "2"});
+  CHECK(contains(late.out, "left   failure, 4 ticks, 0.400 s\n"));
+  CHECK(contains(late.out, "right  stopped, 50 ticks, 5.000 s: 'left': not heard yet\n"));
 }
 
 TEST_CASE("lockstep check: trees that declare a team differently are noted") {
