@@ -91,6 +91,7 @@ class TeamMember {
   // What to say, with that of the pool.
   TeamWord word(const PoolWord& pool = {});
 
+  bool is_in() const { return own_.is_in; }  // as it was said last
   std::uint32_t round() const { return own_.round; }
   std::uint32_t passed() const { return own_.passed; }
   // Before the first tick of a process that continues a run after a cut: where that was.

@@ -437,14 +437,14 @@ bool TeamRun::resume_rounds(std::span<const std::uint32_t> rounds) {
   return true;
 }
 
-std::string TeamRun::find_why(const Moment& moment) const {
+std::string TeamRun::find_why() const {
   for (const Team& it : teams_) {
     if (it.member.is_contested()) return kOwnName;
     for (std::size_t place = 0; place < it.uses.size(); ++place) {
       const WhyWaiting why(it, place);
       if (it.pool.waits(place) && *why.text != 0) return why.text;
     }
-    if (!it.node || moment.status(*it.node) != Status::Running) continue;
+    if (!it.member.is_in()) continue;
     const auto& others = it.member.declaration().others;
     for (std::size_t i = 0; i < others.size(); ++i) {
       const WhyNot why(it.member.known(i));
@@ -507,8 +507,8 @@ void TeamRun::after_tick(const Moment& moment, const TickReport&) {
   say();
 }
 
-void TeamRun::run_ended(const Moment& moment, const RunEnd&) {
-  why_ = find_why(moment);
+void TeamRun::run_ended(const Moment&, const RunEnd&) {
+  why_ = find_why();
   for (Team& it : teams_) {
     it.member.set_own(false, 0.0, TeamMember::End::None);
     it.pool.leave();

@@ -94,7 +94,7 @@ class TeamRun final : public Observer {
  private:
   void say();
   void note_heard(Nanoseconds time);
-  std::string find_why(const Moment& moment) const;
+  std::string find_why() const;
 
   std::deque<Team> teams_;
   std::vector<Heard> heard_;  // of the others of the first team in step, then of the next
