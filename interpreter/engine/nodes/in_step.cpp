@@ -230,7 +230,8 @@ const NodeKind kInStep{
              .doc =
                  "Keeps its child in step with the other members of a team, robots that run other "
                  "trees: at barriers, or at most delta ahead. Returns what its child returns, "
-                 "and Running while the child is held.",
+                 "and Running while the child is held, or has completed before all others have "
+                 "begun.",
              .arity = {1, 1},
              .parameters = in_step::kInStepParameters,
              .rule = in_step::rule_of_in_step,
