@@ -6,7 +6,6 @@
 #include <iterator>
 #include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "base/core/pre_order.h"
@@ -20,6 +19,7 @@
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
+#include "cli/told.h"
 #include "language/document/file.h"
 #include "team/team_run.h"
 #include "verify/check/advice.h"
@@ -161,22 +161,6 @@ Checked find_files(const CheckOptions& options, Diagnostics& diagnostics) {
   }
   return checked;
 }
-
-// Files that are checked together have the messages of those that they use.
-class Told {
- public:
-  Diagnostics only_new(const Diagnostics& diagnostics) {
-    Diagnostics fresh;
-    for (const Diagnostic& it : diagnostics.all()) {
-      const SourceLocation& at = it.location;
-      if (told_.emplace(at.file, at.line, at.column, it.message).second) fresh.add(it);
-    }
-    return fresh;
-  }
-
- private:
-  std::set<std::tuple<std::string, std::uint32_t, std::uint32_t, std::string>> told_;
-};
 
 // Robots of a team run different trees, which must declare it in the same way. Where files are
 // checked together, one may be of another mission with a team of that name: so it is only noted.

@@ -15,9 +15,11 @@
 //   A new process of a robot owns nothing. What the old one owned is free when it was not heard for
 //   the deadline, since two processes may live.
 //
-// Who has waited longest is first: what it waits for is granted to no other robot before, but to
-// one for which it waits. Nodes of one robot never compete here: the pool of its own tree has
-// decided between them. A robot whose tree uses no pool of the team takes no part.
+// Who has waited longest is first: what it waits for is granted to no other robot before. The
+// exception is a robot for which it waits. For example, b waits for x, which a owns, and for y:
+// then a gets y when it asks, because it may need y to give back x. Nodes of one robot never
+// compete here: the pool in its tree has decided between them. A robot whose tree uses no pool of
+// the team takes no part.
 #pragma once
 
 #include <array>

@@ -33,7 +33,7 @@ bool stands_for_robots(const NodeType& type);
 struct RobotLeaf {
   std::uint32_t leaf = 0;  // in Tree::leaves
   std::string team;
-  bool asks = false;      // for resources; else it stands for one robot
+  bool asks = false;      // for resources; otherwise it stands for one robot
   std::string other;      // that robot
   std::size_t place = 0;  // of the node that asks
   // What that asks for, as text; nothing: an entry has it.

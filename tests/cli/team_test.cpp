@@ -468,7 +468,7 @@ TEST_CASE("lockstep verify: what is not looked at, and not known yet") {
       verify(both(directory.file("carry.xml", text)), directory, {"--leaves", endless});
   CHECK(outcome.code == 0);
   CHECK(contains(outcome.out, "not asked: <tree ends=\"no\"/>"));
-  CHECK(contains(outcome.out, "each robot has facts of its own"));
+  CHECK(contains(outcome.out, "facts belong to one robot"));
   CHECK(contains(outcome.err, "carry.xml: its properties are not looked at"));
 }
 

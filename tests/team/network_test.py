@@ -103,6 +103,20 @@ def test_a_robot_that_is_killed_continues_in_its_round(folder):
     again.succeeds()
 
 
+def test_a_robot_that_is_a_round_ahead_stays_so_when_it_continues(folder):
+    text = TREE.replace("<InStep", '<Repeat times="2"><InStep').replace("</InStep>", "</InStep></Repeat>")
+    common, kept = ("--arg", "barriers=0.25"), ("--checkpoint", f"{folder}/right.checkpoint", "--resume")
+    left = Robot("left", folder, "--arg", "step=0.004", *common, text=text)
+    right = Robot("right", folder, "--arg", "step=0.05", *common, *kept)
+    right.wait_for("lift: success")
+    right.wait_for("lift: waits for left at barrier 0.25")  # of the second round, and left is in the first one
+    right.kill()
+    again = Robot("right", folder, "--arg", "step=0.05", *common, *kept)
+    again.wait_for("resumed after")
+    left.succeeds()  # it would wait for ever for one that does the first round again
+    again.succeeds()
+
+
 def test_two_of_one_name_both_hold(folder):
     left, right = Robot("left", folder), Robot("right", folder)
     right.wait_for("lift: started")

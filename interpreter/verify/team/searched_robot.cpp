@@ -88,10 +88,11 @@ RobotState SearchedRobot::tick() {
   const bool ends = status != Status::Running || stepper_.ticker().faulted();
   if (ends) team_.run_ended(moment, {});
   RobotState after = from_;
-  after.phase = !ends                       ? RobotState::Phase::Running
-                : status == Status::Success ? RobotState::Phase::Succeeded
-                : status == Status::Skipped ? RobotState::Phase::Skipped
-                                            : RobotState::Phase::Failed;
+  after.phase = !ends                         ? RobotState::Phase::Running
+                : stepper_.ticker().faulted() ? RobotState::Phase::Faulted
+                : status == Status::Success   ? RobotState::Phase::Succeeded
+                : status == Status::Skipped   ? RobotState::Phase::Skipped
+                                              : RobotState::Phase::Failed;
   for (std::size_t i = 0; i < after.teams.size(); ++i) {
     TeamPart& part = after.teams[i];
     const TeamRun::Team& team = team_.teams()[i];

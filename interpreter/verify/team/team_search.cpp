@@ -263,7 +263,7 @@ std::vector<HeardWord> TeamSearch::words(const TeamState& from, const TeamTurn& 
 
 // Each choice of those that may be silent already; of too many, all or none.
 std::vector<std::vector<TeamTurn::Silent>> TeamSearch::silences(const TeamState& from,
-                                                                const TeamTurn& turn) const {
+                                                                const TeamTurn& turn) {
   constexpr std::size_t kMost = 6;
   std::vector<TeamTurn::Silent> may;
   const RobotState& robot = from.robots[turn.robot];
@@ -278,7 +278,10 @@ std::vector<std::vector<TeamTurn::Silent>> TeamSearch::silences(const TeamState&
         may.push_back({team, other});
     }
   }
-  if (may.size() > kMost) return {{}, may};
+  if (may.size() > kMost) {
+    result_.leaves_out_silences = true;
+    return {{}, may};
+  }
   std::vector<std::vector<TeamTurn::Silent>> all;
   for (std::size_t choice = 0; choice < std::size_t{1} << may.size(); ++choice) {
     auto& silent = all.emplace_back();
@@ -365,7 +368,7 @@ void TeamSearch::look(const Done& done, const TeamState& next) {
     const SearchedRobot& searched = *robots_[turn.robot];
     if (const Fault* const fault = searched.stepper().ticker().fault()) {
       add_finding("fault." + name(turn.robot),
-                  fmt::format("{}: leaf '{}' {}", name(turn.robot),
+                  fmt::format("{}: '{}' {}", name(turn.robot),
                               trees_[turn.robot].tree.path(fault->node), fault->message),
                   done);
     }
@@ -526,7 +529,7 @@ std::vector<std::string> TeamSearch::waits_in(StateId state) {
     const RobotState& robot = from.robots[turn];
     TeamState after = from;
     std::string line = robot.has_ended() ? "has ended" : robot.runs() ? "" : "has not begun";
-    // In the order of answers, the last one goes on where a leaf may run.
+    // The last answers are those with which leaves run, where they may.
     expand(from, [&](TeamState&& next, const TeamTurn& it) {
       after = std::move(next);
       if (it.ticks && robot.runs()) line = robots_[turn]->why();

@@ -68,7 +68,8 @@ struct TeamSearchResult {
   };
   std::vector<Spread> spreads = {};  // of the teams that are in step
   bool has_pool = false;
-  bool has_barriers = false;  // that were looked at
+  bool has_barriers = false;         // that were looked at
+  bool leaves_out_silences = false;  // there were too many at a time
   std::vector<TeamFinding> findings = {};
 
   bool is_complete() const { return end == SearchEnd::Complete; }
@@ -105,8 +106,7 @@ class TeamSearch {
   bool expand(const TeamState& from, const Visit& visit);
   bool tick(const TeamState& from, TeamTurn& turn, const Visit& visit);
   void begin_turn(const TeamState& from, const TeamTurn& turn);
-  std::vector<std::vector<TeamTurn::Silent>> silences(const TeamState& from,
-                                                      const TeamTurn& turn) const;
+  std::vector<std::vector<TeamTurn::Silent>> silences(const TeamState& from, const TeamTurn& turn);
   std::vector<std::vector<TeamTurn::Hears>> deliveries(const TeamState& from) const;
   std::vector<HeardWord> words(const TeamState& from, const TeamTurn& turn) const;
   TeamState after_turn(const TeamState& from, const TeamTurn& turn, RobotState robot) const;

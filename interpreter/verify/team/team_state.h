@@ -43,7 +43,7 @@ struct TeamPart {
 };
 
 struct RobotState {
-  enum class Phase : std::uint8_t { Waiting, Running, Succeeded, Failed, Skipped };
+  enum class Phase : std::uint8_t { Waiting, Running, Succeeded, Failed, Skipped, Faulted };
   Phase phase = Phase::Waiting;  // it has not begun, or it has ended
   StateId tree = 0;              // the state of its tree, in a store of its own
   std::vector<TeamPart> teams = {};

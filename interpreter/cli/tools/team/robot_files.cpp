@@ -9,6 +9,7 @@
 #include "base/core/wording.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
+#include "cli/told.h"
 #include "cli/tools/verify/verify_input.h"
 #include "team/team_run.h"
 #include "tree/pace.h"
@@ -52,7 +53,7 @@ bool is_at(const Diagnostic& one, const Diagnostic& other) {
 }
 
 // Whether there are errors. A row of the leaf model need not fit all robots.
-bool report(const std::vector<Diagnostics>& said) {
+bool report(const std::vector<Diagnostics>& said, Told& told) {
   const auto is_said_by_all = [&](const Diagnostic& wanted) {
     return std::ranges::all_of(said, [&](const Diagnostics& all) {
       return std::ranges::any_of(all.all(),
@@ -67,7 +68,8 @@ bool report(const std::vector<Diagnostics>& said) {
       if (!is_of_row || (i == 0 && is_said_by_all(it))) kept.add(it);
     }
     has_errors |= kept.has_errors();
-    print_diagnostics(kept, Severity::Warning);
+    Diagnostics fresh = told.only_new(kept);
+    print_diagnostics(fresh, Severity::Warning);
   }
   return has_errors;
 }
@@ -87,22 +89,24 @@ int TeamOfRobots::load(const TeamFiles& files) {
   rate_ = model != nullptr ? model->rate.value_or(files.usual_rate) : files.usual_rate;
   rate_ = files.rate.value_or(rate_);
   std::vector<Diagnostics> said(files.robots.size());
+  Told told;
   for (std::size_t i = 0; i < files.robots.size(); ++i) {
     RobotOfTeam& robot = robots_.emplace_back();
     LoadCommandOptions load = files.load;
     robot.file = take_arguments(files.robots[i], load.arguments);
     Diagnostics diagnostics;
     auto loaded = load_given(robot.file, load, diagnostics);
-    print_diagnostics(diagnostics, Severity::Warning);
+    Diagnostics fresh = told.only_new(diagnostics);
+    print_diagnostics(fresh, Severity::Warning);
     if (!loaded) return exit_code_of(loaded.error());
-    if (model != nullptr || files.uses_model) {
-      use_model(robot, std::move(*loaded), model.get(), said[i]);
+    if (model != nullptr || files.is_searched) {
+      use_model(robot, std::move(*loaded), model.get(), files.is_searched, said[i]);
     } else {
       robot.runnable = make_runnable(std::move(*loaded));
     }
     robot.teams = teams_of(robot.runnable.tree, from_seconds(1 / rate_));
   }
-  if (report(said)) return kExitInvalidTree;
+  if (report(said, told)) return kExitInvalidTree;
   const int wrong = check();
   if (wrong == kExitSuccess) label();
   return wrong;
@@ -118,14 +122,17 @@ void TeamOfRobots::label() {
 }
 
 void TeamOfRobots::use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file,
-                             Diagnostics& said) {
+                             bool is_searched, Diagnostics& said) {
   const Places places(loaded);
   robot.played.take_over(loaded.definition, stands_for_robots);
   robot.paces = paces(loaded.definition);
   ignore_pace(loaded.definition);
   robot.runnable = make_runnable(std::move(loaded));
-  std::vector<NodeProblem> problems = not_verifiable(robot.runnable.tree);
-  add_problems(robot.runnable.tree, problems);
+  std::vector<NodeProblem> problems;
+  if (is_searched) {
+    problems = not_verifiable(robot.runnable.tree);
+    add_problems(robot.runnable.tree, problems);
+  }
   robot.models = make_models(robot.runnable.tree, file, said, problems);
   places.report(problems, said);
 }

@@ -1,5 +1,5 @@
-// The robots of a team as a command takes them: a tree file of each, with arguments of its own, and
-// a leaf model of all.
+// The robots of a team as a command takes them: the tree file of each, with the arguments for that
+// robot, and a leaf model of all.
 #pragma once
 
 #include <deque>
@@ -32,7 +32,7 @@ struct TeamFiles {
   std::string leaves = {};               // a leaf model for all of them; "": none
   std::optional<double> rate = {};       // nothing: that of the leaf model, or the usual one
   double usual_rate = kModelRate;
-  bool uses_model = false;  // also one that says nothing
+  bool is_searched = false;  // needs a leaf model, and what a search can know
 };
 
 class TeamOfRobots {
@@ -45,7 +45,8 @@ class TeamOfRobots {
   double rate() const { return rate_; }
 
  private:
-  static void use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file, Diagnostics& said);
+  static void use_model(RobotOfTeam& robot, Loaded loaded, const LeafFile* file, bool is_searched,
+                        Diagnostics& said);
   int check() const;
   void label();
 

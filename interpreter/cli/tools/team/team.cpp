@@ -214,7 +214,7 @@ int simulate(TeamOptions options) {
 std::function<int()> define_team(CLI::App& app) {
   const auto options = std::make_shared<TeamOptions>();
   app.add_option("robots", options->robots,
-                 "The tree file of each robot, with arguments of its own: carry.xml,me=left")
+                 "The tree file of each robot, with its arguments: carry.xml,me=left")
       ->required()
       ->type_name("FILE[,ARG=VALUE]");
   app.add_option("--leaves", options->leaves,

@@ -148,7 +148,7 @@ class VerifyCommand {
                                      .robots = options_.more,
                                      .leaves = options_.leaves,
                                      .rate = options_.rate,
-                                     .uses_model = true},
+                                     .is_searched = true},
                            .late = options_.late.value_or(kUsuallyLate),
                            .limits = limits(line),
                            .search_ended = [&line] { line.clear(); },
@@ -519,8 +519,8 @@ std::function<int()> define_verify(CLI::App& app) {
   const auto options = std::make_shared<VerifyOptions>();
   add_tree_argument(app, options->tree, "Tree file; - is stdin");
   app.add_option("robots", options->more,
-                 "The trees of the other robots of its team, to be verified together; each may "
-                 "have arguments of its own: carry.xml,me=right")
+                 "The trees of the other robots of its team, to be verified together; arguments "
+                 "of one robot follow its file: carry.xml,me=right")
       ->type_name("TREE.xml[,ARG=VALUE]");
   app.add_option("--late", options->late,
                  "Of several robots: each word is heard at most N ticks late (default: 1)")

@@ -21,7 +21,8 @@ namespace lockstep::host {
 namespace {
 
 std::string_view word_of(RobotState::Phase phase) {
-  constexpr std::string_view kWords[] = {"not begun", "running", "success", "failure", "skipped"};
+  constexpr std::string_view kWords[] = {"not begun", "running", "success",
+                                         "failure",   "skipped", "fault"};
   return kWords[static_cast<std::size_t>(phase)];
 }
 
@@ -77,6 +78,7 @@ class TeamVerification {
       const auto wrong = record_team(search, finding, trees, recorded, team_.rate());
       if (!wrong) {
         print_error(wrong.error().message, wrong.error().hint);
+        files.clear();
         return false;
       }
       if (!wrong->empty() && internal_error_.empty()) {
@@ -185,7 +187,9 @@ class TeamVerification {
       all.push_back(fmt::format("in each period the robots tick in {}, which does not change",
                                 any ? "any order" : "the order of their files"));
     }
-    if (has_facts_) all.push_back("each robot has facts of its own");
+    if (found_.leaves_out_silences)
+      all.push_back("of more than six robots that become silent in one tick, all or none do so");
+    if (has_facts_) all.push_back("facts belong to one robot");
     all.push_back(options_.late == 0
                       ? "each word is heard in the next tick of the other robots"
                       : fmt::format("each word is heard at most {} late, or a newer one",
