@@ -537,7 +537,7 @@ TEST_CASE("lockstep team: with a leaf model, the leaves do what it allows") {
   const std::string tree = directory.file("carry.xml", text);
   const Outcome late = run_lockstep({"team", tree + ",me=left", tree + ",me=right", "--leaves",
                                      directory.file("s.leaves.xml", kMotions), "--timeout", "5",
-                                     "--start", "0", "3"});
+                                     "--start", "0", "1.4"});
   CHECK(contains(late.out, "left   failure, 12 ticks, 1.200 s\n"));
   INFO(late.out);
   CHECK(contains(late.out, "right  failure, 12 ticks, 1.200 s"));
