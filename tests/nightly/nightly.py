@@ -241,8 +241,8 @@ class Nightly:
         text = HEAD + "".join(f"| {' | '.join(row)} |\n" for row in rows)
         if failed:
             text += "\n## Failed\n\n" + "".join(f"- {line}\n" for line in failed)
-        return text + ("\nNot a part of it, as they change the machine: `./dev package --try`, `./dev test-slurm` and "
-                       "`./dev test-container`, as root.\n")
+        return text + ("\nNot a part of it, as they change the machine: `./dev package --try`, `./dev test-slurm`, "
+                       "`./dev test-container` and `./dev test-service`, as root.\n")
 
 
 def stop(*_):

@@ -9,6 +9,8 @@ import shutil
 import subprocess
 import sys
 
+from debian import copy_base, make_base
+
 SOURCES, PACKAGES, WORK = sys.argv[1:4]
 BASE, ROOT = WORK + "/base", WORK + "/root"
 state = {"USER": "0", "WORKDIR": "/", "ENV": {"PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"}}
@@ -62,20 +64,11 @@ def steps_of_last_stage():
     return steps[first + 1:]
 
 
-def make_base():
-    if os.path.exists(BASE + "/etc/debian_version"):
-        return
-    subprocess.run(["debootstrap", "--variant=minbase", "bookworm", BASE, "http://deb.debian.org/debian"], check=True,
-                   stdout=subprocess.DEVNULL)
-
-
 if os.geteuid() != 0 or not shutil.which("debootstrap"):
     sys.exit("container_test: needs root and debootstrap")
 os.makedirs(WORK, exist_ok=True)
-make_base()
-shutil.rmtree(ROOT, ignore_errors=True)
-subprocess.run(["cp", "-a", BASE, ROOT], check=True)
-shutil.copy("/etc/resolv.conf", ROOT + "/etc/resolv.conf")
+make_base(BASE)
+copy_base(BASE, ROOT)
 for step in steps_of_last_stage():
     print("container:", *step, file=sys.stderr)
     do(*step)

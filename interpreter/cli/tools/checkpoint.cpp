@@ -80,7 +80,7 @@ std::string text_of(const KeptCheckpoint& kept) {
 }
 
 int show(const CheckpointCommandOptions& options) {
-  const auto kept = read_checkpoint_file(options.file);
+  const auto kept = read_checkpoint_file(options.file, CheckpointReader::Shows);
   if (!kept || !*kept) {
     print_error(kept ? fmt::format("there is no file '{}'", printable(options.file))
                      : printable(kept.error().message));

@@ -60,6 +60,8 @@ std::uint64_t whole_blocks(std::uint64_t size) {
   return (size + kBlock - 1) / kBlock * kBlock;
 }
 
+constexpr const char* kOfAnother = "it belongs to another user";
+
 // What is not to be read or replaced; "": nothing is there, or a file of this user.
 std::string refusal(const std::string& path) {
   struct stat named {};
@@ -67,7 +69,7 @@ std::string refusal(const std::string& path) {
   if (S_ISLNK(named.st_mode)) return "it is a symbolic link; name the file itself";
   if (S_ISDIR(named.st_mode)) return reason_text(EISDIR);
   if (!S_ISREG(named.st_mode)) return "it is not a file";
-  return named.st_uid == geteuid() ? "" : "it belongs to another user";
+  return named.st_uid == geteuid() ? "" : kOfAnother;
 }
 
 // All of it; nothing, with errno.
@@ -244,8 +246,10 @@ void CheckpointFile::write_last(std::string_view checkpoint) {
   newest_ = synced_ = slot;
 }
 
-Result<std::optional<KeptCheckpoint>> read_checkpoint_file(const std::string& path) {
-  if (const std::string why = refusal(path); !why.empty()) {
+Result<std::optional<KeptCheckpoint>> read_checkpoint_file(const std::string& path,
+                                                           CheckpointReader reader) {
+  const std::string why = refusal(path);
+  if (!why.empty() && (reader == CheckpointReader::Continues || why != kOfAnother)) {
     return problem(fmt::format("cannot open '{}': {}", path, why));
   }
   const auto bytes = read_all(path);

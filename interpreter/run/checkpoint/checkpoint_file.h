@@ -61,6 +61,9 @@ struct KeptCheckpoint {
   Checkpoint checkpoint;
 };
 // Nothing: there is no file. A problem: there is one that is refused, or damaged.
-Result<std::optional<KeptCheckpoint>> read_checkpoint_file(const std::string& path);
+// To show it, it may be another user's: that of a service.
+enum class CheckpointReader { Shows, Continues };
+Result<std::optional<KeptCheckpoint>> read_checkpoint_file(
+    const std::string& path, CheckpointReader reader = CheckpointReader::Continues);
 
 }  // namespace lockstep::host
