@@ -42,7 +42,11 @@ std::vector<CutLeaf> Ticker::cut_leaves() const {
 }
 
 void Ticker::ask_after_cut(CutLeaf& leaf, std::string_view bytes, const lockstep_cut& cut) {
-  leaf.does = ask_leaf_after_cut(*this, tree_.leaves[leaf.place].node, bytes, cut);
+  lockstep_cut told = cut;
+  told.on_resume = leaf.does == AfterCut::Failure   ? LOCKSTEP_FAILURE
+                   : leaf.does == AfterCut::Success ? LOCKSTEP_SUCCESS
+                                                    : 0;
+  leaf.does = ask_leaf_after_cut(*this, tree_.leaves[leaf.place].node, bytes, told);
   leaf.is_asked = true;
 }
 

@@ -55,6 +55,7 @@ lockstep_cut cut_of(const Checkpoint& from, const KeepOptions& options, Nanoseco
   return {.struct_size = sizeof(lockstep_cut),
           .power = power,
           .held = false,
+          .on_resume = 0,
           .gap = std::max(to_seconds(gap), 0.0),
           .lost_ticks = options.real_time ? ticks
                         : power           ? UINT64_MAX

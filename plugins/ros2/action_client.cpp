@@ -18,19 +18,27 @@ using namespace std::chrono_literals;
 constexpr auto kSettling = 50ms;
 constexpr auto kBetweenLooks = 200ms;
 constexpr auto kCancelLimit = 1s;
+constexpr auto kBetweenAsks = 1s;
 
 constexpr std::size_t kMostUnanswered = 16;
 
-void make_id(void* id, std::size_t size) {
-  static std::random_device device;
-  auto* const bytes = static_cast<unsigned char*>(id);
-  for (std::size_t i = 0; i < size; i += sizeof(unsigned)) {
-    const unsigned bits = device();
-    std::memcpy(bytes + i, &bits, sizeof bits);
-  }
+constexpr int kStateBits = 4, kStageBits = 4, kNumberBits = 24;
+
+std::uint64_t bits_of(std::uint64_t shown, int from, int count) {
+  return shown >> from & ((std::uint64_t{1} << count) - 1);
 }
 
 }  // namespace
+
+GoalId new_goal_id() {
+  static std::random_device device;
+  GoalId id;
+  for (std::size_t i = 0; i < id.size(); i += sizeof(unsigned)) {
+    const unsigned bits = device();
+    std::memcpy(id.data() + i, &bits, sizeof bits);
+  }
+  return id;
+}
 
 ActionClient::ActionClient(const ActionType& type, std::string action)
     : type_(type),
@@ -56,12 +64,28 @@ Outcome ActionClient::outcome(std::uint64_t activation) const {
 
 ActionClient::State ActionClient::state(std::uint64_t activation) const {
   const std::uint64_t shown = shown_.load(std::memory_order_relaxed);
-  return shown >> 8 == activation ? static_cast<State>(shown & 0xff) : State::Idle;
+  return shown >> 32 == activation ? static_cast<State>(bits_of(shown, 0, kStateBits))
+                                   : State::Idle;
+}
+
+ActionClient::Sent ActionClient::sent(std::uint64_t activation) const {
+  const std::uint64_t shown = shown_.load(std::memory_order_relaxed);
+  if (shown >> 32 != activation) return {};
+  return {static_cast<std::uint32_t>(bits_of(shown, kStateBits + kStageBits, kNumberBits)),
+          static_cast<Stage>(bits_of(shown, kStateBits, kStageBits))};
 }
 
 void ActionClient::set_state(State state) {
   state_ = state;
-  shown_.store(goal_.activation << 8 | static_cast<std::uint64_t>(state),
+  const Stage now = state == State::IsSent       ? Stage::Sent
+                    : state == State::IsAccepted ? Stage::Accepted
+                                                 : Stage::Unsent;
+  const bool has_number = old_ || now != Stage::Unsent;
+  const std::uint64_t number = bits_of(has_number ? number_ : number_ + 1, 0, kNumberBits);
+  const State shown = old_ && state == State::IsAccepted ? State::IsAsked : state;
+  shown_.store(goal_.activation << 32 | number << (kStateBits + kStageBits) |
+                   static_cast<std::uint64_t>(old_.value_or(now)) << kStateBits |
+                   static_cast<std::uint64_t>(shown),
                std::memory_order_relaxed);
 }
 
@@ -89,7 +113,12 @@ void ActionClient::replace(Goal goal) {
   if (!is_open(goal.activation)) return;
   // A goal that is on its way to be sent again is sent as the new one.
   std::memcpy(goal.request->get(), goal_.request->get(), kIdSize);
+  goal.id = goal_.id;
   std::swap(goal_, goal);
+  if (old_) {
+    replaced_ = goal.request;  // the next one comes in its place, whatever became of it
+    old_.reset();
+  }
   if (state_ != State::IsSent && state_ != State::IsAccepted) return;
   replaced_ = std::move(goal.request);
   if (wish_ == Wish::None) send_goal();
@@ -97,23 +126,37 @@ void ActionClient::replace(Goal goal) {
 
 void ActionClient::begin(Goal goal) {
   goal_ = std::move(goal);
-  sent_ = 0;
+  number_ = 0;
   send_again();
 }
 
 void ActionClient::send_again() {
-  set_state(State::WaitsForServer);
   replaced_.reset();
+  old_.reset();
   wish_ = Wish::None;
   is_canceling_ = is_resumed_ = false;
+  wait_for_server();
+}
+
+void ActionClient::wait_for_server() {
+  set_state(State::WaitsForServer);
   deadline_ = Clock::now() + lockstep::bounded(std::chrono::duration<double>(goal_.server_timeout));
   if (!is_made_) return fail("there is no client of '" + action_ + "': " + why_not_made_);
   poll_for_server(Clock::now());
 }
 
+void ActionClient::take_up(Goal goal, Sent sent, bool is_held) {
+  goal_ = std::move(goal);
+  take_number(sent.number);
+  old_ = sent.stage;
+  wish_ = is_held ? Wish::Hold : Wish::None;
+  wait_for_server();
+}
+
 // The state that it shows stays: the leaf may still have to see that it has ended.
 void ActionClient::end(Outcome outcome) {
   state_ = State::Idle;
+  old_.reset();
   ended_.store(goal_.activation << 8 | static_cast<std::uint64_t>(outcome),
                std::memory_order_release);
   goal_.request.reset();
@@ -149,6 +192,9 @@ void ActionClient::cancel(std::uint64_t activation) {
   wish_ = Wish::Cancel;
   switch (state_) {
     case State::WaitsForServer:
+      if (!old_) return end(Outcome::Canceled);
+      cancel_until_ = Clock::now() + kCancelLimit;
+      return;
     case State::IsHeld:
       return end(Outcome::Canceled);
     case State::IsAccepted:
@@ -162,7 +208,7 @@ void ActionClient::hold(std::uint64_t activation) {
   if (!is_open(activation)) return;
   wish_ = Wish::Hold;
   is_resumed_ = false;
-  if (state_ == State::WaitsForServer) set_state(State::IsHeld);
+  if (state_ == State::WaitsForServer && !old_) set_state(State::IsHeld);
   if (state_ == State::IsAccepted) ask_to_cancel();
 }
 
@@ -170,7 +216,21 @@ void ActionClient::resume(std::uint64_t activation) {
   if (!is_open(activation) || wish_ != Wish::Hold) return;
   if (state_ == State::IsHeld) return send_again();
   is_resumed_ = true;
-  if (!is_canceling_) wish_ = Wish::None;  // it was not accepted yet
+  if (old_) {
+    deadline_ =
+        Clock::now() + lockstep::bounded(std::chrono::duration<double>(goal_.server_timeout));
+  } else if (!is_canceling_) {
+    wish_ = Wish::None;  // it was not accepted yet
+  }
+}
+
+void ActionClient::repeat(std::function<bool()> work) {
+  repeated_ = std::move(work);
+  do_repeated();
+}
+
+void ActionClient::do_repeated() {
+  if (repeated_ && repeated_()) repeated_ = nullptr;
 }
 
 bool ActionClient::has_server() {
@@ -186,6 +246,7 @@ bool ActionClient::has_server() {
 
 bool ActionClient::poll(Clock::time_point now) {
   if (!is_made_) return false;
+  do_repeated();
   switch (state_) {
     case State::WaitsForServer:
       poll_for_server(now);
@@ -197,13 +258,17 @@ bool ActionClient::poll(Clock::time_point now) {
     default:
       if (!server_since_) has_server();
   }
-  return state_ != State::Idle && state_ != State::IsHeld;
+  return (state_ != State::Idle && state_ != State::IsHeld) || repeated_;
 }
 
 void ActionClient::poll_for_server(Clock::time_point now) {
   if (has_server()) {
-    if (now - *server_since_ >= kSettling) send_goal();
-  } else if (now >= deadline_) {
+    if (now - *server_since_ >= kSettling) old_ ? ask_for_old() : send_goal();
+  } else if (wish_ == Wish::Cancel && now >= cancel_until_) {
+    lines_.add("there is no server of '" + action_ +
+               "' to cancel the goal that was sent before the cut");
+    end(Outcome::Canceled);
+  } else if (now >= deadline_ && !is_on_hold()) {
     const std::string others = has_told_ ? "" : other_actions(action_, type_.name);
     has_told_ |= !others.empty();
     if (!others.empty()) lines_.add(others);
@@ -219,22 +284,69 @@ void ActionClient::poll_goal(Clock::time_point now) {
     if (!is_accepted) leave_unanswered();
     return end(Outcome::Canceled);
   }
-  if (now < next_look_) return;
+  if (old_ && now >= ask_again_) ask_for_result();
+  if (state_ == State::Idle || now < next_look_) return;
   next_look_ = now + kBetweenLooks;
-  if (!has_server()) end(Outcome::ServerLost);
+  if (has_server()) return;
+  if (!old_ || !is_on_hold()) return end(Outcome::ServerLost);
+  is_canceling_ = false;
+  wait_for_server();
 }
 
 void ActionClient::send_goal() {
-  make_id(goal_.request->get(), kIdSize);
   next_look_ = Clock::now() + kBetweenLooks;
-  ++sent_;
+  take_number(number_ + 1);
   set_state(State::IsSent);
   if (rcl_action_send_goal_request(&client_, goal_.request->get(), &goal_call_) != RCL_RET_OK) {
     fail("the goal could not be sent: " + last_ros_error());
   }
 }
 
+GoalId ActionClient::id_of(std::uint32_t number) const {
+  GoalId id = goal_.id;
+  for (std::size_t i = 0; i < sizeof number; ++i) {
+    id[i] = static_cast<unsigned char>(id[i] ^ number >> (8 * i));
+  }
+  return id;
+}
+
+void ActionClient::take_number(std::uint32_t number) {
+  number_ = number;
+  std::memcpy(goal_.request->get(), id_of(number).data(), kIdSize);
+}
+
+// The server answers at once if it does not know the goal, or if it has ended. Else its feedback or
+// its status comes.
+void ActionClient::ask_for_old() {
+  next_look_ = Clock::now() + kBetweenLooks;
+  set_state(State::IsAccepted);
+  ask_for_result();
+  if (state_ == State::IsAccepted && wish_ != Wish::None) ask_to_cancel();
+}
+
+void ActionClient::see_at_work() {
+  if (!old_ || state_ != State::IsAccepted) return;
+  old_.reset();
+  set_state(State::IsAccepted);
+  if (wish_ != Wish::None && !is_canceling_) ask_to_cancel();
+}
+
+// If it was not accepted, the server may still accept it, or be at work for the one before it.
+void ActionClient::take_unknown() {
+  const Stage stage = *old_;
+  for (std::uint32_t n = number_; stage != Stage::Accepted && n != 0 && n + 2 > number_; --n) {
+    std::int64_t call = 0;
+    if (!send_cancel(id_of(n).data(), call)) rcl_reset_error();
+  }
+  if (wish_ == Wish::Cancel) return end(Outcome::Canceled);
+  if (stage != Stage::Unsent) return end(Outcome::Unknown);
+  if (!is_on_hold()) return send_again();
+  old_.reset();
+  set_state(State::IsHeld);
+}
+
 void ActionClient::ask_for_result() {
+  ask_again_ = Clock::now() + kBetweenAsks;
   std::memcpy(result_request_.get(), goal_.request->get(), kIdSize);
   if (rcl_action_send_result_request(&client_, result_request_.get(), &result_call_) !=
       RCL_RET_OK) {
@@ -351,8 +463,9 @@ void ActionClient::take_feedback() {
     if (rcl_action_take_feedback(&client_, next.message.get()) != RCL_RET_OK) break;
     if (!is_own(next.message) || state_ == State::Idle) continue;
     next.activation = goal_.activation;
-    next.sent = sent_;
+    next.number = number_;
     feedback_.publish();
+    see_at_work();
   }
   rcl_reset_error();
 }
@@ -367,6 +480,8 @@ void ActionClient::take_result() {
   if (state_ != State::IsAccepted || id.sequence_number != result_call_) return;
   // action_msgs/msg/GoalStatus: 4 succeeded, 5 canceled, 6 aborted.
   const int status = *next_result_->at<std::int8_t>(type_.status);
+  if (status == 0 && old_) return take_unknown();
+  old_.reset();
   if (status == 5 && wish_ == Wish::Hold) {
     if (is_resumed_) return send_again();
     set_state(State::IsHeld);
@@ -392,17 +507,26 @@ void ActionClient::take_cancel_response() {
   // action_msgs/srv/CancelGoal: 3, it has ended already. Its result follows.
   if (is_taken || answer == 3) return;
   is_canceling_ = false;
+  if (answer == 2 && old_) return;  // it does not know the goal: the result says so, too
   lines_.add("the server of '" + action_ + "' refuses to cancel the goal: the robot goes on");
   if (wish_ == Wish::Cancel) return end(Outcome::Canceled);
   wish_ = Wish::None;
   if (replaced_ != nullptr) send_goal();
 }
 
-// Nothing of it is needed, but it would wake the thread again.
+// All goals that the server knows.
 void ActionClient::take_status() {
   action_msgs__msg__GoalStatusArray status{};
   action_msgs__msg__GoalStatusArray__init(&status);
   if (rcl_action_take_status(&client_, &status) != RCL_RET_OK) rcl_reset_error();
+  for (std::size_t i = 0; old_ && i < status.status_list.size; ++i) {
+    const auto& it = status.status_list.data[i];
+    // action_msgs/msg/GoalStatus: 1 accepted, 2 executing, 3 canceling.
+    const bool is_at_work = it.status >= 1 && it.status <= 3;
+    if (is_at_work && std::memcmp(&it.goal_info.goal_id, goal_.request->get(), kIdSize) == 0) {
+      see_at_work();
+    }
+  }
   action_msgs__msg__GoalStatusArray__fini(&status);
 }
 

@@ -26,12 +26,24 @@ enum class Outcome : std::uint8_t {
   Rejected,
   NoServer,
   ServerLost,
-  Failed  // ROS itself has failed: a line says how
+  Unknown,  // after a cut: the server does not know the goal that was sent before it
+  Failed    // ROS itself has failed: a line says how
 };
+
+constexpr std::size_t kIdSize = 16;
+using GoalId = std::array<unsigned char, kIdSize>;
+// An id that no other activation has.
+GoalId new_goal_id();
 
 class ActionClient final : public Waitable {
  public:
-  enum class State : std::uint8_t { Idle, WaitsForServer, IsSent, IsAccepted, IsHeld };
+  enum class State : std::uint8_t { Idle, WaitsForServer, IsSent, IsAccepted, IsHeld, IsAsked };
+  // How far the goal of an activation is. Each time that it is sent, it has another number.
+  enum class Stage : std::uint8_t { Unsent, Sent, Accepted };
+  struct Sent {
+    std::uint32_t number = 1;  // of the goal that is at work, or comes next
+    Stage stage = Stage::Unsent;
+  };
 
   ActionClient(const ActionType& type, std::string action);
   ~ActionClient() override;
@@ -41,15 +53,17 @@ class ActionClient final : public Waitable {
     std::uint64_t activation = 0;
     std::shared_ptr<Message> request = {};
     double server_timeout = 0;
+    GoalId id = {};  // that of the goals that are sent, but for their numbers
   };
   struct Feedback {
     Message message;
     std::uint64_t activation = 0;
-    unsigned sent = 0;  // how many times its goal had been sent
+    std::uint32_t number = 0;  // of the goal
   };
   Outcome outcome(std::uint64_t activation) const;
   // How far the activation is. Idle: it waits for the end of the one before.
   State state(std::uint64_t activation) const;
+  Sent sent(std::uint64_t activation) const;
   // Whether a goal up to this one may still be at work.
   bool is_busy(std::uint64_t activation) const { return ended_.load() >> 8 < activation; }
   TripleBuffer<Feedback>& feedback() { return feedback_; }
@@ -60,6 +74,9 @@ class ActionClient final : public Waitable {
   // By the thread of ROS.
   void open();
   void send(Goal goal);
+  // A goal that another process had sent before a cut, or was about to: the server is asked what
+  // became of it. `is_held`: it was on hold, and is not to be at work.
+  void take_up(Goal goal, Sent sent, bool is_held);
   // Another goal of the same activation, which comes in the place of the one that is at work.
   void replace(Goal goal);
   void cancel(std::uint64_t activation);
@@ -68,6 +85,8 @@ class ActionClient final : public Waitable {
   // The goal is canceled and kept, and sent again by resume.
   void hold(std::uint64_t activation);
   void resume(std::uint64_t activation);
+  // Until it returns true, from now on.
+  void repeat(std::function<bool()> work);
 
   void add_sizes(Sizes& sizes) const override;
   void add_to(rcl_wait_set_t& set) override;
@@ -80,9 +99,12 @@ class ActionClient final : public Waitable {
   bool is_open(std::uint64_t activation) const {
     return state_ != State::Idle && goal_.activation == activation;
   }
+  bool is_on_hold() const { return wish_ == Wish::Hold && !is_resumed_; }
   void set_state(State state);
   void begin(Goal goal);
   void send_again();
+  void wait_for_server();
+  void do_repeated();
   void end(Outcome outcome);
   void run_what_waits();
   void drop(std::uint64_t activation);
@@ -90,6 +112,11 @@ class ActionClient final : public Waitable {
   void poll_for_server(Clock::time_point now);
   void poll_goal(Clock::time_point now);
   void send_goal();
+  GoalId id_of(std::uint32_t number) const;
+  void take_number(std::uint32_t number);
+  void ask_for_old();
+  void see_at_work();
+  void take_unknown();
   void ask_for_result();
   void ask_to_cancel();
   bool send_cancel(const void* id, std::int64_t& call);
@@ -104,11 +131,10 @@ class ActionClient final : public Waitable {
   bool is_own(const Message& message) const;
   void fail(const std::string& what);
 
-  static constexpr std::size_t kIdSize = 16;
   // A goal that was halted before the server has accepted it.
   struct Unanswered {
     std::int64_t call;
-    std::array<unsigned char, kIdSize> id;
+    GoalId id;
   };
 
   const ActionType& type_;
@@ -126,16 +152,18 @@ class ActionClient final : public Waitable {
   std::vector<Unanswered> unanswered_;
   std::vector<std::pair<std::uint64_t, std::function<void()>>> when_ended_;
   std::shared_ptr<Message> replaced_;  // by the goal that the server has not accepted yet
-  unsigned sent_ = 0;
+  std::uint32_t number_ = 0;           // of the goal that was sent last
+  std::optional<Stage> old_;           // its stage before a cut: it is not known what became of it
+  std::function<bool()> repeated_;
   std::int64_t goal_call_ = 0, result_call_ = 0, cancel_call_ = 0;
-  Clock::time_point deadline_, next_look_, cancel_until_;
+  Clock::time_point deadline_, next_look_, cancel_until_, ask_again_;
   std::optional<Clock::time_point> server_since_;
 
   Message goal_response_, result_request_;
   std::unique_ptr<Message> result_, next_result_;
   TripleBuffer<Feedback> feedback_;
   std::atomic<std::uint64_t> ended_{0};  // the activation, and its outcome in the last 8 bits
-  std::atomic<std::uint64_t> shown_{0};  // that of state_, and this in the last 8 bits
+  std::atomic<std::uint64_t> shown_{0};  // that of state_, the number and stage, and the state
   Lines lines_;
 };
 

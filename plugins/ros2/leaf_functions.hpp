@@ -1,10 +1,11 @@
 // The functions of the contract for a leaf class: T(host, caller), start, tick, halt, pause,
-// resume, progress, set_pace. An exception becomes an error of the leaf.
+// resume, progress, set_pace, save, restore. An exception becomes an error of the leaf.
 #pragma once
 
 #include <lockstep/leaf.h>
 
 #include <exception>
+#include <string_view>
 
 namespace ros2 {
 
@@ -39,6 +40,15 @@ struct LeafFunctions {
   }
   static double set_pace(void* leaf, double factor) {
     return call(leaf, 1.0, [factor](T& it) { return it.set_pace(factor); });
+  }
+  static std::size_t save(void* leaf, void* bytes, std::size_t room) {
+    return call(leaf, std::size_t{0}, [=](T& it) { return it.save(bytes, room); });
+  }
+  static lockstep_after_cut restore(void* leaf, const void* bytes, std::size_t size,
+                                    const lockstep_cut* cut) {
+    const std::string_view kept(static_cast<const char*>(bytes), size);
+    return call(leaf, lockstep_after_cut{LOCKSTEP_STARTS_AGAIN},
+                [=](T& it) { return it.restore(kept, *cut); });
   }
 
   static lockstep_leaf_type type(const char* id, const char* doc) {

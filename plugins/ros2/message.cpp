@@ -1,5 +1,7 @@
 #include "message.hpp"
 
+#include <rcutils/error_handling.h>
+#include <rmw/rmw.h>
 #include <rosidl_runtime_c/string_functions.h>
 #include <rosidl_runtime_c/u16string_functions.h>
 #include <rosidl_typesupport_introspection_c/field_types.h>
@@ -82,6 +84,32 @@ bool copy_message(const Members& members, void* to, const void* from) {
     if (!(member.is_array_ ? copy_list : copy_item)(member, there, here)) return false;
   }
   return true;
+}
+
+std::string bytes_of(const rosidl_message_type_support_t& support, const void* message) {
+  rmw_serialized_message_t serialized = rmw_get_zero_initialized_serialized_message();
+  rcutils_allocator_t allocator = rcutils_get_default_allocator();
+  std::string bytes;
+  if (rmw_serialized_message_init(&serialized, 0, &allocator) == RMW_RET_OK &&
+      rmw_serialize(message, &support, &serialized) == RMW_RET_OK) {
+    bytes.assign(reinterpret_cast<const char*>(serialized.buffer), serialized.buffer_length);
+  }
+  if (rmw_serialized_message_fini(&serialized) != RMW_RET_OK || bytes.empty()) {
+    rcutils_reset_error();
+  }
+  return bytes;
+}
+
+bool read_bytes(const rosidl_message_type_support_t& support, std::string_view bytes,
+                void* message) {
+  std::string copy(bytes);
+  rmw_serialized_message_t serialized = rmw_get_zero_initialized_serialized_message();
+  serialized.buffer = reinterpret_cast<std::uint8_t*>(copy.data());
+  serialized.buffer_length = serialized.buffer_capacity = copy.size();
+  serialized.allocator = rcutils_get_default_allocator();
+  if (rmw_deserialize(&serialized, &support, message) == RMW_RET_OK) return true;
+  rcutils_reset_error();
+  return false;
 }
 
 Message::Message(const Members& members)

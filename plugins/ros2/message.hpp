@@ -1,9 +1,12 @@
 // A message of a type that is known by introspection only.
 #pragma once
 
+#include <rosidl_runtime_c/message_type_support_struct.h>
 #include <rosidl_typesupport_introspection_c/message_introspection.h>
 
 #include <memory>
+#include <string>
+#include <string_view>
 
 namespace ros2 {
 
@@ -16,6 +19,12 @@ const Members& members_of(const Member& member);
 
 // False: there is no memory. Both have been initialized.
 bool copy_message(const Members& members, void* to, const void* from);
+
+// As it is sent; "" if ROS has failed.
+std::string bytes_of(const rosidl_message_type_support_t& support, const void* message);
+// Into a message that has been initialized. False: these are no bytes of one.
+bool read_bytes(const rosidl_message_type_support_t& support, std::string_view bytes,
+                void* message);
 
 class Message {
  public:

@@ -126,7 +126,21 @@ void PaceSignal::begin(const UserPtr& user, std::uint64_t activation,
   is_obeyed_ = true;
   if (!told_) given_ = given;
   if (message != nullptr) teller_->use(std::move(message));
+  show();
   update();
+}
+
+void PaceSignal::tell_again() {
+  if (!told_) told_ = std::nan("");
+  is_again_ = true;
+  show();
+}
+
+void PaceSignal::show() {
+  for (const auto& user : users_) {
+    user->found_ = found().value_or(std::nan(""));
+    user->is_told_ = told_.has_value();
+  }
 }
 
 void PaceSignal::slow(User& user, double factor) {
@@ -168,7 +182,7 @@ bool PaceSignal::poll(Clock::time_point now) {
     warn("has no listener at the end: the previous value is not restored");
     return forget(), false;
   }
-  if (!told_ && look(now)) return true;
+  if ((!told_ || std::isnan(*told_)) && look(now)) return true;
   const double value = wanted();
   if (is_told(value)) {
     if (!is_slow()) forget();
@@ -237,6 +251,7 @@ void PaceSignal::tell(double value, Clock::time_point now) {
   is_told_held_ = is_held();
   is_again_ = false;
   next_ = now + kBetween;
+  show();
   is_open_ = wrong.empty();
   if (!is_open_) take(wrong);
 }
@@ -245,6 +260,7 @@ void PaceSignal::tell(double value, Clock::time_point now) {
 void PaceSignal::forget() {
   told_.reset();
   is_looked_ = is_told_held_ = is_again_ = false;
+  show();
   for (const auto& user : ending_) user->restored_ = user->activation_;
   ending_.clear();
 }

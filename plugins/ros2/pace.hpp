@@ -47,6 +47,10 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
     explicit User(const Pace& pace) : pace_(pace) {}
     // Whether the robot may still be as slow as an activation up to this one wanted it.
     bool is_busy(std::uint64_t activation) const { return restored_.load() < activation; }
+    // For a process after a cut: whether the robot was told anything, and what it had before, NaN
+    // if that is not known.
+    bool is_told() const { return is_told_.load(std::memory_order_relaxed); }
+    double found() const { return found_.load(std::memory_order_relaxed); }
 
    private:
     friend class PaceSignal;
@@ -55,6 +59,8 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
     double factor_ = 1;
     bool is_held_ = false;
     std::atomic<std::uint64_t> restored_{0};
+    std::atomic<bool> is_told_{false};
+    std::atomic<double> found_{0};
   };
 
   // By any thread.
@@ -68,6 +74,8 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
   void close(const UserPtr& user);
   void begin(const UserPtr& user, std::uint64_t activation, std::shared_ptr<Message> message,
              std::optional<double> given);
+  // Another process has told the robot something: it is told again.
+  void tell_again();
   void slow(User& user, double factor);
   void hold(User& user, bool held);
   void end(const UserPtr& user, std::uint64_t activation);
@@ -90,6 +98,7 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
   bool is_told(double value) const;
   void tell(double value, Clock::time_point now);
   void forget();
+  void show();
   void warn(const std::string& what);
 
   int leaves_ = 0;
@@ -100,7 +109,7 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
   double factor_ = 1;            // the largest of the users; 0: held
   std::optional<double> given_;  // what was found, by the tree
 
-  std::optional<double> told_;  // nothing: the robot has what was found
+  std::optional<double> told_;  // nothing: the robot has what was found; NaN: it is not known what
   bool is_told_held_ = false, is_looked_ = false, is_again_ = false;
   bool is_open_ = false, is_obeyed_ = true;  // what was told last: not answered yet, not refused
   Ids listeners_;

@@ -59,6 +59,27 @@ std::size_t distance(const std::string& one, const std::string& other) {
   return row.back();
 }
 
+// `what`: "message"; `name`: that of the symbol.
+Result<const void*> symbol_of(const TypeName& type, const std::string& prefix,
+                              const std::string& what, const std::string& name) {
+  const std::string library = prefix + "/lib/lib" + type.package + "__rosidl_typesupport_c.so";
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    const char* const why = dlerror();
+    return Problem{
+        "the types of '" + type.package + "' cannot be loaded: " + (why == nullptr ? library : why),
+        "LD_LIBRARY_PATH must have its libraries: source setup.bash"};
+  }
+  const std::string symbol = "rosidl_typesupport_c__get_" + what + "_type_support_handle__" +
+                             type.package + "__" + type.kind + "__" + name;
+  using Function = const void* (*)();
+  const auto function = reinterpret_cast<Function>(dlsym(handle, symbol.c_str()));
+  const void* const support = function == nullptr ? nullptr : function();
+  if (support != nullptr) return support;
+  return Problem{"'" + library + "' has no type support of " + type.text(),
+                 "build the package again"};
+}
+
 }  // namespace
 
 std::string suggestion(const std::string& wrong, const std::vector<std::string>& known) {
@@ -120,23 +141,12 @@ Result<const void*> type_support(const TypeName& type) {
         "package '" + type.package + "' has no " + word_of(type.kind) + " '" + type.name + "'",
         suggestion(type.name, names)};
   }
-  const std::string library = prefix + "/lib/lib" + type.package + "__rosidl_typesupport_c.so";
-  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    const char* const why = dlerror();
-    return Problem{
-        "the types of '" + type.package + "' cannot be loaded: " + (why == nullptr ? library : why),
-        "LD_LIBRARY_PATH must have its libraries: source setup.bash"};
-  }
-  const std::string symbol = "rosidl_typesupport_c__get_" + word_of(type.kind) +
-                             "_type_support_handle__" + type.package + "__" + type.kind + "__" +
-                             type.name;
-  using Function = const void* (*)();
-  const auto function = reinterpret_cast<Function>(dlsym(handle, symbol.c_str()));
-  const void* const support = function == nullptr ? nullptr : function();
-  if (support != nullptr) return support;
-  return Problem{"'" + library + "' has no type support of " + type.text(),
-                 "build the package again"};
+  return symbol_of(type, prefix, word_of(type.kind), type.name);
+}
+
+Result<const void*> goal_support(const TypeName& action) {
+  std::string resource;
+  return symbol_of(action, prefix_of(action.package, resource), "message", action.name + "_Goal");
 }
 
 }  // namespace ros2

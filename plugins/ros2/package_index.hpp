@@ -19,6 +19,8 @@ Result<TypeName> parse_type_name(const std::string& text, const std::string& kin
 
 // The result of the type's get_…_type_support_handle. The library stays loaded.
 Result<const void*> type_support(const TypeName& type);
+// That of the goal of an action, as a message.
+Result<const void*> goal_support(const TypeName& action);
 
 // Its definition as IDL, which every package of interfaces installs; "" when there is none.
 std::string interface_file(const TypeName& type);

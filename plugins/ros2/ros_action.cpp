@@ -11,6 +11,7 @@
 #include "elements.hpp"
 #include "expression.hpp"
 #include "hold.hpp"
+#include "kept_goal.hpp"
 #include "leaf_base.hpp"
 #include "leaf_functions.hpp"
 #include "pace.hpp"
@@ -58,8 +59,8 @@ constexpr lockstep_port kOwnPorts[] = {
     {sizeof(lockstep_port), LOCKSTEP_NUMBER, LOCKSTEP_INPUT, "server_timeout", "5", "s",
      "How long to wait for a server that is not there.", nullptr, 0, HUGE_VAL, nullptr, 0},
     {sizeof(lockstep_port), LOCKSTEP_STRING, LOCKSTEP_OUTPUT, "error", nullptr, nullptr,
-     "Why it failed: rejected, aborted, canceled, no server, server lost.", nullptr, 0, 0, nullptr,
-     0},
+     "Why it failed: rejected, aborted, canceled, no server, server lost, goal unknown.", nullptr,
+     0, 0, nullptr, 0},
     input("preempt", LOCKSTEP_BOOL, "false",
           "While the goal is at work and an entry of it changes, the new goal is sent. For servers "
           "that end the one before, as those of Nav2 do.",
@@ -113,6 +114,8 @@ const char* words_of(Outcome outcome) {
       return "no server";
     case Outcome::ServerLost:
       return "server lost";
+    case Outcome::Unknown:
+      return "goal unknown";
     default:
       return "not sent";
   }
@@ -160,11 +163,12 @@ class RosAction : public LeafBase {
   void start() {
     if (!read_goal() || (pace_ != nullptr && !begin_pace(activation_ + 1))) return;
     ++activation_;
-    is_held_ = false;
+    id_ = new_goal_id();
+    is_held_ = is_behind_ = false;
     progress_ = held_progress_ = 0;
     began_ = now();
     memory_ = element_.progress.memory();
-    sent_ = 0;
+    number_ = 0;
     Middleware::get().post([client = client_, goal = goal()] { client->send(goal); });
   }
 
@@ -174,11 +178,10 @@ class RosAction : public LeafBase {
     const Outcome outcome = client_->outcome(activation_);
     take_feedback();
     if (outcome == Outcome::Open) {
-      if (has_another_goal()) preempt();
-      const State state = this->state();
-      const int feedback = sent_ != 0 || element_.type.feedback.empty() ? 0 : 100;
-      return waits(static_cast<int>(state) + feedback, [&] { return words_of(state); });
+      if (has_another_goal() || is_behind_) preempt();
+      return waits();
     }
+    if (outcome == Outcome::Unknown && on_resume_ != LOCKSTEP_FAILURE) return end_unknown();
     end_hold_and_pace();
     const bool has_result = outcome == Outcome::Succeeded || outcome == Outcome::Aborted ||
                             outcome == Outcome::Canceled;
@@ -205,20 +208,91 @@ class RosAction : public LeafBase {
   }
 
   double set_pace(double factor) {
-    const double taken = std::clamp(factor, least_pace_, 1.0);
+    const double taken = factor_ = std::clamp(factor, least_pace_, 1.0);
     Middleware::get().post([pace = pace_, user = user_, taken] { pace->slow(*user, taken); });
     return pace_->is_heard() ? taken : 1;
   }
 
+  // It reports what it has reached until it is known what became of its goal.
   double progress() {
     take_feedback();
+    if (client_->outcome(activation_) == Outcome::Unknown) return 0;
     if (element_.needs_feedback) return progress_;
     measure(nullptr);
     return progress_;
   }
 
+  // A goal is written once, when it is another one.
+  std::size_t save(void* bytes, std::size_t room) {
+    is_behind_ |= has_another_goal();
+    if (!kept_goal_) kept_goal_ = bytes_of(*element_.type.goal_message, goal_in(*goal_));
+    KeptGoal kept{{}, memory_, *kept_goal_};
+    kept.facts = {id_,
+                  client_->sent(activation_),
+                  number_,
+                  is_behind_,
+                  user_->is_told(),
+                  user_->found(),
+                  progress_,
+                  held_progress_,
+                  began_,
+                  held_since_};
+    const std::size_t size = kept.write(bytes, room);
+    if (size <= room) return size;
+    kept.goal = {};
+    return kept.write(bytes, room);
+  }
+
+  lockstep_after_cut restore(std::string_view bytes, const lockstep_cut& cut) {
+    const auto kept = read_kept_goal(bytes, element_.progress.memory().size());
+    if (!kept || !read_goal(kept->goal)) return LOCKSTEP_STARTS_AGAIN;
+    const KeptGoal::Facts& facts = kept->facts;
+    if (pace_ != nullptr && !begin_pace(activation_ + 1, &facts)) return LOCKSTEP_STARTS_AGAIN;
+    ++activation_;
+    on_resume_ = cut.on_resume;
+    id_ = facts.id;
+    number_ = facts.number;
+    is_behind_ = facts.is_behind;
+    is_held_ = cut.held && element_.leaf.pause != nullptr;
+    progress_ = facts.progress;
+    held_progress_ = facts.held_progress;
+    held_since_ = facts.held_since;
+    // The robot did not stop for the cut.
+    const bool was_at_work = !is_held_ && facts.sent.stage != ActionClient::Stage::Unsent;
+    began_ = facts.began - (was_at_work ? cut.gap : 0);
+    memory_ = kept->memory;
+    const ActionClient::Goal goal = this->goal();
+    tell_until_ =
+        Clock::now() + lockstep::bounded(std::chrono::duration<double>(goal.server_timeout));
+    const bool is_canceled = is_held_ && element_.hold.way == Hold::Way::Cancel;
+    Middleware::get().post([client = client_, goal, sent = facts.sent, is_canceled] {
+      client->take_up(goal, sent, is_canceled);
+    });
+    if (is_held_ && !is_canceled) hold(true);
+    return LOCKSTEP_CONTINUES;
+  }
+
  private:
   using State = ActionClient::State;
+
+  lockstep_status waits() {
+    const State state = this->state();
+    const int feedback = number_ != 0 || element_.type.feedback.empty() ? 0 : 100;
+    return LeafBase::waits(static_cast<int>(state) + feedback, [&] { return words_of(state); });
+  }
+  // The server does not know the goal that was sent before the cut.
+  lockstep_status end_unknown() {
+    std::string line = "the server of '" + element_.action +
+                       "' does not know the goal that was sent before the cut: ";
+    const bool succeeds = on_resume_ == LOCKSTEP_SUCCESS;
+    line += succeeds ? "it counts as succeeded" : "it is sent again";
+    host_.log(caller_, LOCKSTEP_LOG_WARNING, line.c_str());
+    end_hold_and_pace();
+    if (succeeds) return LOCKSTEP_SUCCESS;
+    start();
+    if (pace_ != nullptr && factor_ < 1) set_pace(factor_);
+    return waits();
+  }
 
   State state() const {
     const State state = client_->state(activation_);
@@ -234,7 +308,9 @@ class RosAction : public LeafBase {
         return "waits for the server of " + name + " to accept the goal";
       case State::IsAccepted:
         return "the server of " + name + " has accepted the goal" +
-               (sent_ == 0 && !element_.type.feedback.empty() ? ", no feedback yet" : "");
+               (number_ == 0 && !element_.type.feedback.empty() ? ", no feedback yet" : "");
+      case State::IsAsked:
+        return "asks the server of " + name + " for the goal that was sent before the cut";
       default:
         return "waits for the end of the goal before it at " + name;
     }
@@ -246,9 +322,19 @@ class RosAction : public LeafBase {
   bool read_goal() {
     has_another_goal();
     goal_ = std::make_shared<Message>(*element_.type.send_goal);
+    kept_goal_.reset();
     return read(element_.goal, *goal_);
   }
-  ActionClient::Goal goal() const { return {activation_, goal_, number(kServerTimeout)}; }
+  // As it was before a cut: an entry may have changed since it was read.
+  bool read_goal(std::string_view kept) {
+    if (kept.empty()) return read_goal();
+    has_another_goal();
+    goal_ = std::make_shared<Message>(*element_.type.send_goal);
+    kept_goal_ = kept;
+    return read_bytes(*element_.type.goal_message, kept, goal_in(*goal_));
+  }
+  void* goal_in(Message& request) const { return request.at(element_.type.goal_in_request); }
+  ActionClient::Goal goal() const { return {activation_, goal_, number(kServerTimeout), id_}; }
 
   // Whether an entry of the goal has changed since the last call.
   bool has_another_goal() {
@@ -258,14 +344,16 @@ class RosAction : public LeafBase {
   }
 
   void preempt() {
+    is_behind_ = false;
     if (!read_goal()) return;
     held_progress_ = 0;  // the new goal may be farther away
     Middleware::get().post([client = client_, goal = goal()] { client->replace(goal); });
   }
 
-  // False after an error.
-  bool begin_pace(std::uint64_t activation) {
+  // False after an error. `kept`: of the same activation, before a cut.
+  bool begin_pace(std::uint64_t activation, const KeptGoal::Facts* kept = nullptr) {
     least_pace_ = number(kLeastPace);
+    factor_ = 1;
     std::shared_ptr<Message> message;
     const Target& target = element_.pace.target;
     if (target.way != Target::Way::Parameter) {
@@ -274,8 +362,11 @@ class RosAction : public LeafBase {
     }
     std::optional<double> found;
     if (is_given(host_, caller_, kPaceFound)) found = number(kPaceFound);
-    Middleware::get().post([pace = pace_, user = user_, activation, message, found] {
+    const bool is_slowed = kept != nullptr && kept->is_slowed;
+    if (is_slowed && !std::isnan(kept->found_pace)) found = kept->found_pace;
+    Middleware::get().post([pace = pace_, user = user_, activation, message, found, is_slowed] {
       pace->begin(user, activation, message, found);
+      if (is_slowed) pace->tell_again();
     });
     return true;
   }
@@ -297,8 +388,13 @@ class RosAction : public LeafBase {
     if (element_.hold.way == Hold::Way::Pace) {
       Middleware::get().post([pace = pace_, user = user_, held] { pace->hold(*user, held); });
     } else if (hold_ != nullptr) {
-      Middleware::get().post(
-          [client = client_, hold = hold_, held] { tell(*client, *hold, held); });
+      Middleware::get().post([client = client_, hold = hold_, held, until = tell_until_] {
+        client->repeat([client = client.get(), hold, held, until] {
+          if (hold->listeners().empty() && Clock::now() < until) return false;
+          tell(*client, *hold, held);
+          return true;
+        });
+      });
     } else {
       Middleware::get().post([client = client_, it = activation_, held] {
         held ? client->hold(it) : client->resume(it);
@@ -323,8 +419,8 @@ class RosAction : public LeafBase {
     if (feedback.activation != activation_) return;
     write(feedback_ports_, feedback.message);
     if (element_.needs_feedback) measure(feedback.message.get());
-    if (sent_ != 0 && feedback.sent != sent_) compare_with_held();
-    sent_ = feedback.sent;
+    if (number_ != 0 && feedback.number != number_) compare_with_held();
+    number_ = feedback.number;
   }
 
   void measure(const void* feedback) {
@@ -359,8 +455,14 @@ class RosAction : public LeafBase {
       static_cast<const lockstep_changes*>(host_.get_extension(LOCKSTEP_CHANGES));
 
   std::shared_ptr<Message> goal_;
+  std::optional<std::string> kept_goal_;  // as save writes it
   std::uint64_t activation_ = 0;
-  unsigned sent_ = 0;
+  GoalId id_ = {};
+  std::uint32_t number_ = 0;        // of the last feedback's goal; 0: none has come
+  bool is_behind_ = false;          // an entry of the goal has changed since it was sent
+  std::uint8_t on_resume_ = 0;      // of lockstep_cut
+  Clock::time_point tell_until_{};  // after a cut, the robot may have to be found first
+  double factor_ = 1;               // the pace
   double progress_ = 0, held_progress_ = 0, began_ = 0, held_since_ = 0, least_pace_ = 0;
   Expression::Memory memory_;
   bool has_warned_ = false, is_held_ = false;
@@ -375,6 +477,8 @@ constexpr const char* kDoc =
 lockstep_leaf_type base_type() {
   lockstep_leaf_type type = LeafFunctions<RosAction>::type("RosAction", kDoc);
   type.start_unreset = nullptr;  // a goal that was reached is not sent again
+  type.save = LeafFunctions<RosAction>::save;
+  type.restore = LeafFunctions<RosAction>::restore;
   static const PortList ports(kOwnPorts);
   ports.give_to(type);
   return type;

@@ -41,6 +41,8 @@ Result<const ActionType*> make_action_type(const std::string& name) {
   if (!parsed) return parsed.problem();
   auto support = type_support(*parsed);
   if (!support) return support.problem();
+  auto goal_message = goal_support(*parsed);
+  if (!goal_message) return goal_message.problem();
   auto type = std::make_unique<ActionType>();
   type->name = name;
   type->support = static_cast<const rosidl_action_type_support_t*>(*support);
@@ -55,6 +57,8 @@ Result<const ActionType*> make_action_type(const std::string& name) {
   type->goal_response = goal->response_members_;
   type->get_result = result->request_members_;
   type->result_response = result->response_members_;
+  type->goal_message = static_cast<const rosidl_message_type_support_t*>(*goal_message);
+  type->goal_in_request = member_named(*type->send_goal, "goal").offset_;
   type->accepted = member_named(*type->goal_response, "accepted").offset_;
   type->status = member_named(*type->result_response, "status").offset_;
   type->goal = fields_in(*type->send_goal, "goal");

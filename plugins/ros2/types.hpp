@@ -23,6 +23,8 @@ struct ActionType {
   // Places in these messages. The id of the goal is the first member of send_goal, get_result and
   // feedback_message.
   std::size_t accepted, status;
+  const rosidl_message_type_support_t* goal_message;
+  std::size_t goal_in_request;
   std::vector<Field> goal, result, feedback;  // offsets from the whole message that has them
   ResultWords result_words = {};
 };

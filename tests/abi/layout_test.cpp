@@ -151,6 +151,7 @@ SIZE_IS(lockstep_cut, 24);
 MEMBER_AT(lockstep_cut, struct_size, 0);
 MEMBER_AT(lockstep_cut, power, 4);
 MEMBER_AT(lockstep_cut, held, 5);
+MEMBER_AT(lockstep_cut, on_resume, 6);
 MEMBER_AT(lockstep_cut, gap, 8);
 MEMBER_AT(lockstep_cut, lost_ticks, 16);
 

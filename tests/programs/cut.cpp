@@ -84,6 +84,8 @@ class Move : public Step {
     done_ = std::stoll(std::string(bytes));
     set_progress(share());
     say(cut.held ? "is still held" : "goes on after the cut");
+    if (cut.on_resume == LOCKSTEP_FAILURE) say("would fail");
+    if (cut.on_resume == LOCKSTEP_SUCCESS) say("would succeed");
     return lockstep::AfterCut::Continues;
   }
 };

@@ -169,6 +169,13 @@ def test_what_the_element_says(directory):
         assert mission.cut_and_resume(0.4).returncode == code
 
 
+def test_what_the_element_says_is_known_to_a_leaf_that_continues(directory):
+    for more, wants in (('on_resume="failure"', ["would fail"]), ('on_resume="success"', ["would succeed"]), ("", [])):
+        mission = Mission(directory, OURS, "", f'<Move who="a" ticks="9" {more}/>')
+        assert mission.cut_and_resume(0.4).returncode == 0
+        assert re.findall("would .*", mission.log()) == wants, mission.log()
+
+
 def test_what_is_wrong_with_an_element(directory):
     for leaf, message in (('<Step on_resume="stop"/>', "'stop' is not restart, failure or success"),
                           ('<Step commit="perhaps"/>', "'perhaps' is not true or false"),

@@ -6,6 +6,7 @@
 //   --quit N     lets somebody else cancel the goal at the step N
 //   --preempt    a goal aborts the one before it, as one of Nav2 does
 //   --reject-order N: takes no goal with this order
+//   --tell       prints each step, "at 3"
 //   --accept-after N: answers a goal after N ms
 //   --hold-service NAME, --hold-topic NAME: stands while it is true
 //   --pace KIND:NAME: is as slow as it is told, by a topic or service: of real (a Float64), percent
@@ -55,7 +56,8 @@ struct Options {
   std::string node = "counting_server_" + std::to_string(getpid());
   std::string action = "/count", hold_service, hold_topic, pace, panel;
   int step = 20, abort_at = -1, die_at = -1, quit_at = -1, reject_order = -1, accept_after = 0;
-  bool keeps = false, rejects = false, refuses = false, preempts = false, refuses_pace = false;
+  bool keeps = false, rejects = false, refuses = false, preempts = false, refuses_pace = false,
+       tells = false;
 };
 
 Options read_options(int argc, char** argv) {
@@ -79,6 +81,7 @@ Options read_options(int argc, char** argv) {
     if (word == "--accept-after") options.accept_after = number();
     if (word == "--preempt") options.preempts = true;
     if (word == "--keep") options.keeps = true;
+    if (word == "--tell") options.tells = true;
     if (word == "--reject") options.rejects = true;
     if (word == "--refuse") options.refuses = true;
   }
@@ -261,6 +264,7 @@ class CountingServer : public rclcpp::Node {
     auto feedback = std::make_shared<Fibonacci::Feedback>();
     feedback->sequence = result->sequence;
     goal.handle->publish_feedback(feedback);
+    if (options_.tells) say("at " + std::to_string(goal.count));
     if (goal.count == options_.die_at) std::raise(SIGKILL);
     if (goal.count == options_.quit_at) client_->async_cancel_all_goals();
     if (goal.count == options_.abort_at) {

@@ -63,6 +63,8 @@ typedef struct lockstep_cut {
   uint32_t struct_size;
   bool power;          /* the machine was off too, or has restarted */
   bool held;           /* the leaf got no ticks when it was cut */
+  uint8_t on_resume;   /* what the tree wants of a leaf that finds later that it cannot continue:
+                          LOCKSTEP_SUCCESS, LOCKSTEP_FAILURE, or 0: that it starts again */
   double gap;          /* seconds by the clock of the wall since the bytes were saved; at least 0 */
   uint64_t lost_ticks; /* at most so many ticks came after the bytes: what the leaf did in them is
                           done, though the run does not know it */
