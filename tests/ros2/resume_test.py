@@ -252,13 +252,19 @@ class Resume(World):
                  f'{count("slow", "/slow", 20, hold if "cancel" in hold else "")}</ParallelAbsolute>')
         self.cut(nodes, self.fast, line)
         before = len(self.fast.lines)
-        run = self.resume(nodes)
+        run = self.start(nodes, *self.checkpoint())
+        if "nothing" not in hold:
+            self.slow.wait_for("at 9")
+            still = [word for word in self.fast.lines[before:] if word != "hold"]
+            self.assertEqual(still, [], "it holds still until the other one is there")
+        _, err = run.communicate(timeout=30)
+        self.assertEqual(run.returncode, 0, err)
         self.assertEqual(self.goals(self.slow), ["goal 20"])
         self.assertIn("succeeded 20", self.fast.lines)
-        return run, self.fast.lines[before:]
+        return self.fast.lines[before:]
 
     def test_held_by_a_cancel_it_is_sent_again_when_it_gets_its_next_tick(self):
-        _, after = self.held('hold="cancel"', "canceled 10", "--keep")
+        after = self.held('hold="cancel"', "canceled 10", "--keep")
         self.assertEqual(self.goals(self.fast), ["goal 20"] * 2)
         self.assertEqual(after[0], "goal 20")
 
@@ -267,12 +273,12 @@ class Resume(World):
         self.assertEqual(self.goals(self.fast), ["goal 20"])
 
     def test_held_by_a_service_it_is_told_again(self):
-        _, after = self.held(SERVICE, "hold", "--hold-service", "/still")
+        after = self.held(SERVICE, "hold", "--hold-service", "/still")
         self.assertEqual(self.goals(self.fast), ["goal 20"])
         self.assertEqual([line for line in after if not line.startswith("at")][:2], ["hold", "go on"])
 
     def test_held_by_a_topic_it_is_told_again(self):
-        _, after = self.held('hold="topic:/still"', "hold", "--hold-topic", "/still")
+        after = self.held('hold="topic:/still"', "hold", "--hold-topic", "/still")
         self.assertEqual(self.goals(self.fast), ["goal 20"])
         self.assertEqual([line for line in after if not line.startswith("at")][:2], ["hold", "go on"])
 
