@@ -40,7 +40,7 @@ class Count(Action):
         return {"done": self.done}
 
     def restore(self, kept, cut):
-        self.log(f"gap {cut.gap >= 0}, lost {cut.lost_ticks}, held {cut.held}, power {cut.power}")
+        self.log(f"gap {cut.gap >= 0}, lost {cut.lost_ticks}, held {cut.held}, power {cut.power}, {cut.on_resume}")
         if self.answer == "fails":
             raise Failed("the table is gone")
         self.done = kept["done"]
@@ -112,7 +112,7 @@ def check_continues(directory, language, plugins, leaf, at, parallel="Parallel")
 def test_python(directory):
     reported = check_continues(directory, OURS, '<plugin name="count" program="count.py"/>', '<Count name="it"/>',
                               {0.3: "0.15", 0.8: "0.4"})
-    assert "gap True, lost 1, held False, power False" in reported, reported
+    assert "gap True, lost 1, held False, power False, restart" in reported, reported
 
 
 def test_a_held_leaf_in_python(directory):
@@ -174,6 +174,9 @@ def test_what_the_element_says_is_known_to_a_leaf_that_continues(directory):
         mission = Mission(directory, OURS, "", f'<Move who="a" ticks="9" {more}/>')
         assert mission.cut_and_resume(0.4).returncode == 0
         assert re.findall("would .*", mission.log()) == wants, mission.log()
+    mission = Mission(directory, OURS, '<plugin name="count" program="count.py"/>',
+                      f'<Parallel><Count name="it" on_resume="failure"/>{CLOCK}</Parallel>')
+    assert "power False, failure" in mission.cut_and_resume(0.4).stderr
 
 
 def test_what_is_wrong_with_an_element(directory):

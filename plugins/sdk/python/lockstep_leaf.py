@@ -79,10 +79,11 @@ def _goes_on(leaf, kept, cut):
 
 class Cut:
     """How the process of the run ended before this one: whether the machine was off (power), whether the leaf got no
-    ticks then (held), how many seconds ago (gap), and how many ticks the run may have forgotten (lost_ticks)."""
+    ticks then (held), how many seconds ago (gap), and how many ticks the run may have forgotten (lost_ticks). on_resume is
+    what the tree wants of a leaf that finds later that it cannot continue: "restart", "failure" or "success"."""
 
-    def __init__(self, power, held, gap, lost_ticks):
-        self.power, self.held, self.gap, self.lost_ticks = power, held, gap, lost_ticks
+    def __init__(self, power, held, gap, lost_ticks, on_resume="restart"):
+        self.power, self.held, self.gap, self.lost_ticks, self.on_resume = power, held, gap, lost_ticks, on_resume
 
 
 class Port:
@@ -329,7 +330,7 @@ class _Server:
     def restore(self, leaf, request):
         self.broken.discard(leaf._number)
         self.begin(leaf, request)
-        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks")})
+        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks", "on_resume")})
         try:
             goes_on = _goes_on(leaf, request["kept"], cut)
         except Failed:

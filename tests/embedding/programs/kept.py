@@ -31,6 +31,7 @@ class Step(Action):
         return self.done
 
     def restore(self, kept, cut):
+        assert cut.on_resume == "restart" and 0 <= cut.gap < 3600 and not cut.power, vars(cut)
         self.done = kept
         return True
 

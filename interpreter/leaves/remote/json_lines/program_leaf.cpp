@@ -324,6 +324,9 @@ lockstep_after_cut ProgramLeaf::restore(const void* bytes, std::size_t size,
       .flag("held", cut->held)
       .field("gap", cut->gap)
       .field("lost_ticks", cut->lost_ticks)
+      .field("on_resume", std::string_view(cut->on_resume == LOCKSTEP_SUCCESS   ? "success"
+                                           : cut->on_resume == LOCKSTEP_FAILURE ? "failure"
+                                                                                : "restart"))
       .ports(caller_, sent_)
       .end();
   send(Asked::Restore);

@@ -185,7 +185,8 @@ class _Class:
     def restore(self, leaf, kept, size, cut):
         leaf._set, leaf._has_ports = {}, True
         cut = cut.contents
-        cut = lockstep_leaf.Cut(cut.power, cut.held, cut.gap, cut.lost_ticks)
+        wants = {native.SUCCESS: "success", native.FAILURE: "failure"}.get(cut.on_resume, "restart")
+        cut = lockstep_leaf.Cut(cut.power, cut.held, cut.gap, cut.lost_ticks, wants)
         try:
             goes_on = lockstep_leaf._goes_on(leaf, ctypes.string_at(kept, size), cut)
         except lockstep_leaf.Failed:

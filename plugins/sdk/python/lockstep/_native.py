@@ -2,7 +2,7 @@
 import ctypes
 import functools
 from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_bool, c_char_p, c_double, c_int32, c_int64, c_size_t,
-                    c_uint32, c_uint64, c_void_p)
+                    c_uint8, c_uint32, c_uint64, c_void_p)
 
 from ._error import Error
 from ._program import library
@@ -72,7 +72,8 @@ class Refusal(Structure):
 
 
 class Cut(Structure):
-    _fields_ = [("struct_size", c_uint32), ("power", c_bool), ("held", c_bool), ("gap", c_double), ("lost_ticks", c_uint64)]
+    _fields_ = [("struct_size", c_uint32), ("power", c_bool), ("held", c_bool), ("on_resume", c_uint8),
+                ("gap", c_double), ("lost_ticks", c_uint64)]
 
 
 SAVE = CFUNCTYPE(c_size_t, c_void_p, c_void_p, c_size_t)
