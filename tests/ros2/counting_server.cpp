@@ -227,6 +227,7 @@ class CountingServer : public rclcpp::Node {
       }
       goals_.clear();
     }
+    if (goals_.empty()) timer_->reset();  // the first step of a goal takes as long as the others
     goals_.push_back({std::move(handle), options_.keeps ? kept_ : 0});
   }
 
