@@ -182,7 +182,7 @@ bool PaceSignal::poll(Clock::time_point now) {
     warn("has no listener at the end: the previous value is not restored");
     return forget(), false;
   }
-  if ((!told_ || std::isnan(*told_)) && look(now)) return true;
+  if ((!told_ || is_after_cut()) && look(now)) return true;
   const double value = wanted();
   if (is_told(value)) {
     if (!is_slow()) forget();
@@ -202,7 +202,10 @@ void PaceSignal::find_listeners(Clock::time_point now) {
   }
   is_heard_ = !listeners_.empty() && is_obeyed_;
   if (!listeners_.empty() || !is_slow()) missing_since_ = now;
-  if (is_held() && listeners_.empty()) warn("has no listener: the robot continues");
+  const bool may_come = is_after_cut() && now - missing_since_ < 1s;
+  if (is_held() && listeners_.empty() && !may_come) {
+    warn("has no listener: the robot continues");
+  }
   if (now - missing_since_ > 1s) warn("has no listener: the robot is not slowed");
 }
 

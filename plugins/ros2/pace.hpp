@@ -5,6 +5,7 @@
 #include <lockstep/leaf.h>
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,6 +89,7 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
  private:
   bool is_held() const { return factor_ == 0; }
   bool is_slow() const { return factor_ < 1; }
+  bool is_after_cut() const { return told_ && std::isnan(*told_); }
   void update();
   void find_listeners(Clock::time_point now);
   void take_answer();

@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+import time
 import unittest
 
 from world import World, count
@@ -70,24 +71,47 @@ TREES = {
 
 @unittest.skipUnless(shutil.which("valgrind"), "there is no valgrind")
 class Memory(World):
-    def test_memory(self):
+    def servers(self):
         self.server("--action", "/ok", "--step", 20, "--keep", "--pace", "real:/slow")
         self.server("--action", "/bad", "--step", 20, "--abort", 3)
-        self.server("--action", "/fast", "--step", 20, "--keep", "--hold-service", "/still",
-                    "--pace", "sum:/sum")
+        self.fast = self.server("--action", "/fast", "--step", 20, "--keep", "--hold-service", "/still",
+                                "--pace", "sum:/sum")
         self.server("--action", "/slow", "--step", 50, "--keep")
         self.server("--action", "/nav", "--step", 20, "--preempt", "--node", "robot")
         self.server("camera", program="lifecycle_server")
+
+    def valgrind(self, nodes):
         known = self.directory / "known.supp"
         known.write_text(NOT_OURS)
+        run = subprocess.run(
+            ["valgrind", "-q", "--error-exitcode=99", "--leak-check=full", "--show-leak-kinds=definite,indirect",
+             "--errors-for-leak-kinds=definite,indirect", f"--suppressions={known}",
+             *self.command("run", nodes, "--hang-limit", 0, "--view", "none", "--timeout", 60, *self.kept())],
+            text=True, capture_output=True, timeout=200)
+        self.assertEqual(run.returncode, 0, run.stderr[-4000:])
+        return run
+
+    def kept(self):
+        return ("--checkpoint", self.directory / "run.checkpoint", "--resume")
+
+    def test_memory(self):
+        self.servers()
         for name, nodes in TREES.items():
             with self.subTest(name):
-                run = subprocess.run(
-                    ["valgrind", "-q", "--error-exitcode=99", "--leak-check=full", "--show-leak-kinds=definite,indirect",
-                     "--errors-for-leak-kinds=definite,indirect", f"--suppressions={known}",
-                     *self.command("run", nodes, "--hang-limit", 0, "--view", "none", "--timeout", 60)],
-                    text=True, capture_output=True, timeout=200)
-                self.assertEqual(run.returncode, 0, run.stderr[-4000:])
+                self.valgrind(nodes)
+
+    def test_after_a_cut(self):
+        self.servers()
+        slowed = TREES["robots that are slowed"].replace("30", "300").replace("<Inverter><Timeout", "<ForceSuccess><Timeout")
+        slowed = slowed.replace("</Timeout></Inverter>", "</Timeout></ForceSuccess>")
+        for nodes, line, seconds in ((TREES["actions that are held"], "hold", 0.1), (slowed, "goal 300", 1)):
+            with self.subTest(line):
+                run = self.start(nodes, *self.kept())
+                self.fast.wait_for(line)
+                time.sleep(seconds)
+                run.kill()
+                run.communicate()
+                self.assertIn("resumed after", self.valgrind(nodes).stderr)
 
 
 if __name__ == "__main__":

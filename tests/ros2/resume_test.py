@@ -255,7 +255,7 @@ class Resume(World):
         run = self.start(nodes, *self.checkpoint())
         if "nothing" not in hold:
             self.slow.wait_for("at 9")
-            still = [word for word in self.fast.lines[before:] if word != "hold"]
+            still = [word for word in self.fast.lines[before:] if word not in ("hold", "pace 0.000")]
             self.assertEqual(still, [], "it holds still until the other one is there")
         _, err = run.communicate(timeout=30)
         self.assertEqual(run.returncode, 0, err)
@@ -281,6 +281,12 @@ class Resume(World):
         after = self.held('hold="topic:/still"', "hold", "--hold-topic", "/still")
         self.assertEqual(self.goals(self.fast), ["goal 20"])
         self.assertEqual([line for line in after if not line.startswith("at")][:2], ["hold", "go on"])
+
+    def test_held_by_its_pace_it_gets_0_again(self):
+        after = self.held('hold="pace" pace="topic:/slow" pace_type="std_msgs/msg/Float64"', "pace 0.000",
+                          "--pace", "real:/slow")
+        self.assertEqual(self.goals(self.fast), ["goal 20"])
+        self.assertEqual([line for line in after if line.startswith("pace")], ["pace 0.000", "pace 1.000"])
 
     def test_held_and_another_server(self):
         fast = self.counting("--keep", action="/fast", step=20)
