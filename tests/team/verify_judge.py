@@ -128,13 +128,15 @@ def judge(lockstep, folder, seed, seeds):
     can_end = verdict["facts"]["can always end"] == "yes"
     for play in range(seeds):
         chance = random.Random(seed * 1000 + play)
-        # A word that takes up to so long is heard in the tick behind it, or as much later.
-        latency = chance.choice([0, 0.04]) + team.late / RATE * chance.choice([0, 0.9])
-        starts = [chance.choice([0, 0, 0.1, 0.35, 0.9]) for _ in team.names]
+        # A word that takes so many periods is heard as many ticks late, or less.
+        slowest = team.late / RATE
+        latency = slowest * chance.choice([0, 0.2, 0.7, 1])
+        jitter = (slowest - latency) * chance.choice([0, 1])
+        starts = [chance.choice([0, 0, 0.02, 0.1, 0.35, 0.9]) for _ in team.names]
         code, out, err = run(
             lockstep, "team", *files, "--leaves", leaves, "--mock", "--rate", str(RATE), "--seed",
-            str(play), "--latency", str(latency * (team.late > 0)), "--timeout", str(LAST), "--json",
-            "--start", *[str(it) for it in starts])
+            str(play), "--latency", str(latency), "--jitter", str(jitter), "--timeout", str(LAST),
+            "--json", "--start", *[str(it) for it in starts])
         if code not in (0, 1):
             wrong.append(f"team: code {code}: {err}")
             continue
