@@ -4,14 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <string_view>
 
 #include "cli/console.h"
+#include "language/document/file.h"
 
 namespace lockstep::host {
 namespace {
@@ -41,12 +39,15 @@ class PropertyReader {
 
   // One on each line that is neither blank nor begins with #.
   void read_file(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) {
+    constexpr std::size_t kMostBytes = std::size_t{64} << 20u;
+    auto text = host::read_file(path, kMostBytes, FileKinds::RegularOrPipe);
+    if (text && text->size() > kMostBytes) text = problem("it has more than 64 MiB");
+    if (!text) {
       diagnostics_.error("unreadable-file"_code, {path},
-                         fmt::format("cannot read it: {}", std::strerror(errno)));
+                         fmt::format("cannot read it: {}", text.error().message));
       return;
     }
+    std::istringstream file(std::move(*text));
     std::uint32_t number = 0;
     for (std::string line; std::getline(file, line);) {
       ++number;

@@ -690,8 +690,10 @@ bool Verdict::has_findings() const {
 
 void Verdict::keep_only(std::span<const std::string> patterns) {
   std::erase_if(findings, [&](const Finding& finding) {
-    return std::ranges::none_of(patterns,
-                                [&](const auto& it) { return matches(it, finding.name); });
+    const bool goes =
+        std::ranges::none_of(patterns, [&](const auto& it) { return matches(it, finding.name); });
+    left_out += goes && finding.accepted.empty();
+    return goes;
   });
 }
 

@@ -34,7 +34,8 @@ struct Verdict {
   std::vector<Finding> findings;  // those of which it is sure
   std::vector<VerdictLine> facts;
   std::vector<std::string> assumed;
-  bool is_cut = false;  // the time was over before each question was answered
+  bool is_cut = false;       // the time was over before each question was answered
+  std::size_t left_out = 0;  // findings that are not accepted, by keep_only
 
   bool has_findings() const;  // that are not accepted
   // Leaves out the findings whose names none of these patterns means.

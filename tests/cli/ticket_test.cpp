@@ -66,6 +66,21 @@ TEST_CASE("the tree of a ticket runs, at the rate of the proof, and what is assu
   CHECK(contains(outcome.out, "11 ticks"));
 }
 
+TEST_CASE("options that change what a tree does are printed beside a ticket, or refused") {
+  TicketFiles files;
+  REQUIRE(files.verify().code == 0);
+  const std::string checkpoint = files.directory.path("run.checkpoint");
+  CHECK(!contains(files.play().err, "not proved: -"));
+  CHECK(contains(files.play({"--stall-fail", "5"}).err, "not proved: --stall-fail"));
+  CHECK(contains(files.play({"--on-fault", "fail"}).err, "not proved: --on-fault fail"));
+  CHECK(!contains(files.play({"--checkpoint", checkpoint}).err, "not proved: -"));
+  const std::vector<std::string> resumed{"--checkpoint", checkpoint, "--resume"};
+  CHECK(contains(files.play(resumed).err, "not proved: --resume"));
+  CHECK(files.play({"--tick", "exactly-once"}).code == 2);
+  REQUIRE(files.verify({"--cuts"}).code == 0);
+  CHECK(!contains(files.play(resumed).err, "not proved: -"));
+}
+
 TEST_CASE("a tree that is changed by one character after the ticket is refused") {
   TicketFiles files;
   REQUIRE(files.verify().code == 0);

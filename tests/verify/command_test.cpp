@@ -493,11 +493,41 @@ TEST_CASE("which findings count is what --only says") {
     return run_lockstep(
         {"verify", with_findings(directory), "--out", directory.path("out"), "--only", pattern});
   };
-  CHECK(only("trap").code == 0);
+  const Outcome none = only("trap");
+  CHECK(none.code == 0);
+  CHECK(contains(none.out, "no finding trap; --only leaves out "));
+  CHECK(!contains(none.out, "verified"));
   const Outcome dead = only("never-ticked/*");
   CHECK(dead.code == 1);
   CHECK(contains(dead.out, "finding never-ticked/T/Sequence/Fallback/dead"));
   CHECK_FALSE(contains(dead.out, "finding cycle"));
+}
+
+TEST_CASE("a finding with a very long name has a recording with a shorter one") {
+  const TemporaryDirectory directory;
+  const std::string name(300, 'a');
+  const std::string tree =
+      directory.file("t.xml", "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><AlwaysSuccess name=\"" +
+                                  name + "\"/></BehaviorTree></root>");
+  const Outcome outcome = run_lockstep({"verify", tree, "--out", directory.path("out"),
+                                        "--property", name + ": never " + name + ".success",
+                                        "--property", name + "b: never " + name + ".success"});
+  CHECK(outcome.code == 1);
+  CHECK(contains(outcome.out, "not verified: 2 findings"));
+  const std::filesystem::directory_iterator files(directory.path("out"));
+  CHECK(std::distance(begin(files), end(files)) == 4);
+}
+
+TEST_CASE("a folder or a missing file of properties is refused") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "t.xml",
+      "<root lockstep=\"1\"><BehaviorTree ID=\"T\"><AlwaysSuccess/></BehaviorTree></root>");
+  for (const std::string& file : {directory.path(""), directory.path("none")}) {
+    const Outcome outcome = run_lockstep({"verify", tree, "--property-file", file});
+    CHECK(outcome.code == 2);
+    CHECK(contains(outcome.err, "cannot read it: "));
+  }
 }
 
 TEST_CASE("run --leaves with a leaf model does what that allows, as the seed chooses") {

@@ -34,7 +34,21 @@ int refuse_other_tree(const std::vector<Difference>& all) {
   return kExitInvalidTree;
 }
 
-void print_ticket(const Ticket& ticket) {
+// What the options of the run change in what the tree does. The proof is of a run without them.
+std::vector<std::string> changes(const RunCommandOptions& options, const Ticket& ticket) {
+  std::vector<std::string> all;
+  if (options.stall_fail > 0) all.emplace_back("--stall-fail: a node that stands still fails");
+  if (options.on_fault == FaultPolicy::Fail)
+    all.emplace_back("--on-fault fail: after a fault of a leaf, the run continues");
+  if (options.keep.resumes && ticket.cuts == 0)
+    all.emplace_back("--resume: what a run does after a cut; lockstep verify --cuts 1 proves it");
+  if (options.monitor_control || options.groot2_control || options.attended ||
+      !options.breaks.empty() || !options.break_conditions.empty())
+    all.emplace_back("what people change while the tree runs");
+  return all;
+}
+
+void print_ticket(const RunCommandOptions& options, const Ticket& ticket) {
   std::string text = fmt::format("ticket of {}: {}, at {} ticks per second\n",
                                  printable(ticket.made), printable(ticket.conclusion), ticket.rate);
   for (const std::string& it : ticket.properties)
@@ -42,6 +56,8 @@ void print_ticket(const Ticket& ticket) {
   if (!ticket.is_proof) text += "  not proved: the search had a limit\n";
   for (const std::string& it : ticket.assumptions)
     text += fmt::format("  not proved, but assumed: {}\n", printable(it));
+  for (const std::string& it : changes(options, ticket))
+    text += fmt::format("  not proved: {}\n", it);
   text += "  watched: a leaf that breaks the leaf model of the proof has a fault\n";
   messages().say(text);
 }
@@ -59,6 +75,13 @@ int check_ticket(RunCommandOptions& options, const Loaded& loaded) {
         fmt::format("leave out {}", other));
     return kExitUsage;
   }
+  if (options.exactly_once) {
+    print_error(
+        "--require-ticket and --tick exactly-once: the proof is of a tree that is ticked again in "
+        "a period when a node requests it",
+        "leave out --tick exactly-once");
+    return kExitUsage;
+  }
   const auto ticket = read_ticket(options.ticket);
   if (!ticket) return refuse_ticket(ticket.error());
   if (const auto good = check_signature(*ticket, options.trusted_keys); !good)
@@ -72,7 +95,7 @@ int check_ticket(RunCommandOptions& options, const Loaded& loaded) {
   }
   options.proved_leaves = ticket->leaves;
   options.proved_properties = ticket->properties;
-  print_ticket(*ticket);
+  print_ticket(options, *ticket);
   return kExitSuccess;
 }
 

@@ -30,15 +30,17 @@ Json content_of(const Ticket& ticket) {
   Json identity = Json::array();
   for (const auto& [name, value] : ticket.identity)
     identity.push_back(Json{{"name", name}, {"value", value}});
-  return {{"lockstep_ticket", 1},
-          {"made", ticket.made},
-          {"conclusion", ticket.conclusion},
-          {"is_proof", ticket.is_proof},
-          {"rate", ticket.rate},
-          {"identity", std::move(identity)},
-          {"properties", ticket.properties},
-          {"assumptions", ticket.assumptions},
-          {"leaves", ticket.leaves}};
+  Json all{{"lockstep_ticket", 1},
+           {"made", ticket.made},
+           {"conclusion", ticket.conclusion},
+           {"is_proof", ticket.is_proof},
+           {"rate", ticket.rate},
+           {"identity", std::move(identity)},
+           {"properties", ticket.properties},
+           {"assumptions", ticket.assumptions},
+           {"leaves", ticket.leaves}};
+  if (ticket.cuts > 0) all.add("cuts", ticket.cuts);
+  return all;
 }
 
 }  // namespace
@@ -107,6 +109,7 @@ Result<Ticket> read_ticket(const std::string& path) {
                 {"properties", into(ticket.properties)},
                 {"assumptions", into(ticket.assumptions)},
                 {"leaves", into(ticket.leaves)},
+                {"cuts", into(ticket.cuts), kMayLack},
                 {"signature", read_signature, kMayLack}});
     });
   } catch (const JsonError& error) {

@@ -1,6 +1,7 @@
 // A ticket: a file that says which tree `lockstep verify` has proved, under which assumptions.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ struct Ticket {
   double rate = 0;         // ticks per second
   std::string conclusion;  // of the verdict
   bool is_proof = false;   // else the search had a limit
+  std::uint64_t cuts = 0;  // of the process in a run, at most: those are proved, too
   std::string leaves;      // the text of the leaf model; "": there was none
   std::vector<std::string> properties;
   std::vector<std::string> assumptions;

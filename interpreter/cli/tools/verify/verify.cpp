@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <thread>
 
@@ -265,7 +266,8 @@ class VerifyCommand {
     if (verdict.is_cut && found.is_complete()) found.end = SearchEnd::Time;
     if (!options_.only.empty()) verdict.keep_only(options_.only);
     VerifyReport report{
-        found, verdict, options_.tree, options_.leaves, runnable.tree.leaves.size(), options_.cuts};
+        found,         verdict,      options_.tree, options_.leaves, runnable.tree.leaves.size(),
+        options_.cuts, options_.only};
     if (wants_costs(found.end)) report.costs = search_costs(runnable.tree, models, rate);
     Tracer tracer(runnable.tree, models, properties_, rate, found);
     ChanceLimits chance = usual_chance(found);
@@ -350,6 +352,7 @@ class VerifyCommand {
                   .rate = rate,
                   .conclusion = conclusion(report),
                   .is_proof = report.found.is_proof(),
+                  .cuts = options_.cuts,
                   .leaves = leaves_,
                   .properties = {},
                   .assumptions = report.verdict.assumed,
@@ -413,7 +416,7 @@ class VerifyCommand {
     return true;
   }
 
-  std::string stem_of(const Finding& finding) const {
+  std::string stem_of(const Finding& finding) {
     const std::filesystem::path tree(options_.tree == "-" ? "stdin" : options_.tree);
     std::string name = tree.stem().string() + '.' + finding.name;
     for (char& it : name) {
@@ -421,6 +424,13 @@ class VerifyCommand {
           std::isalnum(static_cast<unsigned char>(it)) != 0 || it == '-' || it == '_' || it == '.';
       if (!is_plain) it = '.';
     }
+    // A name may have 255 bytes. The end of a path says more than its middle.
+    constexpr std::size_t kMost = 200, kBegin = 60;
+    if (name.size() > kMost) {
+      name = name.substr(0, kBegin) + "..." + name.substr(name.size() - (kMost - kBegin));
+    }
+    const auto count = ++stems_[name];
+    if (count > 1) name += fmt::format("-{}", count);
     return options_.out == "." ? name : (std::filesystem::path(options_.out) / name).string();
   }
 
@@ -436,8 +446,9 @@ class VerifyCommand {
   PlayedLeaves played_;
   bool paces_ = false;  // nodes of the tree do
   std::vector<Property> properties_;
-  TreeIdentity identity_;  // for the ticket
-  std::string leaves_;     // the text of the leaf model
+  TreeIdentity identity_;                     // for the ticket
+  std::string leaves_;                        // the text of the leaf model
+  std::map<std::string, std::size_t> stems_;  // of recordings: how many findings have them
   int code_ = kExitSuccess;
 };
 

@@ -47,9 +47,12 @@ std::string_view limit_of(SearchEnd end) {
 
 std::string conclusion(const VerifyReport& report) {
   if (!report.internal_error.empty()) return report.internal_error;
-  const std::size_t count = count_findings(report.verdict);
-  if (count > 0) return fmt::format("not verified: {}", counted(count, "finding"));
+  const std::size_t count = count_findings(report.verdict), others = report.verdict.left_out;
+  const std::string left_out =
+      others == 0 ? "" : fmt::format("; --only leaves out {}", counted(others, "other finding"));
+  if (count > 0) return fmt::format("not verified: {}{}", counted(count, "finding"), left_out);
   const SearchResult& found = report.found;
+  if (others > 0) return fmt::format("no finding {}{}", joined(report.only, ", "), left_out);
   if (found.is_proof()) {
     return "verified for all behaviors that are assumed" +
            (report.cuts == 0 ? "" : fmt::format(", with at most {}", counted(report.cuts, "cut")));
@@ -125,6 +128,7 @@ std::string to_json(const VerifyReport& report) {
   json["tree"] = report.tree;
   if (!report.leaves.empty()) json["leaves"] = report.leaves;
   json["conclusion"] = conclusion(report);
+  if (report.verdict.left_out > 0) json["left_out"] = report.verdict.left_out;
   json["complete"] = report.found.is_complete();
   if (!report.found.is_complete()) json["limit"] = std::string(limit_of(report.found.end));
   if (report.found.store.keeps_hashes()) {

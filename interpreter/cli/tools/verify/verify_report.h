@@ -18,6 +18,7 @@ struct VerifyReport {
   std::string tree, leaves;  // files; "": there is no leaf file
   std::size_t leaf_count = 0;
   std::uint32_t cuts = 0;                            // at most, in a run
+  std::span<const std::string> only = {};            // --only: other findings are left out
   std::map<std::string, CounterExample> files = {};  // of findings, by their names
   std::vector<SearchCost> costs = {};                // of a search that did not look at everything
   std::string internal_error = {};  // a run contradicts the search: nothing of it is told as true
@@ -26,7 +27,7 @@ struct VerifyReport {
 // Why a search did not look at everything: "--states"; "" if it did.
 std::string_view limit_of(SearchEnd end);
 // "verified", "not verified: 2 findings", "bounded: nothing found in the first 23 ticks …",
-// "internal error: …".
+// "internal error: …"; with --only, how many findings are left out.
 std::string conclusion(const VerifyReport& report);
 // A line for each, and how to begin a leaf model where there is none (`leaves` is "").
 std::string to_text(const std::vector<SearchCost>& costs, const std::string& tree,
