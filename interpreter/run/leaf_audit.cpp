@@ -297,9 +297,7 @@ void LeafAudit::look(const Moment& moment, std::span<const LeafCalls::Call> call
   // Progress is that at the start of this tick: after the one before, and a tick without one.
   const double progress = calls_.progress_at(moment, leaf.node, 0);
   if (knows_before_ && leaf.ticks > 0) look_at_progress(progress, leaf);
-  // In a tick of several moments, the hold has begun in the last one.
-  const std::size_t moments = moment.within.moments.size();
-  leaf.progress = moments == 0 ? progress : calls_.progress_at(moment, leaf.node, moments - 1);
+  leaf.progress = progress;
   leaf.was_held = moment.held(leaf.node) && moment.within.rest.empty();
   if (!knows_before_) {  // it may have ended and begun again
     leaf.knows_begin = false;
@@ -309,7 +307,7 @@ void LeafAudit::look(const Moment& moment, std::span<const LeafCalls::Call> call
   for (const LeafCalls::Call& call : calls) {
     if (call.begins) {
       leaf.ticks = 0;
-      leaf.progress = 0;
+      if (knows_before_) leaf.progress = 0;  // else it may have run before
       leaf.is_overdue = leaf.was_late = false;
       leaf.knows_begin = knows_before_;
     }
@@ -318,6 +316,10 @@ void LeafAudit::look(const Moment& moment, std::span<const LeafCalls::Call> call
     if (std::exchange(leaf.is_cut, false)) continue;
     if (leaf.has_fault && call.status == Status::Failure) continue;
     count(leaf, call.status, is_alone);
+  }
+  // In a tick of several moments, the hold has begun in the last one.
+  if (const std::size_t moments = moment.within.moments.size(); moments > 0) {
+    leaf.progress = calls_.progress_at(moment, leaf.node, moments - 1);
   }
   leaf.was_ticked = is_alone && moment.activity[leaf.node] == Activity::Running;
   if (moment.status(leaf.node) == Status::Running) return;

@@ -35,7 +35,7 @@ LeafCalls::LeafCalls(const Shape& shape, const Tree& tree)
 
 double LeafCalls::progress_at(const Moment& tick, NodeIndex leaf, std::size_t moment) const {
   const bool is_own =
-      shape_.nodes[leaf].keeper ? tick.within.empty() : tick.within.progress.empty();
+      tick.within.empty() || (!shape_.nodes[leaf].keeper && tick.within.progress.empty());
   double progress = is_own && !tick.progress.empty() ? tick.progress[leaf] : 0;
   for (const LeafProgress& it : tick.within.progress) {
     if (it.node == leaf && it.moment <= moment) progress = it.progress;

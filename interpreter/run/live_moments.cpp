@@ -1,5 +1,7 @@
 #include "run/live_moments.h"
 
+#include <utility>
+
 #include "engine/blackboard.h"
 #include "engine/pace.h"
 #include "engine/resources.h"
@@ -17,6 +19,7 @@ LiveMoments::LiveMoments(const Tree& tree, const AskedOfRun& asked)
       asks_within_(asked.within),
       asks_progress_within_(asked.progress_within) {
   for (const NodeIndex node : asked.progress) asked_.push_back({.node = node});
+  own_progress_.reserve(asked_.size());
   for (NodeIndex node = 0; node < tree.nodes.size(); ++node) {
     const Synchronization kind = synchronization(tree.nodes[node]);
     if (compares_progress(kind)) {
@@ -99,10 +102,12 @@ void LiveMoments::point_to_factors(Ticker& ticker) {
 
 // The numbers that a synchronized node has used replace those from before its tick.
 void LiveMoments::take_used(Ticker& ticker) {
+  own_progress_.clear();
   for (const Asked& it : asked_) {
     if (!it.is_kept || !asked_children(ticker, it.keeper)) continue;
     const double used = uses_[it.keeper][it.child];
-    progress_[it.node] = is_left_out(used) ? 0 : used;  // as in recordings
+    const double own = std::exchange(progress_[it.node], is_left_out(used) ? 0 : used);
+    if (own != progress_[it.node]) own_progress_.push_back({.node = it.node, .progress = own});
   }
 }
 
@@ -128,6 +133,7 @@ const Moment& LiveMoments::after_tick(Ticker& ticker, std::uint64_t tick, Nanose
   moment_.tick = tick;
   moment_.time = time;
   if (asks_within_) moment_.within = ticker.moments();
+  if (asks_progress_within_ && moment_.within.empty()) moment_.within.progress = own_progress_;
   return moment_;
 }
 

@@ -65,6 +65,8 @@ class LiveMoments final : private LiveRun {
   std::vector<Asked> asked_;
   std::vector<Plain> plain_;
   std::vector<double> progress_;
+  // Of a tick that is one moment: that of leaves, where a synchronized node has used another.
+  std::vector<LeafProgress> own_progress_;
   std::vector<const double*> limits_;
   std::vector<std::span<const double>> uses_;
   std::vector<const double*> factors_;  // empty: nobody paces

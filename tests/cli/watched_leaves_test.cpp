@@ -137,6 +137,47 @@ TEST_CASE("a leaf that moves while it is held breaks its model") {
   CHECK(contains(outcome.err, "while it was held, the leaf model has held=\"still\""));
 }
 
+TEST_CASE(
+    "a leaf that stands still is not blamed where nodes use another progress, or in two moments") {
+  // A member of a barrier that has succeeded counts as 1 there until it ends.
+  const std::string again = R"(<root lockstep="1"><plugin name="motion"/>
+<barrier name="C" barriers="0.5"/><BehaviorTree ID="T"><Parallel>
+<ParallelRelative delta="0.5" name="pair">
+<Repeat times="2"><SyncProgress barrier="C"><Advance name="a"/></SyncProgress></Repeat>
+<Advance name="b"/></ParallelRelative>
+<SyncProgress barrier="C"><Advance name="c"/></SyncProgress></Parallel></BehaviorTree></root>)";
+  const std::string of_again = R"(@rate 10
+T/Parallel/pair/Repeat/SyncProgress/a = S R0.5 R0.875 S
+T/Parallel/pair/b = R0 R0 R0 R0 R0.5 S
+T/Parallel/SyncProgress/c = S
+)";
+  // In its first tick, `a` is ticked and then held.
+  const std::string twice = R"(<root BTCPP_format="4"><plugin name="motion"/>
+<BehaviorTree ID="T"><Parallel failure_count="1">
+<AsyncSequence><Advance name="x"/><Advance name="y"/></AsyncSequence>
+<ParallelRelative delta="0.25" name="pair"><Advance name="a"/><Advance name="b"/>
+</ParallelRelative></Parallel></BehaviorTree></root>)";
+  const std::string of_twice = R"(@rate 10
+T/Parallel/AsyncSequence/x = S
+T/Parallel/AsyncSequence/y = R0 R0 R0 R0 R0 S
+T/Parallel/pair/a = R0.375 S
+T/Parallel/pair/b = R0 R0.3 R0.5 S
+)";
+  for (const auto& [tree, words] : {std::pair(again, of_again), std::pair(twice, of_twice)}) {
+    WatchedFiles files;
+    files.directory.file("t.xml", tree);
+    files.directory.file("t.leaves", words);
+    const std::string rows = R"(<leaf of="Advance" result="success;failure"/>)";
+    const std::string recording = files.directory.path("r.jsonl");
+    const Outcome outcome = files.run(rows, {"--record", recording});
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(run_lockstep(
+              {"log", "check", recording, "--leaves", files.model(rows), "--tree-file", files.tree})
+              .code == 0);
+  }
+}
+
 TEST_CASE("a leaf that writes what or when its model does not allow breaks it") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("t.xml", R"(<root lockstep="1"><plugin name="motion"/>
