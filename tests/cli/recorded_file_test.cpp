@@ -1,5 +1,6 @@
 // What of a run is in the file that it leaves, and who may read it.
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -25,6 +26,24 @@ TEST_CASE("a recording has the permissions that the umask leaves") {
     REQUIRE(stat(file.c_str(), &status) == 0);
     CHECK((status.st_mode & 0777) == mode);
   }
+}
+
+TEST_CASE("the recording of a run that goes on is not replaced by that of another run") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file("tree.xml", tree_text("<AlwaysRunning/>"));
+  const std::string name = directory.path(GENERATE("run.jsonl", "run.jsonl.zst", "run.mcap"));
+  const auto record = [&] {
+    return run_lockstep({"run", tree, "--clock", "virtual", "--max-ticks", "5", "--view", "none",
+                         "--record", name});
+  };
+  Process first({.arguments = {"run", tree, "--view", "none", "--record", name}});
+  while (!std::filesystem::exists(name)) usleep(1000);
+  const Outcome second = record();
+  CHECK(second.code == 2);
+  CHECK(contains(second.err, "another run records to it"));
+  CHECK(first.end_by(SIGTERM).code == 128 + SIGTERM);
+  if (!name.ends_with(".mcap")) CHECK(run_lockstep({"log", "info", name}).code == 0);
+  CHECK(record().code == 124);
 }
 
 TEST_CASE("a recording holds arguments, and values of the blackboard unless they are kept out") {

@@ -29,8 +29,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   struct stat named {
   }, target{};
   const bool is_there = lstat(path_.c_str(), &named) == 0;
-  if (path_.empty()) {
-    fail(reason_text(ENOENT));
+  if (path_.empty() || (!is_there && errno == ENAMETOOLONG)) {
+    fail(reason_text(path_.empty() ? ENOENT : ENAMETOOLONG));
   } else if (stat(path_.c_str(), &target) == 0 && is_written_as_it_is(target.st_mode)) {
     open_as_it_is();
   } else if (is_there && S_ISLNK(named.st_mode)) {

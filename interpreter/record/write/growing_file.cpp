@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -25,6 +26,15 @@ void make_nonblocking(int file) {
   }
 }
 
+// Whoever writes a file has a lock on it, which ends with the process.
+bool is_written_elsewhere(const std::string& path) {
+  constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  const FileDescriptor file(open(path.c_str(), kFlags));
+  struct stat status {};
+  const bool is_file = fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
+  return is_file && flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 }  // namespace
 
 GrowingFile::GrowingFile(std::string path, const FileForm& form, Patience& patience)
@@ -34,6 +44,12 @@ GrowingFile::GrowingFile(std::string path, const FileForm& form, Patience& patie
     failed_ = true;
     return;
   }
+  if (is_written_elsewhere(path_)) {
+    out_.remove();
+    fail("open", "another run records to it");
+    return;
+  }
+  flock(file_, LOCK_EX | LOCK_NB);  // where there are no locks, there is no such protection
   make_nonblocking(file_);
   try {
     if (form.encoder) {
