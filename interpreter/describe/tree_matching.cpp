@@ -461,6 +461,10 @@ bool is_of_editor(const WrittenAttribute& it) {
 std::vector<NodeValue> values_of(const Definition& definition, const DefinitionNode& node) {
   std::vector<NodeValue> values;
   const auto written = definition.attributes(node);
+  // What stands for another robot is where its parent is: its values are of the team.
+  const DefinitionNode& parent =
+      definition.nodes[&node == definition.nodes.data() ? 0 : node.parent];
+  const bool has_element = &node == &parent || node.place.byte != parent.place.byte;
   const auto& parameters = node.type->parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto attribute = std::ranges::find(written, parameters[i].name, &WrittenAttribute::name);
@@ -473,7 +477,7 @@ std::vector<NodeValue> values_of(const Definition& definition, const DefinitionN
       values.push_back(
           {parameters[i].name, port.script == Port::kNone ? shown : without_blanks(shown), shown});
     } else {
-      values.push_back({parameters[i].name, to_text(*constant), shown, is_written});
+      values.push_back({parameters[i].name, to_text(*constant), shown, is_written || !has_element});
     }
   }
   for (const WrittenAttribute& it : written) {

@@ -271,6 +271,24 @@ TEST_CASE("diff git:REV reads a file and its includes as the revision has them")
   CHECK(contains(outcome.err, "the revision 'HEAD' has no file 'none.xml'"));
 }
 
+TEST_CASE("diff shows what has changed in a team at what stands for the other robots") {
+  const TemporaryDirectory directory;
+  const auto team = [&](const std::string& name, const std::string& attributes) {
+    return directory.file(name, R"(<root lockstep="1"><team name="t" )" + attributes +
+                                    R"(/><resources name="R" team="t" as="a" resources="x"/>
+<BehaviorTree ID="M"><Sequence><InStep team="t" as="a" barriers="0.5"><Wait seconds="1"/></InStep>
+<UseResources pool="R" resources="x"><Wait seconds="1"/></UseResources></Sequence></BehaviorTree></root>)");
+  };
+  const std::string old = team("a.xml", R"(members="a;b" deadline="2")");
+  const Outcome deadline =
+      run_lockstep({"diff", old, team("b.xml", R"(members="a;b" deadline="0.5")")});
+  CHECK(deadline.code == 1);
+  CHECK(contains(deadline.out, "M/Sequence/InStep/b  deadline 2 → 0.5"));
+  const Outcome order = run_lockstep({"diff", old, team("c.xml", R"(members="b;a" deadline="2")")});
+  CHECK(contains(order.out, "members a;b → b;a"));
+  CHECK(run_lockstep({"diff", old, old}).code == 0);
+}
+
 TEST_CASE("diff git:REV writes nothing outside of its folder, and follows links within it") {
   const TemporaryDirectory directory;
   const Outcome outcome = shell(R"(
