@@ -2,6 +2,7 @@
 import json
 import os
 import random
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -11,8 +12,9 @@ FRAMES = int(os.environ.get("MCP_FRAMES", "3000"))
 
 
 class Server:
-    def __init__(self, *options):
-        self.process = subprocess.Popen([LOCKSTEP, "mcp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    def __init__(self, *options, **environment):
+        self.process = subprocess.Popen([LOCKSTEP, "mcp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        env={**os.environ, **environment})
         self.number = 0
 
     def raw(self, data):
@@ -157,6 +159,19 @@ class HostileTest(unittest.TestCase):
         answered = {self.server.read()["id"] for _ in range(4)}
         self.assertTrue(answered >= {200, 201} or len(answered) == 4)
         self.assert_alive()
+
+    def test_a_signal_ends_it_with_its_calls_and_its_temporary_folder(self):
+        long = '<root lockstep="1"><BehaviorTree ID="Main"><Repeat times="1000000000"><Wait seconds="1"/></Repeat></BehaviorTree></root>'
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            with tempfile.TemporaryDirectory() as scratch:
+                server = Server("--workspace", self.folder.name, TMPDIR=scratch)
+                server.begin()
+                server.send({"id": 5, "method": "tools/call", "params": {"name": "simulate", "arguments": {"text": long, "max_ticks": 1e12}}})
+                self.assertEqual({}, server.ask("ping")["result"])
+                server.process.send_signal(number)
+                self.assertEqual(128 + number, server.process.wait(timeout=60))
+                self.assertEqual([], os.listdir(scratch))
+                server.end()
 
 
 if __name__ == "__main__":

@@ -16,7 +16,6 @@ void Connection::receive(int other, Wait wait) {
     pollfd files[] = {{input_, POLLIN, 0}, {other, POLLIN, 0}};
     const bool may_wait = wait == Wait::Yes && messages_.empty();
     const int ready = ::poll(files, 2, may_wait ? -1 : 0);
-    if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0 || files[0].revents == 0) return;
     read_some();
   } while (!is_over_);

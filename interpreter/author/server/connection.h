@@ -23,7 +23,8 @@ class Connection {
   Connection(int input, int output, const RpcProtocol& protocol)
       : input_(input), output_(output), protocol_(protocol), frames_(protocol.framing) {}
 
-  // Waits for a message, or until `other` can be read, or not at all if there is something to do.
+  // Waits for a message or a signal, or until `other` can be read, or not at all if there is
+  // something to do.
   enum class Wait : bool { No, Yes };
   void receive(int other, Wait wait);
   bool has_message() const { return !messages_.empty(); }

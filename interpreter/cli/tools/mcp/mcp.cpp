@@ -13,6 +13,7 @@
 #include "cli/exit_code.h"
 #include "cli/load/load_options.h"
 #include "cli/tools/mcp/mcp_server.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 namespace {
@@ -80,9 +81,11 @@ int serve_mcp(const McpOptions& options) {
     return kExitUsage;
   }
   keep_stdout_for_results();
+  StopSignals::install();
   McpServer server({workspace, scratch.path(), words, options.seconds, options.memory_mib},
                    STDIN_FILENO, results_file());
   server.run();
+  if (const int signal = StopSignals::received(); signal != 0) return kExitSignal + signal;
   if (server.problem().empty()) return kExitSuccess;
   print_error(server.problem(), "stdin must have messages of the Model Context Protocol");
   return kExitUsage;

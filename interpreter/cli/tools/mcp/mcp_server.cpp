@@ -16,6 +16,7 @@
 #include "base/system/own_thread.h"
 #include "cli/exit_code.h"
 #include "cli/tools/mcp/resources.h"
+#include "run/stop_signals.h"
 
 namespace lockstep::host {
 namespace {
@@ -179,7 +180,7 @@ void McpServer::run() {
     while (connection_.has_message()) handle(connection_.take());
     take_events();
     start_calls();
-    if (connection_.is_over()) return;
+    if (connection_.is_over() || StopSignals::received() != 0) return;
   }
 }
 

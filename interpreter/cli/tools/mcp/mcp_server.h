@@ -25,7 +25,7 @@ class McpServer {
   McpServer(const McpServer&) = delete;
   McpServer& operator=(const McpServer&) = delete;
 
-  // Until the client has closed stdin.
+  // Until the client has closed stdin, or a signal.
   void run();
   // Why the client was not understood, or "".
   const std::string& problem() const { return connection_.problem(); }
