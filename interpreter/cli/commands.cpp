@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <optional>
@@ -156,6 +157,11 @@ int run_program(int argc, char** argv) {
       return run_command_line(argc, argv);
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const std::filesystem::filesystem_error& error) {
+      // Such as a name that is too long, or a link to itself.
+      print_error(fmt::format("cannot use '{}': {}", printable(error.path1().string()),
+                              error.code().message()));
+      return kExitUsage;
     } catch (const std::exception& error) {
       print_error(error.what(), "this is a bug in lockstep; please report it");
     }
