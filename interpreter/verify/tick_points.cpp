@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/nodes/fold.h"
+#include "engine/synchronized.h"
 #include "verify/labels.h"
 
 namespace lockstep::host {
@@ -22,7 +23,8 @@ TickPoints::TickPoints(const Tree& tree, const LeafModels& models, const std::ve
       models_(models),
       few_(few_ticks),
       can_look_(is_plain(tree)),
-      has_properties_(std::ranges::find(watched, true) != watched.end()) {
+      has_properties_(std::ranges::find(watched, true) != watched.end()),
+      halts_only_(tree.nodes.size()) {
   std::vector<bool> counts = watched;
   counts.resize(tree.nodes.size());
   for (const Holdable& it : holdable(tree)) counts[it.child] = true;
@@ -37,6 +39,28 @@ TickPoints::TickPoints(const Tree& tree, const LeafModels& models, const std::ve
     const Words& words = words_.back();
     if (words.count != 0 && !words.is_dead && !words.is_dead_when_idle) counts[node] = true;
     if (counts[node]) kept_.push_back(node);
+  }
+  if (can_look_) find_parallels();
+}
+
+// A script may run when a node is halted, and some kinds do something then. After a cut, each
+// barrier that a child passes is looked at. With hold="between", a leaf may be held because of what
+// those before it do.
+void TickPoints::find_parallels() {
+  if (models_.cuts.most > 0) return;
+  std::vector<bool> does_something(tree_.nodes.size());
+  for (const HookedNode& it : tree_.hooked) does_something[it.node] = true;
+  for (NodeIndex node = tree_.nodes[0].end; node-- > 0;) {
+    const NodeKind& kind = *tree_.nodes[node].kind;
+    if (kind.sure_to_end != nullptr && holds_between(tree_, node)) {
+      halts_only_.assign(tree_.nodes.size(), false);
+      return;
+    }
+    if (kind.halt != nullptr && tree_.labels[node].type->leaf == nullptr) {
+      does_something[node] = true;
+    }
+    if (does_something[node] && node != 0) does_something[tree_.labels[node].parent] = true;
+    halts_only_[node] = kind.sure_to_end != nullptr && !does_something[node];
   }
 }
 
@@ -79,7 +103,7 @@ bool TickPoints::add(const Ticker& ticker, const ModelLeaves& leaves, const Tick
   for (const std::uint32_t leaf : leaves.touched()) {  // the others are as they were
     has_begun = has_begun || (models_.leaves[leaf].ends && has_run_[leaf] == 0);
     const LeafState& state = leaves.states()[leaf];
-    if (state.phase == Phase::Idle) continue;
+    if (state.phase == Phase::Idle || is_halted_in_the_end(tree_.leaves[leaf].node)) continue;
     put(leaf);
     put(state.ticks);
     put(state.level);
@@ -88,6 +112,7 @@ bool TickPoints::add(const Ticker& ticker, const ModelLeaves& leaves, const Tick
   put(ModelLeaves::kNobody);
   put(has_begun);
   for (const std::uint32_t leaf : ran_) {
+    if (is_halted_in_the_end(tree_.leaves[leaf].node)) continue;  // then it has ended
     put(leaves.marks()[leaf].ticked);
     put(leaves.marks()[leaf].ended);
   }
@@ -108,27 +133,59 @@ bool TickPoints::is_ticked_behind(const RunState& run, NodeIndex chooses) const 
   return any;
 }
 
+bool TickPoints::is_halted_in_the_end(NodeIndex node) const {
+  return std::ranges::any_of(halted_,
+                             [&](const auto& it) { return it.first <= node && node < it.second; });
+}
+
+NodeIndex TickPoints::child_with(NodeIndex node, NodeIndex inside) const {
+  NodeIndex child = node + 1;
+  while (tree_.nodes[child].end <= inside) child = tree_.nodes[child].end;
+  return child;
+}
+
+// Of a node in its tick.
+bool TickPoints::put_sure_to_end(const Ticker& ticker, NodeIndex node, NodeIndex next) {
+  const auto outcome = tree_.nodes[node].kind->sure_to_end(ticker, node, next);
+  put(outcome.has_value());
+  if (outcome) put(*outcome);
+  return outcome.has_value();
+}
+
 // What is below a node that has completed is reset before its next tick. It has not if the leaf
 // that chooses is in it: then its tick goes on, and its status is an earlier one. What is behind
 // that leaf and has not been ticked is as it was, or follows from what is before it.
 void TickPoints::put_nodes(const Ticker& ticker, NodeIndex chooses) {
-  auto kept = kept_.begin();
+  halted_.clear();
   NodeIndex end = tree_.nodes[0].end;
   if (chooses < end && !is_ticked_behind(ticker.run_state(), chooses)) end = chooses + 1;
   for (NodeIndex node = 0; node < end;) {
     const NodeIndex after = tree_.nodes[node].end;
     const bool is_in_its_tick = node <= chooses && chooses < after;
     put_node(ticker, node, is_in_its_tick);
+    if (is_in_its_tick && node < chooses && halts_only_[node]) {
+      const NodeIndex next = child_with(node, chooses);
+      if (put_sure_to_end(ticker, node, next)) {
+        put_kept(ticker, node + 1, next);
+        halted_.emplace_back(node + 1, next);
+        node = next;
+        continue;
+      }
+    }
     const bool is_over =
         !is_in_its_tick && has_ended(ticker.status(node)) && ticker.ticked_so_far(node);
     if (!is_over || after == node + 1) {
       ++node;
       continue;
     }
-    kept = std::lower_bound(kept, kept_.end(), node + 1);
-    for (; kept != kept_.end() && *kept < after; ++kept) put_node(ticker, *kept, false);
+    put_kept(ticker, node + 1, after);
     node = after;
   }
+}
+
+void TickPoints::put_kept(const Ticker& ticker, NodeIndex first, NodeIndex last) {
+  auto kept = std::ranges::lower_bound(kept_, first);
+  for (; kept != kept_.end() && *kept < last; ++kept) put_node(ticker, *kept, false);
 }
 
 void TickPoints::put_node(const Ticker& ticker, NodeIndex node, bool is_in_its_tick) {

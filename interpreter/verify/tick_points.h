@@ -1,11 +1,13 @@
 // The points of a tick at which a leaf chooses. Two ticks from one state may come to points that
 // are equal in all that what follows depends on: then the same follows, and a search follows one of
 // them only. Example: a Sequence of Fallbacks of a condition and AlwaysSuccess. Behind each of them
-// nothing depends on what its condition was.
+// nothing depends on what its condition was. Another one: a Parallel in which a child has failed.
+// It ends in this tick and halts its children, so nothing depends on how far those before are.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "engine/ticker.h"
@@ -48,7 +50,12 @@ class TickPoints {
     std::memcpy(point_.data() + size, &value, sizeof value);
   }
   bool is_ticked_behind(const RunState& run, NodeIndex chooses) const;
+  void find_parallels();
+  NodeIndex child_with(NodeIndex node, NodeIndex inside) const;
+  bool put_sure_to_end(const Ticker& ticker, NodeIndex node, NodeIndex next);
+  bool is_halted_in_the_end(NodeIndex node) const;
   void put_nodes(const Ticker& ticker, NodeIndex chooses);
+  void put_kept(const Ticker& ticker, NodeIndex first, NodeIndex last);
   void put_node(const Ticker& ticker, NodeIndex node, bool is_in_its_tick);
 
   // What a node keeps.
@@ -65,6 +72,9 @@ class TickPoints {
   std::vector<NodeIndex> kept_;        // the nodes that count also below one that has completed
   std::vector<std::uint32_t> ran_;     // leaves whose end a label tells
   std::vector<std::uint8_t> has_run_;  // the same of each leaf
+  std::vector<bool> halts_only_;       // of each node: NodeKind::sure_to_end can be asked
+  // Of a point: the children of such nodes of which nothing but that matters.
+  std::vector<std::pair<NodeIndex, NodeIndex>> halted_;
   std::uint64_t ticks_ = 0, hits_ = 0;
   bool looks_ = false;
   StateStore known_;

@@ -50,6 +50,7 @@ const NodeKind kParallel{
     .state_per_child = sizeof(double),
     .fold = fold::dead,
     .if_moved = IfMoved::Same,
-    .has_any_order = true};
+    .has_any_order = true,
+    .sure_to_end = parallel::sure_to_end<kParallelCounts>};
 
 }  // namespace lockstep::host

@@ -71,7 +71,8 @@ const NodeKind kParallelAbsolute{
     .fold = fold::dead,
     .paced = &kPacedAbsolute,
     .if_moved = IfMoved::Same,
-    .has_any_order = true};
+    .has_any_order = true,
+    .sure_to_end = parallel::sure_to_end<kAbsoluteCounts>};
 
 namespace {
 const NodeKind kPacedAbsolute = synchronized::paced_kind(kParallelAbsolute, tick_absolute<true>);

@@ -63,7 +63,8 @@ const NodeKind kParallelRelative{
     .fold = fold::dead,
     .paced = &kPacedRelative,
     .if_moved = IfMoved::Same,
-    .has_any_order = true};
+    .has_any_order = true,
+    .sure_to_end = parallel::sure_to_end<kRelativeCounts>};
 
 namespace {
 const NodeKind kPacedRelative = synchronized::paced_kind(kParallelRelative, tick_relative<true>);

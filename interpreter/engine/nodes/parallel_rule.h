@@ -97,21 +97,44 @@ class Tally {
   alignas(double) std::uint32_t counts_[(index_of(kLastStatus) + 2) / 2 * 2] = {};
 };
 
-// Success is checked first. Children that still run are halted when the node ends. A child that was
-// skipped in this tick counts as not there.
-inline Status judge(NodeContext& context, NodeIndex self, const Counts& counts,
-                    const Tally& tally) {
+// Success is checked first. A child that was skipped in this tick counts as not there.
+struct Outcome {
+  bool is_success, is_failure;
+  bool ends() const { return is_success || is_failure; }
+};
+
+inline Outcome outcome(const NodeContext& context, NodeIndex self, const Counts& counts,
+                       const Tally& tally) {
   const std::int64_t there = context.node(self).children - tally.of(Status::Skipped);
-  if (there == 0) return Status::Skipped;
   const std::int64_t wanted =
       std::min(context.parameter(self, counts.success_count).integer, there);
-  const bool success = tally.of(Status::Success) >= wanted;
-  const bool failure =
-      tally.of(Status::Failure) >= context.parameter(self, counts.failure_count).integer ||
-      there - tally.of(Status::Failure) < wanted;
-  if (!success && !failure) return Status::Running;
+  const std::int64_t failures = tally.of(Status::Failure);
+  return {.is_success = tally.of(Status::Success) >= wanted,
+          .is_failure = failures >= context.parameter(self, counts.failure_count).integer ||
+                        there - failures < wanted};
+}
+
+// Children that still run are halted when the node ends.
+inline Status judge(NodeContext& context, NodeIndex self, const Counts& counts,
+                    const Tally& tally) {
+  if (tally.of(Status::Skipped) == context.node(self).children) return Status::Skipped;
+  const Outcome found = outcome(context, self, counts, tally);
+  if (!found.ends()) return Status::Running;
   context.halt_running_children(self);
-  return success ? Status::Success : Status::Failure;
+  return found.is_success ? Status::Success : Status::Failure;
+}
+
+// Whatever the others do, no count falls, and one that is skipped asks for one less.
+template <Counts kCounts>
+std::optional<std::uint64_t> sure_to_end(const NodeContext& context, NodeIndex self,
+                                         NodeIndex next) {
+  Tally tally;
+  for (NodeIndex child = self + 1; child != next; child = context.end_of(child)) {
+    tally.add(context.status(child));
+  }
+  if (!outcome(context, self, kCounts, tally).ends()) return std::nullopt;
+  const auto count = [&](Status status) { return static_cast<std::uint64_t>(tally.of(status)); };
+  return count(Status::Success) << 32u | count(Status::Skipped);
 }
 
 }  // namespace lockstep::host::parallel
