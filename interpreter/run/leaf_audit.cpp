@@ -331,6 +331,8 @@ void LeafAudit::look_at_progress(double progress, Leaf& leaf) {
   const LeafModel& model = *leaf.model;
   const bool has_moved = std::abs(progress - leaf.progress) > kProgressEpsilon;
   if (!has_moved || (!leaf.was_held && !leaf.was_ticked)) return;
+  // It has done its work, and waits for the disk.
+  if (leaf.leaf->at_cut.commits && !leaf.was_held && progress >= 1.0) return;
   const auto say = [&](Assumption what, std::string_view how) {
     add(leaf, what, fmt::format("moved from {:g} to {:g} {}", leaf.progress, progress, how));
   };
@@ -364,8 +366,9 @@ void LeafAudit::count(Leaf& leaf, Status status, bool is_alone) {
   const bool is_late = std::exchange(leaf.is_overdue, false) && leaf.ticks > model.most_ticks;
   const bool may_end = model.fact != kNoFact || model.results.failure || model.results.skipped ||
                        (may_succeed && (is_alone || !model.has_progress));
+  // Where its success waits for the disk, it is Running without a call.
   leaf.is_overdue = model.most_ticks != 0 && leaf.ticks >= model.most_ticks && may_end &&
-                    status == Status::Running && !leaf.was_late;
+                    status == Status::Running && !leaf.was_late && !leaf.leaf->at_cut.commits;
   leaf.was_late |= is_late;
   if (is_early) {
     add(leaf, Assumption::Ticks,
