@@ -79,6 +79,10 @@ TEST_CASE("options that change what a tree does are printed beside a ticket, or 
   CHECK(files.play({"--tick", "exactly-once"}).code == 2);
   REQUIRE(files.verify({"--cuts"}).code == 0);
   CHECK(!contains(files.play(resumed).err, "not proved: -"));
+  CHECK(contains(files.play({"--checkpoint", checkpoint, "--resume", "--on-resume", "failure"}).err,
+                 "not proved: --on-resume failure: the proof has restart"));
+  REQUIRE(files.verify({"--cuts", "--on-resume", "failure"}).code == 0);
+  CHECK(contains(files.play(resumed).err, "not proved: --on-resume restart"));
 }
 
 TEST_CASE("a tree that is changed by one character after the ticket is refused") {

@@ -17,6 +17,11 @@ constexpr std::optional<AfterCut> after_cut_named(std::string_view word) {
   return word == "success" ? std::optional(AfterCut::Success) : std::nullopt;
 }
 
+constexpr std::string_view word_of(AfterCut after) {
+  if (after == AfterCut::StartsAgain) return "restart";
+  return after == AfterCut::Failure ? "failure" : "success";
+}
+
 // What an element says of its leaf.
 struct LeafAtCut {
   AfterCut otherwise = AfterCut::StartsAgain;  // what it does if it cannot be asked

@@ -42,6 +42,9 @@ std::vector<std::string> changes(const RunCommandOptions& options, const Ticket&
     all.emplace_back("--on-fault fail: after a fault of a leaf, the run continues");
   if (options.keep.resumes && ticket.cuts == 0)
     all.emplace_back("--resume: what a run does after a cut; lockstep verify --cuts 1 proves it");
+  if (options.keep.resumes && ticket.cuts > 0 && options.keep.on_resume != ticket.on_resume)
+    all.emplace_back(fmt::format("--on-resume {}: the proof has {}",
+                                 word_of(options.keep.on_resume), word_of(ticket.on_resume)));
   if (options.monitor_control || options.groot2_control || options.attended ||
       !options.breaks.empty() || !options.break_conditions.empty())
     all.emplace_back("what people change while the tree runs");

@@ -39,7 +39,10 @@ Json content_of(const Ticket& ticket) {
            {"properties", ticket.properties},
            {"assumptions", ticket.assumptions},
            {"leaves", ticket.leaves}};
-  if (ticket.cuts > 0) all.add("cuts", ticket.cuts);
+  if (ticket.cuts > 0) {
+    all.add("cuts", ticket.cuts);
+    all.add("on_resume", word_of(ticket.on_resume));
+  }
   return all;
 }
 
@@ -95,6 +98,11 @@ Result<Ticket> read_ticket(const std::string& path) {
   const auto read_flag = [&](JsonValue value) {
     if (!value.get(ticket.is_proof)) throw JsonError("'is_proof' is neither true nor false");
   };
+  const auto read_on_resume = [&](JsonValue value) {
+    const auto word = after_cut_named(value.text());
+    if (!word) throw JsonError("'on_resume' is neither restart, failure nor success");
+    ticket.on_resume = *word;
+  };
   const auto read_signature = [&](JsonValue value) {
     value.object().read({{"key", into(ticket.key)}, {"ed25519", into(ticket.signature)}});
   };
@@ -110,6 +118,7 @@ Result<Ticket> read_ticket(const std::string& path) {
                 {"assumptions", into(ticket.assumptions)},
                 {"leaves", into(ticket.leaves)},
                 {"cuts", into(ticket.cuts), kMayLack},
+                {"on_resume", read_on_resume, kMayLack},
                 {"signature", read_signature, kMayLack}});
     });
   } catch (const JsonError& error) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/after_cut.h"
 #include "base/core/problem.h"
 #include "run/loading/tree_identity.h"
 
@@ -19,7 +20,8 @@ struct Ticket {
   std::string conclusion;  // of the verdict
   bool is_proof = false;   // else the search had a limit
   std::uint64_t cuts = 0;  // of the process in a run, at most: those are proved, too
-  std::string leaves;      // the text of the leaf model; "": there was none
+  AfterCut on_resume = AfterCut::StartsAgain;  // of leaves that cannot continue after one
+  std::string leaves;                          // the text of the leaf model; "": there was none
   std::vector<std::string> properties;
   std::vector<std::string> assumptions;
   std::string key, signature;  // in hexadecimal; "": it is not signed
