@@ -7,6 +7,7 @@
 
 #include "base/system/output_file.h"
 #include "cli/console.h"
+#include "run/loading/project_file.h"
 
 namespace lockstep::host {
 namespace {
@@ -28,6 +29,12 @@ std::vector<NamedFile> inputs_of(std::span<const std::string> documents, const P
   return inputs;
 }
 
+std::vector<NamedFile> inputs_of(const Loaded& loaded, std::vector<std::string> others) {
+  std::erase(others, "");
+  for (const auto& source : loaded.project->sources.all()) others.push_back(source->path());
+  return inputs_of(others, *loaded.plugins);
+}
+
 std::vector<NamedFile> standard_outputs() {
   return {{"stdout", path_of(results_file())}, {"stderr", path_of(STDERR_FILENO)}};
 }
@@ -35,7 +42,13 @@ std::vector<NamedFile> standard_outputs() {
 bool would_overwrite(std::string_view option, const std::string& output,
                      std::span<const NamedFile> used) {
   std::error_code none;
-  if (std::filesystem::is_character_file(output, none)) return false;
+  const std::filesystem::path path(output);
+  if (std::filesystem::is_character_file(path, none)) return false;
+  if (path.filename() == kProjectFile && std::filesystem::exists(path, none)) {
+    print_error(fmt::format("{} {}: it is a project file", option, printable(output)),
+                "name another file");
+    return true;
+  }
   for (const NamedFile& file : used) {
     if (!is_same_file(output, file.path)) continue;
     print_error(fmt::format("{} {}: it is the same file as {}", option, printable(output),

@@ -48,20 +48,38 @@ std::map<std::string, std::string> contents(const TemporaryDirectory& directory)
 TEST_CASE("no output option overwrites an input of its command") {
   const TemporaryDirectory directory;
   fill(directory);
+  directory.file("props", "never Main.failure\n");
+  directory.file("lockstep.project.xml",
+                 "<project lockstep=\"1\"><main file=\"tree.xml\"/></project>");
   const auto before = contents(directory);
   const std::string run = "lockstep run tree.xml --clock virtual --record ";
   for (const std::string& command :
-       {run + "tree.xml", run + "./soft-tree.xml", run + "hard-tree.xml", run + "part.xml",
-        run + "soft-part.xml", run + "hard-part.xml",
+       {run + "tree.xml",
+        run + "./soft-tree.xml",
+        run + "hard-tree.xml",
+        run + "part.xml",
+        run + "soft-part.xml",
+        run + "hard-part.xml",
         std::string("lockstep run tree.xml --plugin ./motion.so --record motion.so"),
         std::string("cat tree.xml | lockstep run - --record part.xml"),
-        std::string("lockstep run - --record tree.xml <tree.xml"), run + "/dev/stdin <tree.xml",
-        run + "/dev/stdout | cat", run + "/dev/stderr 2>&1 | cat", run + "run.jsonl >>run.jsonl",
+        std::string("lockstep run - --record tree.xml <tree.xml"),
+        run + "/dev/stdin <tree.xml",
+        run + "/dev/stdout | cat",
+        run + "/dev/stderr 2>&1 | cat",
+        run + "run.jsonl >>run.jsonl",
         std::string("lockstep log csv run.jsonl --out run.jsonl"),
         std::string("lockstep log csv run.jsonl --out hard.jsonl"),
         std::string("lockstep log csv - --out hard.jsonl <run.jsonl"),
         std::string("lockstep log plot run.jsonl --out run.svg"),
-        std::string("lockstep log plot - --out run.svg <run.jsonl")}) {
+        std::string("lockstep log plot - --out run.svg <run.jsonl"),
+        run + "lockstep.project.xml",
+        run + "props --property-file props",
+        std::string("lockstep verify tree.xml --property-file props --ticket props"),
+        std::string("lockstep verify tree.xml --ticket lockstep.project.xml"),
+        std::string("lockstep log export run.jsonl --format btlog --tree-file tree.xml --out "
+                    "hard-tree.xml"),
+        std::string("lockstep log export run.jsonl --format btlog --tree-file tree.xml --plugin "
+                    "./motion.so --out motion.so")}) {
     INFO(command);
     const Outcome outcome = shell("set -o pipefail; " + command, directory);
     CHECK(outcome.code == 2);

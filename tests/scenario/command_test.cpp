@@ -341,6 +341,8 @@ TEST_CASE("results do not overwrite what is tested") {
       CHECK(contains(it.err, "it is the same file as"));
     }
   }
+  CHECK(contains(folder.test({"--junit", folder.path("out"), "--lcov", folder.path("./out")}).err,
+                 "--junit and --lcov name the same file"));
   CHECK(folder.test().code == 0);
 }
 

@@ -495,12 +495,10 @@ void last_words() {
 
 // The files that a recording must not overwrite.
 std::vector<NamedFile> inputs_of_run(const RunCommandOptions& options, const Loaded& loaded) {
-  std::vector<std::string> documents{options.tree};
-  for (const std::string& it : {options.leaves, options.watched_leaves, options.ticket}) {
-    if (!it.empty()) documents.push_back(it);
-  }
-  for (const auto& source : loaded.project->sources.all()) documents.push_back(source->path());
-  std::vector<NamedFile> inputs = inputs_of(documents, *loaded.plugins);
+  std::vector<std::string> given{options.tree, options.leaves, options.watched_leaves,
+                                 options.ticket, options.trusted_keys};
+  given.insert(given.end(), options.properties.files.begin(), options.properties.files.end());
+  std::vector<NamedFile> inputs = inputs_of(loaded, std::move(given));
   // A text of the tree may name a file that a leaf reads.
   for (const Value& value : loaded.definition.values) {
     const auto* text = std::get_if<std::string>(&value);

@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kName = "lockstep.project.xml";
 constexpr std::string_view kFolder[] = {"folder"};
 constexpr std::string_view kFile[] = {"file"};
 
@@ -33,7 +32,7 @@ std::string project_file_of(const std::string& tree) {
   const bool is_relative = fs::path(tree).is_relative();
   for (fs::path folder = (here / tree).lexically_normal().parent_path();;
        folder = folder.parent_path()) {
-    const fs::path file = folder / kName;
+    const fs::path file = folder / kProjectFile;
     if (fs::is_regular_file(file, error)) {
       return is_relative ? file.lexically_proximate(here).string() : file.string();
     }

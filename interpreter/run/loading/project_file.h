@@ -8,10 +8,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "run/loading/load.h"
 
 namespace lockstep::host {
+
+inline constexpr std::string_view kProjectFile = "lockstep.project.xml";
 
 // The options for a tree file with what its project file adds to them. Plugin folders count only
 // in a file that belongs to the user, or to root, and that others cannot write. A program with more

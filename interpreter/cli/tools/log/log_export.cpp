@@ -45,11 +45,15 @@ bool has_tree(const RecordingHeader& header, const Tree& tree, std::size_t nodes
 std::optional<GrootTree> tree_of(const LogExportOptions& options, const RecordingHeader& header,
                                  int& code) {
   Result<GrootTree> shown;
-  const RecordedTree recorded(header, options.tree, options.plugins,
-                              [&](const Definition& it) { shown = groot_tree(it); });
+  bool overwrites = false;
+  const RecordedTree recorded(header, options.tree, options.plugins, [&](const Loaded& it) {
+    shown = groot_tree(it.definition);
+    overwrites = would_overwrite("--out", options.out, inputs_of(it, {}));
+  });
   code = recorded.code();
   if (code != kExitSuccess) return std::nullopt;
   code = kExitUsage;
+  if (overwrites) return std::nullopt;
   if (!shown) {
     print_error(shown.error().message, shown.error().hint);
     return std::nullopt;

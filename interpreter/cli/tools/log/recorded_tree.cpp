@@ -24,7 +24,7 @@ bool is_main_of(const Document& document, std::string_view tree) {
 
 RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& file,
                            const PluginOptions& plugins,
-                           const std::function<void(const Definition&)>& look)
+                           const std::function<void(const Loaded&)>& look)
     : file_(file.empty() ? header.file : file), code_(kExitSuccess) {
   if (is_merged(header)) {
     print_error("the recording is of a team, and its trees are in several files",
@@ -51,7 +51,7 @@ RecordedTree::RecordedTree(const RecordingHeader& header, const std::string& fil
     return;
   }
   if (!is_main_of(*loaded->project->documents.front(), header.id)) main_ = header.id;
-  if (look) look(loaded->definition);
+  if (look) look(*loaded);
   played_.take_over(loaded->definition);
   runnable_ = make_runnable(std::move(*loaded));
 }

@@ -18,7 +18,7 @@ class RecordedTree {
   // `file`: the tree file; "": as the recording names it. The exit code is that of a failure, which
   // is reported. `look` sees what the tree is made of.
   RecordedTree(const RecordingHeader& header, const std::string& file, const PluginOptions& plugins,
-               const std::function<void(const Definition&)>& look = {});
+               const std::function<void(const Loaded&)>& look = {});
 
   int code() const { return code_; }
   const std::string& file() const { return file_; }

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <map>
 
 #include "base/core/suggest.h"
 #include "base/core/wording.h"
@@ -115,8 +117,16 @@ class TestCommand {
         {"--junit", options_.junit},
         {"--coverage-html", options_.coverage.page},
         {"--lcov", options_.coverage.lcov}};
+    for (const std::string& it : options_.plugins.plugins) used.push_back(named_file(it));
+    std::map<std::filesystem::path, std::string_view> written;
     return std::ranges::any_of(outputs, [&](const auto& it) {
-      return !it.second.empty() && would_overwrite(it.first, it.second, used);
+      if (it.second.empty()) return false;
+      const auto path = std::filesystem::path(it.second).lexically_normal();
+      const auto [other, is_new] = written.emplace(path, it.first);
+      if (is_new) return would_overwrite(it.first, it.second, used);
+      print_error(fmt::format("{} and {} name the same file", other->second, it.first),
+                  "name another file");
+      return true;
     });
   }
 

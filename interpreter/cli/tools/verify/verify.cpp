@@ -131,12 +131,9 @@ std::string utc_now() {
 class VerifyCommand {
   // What a ticket must not replace.
   std::vector<NamedFile> inputs_of_ticket(const Loaded& loaded) const {
-    std::vector<std::string> files{options_.tree};
-    for (const std::string& it : {options_.leaves, options_.sign}) {
-      if (!it.empty()) files.push_back(it);
-    }
-    for (const auto& source : loaded.project->sources.all()) files.push_back(source->path());
-    return inputs_of(files, *loaded.plugins);
+    std::vector<std::string> given{options_.tree, options_.leaves, options_.sign};
+    given.insert(given.end(), options_.properties.files.begin(), options_.properties.files.end());
+    return inputs_of(loaded, std::move(given));
   }
 
  public:
@@ -353,6 +350,7 @@ class VerifyCommand {
                   .conclusion = conclusion(report),
                   .is_proof = report.found.is_proof(),
                   .cuts = options_.cuts,
+                  .on_resume = options_.on_resume,
                   .leaves = leaves_,
                   .properties = {},
                   .assumptions = report.verdict.assumed,
