@@ -165,6 +165,19 @@ TEST_CASE("of a node that is held, log why tells who holds it, and for whom") {
         "      arm (Advance): success\n");
 }
 
+TEST_CASE("log why of a node that was skipped names the last tick in which it was") {
+  const TemporaryDirectory directory;
+  const std::string tree = directory.file(
+      "tree.xml", tree_text("<Parallel><Wait name=\"never\" seconds=\"1\" skip_if=\"true\"/><Wait "
+                            "name=\"on\" seconds=\"0.1\"/></Parallel>"));
+  const std::string file = directory.path("r.jsonl");
+  REQUIRE(
+      run_lockstep({"run", tree, "--clock", "virtual", "--view", "none", "--record", file}).code ==
+      0);
+  CHECK(why(file, {"never", "--at", "3"})
+            .starts_with("'Main/Parallel/never' was skipped in tick 3\n"));
+}
+
 TEST_CASE("log why of what a parallel halts, and of a wait for a parallel") {
   const TemporaryDirectory directory;
   const std::string file =

@@ -39,7 +39,7 @@ class Asked {
       }
       const Status last = status == Status::Idle ? last_in_tick(moment, it) : status;
       if (last == Status::Running && status == Status::Idle) it.halted = moment.tick;
-      if (is_complete(last) && moment.ticked(it.node)) {
+      if (has_ended(last) && moment.ticked(it.node)) {
         auto links = watch_.why(moment, it.node);
         links.front().decided.status = last;  // it may have been ended since
         it.completed = {moment.tick, std::move(links)};
