@@ -161,6 +161,16 @@ void put_hints(const Crash& crash, SignalText& text) {
     text << kForAuthor;
     return;
   }
+  // lockstep enables none.
+  if (crash.signal == SIGFPE && crash.code > 0 && crash.code != FPE_INTDIV) {
+    text << "  hint: a plugin has enabled floating-point exceptions that stop a program";
+    if (crash.call.site != nullptr) {
+      text << "; the last call was to ";
+      put_site(*crash.call.site, text);
+    }
+    text << "\n" << kForAuthor;
+    return;
+  }
   text << "  hint: it is a bug in lockstep: please report it, with the backtrace\n";
   // Only what runs in a tree has had much occasion to do harm: the last call may be long ago.
   if (crash.call.site == nullptr || crash.call.site->is_plugin()) return;

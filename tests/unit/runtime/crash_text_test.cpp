@@ -93,6 +93,18 @@ TEST_CASE("a crash of lockstep is a bug in lockstep, and tells the last call to 
   CHECK(said(kMotion).find("--isolate") == std::string::npos);
 }
 
+TEST_CASE("a crash by an exception of floating-point numbers is no bug in lockstep") {
+  Crash crash = segv({.site = &kCrashedLeaf});
+  crash.signal = SIGFPE;
+  for (const auto& [code, is_bug] : {std::pair(FPE_FLTDIV, false), std::pair(FPE_INTDIV, true)}) {
+    crash.code = code;
+    SignalText text;
+    describe(crash, text);
+    CHECK((text.text().find("bug in lockstep") != std::string::npos) == is_bug);
+    CHECK((text.text().find("a plugin has enabled floating-point") != std::string::npos) != is_bug);
+  }
+}
+
 TEST_CASE("a crash in a study is reported with its run") {
   Crash crash = segv(in(kCrashedLeaf, PluginFunction::Tick));
   crash.run = {.cell = 3, .number = 17, .seed = 1234};
