@@ -66,7 +66,8 @@ std::vector<std::string> parts_that_exist(const std::string& recording) {
   for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, none), end;
        !none && it != end; it.increment(none)) {
     const std::string name = it->path().filename().string();
-    if (const auto number = number_in(name, before, behind)) {
+    const auto number = number_in(name, before, behind);
+    if (number && !it->is_directory(none)) {
       found.emplace_back(*number, folder + name);
     }
   }
