@@ -12,7 +12,7 @@
 namespace lockstep::host::test {
 namespace {
 
-// Its socket has room for about ten messages.
+// Its socket has room for some messages.
 class Manager {
  public:
   explicit Manager(const TemporaryDirectory& directory) : path_(directory.path("notify")) {
@@ -35,11 +35,18 @@ class Manager {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path, path_.c_str(), sizeof address.sun_path - 1);
-    const int sender = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    while (sendto(sender, "full", 4, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&address),
-                  sizeof address) >= 0) {
+    // The room of one sender may be less: systemd gives the receiver 512 messages.
+    for (bool has_sent = true; has_sent;) {
+      const int sender = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+      const auto send = [&] {
+        return sendto(sender, "full", 4, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&address),
+                      sizeof address) >= 0;
+      };
+      has_sent = send();
+      while (send()) {
+      }
+      close(sender);
     }
-    close(sender);
   }
   // What has been received so far.
   std::vector<std::string> messages() const {

@@ -37,7 +37,7 @@ int refuse_other_tree(const std::vector<Difference>& all) {
 // What the options of the run change in what the tree does. The proof is of a run without them.
 std::vector<std::string> changes(const RunCommandOptions& options, const Ticket& ticket) {
   std::vector<std::string> all;
-  if (options.stall_fail > 0) all.emplace_back("--stall-fail: a node that stands still fails");
+  if (options.stall_fail > 0) all.emplace_back("--stall-fail: a node that makes no progress fails");
   if (options.on_fault == FaultPolicy::Fail)
     all.emplace_back("--on-fault fail: after a fault of a leaf, the run continues");
   if (options.keep.resumes && ticket.cuts == 0)
