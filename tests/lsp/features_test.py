@@ -294,6 +294,14 @@ class Features(Session):
         found = self.renamed(limit.replace("inner=\"", "_autoremap=\"true\" inner=\""), "most")
         self.assertIn("_autoremap=\"true\" inner=\"{most}\"", found)
 
+    def test_rename_of_a_team_also_in_its_pools(self):
+        text = """<root lockstep="1"><team name="trucks" members="a;b"/><resources name="R" team="trucks" as="a" resources="x"/>
+<BehaviorTree ID="M"><InStep team="trucks" as="a" barriers="0.5"><Wait seconds="1"/></InStep></BehaviorTree></root>
+"""
+        for cursor in ("name=\"tru|cks", "team=\"tru|cks\" as=\"a\" resources", "team=\"tru|cks\" as=\"a\" barriers"):
+            found = self.renamed(text.replace(cursor.replace("|", ""), cursor), "diggers")
+            self.assertEqual(text.replace("trucks", "diggers"), found)
+
     def test_rename_in_files_that_are_included_as(self):
         part = Path(self.directory.name) / "truck.xml"
         part.write_text("""<root lockstep="1" main_tree_to_execute="Trip"><BehaviorTree ID="Trip"><SubTree ID="Load"/></BehaviorTree>

@@ -29,9 +29,16 @@ class NameVisitor {
     for (const TolerantAttribute& it : tree_.attributes_of(element)) {
       if (!it.has_quote) continue;
       add_arguments(element, it);
-      if (!add_declared(element, type, it) && tree_around(tree_, element) != nullptr)
+      if (add_declared(element, type, it)) continue;
+      if (tree_around(tree_, element) != nullptr || names_group(type, it))
         add_used(element, type, it);
     }
+  }
+
+  // Also a pool, beside the trees, names its team.
+  static bool names_group(const NodeType* type, const TolerantAttribute& attribute) {
+    const Parameter* const parameter = parameter_of(type, attribute.name);
+    return parameter != nullptr && !parameter->group.empty() && !key_in(attribute.value);
   }
 
   void add(NamePlace place) {
@@ -76,8 +83,7 @@ class NameVisitor {
   void add_used(const TolerantElement& element, const NodeType* type,
                 const TolerantAttribute& attribute) {
     const Parameter* const parameter = parameter_of(type, attribute.name);
-    const bool names_group = parameter != nullptr && !parameter->group.empty();
-    if (names_group && !key_in(attribute.value)) {
+    if (names_group(type, attribute)) {
       NamePlace it = place(NameKind::Group, element, attribute.value);
       it.group = parameter->group;
       return add(it);
