@@ -20,12 +20,6 @@ namespace {
 
 constexpr const char* kRemoveFile = "remove the file to start a new run";
 
-// Of 3 s and more without a fraction: who reads it has waited so long.
-std::string duration_text(Nanoseconds time) {
-  const double seconds = to_seconds(std::max(time, Nanoseconds(0)));
-  return seconds < 3 ? fmt::format("{:.1f} s", seconds) : fmt::format("{:.0f} s", seconds);
-}
-
 // What no text says, as which nodes are mocks.
 std::string nodes_mark(const Tree& tree) {
   std::string all;

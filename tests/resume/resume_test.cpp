@@ -260,6 +260,15 @@ void check_ticks(const std::map<std::string, std::vector<std::string>>& joined,
   }
 }
 
+TEST_CASE("the plain view of a resumed run begins with the tick that comes next") {
+  CutRun run(ours("<Step who='a' ticks='9'/>"));
+  REQUIRE(run.cut(4).code == 128 + SIGKILL);
+  const Outcome resumed = run.resume({"--view", "plain"});
+  CHECK(holds(resumed.err, "s  tick 4       resumed after "));
+  CHECK(holds(resumed.err, "s  tick 4       run of Main continues, "));
+  CHECK_FALSE(holds(resumed.err, "tick 0 "));
+}
+
 TEST_CASE("a recording of a run that was cut is one, with the ticks of the run without a cut") {
   const std::vector<std::vector<std::string>> forms{
       {"run.jsonl"}, {"run.jsonl.zst"}, {"run.jsonl", "--record-rotate", "0.4s"}};

@@ -58,6 +58,11 @@ std::string arity_text(std::uint32_t least, std::uint32_t most) {
   return least <= 1 ? "one or more children" : fmt::format("{} or more children", least);
 }
 
+std::string duration_text(Nanoseconds time) {
+  const double seconds = to_seconds(std::max(time, Nanoseconds(0)));
+  return seconds < 3 ? fmt::format("{:.1f} s", seconds) : fmt::format("{:.0f} s", seconds);
+}
+
 std::string rounded(double value) {
   constexpr int kDigits = 4;
   if (!std::isfinite(value) || value == 0) return fmt::format("{}", value);

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/core/clock.h"
+
 namespace lockstep::host {
 
 // `name`, or its first letters and "…": no more than 256.
@@ -33,6 +35,9 @@ std::string chained(std::span<const std::string_view> names);
 
 // "exactly one child", "one or more children", "2 to 4 children"; `most` of 2^32 - 1 is no limit.
 std::string arity_text(std::uint32_t least, std::uint32_t most);
+
+// "0.4 s". Of 3 s and more without a fraction, "35 s": who reads it has waited so long.
+std::string duration_text(Nanoseconds time);
 
 // "35.88": four digits, and all that stand before the point.
 std::string rounded(double value);

@@ -251,7 +251,10 @@ class RunCommand {  // NOLINT(clang-analyzer-optin.performance.Padding)
       print_error("--checkpoint: " + why_not->message);
       return false;
     }
-    if (kept_->continues()) statistics_.join();
+    if (kept_->continues()) {
+      statistics_.join();
+      view_.continue_with(kept_->before().ticks, kept_->before().time);
+    }
     if (!kept_->resumed().empty()) tell(resumed());
     return true;
   }

@@ -28,6 +28,10 @@ Observer* View::observer() {
   return plain_ ? &*plain_ : nullptr;
 }
 
+void View::continue_with(std::uint64_t tick, Nanoseconds time) {
+  if (plain_) plain_->continue_with(tick, time);
+}
+
 void View::print(const std::string& line) {
   if (live_) {
     live_->print(line);

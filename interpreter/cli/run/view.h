@@ -23,6 +23,8 @@ class View {
 
   // Null when there is nothing to show.
   Observer* observer();
+  // Before the run starts: it continues after a cut, with this tick.
+  void continue_with(std::uint64_t tick, Nanoseconds time);
   // A line for the person, whatever the view. Any thread.
   void print(const std::string& line);
   // Prints what leaves log.

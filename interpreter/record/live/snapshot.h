@@ -37,7 +37,8 @@ struct Snapshot {
     Nanoseconds time{0};
     // Ticks that ended after the next deadline; none: not known, as of a recording.
     std::optional<std::uint64_t> overruns = 0;
-    std::optional<RunResult> result = {};  // once the run has ended
+    std::optional<Nanoseconds> resumed_after = {};  // a cut, in this process
+    std::optional<RunResult> result = {};           // once the run has ended
   } header;
   std::vector<NodeView> nodes;           // by index
   std::vector<EntryState> entries = {};  // in the order of Shape::entries

@@ -38,6 +38,7 @@ SnapshotFeed::SnapshotFeed(const Shape& shape, RealTime real_time)
 void SnapshotFeed::run_started(const Moment& moment, const RunStart& start) {
   header_.rate_hz = 1.0 / to_seconds(start.period);
   header_.real_time = start.real_time;
+  if (start.first_tick > 0) header_.resumed_after = start.gap;
   publish(moment);
 }
 

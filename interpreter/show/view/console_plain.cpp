@@ -28,10 +28,16 @@ ConsolePlain::ConsolePlain(Shape shape, Outlet& out, RealTime real_time)
   }
 }
 
+void ConsolePlain::continue_with(std::uint64_t tick, Nanoseconds time) {
+  tick_ = tick;
+  time_ = time;
+}
+
 // What runs already was not started now: the run continues after a cut.
 void ConsolePlain::run_started(const Moment& moment, const RunStart& start) {
   for (Leaf& leaf : leaves_) leaf.last = moment.status(leaf.node);
-  print(fmt::format("run of {} starts, {:.6g} Hz{}", shape_.id, 1.0 / to_seconds(start.period),
+  print(fmt::format("run of {} {}, {:.6g} Hz{}", shape_.id,
+                    start.first_tick == 0 ? "starts" : "continues", 1.0 / to_seconds(start.period),
                     start.real_time ? "" : ", virtual clock"));
 }
 

@@ -30,6 +30,8 @@ class ConsolePlain final : public Observer {
   // `real_time` is for tests.
   explicit ConsolePlain(Shape shape, Outlet& out = messages(), RealTime real_time = monotonic_now);
 
+  // Before the run starts: it continues after a cut, with this tick.
+  void continue_with(std::uint64_t tick, Nanoseconds time);
   void run_started(const Moment& moment, const RunStart& start) override;
   void before_tick(const Moment& moment, std::uint64_t tick, Nanoseconds time) override;
   void after_tick(const Moment& moment, const TickReport& report) override;

@@ -76,6 +76,9 @@ class View {
       const Style style = *is.overruns == 0 ? Style::Plain : Style::Warning;
       line.add(fmt::format("  overruns {}", *is.overruns), style);
     }
+    if (is.resumed_after) {
+      line.add(fmt::format("  resumed after {}", duration_text(*is.resumed_after)));
+    }
     if (is.result) {
       line.add("  ");
       line.add(to_string(*is.result), style_of(*is.result));

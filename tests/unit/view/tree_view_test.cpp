@@ -30,6 +30,14 @@ NodeView limited(double limit, Activity activity = Activity::Running, double pro
 
 constexpr DrawOptions kPlain{.width = 72, .height = 24};
 
+TEST_CASE("the view of a run that continues after a cut tells how long that was") {
+  const Tree tree = tree_from_text("a");
+  Snapshot now = snapshot({{Activity::Running, 0.4}});
+  now.header.resumed_after = std::chrono::seconds(35);
+  CHECK(draw(tree, now, kPlain)
+            .starts_with("Test  10 Hz  tick 4  0.400 s  overruns 0  resumed after 35 s\n"));
+}
+
 TEST_CASE("an absolute node: its barriers are marks in the bars") {
   const Tree tree = tree_from_text("ParallelAbsolute[barriers=.5;1](arm base)");
   const Snapshot now = snapshot({limited(0.5), {Activity::Paused, 0.6}, {Activity::Running, 0.4}});
