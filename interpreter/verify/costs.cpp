@@ -67,13 +67,13 @@ class CostFinder {
     }
   }
 
-  // So many of the leaves below a node run at the same time, at most.
+  // So many of the leaves below a node run at the same time, at most; in the order of the tree.
   std::vector<NodeIndex> running(NodeIndex node) const {
     const NodeType& type = *tree_.labels[node].type;
     if (type.leaf != nullptr || type.mock != nullptr) {
-      const auto it = std::ranges::find(models_.leaves, node, &LeafModel::node);
-      return it != models_.leaves.end() && it->can_run ? std::vector{node}
-                                                       : std::vector<NodeIndex>();
+      const auto it = std::ranges::lower_bound(models_.leaves, node, {}, &LeafModel::node);
+      const bool can_run = it != models_.leaves.end() && it->node == node && it->can_run;
+      return can_run ? std::vector{node} : std::vector<NodeIndex>();
     }
     const bool is_parallel =
         type.latches || synchronization(tree_.nodes[node]) != Synchronization::None;
@@ -92,15 +92,19 @@ class CostFinder {
   void add_running() {
     const std::vector<NodeIndex> nodes = running(0);
     if (nodes.size() < 3) return;
-    double combinations = 1;
+    double weight = 0;
     for (const LeafModel& model : models_.leaves) {
-      if (std::ranges::find(nodes, model.node) == nodes.end()) continue;
+      if (!std::ranges::binary_search(nodes, model.node)) continue;
       const ResultSet& may = model.results;
-      combinations *= 1 + may.success + may.failure + may.skipped + may.fault;
+      weight += std::log(1 + may.success + may.failure + may.skipped + may.fault);
     }
-    add(std::log(combinations),
-        fmt::format("{} run at the same time, with {:.3g} combinations of results in a tick: {}",
-                    leaves(nodes.size()), combinations, names(nodes)),
+    constexpr double kMostShown = 30;  // as a number: about 10^13
+    add(weight,
+        fmt::format("{} run at the same time, with {} combinations of results in a tick: {}",
+                    leaves(nodes.size()),
+                    weight < kMostShown ? fmt::format("{:.3g}", std::exp(weight))
+                                        : fmt::format("10^{:.0f}", weight / std::log(10)),
+                    names(nodes)),
         "the results and ticks that they have in the leaf model, such as result=\"success\" "
         "ticks=\"20..inf\"");
   }

@@ -284,6 +284,20 @@ TEST_CASE("what a limit has stopped names what costs, and what helps") {
   CHECK_FALSE(contains(run_lockstep({"verify", door}).out, "what costs"));
 }
 
+TEST_CASE("what costs is found fast in a tree of very many leaves that run at once") {
+  constexpr int kLeaves = 20'000;
+  std::string leaves;
+  for (int i = 0; i < kLeaves; ++i) leaves += "<Advance/>";
+  const TemporaryDirectory directory;
+  const std::string tree =
+      directory.file("t.xml", std::string(kHead) + "<BehaviorTree ID=\"T\"><Parallel>" + leaves +
+                                  "</Parallel></BehaviorTree></root>");
+  const Outcome it = run_lockstep({"verify", tree, "--depth", "2", "--states", "1"});
+  INFO(it.out.substr(0, 1000));
+  CHECK(it.code == 124);
+  CHECK(contains(it.out, "with 10^9542 combinations of results in a tick"));
+}
+
 TEST_CASE("verify --save-model writes a leaf model that changes no verdict, and replaces none") {
   const TemporaryDirectory directory;
   const std::string tree = LOCKSTEP_SOURCE_DIR "/trees/door_pulling.xml",
