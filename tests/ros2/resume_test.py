@@ -172,24 +172,25 @@ class Resume(World):
         self.assertEqual(self.goals(server), ["goal 40"])
         self.assertIn(0.5, self.progress("c").values())  # 20 of 40
 
+    @staticmethod
+    def changing(seconds, n):
+        """A goal of 1000, which becomes another one after a time."""
+        leaf = count("c", "/count", "{n}", 'preempt="true"')
+        return f"""<Sequence memory="true"><Script code="n := 1000"/>
+          <Parallel success_count="1">{leaf}
+            <Sequence memory="true"><Wait seconds="{seconds}"/><Script code="n := {n}"/><Wait seconds="60"/></Sequence>
+          </Parallel></Sequence>"""
+
     def test_a_goal_that_has_changed_is_not_sent_a_third_time(self):
         server = self.counting("--preempt")
-        leaf = count("c", "/count", "{n}", 'preempt="true"')
-        nodes = f"""<Sequence memory="true"><Script code="n := 1000"/>
-          <Parallel success_count="1">{leaf}
-            <Sequence memory="true"><Wait seconds="0.5"/><Script code="n := 30"/><Wait seconds="60"/></Sequence>
-          </Parallel></Sequence>"""
+        nodes = self.changing(0.5, 30)
         self.cut(nodes, server, "goal 30")
         self.resume(nodes)
         self.assertEqual(self.goals(server), ["goal 1000", "goal 30"])
 
     def test_a_goal_that_changes_after_the_cut_takes_its_place(self):
         server = self.counting("--preempt")
-        leaf = count("c", "/count", "{n}", 'preempt="true"')
-        nodes = f"""<Sequence memory="true"><Script code="n := 1000"/>
-          <Parallel success_count="1">{leaf}
-            <Sequence memory="true"><Wait seconds="1.5"/><Script code="n := 3"/><Wait seconds="60"/></Sequence>
-          </Parallel></Sequence>"""
+        nodes = self.changing(1.5, 3)
         self.cut(nodes, server, "at 5")
         self.resume(nodes)
         self.assertEqual(self.goals(server), ["goal 1000", "goal 3"])

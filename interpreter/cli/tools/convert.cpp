@@ -104,8 +104,8 @@ std::function<int()> define_convert(CLI::App& app) {
 extern const Command kConvertCommand{
     "convert", "Convert a tree file to the other language: lockstep's, or that of BehaviorTree.CPP",
     "Comments, whitespace and order stay. A node or script that the other language cannot express\n"
-    "is an error. What only lockstep reads, such as <arg>, <property> and ${name}, is kept or left\n"
-    "out, with a warning.\n"
+    "is an error. What only lockstep reads (<arg>, <property>, ${name}) is kept or left out, with\n"
+    "a warning.\n"
     "Files that it includes are converted one by one. Nodes of plugins are copied.\n"
     "A file for version 3 of BehaviorTree.CPP is converted to version 4 with --to btcpp4.\n"
     "Exit code: 0 printed, 2 usage, 3 the file cannot be read or converted.\n"
