@@ -63,7 +63,8 @@ class ResourceAdviser {
     std::vector<std::uint32_t> users(group.resources.size());
     for (const std::uint32_t member : group.members) {
       const ResourceSet set = named_by(member, group);
-      for (std::size_t i = 0; i < users.size(); ++i) users[i] += set >> i & 1u;
+      for (std::size_t i = 0; i < users.size(); ++i)
+        users[i] += static_cast<std::uint32_t>(set >> i & 1u);
     }
     return users;
   }
