@@ -574,8 +574,8 @@ class Expander {
   Definition definition_;
   Scope::Groups groups_;                             // by name: its place in trees_.groups
   std::vector<std::vector<std::uint32_t>> members_;  // of each of them
-  std::set<std::pair<std::uint32_t, std::string_view>> unknown_groups_;  // reported: where, name
-  std::map<std::size_t, const CheckedNode*> pool_of_team_;               // by the place of the team
+  std::set<std::pair<std::uint32_t, std::string>> unknown_groups_;  // reported: where, name
+  std::map<std::size_t, const CheckedNode*> pool_of_team_;          // by the place of the team
   std::map<const CheckedNode*, std::uint32_t> askers_;  // how many nodes use it, of such pools
   StartTexts literals_;                                 // those whose type no port gave yet
   std::vector<std::uint32_t> guessed_;                  // entries that stand-ins use

@@ -67,7 +67,7 @@ std::string_view Scope::renamed_group(std::string_view name) {
 }
 
 std::string_view Scope::meaning_of_group(std::string_view name, bool uses_it) {
-  if (uses_it) groups_.insert(name);
+  if (uses_it) groups_.emplace(name);  // it may be of a value, and those move when some are added
   if (const auto other = texts_.find(name); outer_ != nullptr && other != texts_.end()) {
     return outer_->meaning_of_group(other->second, uses_it);
   }
@@ -93,7 +93,7 @@ std::vector<std::string_view> Scope::open_keys() const {
   for (const auto& [key, entry] : known_) {
     if (!remapped_.contains(key) && !texts_.contains(key)) keys.push_back(key);
   }
-  for (const std::string_view name : groups_) {
+  for (const std::string& name : groups_) {
     if (!texts_.contains(name)) keys.push_back(name);
   }
   return keys;

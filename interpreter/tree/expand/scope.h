@@ -1,6 +1,7 @@
 // The blackboard while subtrees are expanded: which entry a {key} means in which SubTree.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -92,8 +93,8 @@ class Scope {
   std::map<std::string_view, std::string_view> remapped_;
   std::map<std::string_view, std::string_view> texts_;
   std::map<std::string_view, std::uint32_t> known_;
-  std::set<std::string_view> groups_;  // names of groups that were looked up
-  unsigned number_ = 1;                // of those with the same path
+  std::set<std::string, std::less<>> groups_;  // names of groups that were looked up
+  unsigned number_ = 1;                        // of those with the same path
   // Of the main tree: the names of all entries.
   std::unordered_set<std::string> names_;
 };
