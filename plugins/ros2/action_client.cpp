@@ -315,8 +315,8 @@ void ActionClient::take_number(std::uint32_t number) {
   std::memcpy(goal_.request->get(), id_of(number).data(), kIdSize);
 }
 
-// The server answers at once if it does not know the goal, or if it has ended. Else its feedback or
-// its status comes.
+// The server answers at once if it does not know the goal, or if it has ended. Otherwise its
+// feedback or its status comes.
 void ActionClient::ask_for_old() {
   next_look_ = Clock::now() + kBetweenLooks;
   set_state(State::IsAccepted);

@@ -75,7 +75,7 @@ class PaceSignal final : public Waitable, public std::enable_shared_from_this<Pa
   void close(const UserPtr& user);
   void begin(const UserPtr& user, std::uint64_t activation, std::shared_ptr<Message> message,
              std::optional<double> given);
-  // Another process has told the robot something: it is told again.
+  // Another process may have changed the robot since then: it is set again.
   void tell_again();
   void slow(User& user, double factor);
   void hold(User& user, bool held);

@@ -213,7 +213,7 @@ class RosAction : public LeafBase {
     return pace_->is_heard() ? taken : 1;
   }
 
-  // It reports what it has reached until it is known what became of its goal.
+  // It reports what it has reached until the state of its goal is known.
   double progress() {
     take_feedback();
     if (client_->outcome(activation_) == Outcome::Unknown) return 0;

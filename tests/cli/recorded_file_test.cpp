@@ -28,7 +28,7 @@ TEST_CASE("a recording has the permissions that the umask leaves") {
   }
 }
 
-TEST_CASE("the recording of a run that goes on is not replaced by that of another run") {
+TEST_CASE("a recording that a run still writes is not replaced by that of another run") {
   const TemporaryDirectory directory;
   const std::string tree = directory.file("tree.xml", tree_text("<AlwaysRunning/>"));
   const std::string name = directory.path(GENERATE("run.jsonl", "run.jsonl.zst", "run.mcap"));

@@ -35,7 +35,7 @@ class NameVisitor {
     }
   }
 
-  // Also a pool, beside the trees, names its team.
+  // A pool, which is in no tree, names its team, too.
   static bool names_group(const NodeType* type, const TolerantAttribute& attribute) {
     const Parameter* const parameter = parameter_of(type, attribute.name);
     return parameter != nullptr && !parameter->group.empty() && !key_in(attribute.value);
