@@ -343,6 +343,7 @@ TEST_CASE("results do not overwrite what is tested") {
   }
   CHECK(contains(folder.test({"--junit", folder.path("out"), "--lcov", folder.path("./out")}).err,
                  "--junit and --lcov name the same file"));
+  CHECK(folder.test({"--junit", "/dev/null", "--lcov", "/dev/null"}).code == 0);
   CHECK(folder.test().code == 0);
 }
 

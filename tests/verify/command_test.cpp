@@ -511,6 +511,10 @@ TEST_CASE("which findings count is what --only says") {
   CHECK(none.code == 0);
   CHECK(contains(none.out, "no finding trap; --only leaves out "));
   CHECK(!contains(none.out, "verified"));
+  const Outcome bounded = run_lockstep({"verify", with_findings(directory), "--out",
+                                        directory.path("out"), "--only", "none", "--depth", "1"});
+  CHECK(bounded.code == 124);
+  CHECK(contains(bounded.out, "bounded: nothing found in the first "));
   const Outcome dead = only("never-ticked/*");
   CHECK(dead.code == 1);
   CHECK(contains(dead.out, "finding never-ticked/T/Sequence/Fallback/dead"));

@@ -29,10 +29,10 @@ void make_nonblocking(int file) {
 // Whoever writes a file has a lock on it, which ends with the process.
 bool is_written_elsewhere(const std::string& path) {
   constexpr int kFlags = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
-  const FileDescriptor file(open(path.c_str(), kFlags));
   struct stat status {};
-  const bool is_file = fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode);
-  return is_file && flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  const FileDescriptor file(open(path.c_str(), kFlags));
+  return flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
 }  // namespace

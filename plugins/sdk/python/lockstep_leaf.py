@@ -330,7 +330,7 @@ class _Server:
     def restore(self, leaf, request):
         self.broken.discard(leaf._number)
         self.begin(leaf, request)
-        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks", "on_resume")})
+        cut = Cut(**{name: request[name] for name in ("power", "held", "gap", "lost_ticks", "on_resume") if name in request})
         try:
             goes_on = _goes_on(leaf, request["kept"], cut)
         except Failed:

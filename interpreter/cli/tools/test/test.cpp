@@ -122,6 +122,7 @@ class TestCommand {
     return std::ranges::any_of(outputs, [&](const auto& it) {
       if (it.second.empty()) return false;
       const auto path = std::filesystem::path(it.second).lexically_normal();
+      if (std::error_code none; std::filesystem::is_character_file(path, none)) return false;
       const auto [other, is_new] = written.emplace(path, it.first);
       if (is_new) return would_overwrite(it.first, it.second, used);
       print_error(fmt::format("{} and {} name the same file", other->second, it.first),

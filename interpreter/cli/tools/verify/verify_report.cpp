@@ -52,18 +52,20 @@ std::string conclusion(const VerifyReport& report) {
       others == 0 ? "" : fmt::format("; --only leaves out {}", counted(others, "other finding"));
   if (count > 0) return fmt::format("not verified: {}{}", counted(count, "finding"), left_out);
   const SearchResult& found = report.found;
-  if (others > 0) return fmt::format("no finding {}{}", joined(report.only, ", "), left_out);
+  if (found.is_proof() && others > 0)
+    return fmt::format("no finding {}{}", joined(report.only, ", "), left_out);
   if (found.is_proof()) {
     return "verified for all behaviors that are assumed" +
            (report.cuts == 0 ? "" : fmt::format(", with at most {}", counted(report.cuts, "cut")));
   }
   if (found.is_complete()) {
     return fmt::format(
-        "not proven: nothing found in {}; one was missed with a probability below {}",
-        counted(found.store.size(), "state"), loss_text(found));
+        "not proven: nothing found in {}; one was missed with a probability below {}{}",
+        counted(found.store.size(), "state"), loss_text(found), left_out);
   }
-  return fmt::format("bounded: nothing found in the first {} (all behaviors), {}",
-                     counted(found.complete_depth(), "tick"), counted(found.store.size(), "state"));
+  return fmt::format("bounded: nothing found in the first {} (all behaviors), {}{}",
+                     counted(found.complete_depth(), "tick"), counted(found.store.size(), "state"),
+                     left_out);
 }
 
 // Who chooses a depth wants no more.
