@@ -78,6 +78,7 @@ Result<std::string> Conversation::next_line(std::string_view what) {
                      hint);
     }
     if (!process_.await_output(left)) continue;
+    if (process_.has_unwritten()) process_.write({});
     if (is_output_over()) {
       const auto death = process_.await_end(kToDie);
       return problem(death ? fmt::format("{} before it {}", *death, what)
@@ -233,7 +234,9 @@ void Conversation::read_more(std::optional<Nanoseconds> patience) {
     return give_up("was killed, since it wrote a line of more than 1 MiB" + blamed());
   }
   if (!process_.await_output(patience)) return;
-  if (is_output_over()) note_end();
+  // What it cannot answer before it has read it to the end.
+  if (process_.has_unwritten()) judge(process_.write({}));
+  if (!is_gone() && is_output_over()) note_end();
 }
 
 Conversation::News Conversation::take(std::uint32_t number) {

@@ -21,19 +21,22 @@ namespace {
 
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a process that was killed
 
-// Waits until one of the descriptors is readable. Signals do not end the wait.
-bool await(std::initializer_list<int> descriptors, std::optional<Nanoseconds> patience) {
+// Waits until one of the descriptors is readable, or this one, if any, is writable. Signals do not
+// end the wait.
+bool await(std::initializer_list<int> descriptors, std::optional<Nanoseconds> patience,
+           int writable = -1) {
   const Nanoseconds end = monotonic_now() + patience.value_or(Nanoseconds(0));
-  pollfd readable[2];
+  pollfd awaited[3];
   nfds_t count = 0;
-  for (const int descriptor : descriptors) readable[count++] = {descriptor, POLLIN, 0};
+  for (const int descriptor : descriptors) awaited[count++] = {descriptor, POLLIN, 0};
+  awaited[count++] = {writable, POLLOUT, 0};
   while (true) {
     timespec left{};
     if (patience) {
       const Nanoseconds rest = std::max(end - monotonic_now(), Nanoseconds(0));
       left = {rest.count() / 1'000'000'000, rest.count() % 1'000'000'000};
     }
-    const int ready = ppoll(readable, count, patience ? &left : nullptr, nullptr);
+    const int ready = ppoll(awaited, count, patience ? &left : nullptr, nullptr);
     if (ready > 0) return true;
     if (ready == 0) return false;
   }
@@ -120,7 +123,8 @@ void ProgramProcess::close_input() {
 }
 
 bool ProgramProcess::await_output(std::optional<Nanoseconds> patience) const {
-  return await({output_.number(), control_.number()}, patience);
+  return await({output_.number(), control_.number()}, patience,
+               has_unwritten() ? input_.number() : -1);
 }
 
 bool ProgramProcess::has_ended() const {

@@ -40,8 +40,8 @@ class ProgramProcess {
 
   // The descriptor that it writes to. `lines.fill(output())` takes what is there.
   int output() const { return output_.number(); }
-  // Waits until there is output, or its end, or that of the process, at most so long. False: there
-  // is none yet.
+  // Waits until there is output, or its end, or that of the process, or room for what was not
+  // written yet, at most so long. False: there is none yet.
   bool await_output(std::optional<Nanoseconds> patience) const;
   // Readable when the process has ended; what it has started may still hold its output open.
   int end() const { return control_.number(); }
