@@ -443,6 +443,24 @@ def _refusal(error):
     return str(error) if isinstance(error, Refused) else _blame(error)
 
 
+_MOST = 1 << 20  # bytes of a line
+
+
+def _line(what):
+    return (json.dumps(what, separators=(",", ":"), allow_nan=False) + "\n").encode()
+
+
+def _refuse_long(what):
+    "Names what is too long to be sent, in place of sending what ends the conversation."
+    parts = {f"the port '{name}'": value for name, value in what.get("set", {}).items()}
+    if "kept" in what:
+        parts["what save has returned"] = what["kept"]
+    sizes = {part: len(_line(value)) - 1 for part, value in parts.items()}
+    part = max(sizes, key=sizes.get, default="an answer")
+    size = f" of {sizes[part]} bytes as JSON" if sizes else ""
+    raise ValueError(f"{part}{size} does not fit a line to lockstep, which has at most 1 MiB")
+
+
 _out = 1
 _writing = threading.Lock()  # a line that two threads write at once is none
 
@@ -450,7 +468,9 @@ _writing = threading.Lock()  # a line that two threads write at once is none
 def say(**what):
     """Writes a line of the protocol, from any thread: `say(leaf=1, progress=0.5)`. For programs that speak it
     themselves; leaves have `log`."""
-    line = memoryview((json.dumps(what, separators=(",", ":"), allow_nan=False) + "\n").encode())
+    line = memoryview(_line(what))
+    if len(line) - 1 > _MOST:
+        _refuse_long(what)
     with _writing:
         while line:
             line = line[os.write(_out, line):]

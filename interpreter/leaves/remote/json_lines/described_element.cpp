@@ -72,6 +72,10 @@ tl::expected<const lockstep_leaf_type*, ElementRefusal> read_described(
 }
 
 Result<std::string> ask_to_describe(Conversation& conversation, std::string_view request) {
+  if (request.size() > LineInput::kLongest) {
+    return problem(
+        fmt::format("reads lines of at most 1 MiB, and the request has {} bytes", request.size()));
+  }
   auto answer = conversation.ask(std::string(request) + '\n', "describe");
   if (!answer) conversation.give_up("was killed, since it describes no element");
   return answer;

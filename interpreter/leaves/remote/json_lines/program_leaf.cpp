@@ -35,7 +35,7 @@ void ProgramLeaf::end() {
     conversation_.await(number_, Asked::Halt, conversation_.options().halt_limit);
     request_.clear();
     request_.begin("destroy", number_).end();
-    send(Asked::Nothing);
+    if (is_made_) send(Asked::Nothing);
   }
   conversation_.remove(number_);
 }
@@ -48,9 +48,14 @@ double ProgramLeaf::now() const {
   return host_table().now(&caller_);
 }
 
-void ProgramLeaf::send(Conversation::Asked asked) {
+bool ProgramLeaf::send(Conversation::Asked asked) {
+  if (!request_.too_long().empty()) {
+    fail(request_.too_long());
+    return false;
+  }
   conversation_.send(number_, asked, request_.text());
   if (listener_ != nullptr) listener_->wake();
+  return true;
 }
 
 std::string ProgramLeaf::why_gone() {
@@ -87,8 +92,8 @@ bool ProgramLeaf::create() {
       .fixed(caller_)
       .unbound(caller_)
       .end();
-  send(Asked::Create);
-  if (!await(Asked::Create)) return false;
+  is_made_ = send(Asked::Create);
+  if (!is_made_ || !await(Asked::Create)) return false;
   const auto news = conversation_.take(number_);
   if (!news.error.empty()) fail(news.error);
   return news.error.empty();
@@ -120,12 +125,11 @@ void ProgramLeaf::ask_tick() {
   if (!has_begun_) {
     sent_.clear();
     request_.begin("start", number_).field("now", now()).ports(caller_, sent_).end();
-    has_begun_ = true;
   }
   if (factor_) request_.begin("set_pace", number_).field("factor", *factor_).end();
   factor_.reset();
   request_.begin("tick", number_).field("now", now()).ports(caller_, sent_).end();
-  if (!has_error()) send(Asked::Tick);
+  if (!has_error() && send(Asked::Tick)) has_begun_ = true;
 }
 
 lockstep_status ProgramLeaf::tick_and_wait() {
@@ -268,7 +272,10 @@ void ProgramLeaf::pause() {
   }
   request_.clear();
   request_.begin("pause", number_).field("now", now()).end();
-  if (hold_ != Hold::Answered) return send(Asked::Nothing);
+  if (hold_ != Hold::Answered) {
+    send(Asked::Nothing);
+    return;
+  }
   send(Asked::Pause);
   if (!is_waiting() || !await(Asked::Pause)) return;
   if (const auto news = conversation_.take_error(number_); !news.error.empty()) fail(news.error);
@@ -329,8 +336,7 @@ lockstep_after_cut ProgramLeaf::restore(const void* bytes, std::size_t size,
                                                                                 : "restart"))
       .ports(caller_, sent_)
       .end();
-  send(Asked::Restore);
-  if (!await(Asked::Restore)) return LOCKSTEP_STARTS_AGAIN;
+  if (!send(Asked::Restore) || !await(Asked::Restore)) return LOCKSTEP_STARTS_AGAIN;
   const auto news = conversation_.take(number_);
   if (!news.error.empty()) fail(news.error);
   has_begun_ = news.after_cut == LOCKSTEP_CONTINUES;

@@ -49,7 +49,7 @@ class ProgramLeaf : public RemoteLeaf {
   bool keep_result(Conversation::News news);
   bool ask_and_await_answer();
   void ask_tick();
-  void send(Conversation::Asked asked);  // the request
+  bool send(Conversation::Asked asked);  // the request; false: it is too long, which is an error
   lockstep_status take(Conversation::News news);
   void set_ports(std::string line);
   bool await(Conversation::Asked asked);
@@ -69,6 +69,7 @@ class ProgramLeaf : public RemoteLeaf {
   std::string reason_;  // of the last status that it has answered
   Request request_;
   std::vector<Value> sent_;
+  bool is_made_ = false;   // the program was asked to create it
   bool has_begun_ = true;  // false: `start` is to be sent before the next tick
   bool is_held_ = false;
   std::optional<double> factor_;  // to be told before the next tick

@@ -20,6 +20,7 @@ namespace lockstep::host {
 namespace {
 
 constexpr Nanoseconds kPatience = std::chrono::seconds(2);  // for a process that was killed
+constexpr Nanoseconds kToRead = std::chrono::seconds(2);    // some of what was written
 
 // Waits until one of the descriptors is readable, or this one, if any, is writable. Signals do not
 // end the wait.
@@ -98,6 +99,8 @@ void ProgramProcess::bury() {
 }
 
 ProgramProcess::Written ProgramProcess::write(std::string_view text) {
+  const Nanoseconds now = monotonic_now();
+  if (unwritten_.empty()) taken_ = now;
   unwritten_ += text;
   std::size_t done = 0;
   while (done < unwritten_.size()) {
@@ -113,7 +116,9 @@ ProgramProcess::Written ProgramProcess::write(std::string_view text) {
     }
   }
   unwritten_.erase(0, done);
-  return unwritten_.size() <= kMostUnwritten ? Written::Good : Written::TooMuch;
+  if (done > 0) taken_ = now;
+  const bool is_too_much = unwritten_.size() > kMostUnwritten && now - taken_ > kToRead;
+  return is_too_much ? Written::TooMuch : Written::Good;
 }
 
 // Also where a forked child of ours has a copy of it.

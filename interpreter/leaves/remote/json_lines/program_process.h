@@ -30,8 +30,8 @@ class ProgramProcess {
   ProgramProcess& operator=(const ProgramProcess&) = delete;
 
   static constexpr std::size_t kMostUnwritten = std::size_t{4} << 20;
-  // Never waits: what the program does not take now is kept for the next call, which is too much at
-  // some time. Deaf: nobody reads.
+  // Never waits: what the program does not take now is kept for the next call. TooMuch: there is
+  // more than kMostUnwritten, and the program has taken nothing for a while. Deaf: nobody reads.
   enum class Written { Good, TooMuch, Deaf };
   Written write(std::string_view text);
   bool has_unwritten() const { return !unwritten_.empty(); }
@@ -65,6 +65,7 @@ class ProgramProcess {
   ChildProcess guardian_;
   FileDescriptor control_, input_, output_;
   std::string unwritten_;
+  Nanoseconds taken_{0};  // when there was nothing unwritten, or the program took some of it
   Mutex mutex_;  // for signals from any thread: the group is there until the end of control_
   pid_t group_ LOCKSTEP_GUARDED_BY(mutex_) = -1;
   std::optional<std::string> end_;

@@ -4,11 +4,40 @@
 
 #include "base/json/json.h"
 #include "leaves/plugin/contract/host.h"
+#include "leaves/remote/json_lines/line_input.h"
 #include "leaves/remote/json_lines/port_json.h"
 
 namespace lockstep::host {
 
+void Request::clear() {
+  text_.clear();
+  too_long_.clear();
+}
+
+void Request::end() {
+  const std::size_t size = text_.size() + 1 - line_;
+  text_ += "}\n";
+  if (size <= LineInput::kLongest) return;
+  too_long_ = longest_ == 0
+                  ? fmt::format("a request of {} bytes", size)
+                  : fmt::format("the port '{}' of {} bytes as JSON", longest_port_, longest_);
+  too_long_ += " does not fit a line to its program, which has at most 1 MiB";
+}
+
+void Request::port(const lockstep_caller& caller, std::uint32_t port, const Value& value) {
+  append_json(text_, caller.ports[port]->name());
+  text_ += ':';
+  const std::size_t before = text_.size();
+  append_json_value(text_, value);
+  const std::size_t size = text_.size() - before;
+  if (size <= longest_) return;
+  longest_ = size;
+  longest_port_ = caller.ports[port]->name();
+}
+
 Request& Request::begin(std::string_view what, std::uint32_t leaf) {
+  line_ = text_.size();
+  longest_ = 0;
   ((text_ += R"({"do":")") += what) += R"(","leaf":)";
   text_ += fmt::format_int(leaf).c_str();
   return *this;
@@ -53,9 +82,7 @@ Request& Request::ports(const lockstep_caller& caller, std::vector<Value>& sent)
     if (value == sent[port]) continue;
     sent[port] = std::move(value);
     text_ += before;
-    append_json(text_, caller.ports[port]->name());
-    text_ += ':';
-    append_json_value(text_, sent[port]);
+    this->port(caller, port, sent[port]);
     before = ",";
   }
   if (*before == ',' && before[1] == '\0') {
@@ -83,9 +110,7 @@ Request& Request::fixed(const lockstep_caller& caller) {
   for (std::uint32_t port = 0; port < caller.ports.size(); ++port) {
     if (!caller.ports[port]->parameter->constant) continue;
     text_ += before;
-    append_json(text_, caller.ports[port]->name());
-    text_ += ':';
-    append_json_value(text_, port_value(caller, port));
+    this->port(caller, port, port_value(caller, port));
     before = ",";
   }
   if (*before == ',' && before[1] == '\0') text_ += '}';

@@ -13,7 +13,7 @@ namespace lockstep::host {
 
 class Request {
  public:
-  void clear() { text_.clear(); }
+  void clear();
   // {"do":"tick","leaf":3
   Request& begin(std::string_view what, std::uint32_t leaf);
   Request& field(std::string_view name, double number);
@@ -27,13 +27,21 @@ class Request {
   Request& unbound(const lockstep_caller& caller);
   // "fixed": the constants that may have decided which ports the leaf has, if there are any.
   Request& fixed(const lockstep_caller& caller);
-  void end() { text_ += "}\n"; }
+  void end();
 
   std::string_view text() const { return text_; }
+  // Why one of the lines cannot be sent: it is longer than a line may be. "": all can.
+  const std::string& too_long() const { return too_long_; }
 
  private:
   void name(std::string_view name);
+  void port(const lockstep_caller& caller, std::uint32_t port, const Value& value);
+
   std::string text_;  // keeps its capacity
+  std::size_t line_ = 0;
+  std::string too_long_;
+  std::string_view longest_port_;  // of the line
+  std::size_t longest_ = 0;        // its size
 };
 
 }  // namespace lockstep::host
